@@ -1,0 +1,90 @@
+#include "checkpoint/caseLock.h"
+
+#include "Pstream.H"
+#include "error.H"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+std::string thisProcess()
+{
+    std::array<char, 256> host{};
+    gethostname(host.data(), host.size() - 1);
+    return std::string("process ") + std::to_string(getpid()) + " on host " + host.data();
+}
+
+std::string contents(int file)
+{
+    std::array<char, 512> text{};
+    const ssize_t length = pread(file, text.data(), text.size(), 0);
+    return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string("unknown process");
+}
+
+/// \return why the lock could not be had, empty where it could. `file` is open in that case only.
+std::string takeLock(const std::string& path, int& file)
+{
+    // Close on exec: a program started by this one must not hold the lock on.
+    file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+    if (file < 0)
+    {
+        return "Cannot open the lock file " + path + ": " + std::strerror(errno);
+    }
+    if (flock(file, LOCK_EX | LOCK_NB) != 0)
+    {
+        const std::string cause = errno == EWOULDBLOCK
+            ? "Another program runs in this case: " + contents(file) + " holds the lock file " + path
+                + ". Wait for it, or run in a copy of the case."
+            : "Cannot lock " + path + ": " + std::strerror(errno);
+        close(file);
+        file = -1;
+        return cause;
+    }
+
+    // Only a message for others, so a full disk here is no reason not to run.
+    const std::string holder = thisProcess();
+    if (ftruncate(file, 0) == 0)
+    {
+        static_cast<void>(!pwrite(file, holder.data(), holder.size(), 0));
+    }
+    return {};
+}
+
+} // namespace
+
+CaseLock::CaseLock(const Foam::fileName& caseDirectory)
+{
+    using namespace Foam;
+
+    string problem;
+    if (Pstream::master())
+    {
+        problem = takeLock(caseDirectory/".pimpleDemFoam.lock", file_);
+    }
+    Pstream::scatter(problem);
+    if (!problem.empty())
+    {
+        FatalErrorInFunction << problem.c_str() << exit(FatalError);
+    }
+}
+
+CaseLock::~CaseLock()
+{
+    // The file stays: removing it would let two others lock two files of one name.
+    if (file_ >= 0)
+    {
+        close(file_);
+    }
+}
+
+} // namespace clepsydra

@@ -1,0 +1,96 @@
+/// \file
+/// What every drag law is given, and the few quantities that most laws share.
+///
+/// Contract of a drag law: a stateless functor
+///
+///     struct MyDrag
+///     {
+///         static constexpr const char* name = "MyDrag";
+///         double operator()(const BeadInFluid&) const noexcept;   // Sp >= 0 [kg/s]
+///     };
+///
+/// with the drag force on the bead F = Sp (U_f - u_p), U_f being the interstitial velocity. F is the whole drag of
+/// MODEL A (Zhou, Kuang, Chu & Yu, J. Fluid Mech. 661, 2010): the force that stands BESIDE the separate force
+/// -V_p grad p of the pressure gradient. A law published as an exchange coefficient beta [kg/(m3 s)] of model A
+/// gives Sp = beta V_p/(1 - eps). For model B see modelB().
+///
+/// A law is evaluated for every bead at every DEM step, some 1e9 times a day. So: no allocation, powers of eps from
+/// the cached logarithm, branches only where the law itself has them, and a finite value at rest. At rest a law
+/// returns its own creeping limit. The FORCE Sp |U_r| of every law here rises with |U_r|; Sp itself need not
+/// (Di Felice's and Rong's exponents dip near Re = 30).
+#pragma once
+
+#include "closures/constants.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::closures
+{
+
+/// What a drag law may know about a bead and the fluid around it. SI units.
+/// Expected: all > 0 but slipSpeed >= 0; 0 < voidFraction <= 1; logVoidFraction belongs to voidFraction.
+struct BeadInFluid
+{
+    double diameter;         // m
+    double voidFraction;     // fluid's share of the volume around the bead
+    double logVoidFraction;  // natural logarithm, cached once per interval
+    double slipSpeed;        // |U_f - u_p|, interstitial (not superficial), m/s
+    double density;          // of the fluid, kg/m3
+    double dynamicViscosity; // Pa s
+};
+
+/// Fills in the logarithm. For start-up, tests and tools; the time loop caches it itself.
+inline BeadInFluid makeBeadInFluid(
+    double diameter, double voidFraction, double slipSpeed, double density, double dynamicViscosity)
+{
+    return {diameter, voidFraction, std::log(voidFraction), slipSpeed, density, dynamicViscosity};
+}
+
+/// rho |U_r| d/mu, with the interstitial slip: for laws of a lone bead.
+inline double loneReynolds(const BeadInFluid& bead) noexcept
+{
+    return bead.density * bead.slipSpeed * bead.diameter / bead.dynamicViscosity;
+}
+
+/// rho eps |U_r| d/mu, with the superficial slip: what nearly all laws of suspensions and beds mean by Re.
+inline double superficialReynolds(const BeadInFluid& bead) noexcept
+{
+    return bead.voidFraction * loneReynolds(bead);
+}
+
+/// 3 pi mu d: Sp of a lone bead in creeping flow, the unit in which the laws are written here. With it
+/// C_d = 24/Re f turns into Sp = 3 pi mu d f, which has no 0/0 at rest.
+inline double stokesCoefficient(const BeadInFluid& bead) noexcept
+{
+    return 3.0 * pi * bead.dynamicViscosity * bead.diameter;
+}
+
+/// 1 - eps, kept above zero so that a law may take its logarithm; the laws tend to their lone-bead values there.
+/// Nothing physical is clipped: eps outside (0, 1] is for the ledger to find.
+inline double solidFraction(const BeadInFluid& bead) noexcept
+{
+    return std::max(1.0 - bead.voidFraction, 1e-30);
+}
+
+/// Natural logarithm of a Reynolds number, finite at rest. The floor is so low that Re^0.3 is below rounding there.
+inline double logReynolds(double reynolds) noexcept
+{
+    return std::log(std::max(reynolds, 1e-60));
+}
+
+/// eps^exponent from the cached logarithm.
+inline double powerOfVoidFraction(const BeadInFluid& bead, double exponent) noexcept
+{
+    return std::exp(exponent * bead.logVoidFraction);
+}
+
+/// The same drag law for MODEL B, where the fluid's momentum equation keeps the whole pressure gradient and the bead
+/// feels buoyancy (from rho_f g) and drag only: Sp_B = Sp_A/eps. In a homogeneous bed both give the bead the same
+/// total force. Zhou et al. 2010; Feng & Yu, Ind. Eng. Chem. Res. 43, 8378 (2004).
+inline double modelB(double modelACoefficient, double voidFraction) noexcept
+{
+    return modelACoefficient / voidFraction;
+}
+
+} // namespace clepsydra::closures

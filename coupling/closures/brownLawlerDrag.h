@@ -1,0 +1,29 @@
+/// \file
+/// P. P. Brown & D. F. Lawler, J. Environ. Eng. 129, 222 (2003): a fit to 480 measured points of lone spheres,
+/// corrected for the walls of the vessels.
+///
+///     C_d = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re),      Re = rho |U_r| d/mu < 2e5
+///     F   = pi/8 C_d rho d^2 |U_r| U_r
+///
+/// The yardstick for the other laws at eps = 1. The void fraction plays no part: dilute only.
+#pragma once
+
+#include "closures/beadInFluid.h"
+
+namespace clepsydra::closures
+{
+
+struct BrownLawlerDrag
+{
+    static constexpr const char* name = "BrownLawlerDrag";
+
+    double operator()(const BeadInFluid& bead) const noexcept
+    {
+        const double reynolds = loneReynolds(bead);
+        const double factor = 1.0 + 0.150 * std::exp(0.681 * logReynolds(reynolds))
+                              + 0.407 / 24.0 * reynolds * reynolds / (reynolds + 8710.0);
+        return stokesCoefficient(bead) * factor;
+    }
+};
+
+} // namespace clepsydra::closures

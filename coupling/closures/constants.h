@@ -1,0 +1,13 @@
+/// \file
+/// Constants that C++17 does not have yet.
+#pragma once
+
+namespace clepsydra::closures
+{
+
+inline constexpr double pi = 3.14159265358979323846;
+
+/// Default of the formulas for start-up messages and tests; a case sets its own (standard gravity is 9.80665).
+inline constexpr double usualGravity = 9.81; // m/s2
+
+} // namespace clepsydra::closures

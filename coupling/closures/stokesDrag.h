@@ -1,0 +1,21 @@
+/// \file
+/// G. G. Stokes, Trans. Camb. Phil. Soc. 9, 8 (1851): F = 3 pi mu d U_r.
+/// A lone bead in creeping flow, Re << 1. The void fraction plays no part, so models A and B agree only at eps = 1.
+#pragma once
+
+#include "closures/beadInFluid.h"
+
+namespace clepsydra::closures
+{
+
+struct StokesDrag
+{
+    static constexpr const char* name = "StokesDrag";
+
+    double operator()(const BeadInFluid& bead) const noexcept
+    {
+        return stokesCoefficient(bead);
+    }
+};
+
+} // namespace clepsydra::closures

@@ -1,0 +1,51 @@
+/// \file
+/// Times that the DEM step and the coupling interval must resolve. Seconds throughout.
+#pragma once
+
+#include "closures/constants.h"
+
+#include <cmath>
+
+namespace clepsydra::closures
+{
+
+/// G = E/(2 (1 + nu)).
+inline double shearModulus(double youngsModulus, double poissonRatio) noexcept
+{
+    return 0.5 * youngsModulus / (1.0 + poissonRatio);
+}
+
+/// Time of a Rayleigh wave over half a bead's circumference, pi R sqrt(rho/G)/(0.1631 nu + 0.8766): what LIGGGHTS
+/// calls the Rayleigh time. DEM steps are usually 0.1..0.3 of it. Li, Xu & Thornton, Powder Technol. 160, 219 (2005).
+inline double rayleighTime(double radius, double density, double shearModulus, double poissonRatio) noexcept
+{
+    return pi * radius * std::sqrt(density / shearModulus) / (0.1631 * poissonRatio + 0.8766);
+}
+
+/// Duration of an elastic Hertz collision, T = 2.8683 (m*^2/(R* E*^2 v))^(1/5) with v the speed of approach
+/// (Johnson, Contact Mechanics, 1985, section 11.4, who prints 2.87). Effective values: 1/m* = 1/m1 + 1/m2,
+/// 1/R* = 1/R1 + 1/R2, 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2.
+inline double hertzCollisionTime(
+    double effectiveMass, double effectiveRadius, double effectiveModulus, double approachSpeed) noexcept
+{
+    const double ratio = effectiveMass / effectiveModulus;
+    return 2.8682656992 * std::pow(ratio * ratio / (effectiveRadius * approachSpeed), 0.2);
+}
+
+/// The same for two alike beads of one material: m* = m/2, R* = R/2, E* = E/(2 (1 - nu^2)).
+inline double hertzCollisionTimeOfTwins(
+    double radius, double density, double youngsModulus, double poissonRatio, double approachSpeed) noexcept
+{
+    const double mass = 4.0 / 3.0 * pi * radius * radius * radius * density;
+    return hertzCollisionTime(
+        0.5 * mass, 0.5 * radius, 0.5 * youngsModulus / (1.0 - poissonRatio * poissonRatio), approachSpeed);
+}
+
+/// inertia/Sp: how fast drag brings a bead to the fluid's velocity. inertia is the bead's mass, plus its added mass
+/// where that is switched on.
+inline double relaxationTime(double inertia, double dragCoefficient) noexcept
+{
+    return inertia / dragCoefficient;
+}
+
+} // namespace clepsydra::closures

@@ -1,0 +1,233 @@
+#include "distribution/cellSlabs.h"
+
+#include "coupledPolyPatch.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra
+{
+
+using Foam::label;
+
+namespace
+{
+
+/// Faces of a cell whose normals differ by less than about 25 degrees bound it on the same side.
+constexpr double sameSideCosine = 0.9;
+/// Sides whose normals are within about 60 degrees of opposite bound the same slab.
+constexpr double oppositeCosine = -0.5;
+
+Vector3d toEigen(const Foam::vector& v)
+{
+    return {v.x(), v.y(), v.z()};
+}
+
+/// Fraction of a sphere of radius 1 on the inner side of a plane at signed distance s from its centre.
+double capFraction(double s)
+{
+    if (s >= 1)
+    {
+        return 1;
+    }
+    return s <= -1 ? 0 : 0.25*(2 + 3*s - s*s*s);
+}
+
+bool isWallFace(const Foam::polyMesh& mesh, label face)
+{
+    if (mesh.isInternalFace(face))
+    {
+        return false;
+    }
+    const Foam::polyBoundaryMesh& patches = mesh.boundaryMesh();
+    return !patches[patches.whichPatch(face)].coupled();
+}
+
+} // namespace
+
+CellSlabs::CellSlabs(const Foam::fvMesh& mesh)
+{
+    firstSlab_.push_back(0);
+    for (label cell = 0; cell < mesh.nCells(); ++cell)
+    {
+        addCell(mesh, cell);
+        firstSlab_.push_back(static_cast<int>(slabs_.size()));
+    }
+    makeBins(mesh);
+}
+
+void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
+{
+    struct Group
+    {
+        Vector3d normal;
+        std::vector<Plane> planes;
+        bool wall;
+    };
+    std::vector<Group> groups;
+    for (const label face : mesh.cells()[cell])
+    {
+        const double sign = mesh.faceOwner()[face] == cell ? -1 : 1;
+        const Vector3d normal = sign*toEigen(mesh.faceAreas()[face]).normalized();
+        const Plane plane{normal, normal.dot(toEigen(mesh.faceCentres()[face]))};
+        const bool wall = isWallFace(mesh, face);
+        const auto sameSide = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
+            return group.wall == wall && group.normal.dot(normal) > sameSideCosine;
+        });
+        if (sameSide == groups.end())
+        {
+            groups.push_back({normal, {plane}, wall});
+        }
+        else
+        {
+            sameSide->planes.push_back(plane);
+        }
+    }
+
+    const auto store = [&](const Group& group) {
+        const Side side{static_cast<int>(planes_.size()), static_cast<int>(group.planes.size()), group.wall};
+        planes_.insert(planes_.end(), group.planes.begin(), group.planes.end());
+        return side;
+    };
+    while (!groups.empty())
+    {
+        const Group low = std::move(groups.back());
+        groups.pop_back();
+        Slab slab{store(low), {0, 0, false}};
+        const auto high = std::min_element(groups.begin(), groups.end(), [&](const Group& a, const Group& b) {
+            return a.normal.dot(low.normal) < b.normal.dot(low.normal);
+        });
+        if (high != groups.end() && high->normal.dot(low.normal) < oppositeCosine)
+        {
+            slab.high = store(*high);
+            groups.erase(high);
+        }
+        slabs_.push_back(slab);
+    }
+}
+
+double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, double radius) const
+{
+    double fraction = 1;
+    for (int i = side.firstPlane; i < side.firstPlane + side.planeCount; ++i)
+    {
+        const double distance = planes_[i].inwardNormal.dot(centre) - planes_[i].offset;
+        fraction = std::min(fraction, side.wall ? (distance >= 0 ? 1.0 : 0.0) : capFraction(distance/radius));
+    }
+    return fraction;
+}
+
+double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
+{
+    double share = 1;
+    for (int slab = firstSlab_[cell]; slab < firstSlab_[cell + 1] && share > 0; ++slab)
+    {
+        const double low = fractionInside(slabs_[slab].low, centre, radius);
+        const double high = fractionInside(slabs_[slab].high, centre, radius);
+        // Behind a wall is behind it however far the other side reaches.
+        share *= low == 0 || high == 0 ? 0 : std::max(0.0, low + high - 1);
+    }
+    return share;
+}
+
+void CellSlabs::makeBins(const Foam::fvMesh& mesh)
+{
+    double meanSize = 0;
+    for (label cell = 0; cell < mesh.nCells(); ++cell)
+    {
+        Box cellBox;
+        for (const label point : mesh.cellPoints()[cell])
+        {
+            cellBox.extend(toEigen(mesh.points()[point]));
+        }
+        cellBoxes_.push_back(cellBox);
+        box_.extend(cellBox);
+        meanSize += cellBox.sizes().mean()/mesh.nCells();
+    }
+    if (mesh.nCells() == 0)
+    {
+        return;
+    }
+
+    const Vector3d sizes = box_.sizes();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        binCount_[axis] = std::max(1, static_cast<int>(sizes[axis]/meanSize));
+        binSize_[axis] = sizes[axis]/binCount_[axis];
+    }
+
+    const auto forEachBin = [&](const Box& cellBox, auto&& act) {
+        const Eigen::Vector3i first = binOf(cellBox.min());
+        const Eigen::Vector3i last = binOf(cellBox.max());
+        for (int z = first.z(); z <= last.z(); ++z)
+        {
+            for (int y = first.y(); y <= last.y(); ++y)
+            {
+                for (int x = first.x(); x <= last.x(); ++x)
+                {
+                    act((z*binCount_.y() + y)*binCount_.x() + x);
+                }
+            }
+        }
+    };
+    firstInBin_.assign(static_cast<std::size_t>(binCount_.prod()) + 1, 0);
+    for (const Box& cellBox : cellBoxes_)
+    {
+        forEachBin(cellBox, [&](int bin) { ++firstInBin_[bin + 1]; });
+    }
+    for (std::size_t bin = 1; bin < firstInBin_.size(); ++bin)
+    {
+        firstInBin_[bin] += firstInBin_[bin - 1];
+    }
+    cellsInBins_.resize(firstInBin_.back());
+    std::vector<int> next = firstInBin_;
+    for (label cell = 0; cell < mesh.nCells(); ++cell)
+    {
+        forEachBin(cellBoxes_[cell], [&](int bin) { cellsInBins_[next[bin]++] = cell; });
+    }
+}
+
+Eigen::Vector3i CellSlabs::binOf(const Vector3d& point) const
+{
+    const Vector3d inBins = (point - box_.min()).cwiseQuotient(binSize_);
+    Eigen::Vector3i bin;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        bin[axis] = std::clamp(static_cast<int>(std::floor(inBins[axis])), 0, binCount_[axis] - 1);
+    }
+    return bin;
+}
+
+void CellSlabs::cellsNear(const Vector3d& centre, double radius, std::vector<label>& cells) const
+{
+    cells.clear();
+    const Vector3d reach = Vector3d::Constant(radius);
+    const Box around(centre - reach, centre + reach);
+    if (!around.intersects(box_))
+    {
+        return;
+    }
+    const Eigen::Vector3i first = binOf(around.min());
+    const Eigen::Vector3i last = binOf(around.max());
+    for (int z = first.z(); z <= last.z(); ++z)
+    {
+        for (int y = first.y(); y <= last.y(); ++y)
+        {
+            for (int x = first.x(); x <= last.x(); ++x)
+            {
+                const int bin = (z*binCount_.y() + y)*binCount_.x() + x;
+                for (int i = firstInBin_[bin]; i < firstInBin_[bin + 1]; ++i)
+                {
+                    if (cellBoxes_[cellsInBins_[i]].intersects(around))
+                    {
+                        cells.push_back(cellsInBins_[i]);
+                    }
+                }
+            }
+        }
+    }
+    std::sort(cells.begin(), cells.end());
+    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+}
+
+} // namespace clepsydra

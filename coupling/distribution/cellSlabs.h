@@ -1,0 +1,78 @@
+#pragma once
+
+#include "engine/beads.h"
+
+#include "fvMesh.H"
+#include "volFields.H"
+
+#include <vector>
+
+namespace clepsydra
+{
+
+/// The cells as products of slabs, for the share of a small sphere that lies in each.
+///
+/// A cell is taken as the intersection of slabs, each between two opposite faces (or one face, where nothing is
+/// opposite). The share of a sphere in a slab follows from the two planes alone, and the share in the cell is the
+/// product over its slabs. On a mesh of bricks the shares of all cells add up to one for any position and size of
+/// the sphere; elsewhere they nearly do and the caller normalises. The share has a continuous derivative in the
+/// sphere's position, and depends on nothing but the sphere and the cell: not on the host cell of the last interval,
+/// not on how the mesh is decomposed.
+///
+/// A wall bounds no share: a bead does not reach through a wall, it touches it. So a cell has the full share on the
+/// fluid's side of its wall faces, and none of a bead whose centre lies behind one. This is what keeps the solid
+/// volume from leaking through baffles of zero thickness.
+class CellSlabs
+{
+public:
+    explicit CellSlabs(const Foam::fvMesh& mesh);
+
+    /// Share of a sphere in one cell, not normalised, in [0, 1].
+    double share(Foam::label cell, const Vector3d& centre, double radius) const;
+
+    /// Cells whose bounding box touches the sphere's, by growing label.
+    void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
+
+    /// Box around the cells of this rank.
+    const Box& box() const
+    {
+        return box_;
+    }
+
+private:
+    struct Plane
+    {
+        Vector3d inwardNormal;
+        double offset;
+    };
+    /// The faces on one side of a cell: several where the neighbours are finer.
+    struct Side
+    {
+        int firstPlane;
+        int planeCount;
+        bool wall;
+    };
+    struct Slab
+    {
+        Side low;
+        Side high;
+    };
+
+    double fractionInside(const Side& side, const Vector3d& centre, double radius) const;
+    void addCell(const Foam::fvMesh& mesh, Foam::label cell);
+    void makeBins(const Foam::fvMesh& mesh);
+    Eigen::Vector3i binOf(const Vector3d& point) const;
+
+    std::vector<Plane> planes_;
+    std::vector<Slab> slabs_;
+    std::vector<int> firstSlab_;
+
+    Box box_;
+    std::vector<Box> cellBoxes_;
+    Eigen::Vector3i binCount_ = Eigen::Vector3i::Ones();
+    Vector3d binSize_ = Vector3d::Ones();
+    std::vector<int> firstInBin_;
+    std::vector<Foam::label> cellsInBins_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,34 @@
+#pragma once
+
+#include "fvMesh.H"
+#include "runTimeSelection.h"
+
+namespace clepsydra
+{
+
+/// A linear, conservative and self-adjoint smoothing of what the beads put into the cells. Selected by
+/// `smoothingModel` in couplingProperties, coefficients in `<name>Props`.
+///
+/// Conservative: the integral over the mesh stays to rounding. Self-adjoint in the volume-weighted product: the same
+/// operator samples the fluid for the beads, so that action equals reaction.
+class SmoothingModel
+{
+public:
+    TypeName("smoothingModel");
+
+    declareRunTimeSelectionTable(Foam::autoPtr, SmoothingModel, dictionary,
+        (const Foam::dictionary& coefficients, const Foam::fvMesh& mesh), (coefficients, mesh))
+
+    static Foam::autoPtr<SmoothingModel> New(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
+
+    virtual ~SmoothingModel() = default;
+
+    /// Smooths a quantity per volume, one value per cell. Collective.
+    /// \param guess  something near the result (the last interval's); becomes the result.
+    virtual void smooth(const Foam::scalarField& density, Foam::scalarField& guess) const = 0;
+
+    /// One line for the start of the log.
+    virtual Foam::string description() const = 0;
+};
+
+} // namespace clepsydra

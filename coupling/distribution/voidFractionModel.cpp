@@ -1,0 +1,87 @@
+#include "distribution/voidFractionModel.h"
+
+#include "addToRunTimeSelectionTable.H"
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(VoidFractionModel, 0);
+defineRunTimeSelectionTable(VoidFractionModel, dictionary);
+
+Foam::autoPtr<VoidFractionModel> VoidFractionModel::New(
+    const Foam::dictionary& couplingProperties, const CellSlabs& cells)
+{
+    const Foam::word name =
+        selectedModel(couplingProperties, "voidFractionModel", dictionaryConstructorTablePtr_->sortedToc());
+    return (*dictionaryConstructorTablePtr_)[name](couplingProperties.subOrEmptyDict(name + "Props"), cells);
+}
+
+namespace
+{
+
+/// The bead's own sphere cut by the cells.
+class Divided : public VoidFractionModel
+{
+public:
+    TypeName("divided");
+
+    Divided(const Foam::dictionary&, const CellSlabs& cells)
+    :
+        VoidFractionModel(cells)
+    {}
+
+    double reach(const VisitingBead& bead) const override
+    {
+        return bead.radius;
+    }
+
+    double share(Foam::label cell, const VisitingBead& bead) const override
+    {
+        return cells().share(cell, bead.position, bead.radius);
+    }
+
+    Foam::string description() const override
+    {
+        return "divided: sphere cut by the cells' faces, continuous derivative in time";
+    }
+};
+
+/// All of the bead in the cell that holds its centre.
+class Centre : public VoidFractionModel
+{
+public:
+    TypeName("centre");
+
+    Centre(const Foam::dictionary&, const CellSlabs& cells)
+    :
+        VoidFractionModel(cells)
+    {}
+
+    double reach(const VisitingBead& bead) const override
+    {
+        return smallPart*bead.radius;
+    }
+
+    double share(Foam::label cell, const VisitingBead& bead) const override
+    {
+        return cells().share(cell, bead.position, smallPart*bead.radius);
+    }
+
+    Foam::string description() const override
+    {
+        return "centre: whole bead in the cell of its centre; jumps in time, use with smoothing";
+    }
+
+private:
+    /// A small sphere instead of the point itself: a point can fall between warped faces, into no cell.
+    static constexpr double smallPart = 0.01;
+};
+
+defineTypeNameAndDebug(Divided, 0);
+addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
+defineTypeNameAndDebug(Centre, 0);
+addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
+
+} // namespace
+
+} // namespace clepsydra

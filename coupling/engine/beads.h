@@ -1,0 +1,88 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <cstddef>
+#include <type_traits>
+
+/// \file
+/// The beads of one rank, as the coupling sees them. SI units throughout.
+
+namespace clepsydra
+{
+
+using Eigen::Vector3d;
+using Box = Eigen::AlignedBox3d;
+
+/// The fluid at the place of one bead, frozen while the engine advances one coupling interval.
+struct FluidAtBead
+{
+    double voidFraction = 1;
+    /// Natural logarithm of the void fraction, so that a drag law needs exp() instead of pow() at every DEM step.
+    double logVoidFraction = 0;
+    /// Interstitial velocity [m/s].
+    Vector3d velocity = Vector3d::Zero();
+    /// Gradient of the pressure without its hydrostatic part [Pa/m].
+    Vector3d pressureGradient = Vector3d::Zero();
+    /// Divergence of the viscous stress [Pa/m].
+    Vector3d viscousStressDivergence = Vector3d::Zero();
+};
+
+/// What the fluid must receive from one bead, summed over the DEM steps of one interval.
+struct GivenToFluid
+{
+    /// Impulse of the forces whose reaction is a source of the fluid (drag ...), as received by the bead [N s].
+    Vector3d impulse = Vector3d::Zero();
+    /// Impulse of the forces whose reaction the fluid's own equation holds (pressure gradient) [N s].
+    Vector3d sharedImpulse = Vector3d::Zero();
+    /// Time integral of the implicit coefficient Sp of the forces in `impulse` [kg].
+    double implicitCoefficientTime = 0;
+};
+
+/// The part of a bead's state that belongs to the coupling. It travels with the bead from rank to rank,
+/// because a bead may change rank at any DEM step, also in the middle of an interval.
+struct CouplingState
+{
+    FluidAtBead fluid;
+    GivenToFluid given;
+};
+
+constexpr std::size_t couplingStateSize = sizeof(CouplingState)/sizeof(double);
+static_assert(std::is_standard_layout_v<CouplingState> && sizeof(CouplingState) % sizeof(double) == 0,
+    "an engine stores CouplingState as plain doubles beside the bead");
+
+/// A view of a contiguous array, of fixed size while it lives (std::span of C++20, as far as needed).
+template<class T>
+using View = Eigen::Map<Eigen::Array<std::remove_const_t<T>, Eigen::Dynamic, 1>>;
+template<class T>
+using ConstView = Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>>;
+using ConstVectors = Eigen::Map<const Eigen::Matrix3Xd>;
+using Vectors = Eigen::Map<Eigen::Matrix3Xd>;
+
+/// The beads that this rank owns; column i of every array is the same bead.
+/// Valid until the engine advances: beads move between ranks then.
+struct BeadsView
+{
+    ConstView<int> id;
+    ConstVectors position;
+    ConstVectors velocity;
+    ConstVectors angularVelocity;
+    ConstView<double> radius;
+    ConstView<double> mass;
+    /// `size()` entries, writable.
+    CouplingState* state = nullptr;
+
+    Eigen::Index size() const
+    {
+        return id.size();
+    }
+};
+
+/// Volume of a sphere [m3].
+inline double sphereVolume(double radius)
+{
+    return 4.0/3.0*static_cast<double>(EIGEN_PI)*radius*radius*radius;
+}
+
+} // namespace clepsydra

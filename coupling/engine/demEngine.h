@@ -1,0 +1,82 @@
+#pragma once
+
+#include "engine/beads.h"
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace clepsydra
+{
+
+/// An error that the engine reports; the message names the script, the line and the cause where there is one.
+class DemEngineError : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Gives the force of the fluid on the beads at one DEM step. Implemented by the coupling, called by the engine.
+class FluidForces
+{
+public:
+    virtual ~FluidForces() = default;
+
+    /// \param beads  the beads of this rank as they are now; `beads.state[i].fluid` is the frozen fluid. What the
+    ///               fluid must receive is added to `beads.state[i].given`.
+    /// \param timeStep  DEM step [s]
+    /// \param force  3 x beads.size(), overwritten with the force on each bead [N]
+    virtual void evaluate(const BeadsView& beads, double timeStep, Vectors force) = 0;
+};
+
+/// What the time scales of the contacts depend on, one entry per material of the engine's script.
+struct ContactMaterial
+{
+    double youngsModulus;
+    double poissonRatio;
+};
+
+/// A discrete-element program that advances beads and their contacts, in the same process.
+///
+/// Life: constructed (its script has run) -> initialise() once -> advance() any number of times -> destroyed.
+/// All members are collective over the ranks unless marked local. Any may throw DemEngineError; after that only
+/// ending the program is safe.
+class DemEngine
+{
+public:
+    DemEngine() = default;
+    DemEngine(const DemEngine&) = delete;
+    DemEngine& operator=(const DemEngine&) = delete;
+    virtual ~DemEngine() = default;
+
+    /// Makes the engine ready to advance.
+    /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState.
+    /// \param forces  called at every DEM step until the engine is destroyed; nullptr: no fluid.
+    virtual void initialise(FluidForces* forces) = 0;
+
+    /// Advances by `steps` DEM steps with the fluid frozen as it stands in the coupling states.
+    /// \pre  initialised, steps > 0. \post earlier views are invalid; each bead's `given` has grown.
+    virtual void advance(int steps) = 0;
+
+    /// Local: the beads of this rank. \pre initialised.
+    virtual BeadsView beads() = 0;
+
+    /// Local: the DEM step [s].
+    virtual double timeStep() const = 0;
+
+    /// Local: gravity as the engine's script states it [m/s2]. \pre initialised.
+    virtual Vector3d gravity() const = 0;
+
+    /// Local: contact materials, empty where the script states none.
+    virtual std::vector<ContactMaterial> contactMaterials() const = 0;
+
+    /// Writes everything the engine needs to go on as if never stopped. The file is complete when this returns.
+    /// \pre initialised.
+    virtual void writeCheckpoint(const std::filesystem::path& file) = 0;
+
+    /// Local: name and version of the engine.
+    virtual std::string version() const = 0;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,294 @@
+#include "engine/liggghts/liggghtsEngine.h"
+
+#include "engine/liggghts/liggghtsErrors.h"
+
+#include <atom.h>
+#include <comm.h>
+#include <error.h>
+#include <fix_external.h>
+#include <fix_gravity.h>
+#include <fix_property_atom.h>
+#include <fix_property_global.h>
+#include <input.h>
+#include <lammps.h>
+#include <modify.h>
+#include <output.h>
+#include <universe.h>
+#include <update.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+namespace lmp = LAMMPS_NS;
+
+constexpr const char* stateFixId = "clepsydraState";
+constexpr const char* forceFixId = "clepsydraForce";
+
+/// First element of a LIGGGHTS array of rows, which its memory manager allocates in one piece.
+template<class T>
+T* firstElement(T** rows)
+{
+    return rows ? rows[0] : nullptr;
+}
+
+bool isNumber(const std::string& text)
+{
+    std::size_t used = 0;
+    try
+    {
+        std::stod(text, &used);
+    }
+    catch (const std::exception&)
+    {
+        return false;
+    }
+    return used == text.size();
+}
+
+lmp::Fix* findFixOfStyle(const lmp::Modify& modify, const std::string& style)
+{
+    lmp::Fix** const end = modify.fix + modify.nfix;
+    lmp::Fix** const found = std::find_if(modify.fix, end, [&](const lmp::Fix* fix) { return fix->style == style; });
+    return found == end ? nullptr : *found;
+}
+
+} // namespace
+
+class LiggghtsEngine::Implementation
+{
+public:
+    explicit Implementation(const LiggghtsSetup& setup)
+    :
+        communicator_(setup.communicator)
+    {
+        keepLiggghtsErrorReplacements();
+        start(setup.logFile);
+        for (const auto& [name, value] : setup.variables)
+        {
+            const std::string style = isNumber(value) ? "equal" : "string";
+            execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
+        }
+        runScript(setup.script);
+    }
+
+    ~Implementation()
+    {
+        // After an error LIGGGHTS is in the middle of a command: its destructors may wait for other ranks.
+        if (failed_)
+        {
+            static_cast<void>(program_.release());
+        }
+    }
+
+    /// One LIGGGHTS command; \param where  named in the error.
+    void execute(const std::string& command, const std::string& where)
+    {
+        try
+        {
+            program_->input->one(command.c_str());
+        }
+        catch (const LiggghtsStopped& stopped)
+        {
+            failed_ = true;
+            std::string message = where + ": LIGGGHTS stopped at '" + command + "': " + stopped.what();
+            if (stopped.onOneRankOnly())
+            {
+                message += " (reported by one rank)";
+            }
+            throw DemEngineError(message);
+        }
+    }
+
+    void addCouplingState()
+    {
+        // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
+        std::string command = std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
+        const CouplingState initial{};
+        std::array<double, couplingStateSize> defaults{};
+        std::copy_n(reinterpret_cast<const double*>(&initial), couplingStateSize, defaults.begin());
+        for (const double value : defaults)
+        {
+            command += ' ' + std::to_string(value);
+        }
+        execute(command, "coupling state");
+        stateFix_ = program_->modify->find_fix_property(
+            stateFixId, "property/atom", "vector", static_cast<int>(couplingStateSize), 0, "coupling");
+    }
+
+    void addFluidForce(FluidForces* forces)
+    {
+        forces_ = forces;
+        execute(std::string("fix ") + forceFixId + " all external pf/callback 1 1", "fluid force");
+        lmp::Modify& modify = *program_->modify;
+        auto* external = static_cast<lmp::FixExternal*>(modify.fix[modify.find_fix(forceFixId)]);
+        external->set_callback(&Implementation::fluidForceCallback, this);
+    }
+
+    BeadsView beads()
+    {
+        lmp::Atom& atom = *program_->atom;
+        const Eigen::Index count = atom.nlocal;
+        return BeadsView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
+            ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
+            ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
+            reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom))};
+    }
+
+    lmp::LAMMPS& program()
+    {
+        return *program_;
+    }
+
+    const lmp::LAMMPS& program() const
+    {
+        return *program_;
+    }
+
+private:
+    void start(const std::filesystem::path& logFile)
+    {
+        // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
+        std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
+        std::vector<char*> arguments;
+        for (std::string& word : words)
+        {
+            arguments.push_back(word.data());
+        }
+        try
+        {
+            program_ = std::make_unique<lmp::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator_);
+        }
+        catch (const LiggghtsStopped& stopped)
+        {
+            throw DemEngineError(std::string("LIGGGHTS did not start: ") + stopped.what());
+        }
+    }
+
+    void runScript(const std::filesystem::path& script)
+    {
+        std::ifstream lines(script);
+        if (!lines)
+        {
+            throw DemEngineError("cannot read the DEM script " + script.string());
+        }
+        std::string command;
+        std::string line;
+        for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
+        {
+            command += line;
+            if (!command.empty() && command.back() == '&')
+            {
+                command.back() = ' ';
+                continue;
+            }
+            execute(command, script.string() + " line " + std::to_string(lineNumber));
+            command.clear();
+        }
+    }
+
+    static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
+    {
+        auto& engine = *static_cast<Implementation*>(self);
+        const BeadsView beads = engine.beads();
+        engine.forces_->evaluate(
+            beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
+    }
+
+    MPI_Comm communicator_;
+    std::unique_ptr<lmp::LAMMPS> program_;
+    lmp::Fix* stateFix_ = nullptr;
+    FluidForces* forces_ = nullptr;
+    bool failed_ = false;
+};
+
+LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
+:
+    implementation_(std::make_unique<Implementation>(setup))
+{}
+
+LiggghtsEngine::~LiggghtsEngine() = default;
+
+void LiggghtsEngine::initialise(FluidForces* forces)
+{
+    implementation_->addCouplingState();
+    if (forces)
+    {
+        implementation_->addFluidForce(forces);
+    }
+    // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
+    implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
+    implementation_->execute("run 0 post no", "initialise");
+}
+
+void LiggghtsEngine::advance(int steps)
+{
+    implementation_->execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+}
+
+BeadsView LiggghtsEngine::beads()
+{
+    return implementation_->beads();
+}
+
+double LiggghtsEngine::timeStep() const
+{
+    return implementation_->program().update->dt;
+}
+
+Vector3d LiggghtsEngine::gravity() const
+{
+    Vector3d acceleration = Vector3d::Zero();
+    if (lmp::Fix* fix = findFixOfStyle(*implementation_->program().modify, "gravity"))
+    {
+        static_cast<lmp::FixGravity*>(fix)->get_gravity(acceleration.data());
+    }
+    return acceleration;
+}
+
+std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
+{
+    lmp::Modify& modify = *implementation_->program().modify;
+    const int materialCount = implementation_->program().atom->ntypes;
+    const auto property = [&](const char* name) {
+        return static_cast<lmp::FixPropertyGlobal*>(
+            modify.find_fix_property(name, "property/global", "peratomtype", materialCount, 0, "coupling", false));
+    };
+    auto* const youngsModulus = property("youngsModulus");
+    auto* const poissonRatio = property("poissonsRatio");
+    std::vector<ContactMaterial> materials;
+    if (youngsModulus && poissonRatio)
+    {
+        for (int material = 0; material < materialCount; ++material)
+        {
+            materials.push_back({youngsModulus->compute_vector(material), poissonRatio->compute_vector(material)});
+        }
+    }
+    return materials;
+}
+
+void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
+{
+    std::filesystem::path unfinished = file;
+    unfinished += ".unfinished";
+    implementation_->execute("write_restart " + unfinished.string(), "checkpoint");
+    MPI_Barrier(implementation_->program().world);
+    if (implementation_->program().comm->me == 0)
+    {
+        std::filesystem::rename(unfinished, file);
+    }
+    MPI_Barrier(implementation_->program().world);
+}
+
+std::string LiggghtsEngine::version() const
+{
+    return std::string("LIGGGHTS ") + implementation_->program().universe->version;
+}
+
+} // namespace clepsydra

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "engine/demEngine.h"
+
+#include <mpi.h>
+
+#include <memory>
+#include <utility>
+
+namespace clepsydra
+{
+
+/// What a LIGGGHTS run is started with.
+struct LiggghtsSetup
+{
+    std::filesystem::path script;
+    /// Become `variable <name> equal|string <value>` before the first line of the script.
+    std::vector<std::pair<std::string, std::string>> variables;
+    std::filesystem::path logFile;
+    MPI_Comm communicator = MPI_COMM_WORLD;
+};
+
+/// LIGGGHTS 3.8 in this process. The script sets up beads, walls, contacts and gravity; it must not define
+/// `fix external` (the coupling adds that as the last fix, so that it sees all other forces).
+class LiggghtsEngine final : public DemEngine
+{
+public:
+    /// Runs the script. \throws DemEngineError naming script, line and LIGGGHTS' own message.
+    explicit LiggghtsEngine(const LiggghtsSetup& setup);
+    ~LiggghtsEngine() override;
+
+    void initialise(FluidForces* forces) override;
+    void advance(int steps) override;
+    BeadsView beads() override;
+    double timeStep() const override;
+    Vector3d gravity() const override;
+    std::vector<ContactMaterial> contactMaterials() const override;
+    void writeCheckpoint(const std::filesystem::path& file) override;
+    std::string version() const override;
+
+private:
+    class Implementation;
+    std::unique_ptr<Implementation> implementation_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,247 @@
+#include "exchange/beadExchange.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+constexpr int messageTag = 51;
+
+/// A box as six numbers; an empty box stays empty.
+using BoxNumbers = Eigen::Matrix<double, 6, 1>;
+
+BoxNumbers numbers(const Box& box)
+{
+    BoxNumbers six;
+    six << box.min(), box.max();
+    return six;
+}
+
+Box box(const BoxNumbers& six)
+{
+    return Box(Vector3d(six.head<3>()), Vector3d(six.tail<3>()));
+}
+
+bool touches(const Box& cells, const Vector3d& centre, double radius)
+{
+    return !cells.isEmpty() && cells.squaredExteriorDistance(centre) <= radius*radius;
+}
+
+Box boxAround(const BeadsView& beads)
+{
+    Box around;
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        const Vector3d reach = Vector3d::Constant(beads.radius[bead]);
+        around.extend(beads.position.col(bead) - reach);
+        around.extend(beads.position.col(bead) + reach);
+    }
+    return around;
+}
+
+VisitingBead visitFrom(const BeadsView& beads, Eigen::Index bead)
+{
+    const GivenToFluid& given = beads.state[bead].given;
+    return {beads.position.col(bead), beads.velocity.col(bead), given.impulse, given.implicitCoefficientTime,
+        beads.radius[bead], static_cast<double>(beads.id[bead])};
+}
+
+} // namespace
+
+BeadExchange::BeadExchange(MPI_Comm communicator, const Box& cells)
+:
+    communicator_(communicator),
+    cells_(cells)
+{
+    MPI_Comm_rank(communicator_, &rank_);
+}
+
+void BeadExchange::makePlan(const BeadsView& beads)
+{
+    int rankCount = 1;
+    MPI_Comm_size(communicator_, &rankCount);
+
+    Eigen::Matrix<double, 12, 1> mine;
+    mine << numbers(boxAround(beads)), numbers(cells_);
+    Eigen::Matrix<double, 12, Eigen::Dynamic> all(12, rankCount);
+    MPI_Allgather(mine.data(), 12, MPI_DOUBLE, all.data(), 12, MPI_DOUBLE, communicator_);
+
+    exports_.clear();
+    imports_.clear();
+    const Box myBeads = boxAround(beads);
+    const auto add = [&](int rank) {
+        const Box theirBeads = box(all.col(rank).head<6>());
+        const Box theirCells = box(all.col(rank).tail<6>());
+        if (myBeads.intersects(theirCells))
+        {
+            Exports leaving{rank, {}};
+            for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+            {
+                if (touches(theirCells, beads.position.col(bead), beads.radius[bead]))
+                {
+                    leaving.beads.push_back(bead);
+                }
+            }
+            exports_.push_back(std::move(leaving));
+        }
+        if (theirBeads.intersects(cells_))
+        {
+            imports_.push_back({rank, 0, 0});
+        }
+    };
+    add(rank_);
+    for (int rank = 0; rank < rankCount; ++rank)
+    {
+        if (rank != rank_)
+        {
+            add(rank);
+        }
+    }
+}
+
+std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRanks,
+    const std::vector<std::vector<double>>& out, const std::vector<int>& fromRanks) const
+{
+    std::vector<MPI_Request> requests;
+    const std::vector<double>* toSelf = nullptr;
+    for (std::size_t i = 0; i < toRanks.size(); ++i)
+    {
+        if (toRanks[i] == rank_)
+        {
+            toSelf = &out[i];
+            continue;
+        }
+        requests.emplace_back();
+        MPI_Isend(out[i].data(), static_cast<int>(out[i].size()), MPI_DOUBLE, toRanks[i], messageTag, communicator_,
+            &requests.back());
+        bytesSent_ += out[i].size()*sizeof(double);
+    }
+    std::vector<std::vector<double>> in(fromRanks.size());
+    for (std::size_t i = 0; i < fromRanks.size(); ++i)
+    {
+        if (fromRanks[i] == rank_)
+        {
+            in[i] = *toSelf;
+            continue;
+        }
+        MPI_Status status;
+        int count = 0;
+        MPI_Probe(fromRanks[i], messageTag, communicator_, &status);
+        MPI_Get_count(&status, MPI_DOUBLE, &count);
+        in[i].resize(static_cast<std::size_t>(count));
+        MPI_Recv(in[i].data(), count, MPI_DOUBLE, fromRanks[i], messageTag, communicator_, MPI_STATUS_IGNORE);
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return in;
+}
+
+void BeadExchange::send(const BeadsView& beads)
+{
+    constexpr std::size_t size = sizeof(VisitingBead)/sizeof(double);
+    static_assert(std::is_standard_layout_v<VisitingBead> && sizeof(VisitingBead) % sizeof(double) == 0);
+
+    bytesSent_ = 0;
+    beadCount_ = beads.size();
+    makePlan(beads);
+
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Exports& leaving : exports_)
+    {
+        toRanks.push_back(leaving.rank);
+        std::vector<double>& message = out.emplace_back(leaving.beads.size()*size);
+        double* place = message.data();
+        for (const Eigen::Index bead : leaving.beads)
+        {
+            const VisitingBead visit = visitFrom(beads, bead);
+            std::memcpy(place, &visit, sizeof(visit));
+            place += size;
+        }
+    }
+    std::vector<int> fromRanks;
+    for (const Imports& arriving : imports_)
+    {
+        fromRanks.push_back(arriving.rank);
+    }
+
+    visitors_.clear();
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        const std::size_t count = in[i].size()/size;
+        imports_[i].first = static_cast<Eigen::Index>(visitors_.size());
+        imports_[i].count = static_cast<Eigen::Index>(count);
+        for (std::size_t visit = 0; visit < count; ++visit)
+        {
+            std::memcpy(static_cast<void*>(&visitors_.emplace_back()), &in[i][visit*size], sizeof(VisitingBead));
+        }
+    }
+}
+
+Eigen::MatrixXd BeadExchange::sumAtHome(const Eigen::MatrixXd& perVisitor) const
+{
+    const Eigen::Index width = perVisitor.rows();
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Imports& hosted : imports_)
+    {
+        toRanks.push_back(hosted.rank);
+        const double* first = perVisitor.data() + hosted.first*width;
+        out.emplace_back(first, first + hosted.count*width);
+    }
+    std::vector<int> fromRanks;
+    for (const Exports& home : exports_)
+    {
+        fromRanks.push_back(home.rank);
+    }
+
+    Eigen::MatrixXd perBead = Eigen::MatrixXd::Zero(width, beadCount_);
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        const double* column = in[i].data();
+        for (const Eigen::Index bead : exports_[i].beads)
+        {
+            perBead.col(bead) += Eigen::Map<const Eigen::VectorXd>(column, width);
+            column += width;
+        }
+    }
+    return perBead;
+}
+
+Eigen::MatrixXd BeadExchange::toVisitors(const Eigen::MatrixXd& perBead) const
+{
+    const Eigen::Index width = perBead.rows();
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Exports& home : exports_)
+    {
+        toRanks.push_back(home.rank);
+        std::vector<double>& message = out.emplace_back();
+        message.reserve(home.beads.size()*static_cast<std::size_t>(width));
+        for (const Eigen::Index bead : home.beads)
+        {
+            message.insert(message.end(), perBead.col(bead).begin(), perBead.col(bead).end());
+        }
+    }
+    std::vector<int> fromRanks;
+    for (const Imports& hosted : imports_)
+    {
+        fromRanks.push_back(hosted.rank);
+    }
+
+    Eigen::MatrixXd perVisitor(width, static_cast<Eigen::Index>(visitors_.size()));
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        perVisitor.middleCols(imports_[i].first, imports_[i].count) =
+            Eigen::Map<const Eigen::MatrixXd>(in[i].data(), width, imports_[i].count);
+    }
+    return perVisitor;
+}
+
+} // namespace clepsydra

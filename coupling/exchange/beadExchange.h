@@ -1,0 +1,85 @@
+#pragma once
+
+#include "engine/beads.h"
+
+#include <mpi.h>
+
+#include <vector>
+
+namespace clepsydra
+{
+
+/// A bead as the rank of its cells sees it: what the distribution onto the mesh needs, nothing else. SI units.
+struct VisitingBead
+{
+    Vector3d position;
+    Vector3d velocity;
+    Vector3d impulse;
+    double implicitCoefficientTime;
+    double radius;
+    double id;
+};
+
+/// Carries beads to the ranks whose cells they touch, and answers back.
+///
+/// The engine and the fluid cut space differently, so a bead may live on one rank and displace fluid on another, or
+/// on two at a processor boundary. Ranks whose boxes (beads here, cells there) do not touch never exchange a message:
+/// what is known to every rank is two boxes a rank, not the beads.
+class BeadExchange
+{
+public:
+    /// \param cells  box around this rank's cells; the mesh does not move.
+    BeadExchange(MPI_Comm communicator, const Box& cells);
+
+    /// Sends every bead to each rank whose box its sphere touches. Collective.
+    void send(const BeadsView& beads);
+
+    /// Local: the beads that touch this rank's box, own ones first, then by rank.
+    const std::vector<VisitingBead>& visitors() const
+    {
+        return visitors_;
+    }
+
+    /// Adds up at each bead's home what its visits found. Collective.
+    /// \param perVisitor  one column per visitor. \return one column per bead, zero where it visited no rank.
+    Eigen::MatrixXd sumAtHome(const Eigen::MatrixXd& perVisitor) const;
+
+    /// Hands a value of each bead to all its visits. Collective.
+    /// \param perBead  one column per bead. \return one column per visitor.
+    Eigen::MatrixXd toVisitors(const Eigen::MatrixXd& perBead) const;
+
+    /// Local: bytes that this rank sent to others since send() began.
+    std::size_t bytesSent() const
+    {
+        return bytesSent_;
+    }
+
+private:
+    /// Beads that one other rank (or this one) hosts or is host to.
+    struct Exports
+    {
+        int rank;
+        std::vector<Eigen::Index> beads;
+    };
+    struct Imports
+    {
+        int rank;
+        Eigen::Index first;
+        Eigen::Index count;
+    };
+
+    void makePlan(const BeadsView& beads);
+    std::vector<std::vector<double>> swap(const std::vector<int>& toRanks, const std::vector<std::vector<double>>& out,
+        const std::vector<int>& fromRanks) const;
+
+    MPI_Comm communicator_;
+    int rank_ = 0;
+    Box cells_;
+    std::vector<Exports> exports_;
+    std::vector<Imports> imports_;
+    std::vector<VisitingBead> visitors_;
+    Eigen::Index beadCount_ = 0;
+    mutable std::size_t bytesSent_ = 0;
+};
+
+} // namespace clepsydra

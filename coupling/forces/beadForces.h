@@ -1,0 +1,30 @@
+#pragma once
+
+#include "engine/demEngine.h"
+#include "forces/forceModel.h"
+
+#include "PtrList.H"
+
+namespace clepsydra
+{
+
+/// All forces of the fluid on the beads, as listed in `forceModels (...)`, evaluated at every DEM step from the bead's
+/// own velocity and the frozen fluid; keeps the account of what the fluid must receive.
+class BeadForces final : public FluidForces
+{
+public:
+    BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid);
+
+    void evaluate(const BeadsView& beads, double timeStep, Vectors force) override;
+
+    const Foam::PtrList<ForceModel>& models() const
+    {
+        return models_;
+    }
+
+private:
+    Foam::PtrList<ForceModel> models_;
+    ForceSum sum_;
+};
+
+} // namespace clepsydra

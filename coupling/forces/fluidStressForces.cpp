@@ -1,0 +1,95 @@
+#include "forces/forceModel.h"
+
+#include "addToRunTimeSelectionTable.H"
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// -V_p grad p, p being the pressure without its hydrostatic part. In model A the fluid keeps eps grad p, so the
+/// reaction, (1 - eps) grad p, is in its equation already. Anderson & Jackson, I&EC Fundamentals 6, 527 (1967).
+class PressureGradientForce : public ForceModel
+{
+public:
+    TypeName("gradPForce");
+
+    PressureGradientForce(const Foam::dictionary&, const FluidProperties&)
+    {}
+
+    void add(const BeadsView& beads, ForceSum& sum) const override
+    {
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            sum.shared.col(bead) -= sphereVolume(beads.radius[bead])*beads.state[bead].fluid.pressureGradient;
+        }
+    }
+
+    Foam::string description() const override
+    {
+        return "gradPForce: -V_p grad(p), p without its hydrostatic part";
+    }
+};
+
+/// V_p div(tau): the viscous stress of the undisturbed flow on the bead.
+class ViscousForce : public ForceModel
+{
+public:
+    TypeName("viscForce");
+
+    ViscousForce(const Foam::dictionary&, const FluidProperties&)
+    {}
+
+    void add(const BeadsView& beads, ForceSum& sum) const override
+    {
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            sum.source.col(bead) += sphereVolume(beads.radius[bead])*beads.state[bead].fluid.viscousStressDivergence;
+        }
+    }
+
+    Foam::string description() const override
+    {
+        return "viscForce: V_p div(tau)";
+    }
+};
+
+/// -rho_f V_p g: the hydrostatic part of the pressure gradient. Its reaction is what the tank's floor carries.
+class Archimedes : public ForceModel
+{
+public:
+    TypeName("Archimedes");
+
+    Archimedes(const Foam::dictionary&, const FluidProperties& fluid)
+    :
+        weightDensity_(fluid.density*fluid.gravity)
+    {}
+
+    void add(const BeadsView& beads, ForceSum& sum) const override
+    {
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            sum.shared.col(bead) -= sphereVolume(beads.radius[bead])*weightDensity_;
+        }
+    }
+
+    Foam::string description() const override
+    {
+        return "Archimedes: " + Foam::name(weightDensity_.norm()) + " N/m3 against gravity";
+    }
+
+private:
+    const Vector3d weightDensity_;
+};
+
+defineTypeNameAndDebug(PressureGradientForce, 0);
+addToRunTimeSelectionTable(ForceModel, PressureGradientForce, dictionary);
+defineTypeNameAndDebug(ViscousForce, 0);
+addToRunTimeSelectionTable(ForceModel, ViscousForce, dictionary);
+defineTypeNameAndDebug(Archimedes, 0);
+addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
+
+} // namespace
+
+} // namespace clepsydra

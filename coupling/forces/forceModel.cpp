@@ -1,0 +1,31 @@
+#include "forces/forceModel.h"
+
+#include "wordList.H"
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(ForceModel, 0);
+defineRunTimeSelectionTable(ForceModel, dictionary);
+
+void ForceSum::setZero(Eigen::Index beadCount)
+{
+    implicitCoefficient.setZero(beadCount);
+    source.setZero(3, beadCount);
+    shared.setZero(3, beadCount);
+}
+
+Foam::autoPtr<ForceModel> ForceModel::New(
+    const Foam::word& name, const Foam::dictionary& couplingProperties, const FluidProperties& fluid)
+{
+    const auto constructor = dictionaryConstructorTablePtr_->cfind(name);
+    if (!constructor.found())
+    {
+        FatalIOErrorInFunction(couplingProperties)
+            << "Unknown model '" << name << "' in entry 'forceModels'; allowed: "
+            << Foam::flatOutput(dictionaryConstructorTablePtr_->sortedToc()) << Foam::exit(Foam::FatalIOError);
+    }
+    return (*constructor)(couplingProperties.subOrEmptyDict(name + "Props"), fluid);
+}
+
+} // namespace clepsydra

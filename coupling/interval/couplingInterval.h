@@ -1,0 +1,59 @@
+#pragma once
+
+#include "forces/beadForces.h"
+#include "interval/fluidCoupling.h"
+#include "output/observedBeads.h"
+
+#include <functional>
+#include <memory>
+
+namespace clepsydra
+{
+
+/// One coupling interval from start to end: the only place where the order of its steps is written.
+class CouplingInterval
+{
+public:
+    /// Initialises the engine, puts the first beads on the mesh.
+    CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+        DemEngine& engine);
+
+    /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
+    void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
+
+    /// A run with fluid. \param solveFluid  solves the fluid's equations over the interval with fluid().
+    void advance(const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<void()>& solveFluid);
+
+    /// A dry run.
+    void advance();
+
+    /// What the fluid's equations need. \pre the settings have a fluid.
+    const FluidCoupling& fluid() const
+    {
+        return *fluid_;
+    }
+
+    /// Null in a dry run.
+    const BeadForces* forces() const
+    {
+        return forces_.get();
+    }
+
+    const Ledger& ledger() const
+    {
+        return ledger_;
+    }
+
+private:
+    void advanceBeads();
+
+    DemEngine& engine_;
+    const int stepsPerInterval_;
+    const double interval_;
+    std::unique_ptr<BeadForces> forces_;
+    Ledger ledger_;
+    ObservedBeads observedBeads_;
+    std::unique_ptr<FluidCoupling> fluid_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,127 @@
+#include "interval/couplingSettings.h"
+
+#include "OSspecific.H"
+#include "Switch.H"
+#include "runTimeSelection.h"
+
+#include <cmath>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// Times that should be equal or whole multiples may differ by rounding of their decimal fractions.
+constexpr double sameTime = 1e-6;
+
+} // namespace
+
+CouplingSettings::CouplingSettings(const Time& time)
+:
+    time_(time),
+    dict_(IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE))
+{
+    readChoices();
+    checkTimeStep();
+}
+
+void CouplingSettings::readChoices()
+{
+    couplingInterval_ = positiveEntry(dict_, "couplingInterval");
+    hasFluid_ = selectedModel(dict_, "fluid", {"incompressible", "none"}) != "none";
+    if (!hasFluid_)
+    {
+        return;
+    }
+    selectedModel(dict_, "modelType", {"A"});
+    ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
+
+    const wordList momentumModels = dict_.get<wordList>("momCoupleModels");
+    if (momentumModels.size() != 1)
+    {
+        FatalIOErrorInFunction(dict_) << "Entry 'momCoupleModels' lists " << momentumModels.size()
+                                      << " models; allowed: one of (implicitCouple explicitCouple)"
+                                      << exit(FatalIOError);
+    }
+    dictionary choice(dict_.name());
+    choice.add("momCoupleModels", momentumModels.first());
+    implicitCoupling_ = selectedModel(choice, "momCoupleModels", {"implicitCouple", "explicitCouple"}) == "implicitCouple";
+
+    const dictionary voidFractionProps = dict_.subOrEmptyDict(dict_.get<word>("voidFractionModel") + "Props");
+    if (voidFractionProps.found("alphaMin"))
+    {
+        minimumVoidFraction_ = positiveEntry(voidFractionProps, "alphaMin");
+    }
+}
+
+void CouplingSettings::checkTimeStep() const
+{
+    if (time_.controlDict().getOrDefault<Switch>("adjustTimeStep", false))
+    {
+        FatalIOErrorInFunction(time_.controlDict())
+            << "Entry 'adjustTimeStep' is on; allowed: off, for the fluid's time step is the coupling interval"
+            << exit(FatalIOError);
+    }
+    if (std::abs(time_.deltaTValue()/couplingInterval_ - 1) > sameTime)
+    {
+        FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
+                                      << " s; allowed: the value of deltaT in system/controlDict, which is "
+                                      << time_.deltaTValue() << " s" << exit(FatalIOError);
+    }
+}
+
+LiggghtsSetup CouplingSettings::engineSetup() const
+{
+    const dictionary& dem = dict_.subDict("DEM");
+    selectedModel(dem, "engine", {"liggghts"});
+
+    LiggghtsSetup setup;
+    setup.script = dem.get<fileName>("script").c_str();
+    if (!isFile(fileName(setup.script.string())))
+    {
+        FatalIOErrorInFunction(dem) << "Entry 'script' is " << setup.script.c_str()
+                                    << "; allowed: a file, relative to the case directory " << time_.globalPath()
+                                    << exit(FatalIOError);
+    }
+    const dictionary variables = dem.subOrEmptyDict("variables");
+    for (const word& name : variables.toc())
+    {
+        const token value = variables.lookup(name)[0];
+        setup.variables.emplace_back(name, value.isNumber() ? Foam::name(value.number()) : value.isString()
+                ? std::string(value.stringToken()) : std::string(value.wordToken()));
+    }
+    // Quantities that no material can have negative; the script's own checks come too late or not at all.
+    for (const word& name : variables.toc())
+    {
+        const bool never = name.find("friction") != string::npos || name.find("Friction") != string::npos
+            || name.find("density") != string::npos || name.find("Density") != string::npos
+            || name.find("diameter") != string::npos || name.find("Diameter") != string::npos;
+        if (never)
+        {
+            positiveEntry(variables, name, name.find("riction") != string::npos);
+        }
+    }
+    setup.logFile = "log.liggghts";
+    return setup;
+}
+
+fileName CouplingSettings::finalRestart() const
+{
+    return dict_.subDict("DEM").getOrDefault<fileName>("writeRestart", fileName::null);
+}
+
+int CouplingSettings::stepsPerInterval(double demTimeStep) const
+{
+    const double steps = couplingInterval_/demTimeStep;
+    if (steps < 0.5 || std::abs(steps - std::round(steps)) > sameTime*steps)
+    {
+        FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
+                                      << " s; allowed: a whole multiple of the DEM step, which is " << demTimeStep
+                                      << " s in the script " << demDict().get<fileName>("script").c_str()
+                                      << exit(FatalIOError);
+    }
+    return static_cast<int>(std::lround(steps));
+}
+
+} // namespace clepsydra

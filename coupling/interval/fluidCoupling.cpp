@@ -1,0 +1,262 @@
+#include "interval/fluidCoupling.h"
+
+#include "fvc.H"
+#include "fvcDdt.H"
+#include "fvcGrad.H"
+#include "fvcLaplacian.H"
+#include "zeroGradientFvPatchFields.H"
+
+#include <mpi.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+constexpr direction spaceDimensions = 3;
+
+/// A field of the coupling: read where the run was stopped, otherwise uniform.
+template<class Type>
+GeometricField<Type, fvPatchField, volMesh> couplingField(
+    const word& name, const fvMesh& mesh, const dimensionSet& dimensions, const Type& value)
+{
+    return GeometricField<Type, fvPatchField, volMesh>(
+        IOobject(name, mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), mesh,
+        dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
+}
+
+vector toFoam(const Vector3d& v)
+{
+    return vector(v.x(), v.y(), v.z());
+}
+
+MPI_Comm duplicateWorld()
+{
+    MPI_Comm own;
+    MPI_Comm_dup(MPI_COMM_WORLD, &own);
+    return own;
+}
+
+} // namespace
+
+FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+    DemEngine& engine, Ledger& ledger)
+:
+    mesh_(mesh),
+    settings_(settings),
+    fluid_(fluid),
+    engine_(engine),
+    ledger_(ledger),
+    distribution_(settings.dict(), mesh),
+    exchange_(duplicateWorld(), distribution_.cells().box()),
+    voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
+    implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless/dimTime, 0)),
+    beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
+    outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
+    solidFraction_(1 - voidFraction_.primitiveField()),
+    coefficientDensity_(mesh.nCells(), 0.0)
+{
+    impulseDensity_ = scalarField(mesh.nCells(), 0.0);
+    smoothGradient_ = scalarField(mesh.nCells(), 0.0);
+    voidFraction_.oldTime();
+}
+
+void FluidCoupling::beadsToFluid(double interval)
+{
+    const BeadsView beads = engine_.beads();
+    findCells(beads);
+    updateVoidFraction(beads);
+    if (interval > 0)
+    {
+        updateMomentumSource(interval);
+    }
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        beads.state[bead].given = GivenToFluid();
+    }
+}
+
+void FluidCoupling::findCells(const BeadsView& beads)
+{
+    exchange_.send(beads);
+    const Eigen::MatrixXd shareSums = exchange_.sumAtHome(distribution_.findCells(exchange_.visitors()));
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        if (!(shareSums(0, bead) > 0))
+        {
+            reportBeadOutsideMesh(beads, bead);
+        }
+    }
+    distribution_.normalise(exchange_.toVisitors(shareSums));
+}
+
+void FluidCoupling::updateVoidFraction(const BeadsView& beads)
+{
+    const std::vector<VisitingBead>& visitors = exchange_.visitors();
+    const scalarField raw =
+        distribution_.density([&](std::size_t visitor) { return sphereVolume(visitors[visitor].radius); });
+    distribution_.smooth(raw, solidFraction_);
+
+    double beadVolume = 0;
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        beadVolume += sphereVolume(beads.radius[bead]);
+    }
+    const scalarField& cellVolumes = mesh_.V().field();
+    const double cellVolume = gSum(scalarField(solidFraction_*cellVolumes));
+
+    scalarField& voidFraction = voidFraction_.primitiveFieldRef();
+    voidFraction = 1 - solidFraction_;
+    double clipped = 0;
+    label worstCell = -1;
+    const double minimum = settings_.minimumVoidFraction();
+    forAll(voidFraction, cell)
+    {
+        if (voidFraction[cell] < minimum)
+        {
+            worstCell = worstCell < 0 || solidFraction_[cell] > solidFraction_[worstCell] ? cell : worstCell;
+            clipped += (minimum - voidFraction[cell])*cellVolumes[cell];
+            voidFraction[cell] = minimum;
+        }
+    }
+    voidFraction_.correctBoundaryConditions();
+    ledger_.bookSolidVolume(returnReduce(beadVolume, sumOp<scalar>()), cellVolume,
+        returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
+}
+
+void FluidCoupling::updateMomentumSource(double interval)
+{
+    const std::vector<VisitingBead>& visitors = exchange_.visitors();
+    for (direction axis = 0; axis < spaceDimensions; ++axis)
+    {
+        distribution_.smooth(
+            distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
+            impulseDensity_[axis]);
+        beadSource_.primitiveFieldRef().replace(
+            axis, scalarField(impulseDensity_[axis]*(-1/(fluid_.density*interval))));
+    }
+    beadSource_.correctBoundaryConditions();
+
+    if (settings_.implicitCoupling())
+    {
+        distribution_.smooth(
+            distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
+            coefficientDensity_);
+        implicitCoefficient_.primitiveFieldRef() = coefficientDensity_/(fluid_.density*interval);
+        implicitCoefficient_.correctBoundaryConditions();
+    }
+}
+
+tmp<volScalarField> FluidCoupling::ddtVoidFraction() const
+{
+    if (settings_.ddtVoidFraction())
+    {
+        return fvc::ddt(voidFraction_);
+    }
+    return tmp<volScalarField>::New(IOobject("ddtVoidFraction", mesh_.time().timeName(), mesh_), mesh_,
+        dimensionedScalar("zero", dimless/dimTime, 0));
+}
+
+tmp<volVectorField> FluidCoupling::momentumSource(const volVectorField& U) const
+{
+    const dimensionedScalar interval("interval", dimTime, settings_.couplingInterval());
+    return beadSource_ + outstanding_/interval + implicitCoefficient_*U.oldTime();
+}
+
+void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
+{
+    const scalarField mass(fluid_.density*mesh_.V().field());
+    const vectorField demanded(interval*beadSource_.primitiveField() + outstanding_.primitiveField());
+    const vectorField excess(
+        interval*implicitCoefficient_.primitiveField()*(U.primitiveField() - U.oldTime().primitiveField()));
+    outstanding_.primitiveFieldRef() = excess;
+    outstanding_.correctBoundaryConditions();
+
+    // The beads received minus what their sources ask of the fluid.
+    const vector beadsReceived = -gSum(vectorField(mass*interval*beadSource_.primitiveField()));
+    const vector fluidLost = -gSum(vectorField(mass*(demanded - excess)));
+    ledger_.bookMomentum(beadsReceived, fluidLost, -gSum(vectorField(mass*excess)));
+}
+
+void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& p)
+{
+    // Rows of what is sampled at the beads.
+    enum Row : Eigen::Index
+    {
+        voidFraction = 0,
+        velocity = 1,
+        pressureGradient = 4,
+        viscousStressDivergence = 7,
+        rowCount = 10
+    };
+    const dimensionedScalar viscosity("mu", dimViscosity, fluid_.dynamicViscosity);
+    const tmp<volVectorField> gradient = fvc::grad(p);
+    const tmp<volVectorField> viscous = fvc::laplacian(viscosity, U, "laplacian(nu,U)");
+
+    Eigen::MatrixXd atVisitors(rowCount, static_cast<Eigen::Index>(exchange_.visitors().size()));
+    distribution_.sample(voidFraction_.primitiveField(), atVisitors, voidFraction);
+    vector pressureForceInFluid = vector::zero;
+    for (direction axis = 0; axis < spaceDimensions; ++axis)
+    {
+        const scalarField pascalPerMetre(fluid_.density*gradient().primitiveField().component(axis));
+        distribution_.smooth(pascalPerMetre, smoothGradient_[axis]);
+        distribution_.sample(U.primitiveField().component(axis)(), atVisitors, velocity + axis);
+        distribution_.sample(smoothGradient_[axis], atVisitors, pressureGradient + axis);
+        distribution_.sample(viscous().primitiveField().component(axis)(), atVisitors, viscousStressDivergence + axis);
+        pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre*solidFraction_*mesh_.V().field()));
+    }
+
+    const Eigen::MatrixXd atBeads = exchange_.sumAtHome(atVisitors);
+    const BeadsView beads = engine_.beads();
+    vector pressureForceOnBeads = vector::zero;
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        FluidAtBead& fluid = beads.state[bead].fluid;
+        fluid.voidFraction = atBeads(voidFraction, bead);
+        fluid.logVoidFraction = std::log(fluid.voidFraction);
+        fluid.velocity = atBeads.block<3, 1>(velocity, bead);
+        fluid.pressureGradient = atBeads.block<3, 1>(pressureGradient, bead);
+        fluid.viscousStressDivergence = atBeads.block<3, 1>(viscousStressDivergence, bead);
+        pressureForceOnBeads -= sphereVolume(beads.radius[bead])*toFoam(fluid.pressureGradient);
+    }
+    ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
+}
+
+string FluidCoupling::describeCell(label cell) const
+{
+    const vector& centre = mesh_.C()[cell];
+    const VisitingBead* nearest = nullptr;
+    double nearestDistance = GREAT;
+    for (const VisitingBead& bead : exchange_.visitors())
+    {
+        const double distance = mag(toFoam(bead.position) - centre);
+        if (distance < nearestDistance)
+        {
+            nearest = &bead;
+            nearestDistance = distance;
+        }
+    }
+    return "cell " + Foam::name(cell) + " at " + Foam::name(centre) + " m, void fraction "
+        + Foam::name(1 - solidFraction_[cell])
+        + (nearest ? ", nearest bead " + Foam::name(label(nearest->id)) : string());
+}
+
+void FluidCoupling::reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const
+{
+    const vector position = toFoam(beads.position.col(bead));
+    const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
+    FatalErrorInFunction << "Bead " << beads.id[bead] << " at " << position
+                         << " m lies in no cell of the mesh; the nearest, cell " << nearest << " of rank "
+                         << Pstream::myProcNo() << ", is at "
+                         << (nearest < 0 ? vector::zero : mesh_.C()[nearest]) << " m, the mesh of this rank spans "
+                         << mesh_.bounds() << exit(FatalError);
+    std::abort();
+}
+
+} // namespace clepsydra

@@ -1,0 +1,96 @@
+#pragma once
+
+#include "distribution/distribution.h"
+#include "engine/demEngine.h"
+#include "exchange/beadExchange.h"
+#include "forces/forceModel.h"
+#include "interval/couplingSettings.h"
+#include "ledger/ledger.h"
+
+#include "volFields.H"
+
+namespace clepsydra
+{
+
+/// The fields that beads and fluid share, and how each side fills them for the other.
+///
+/// Model A of Anderson & Jackson's equations, divided by the fluid's density:
+///
+///     d(eps)/dt + div(eps U) = 0
+///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource - implicitCoefficient U
+///
+/// p is kinematic and without its hydrostatic part.
+class FluidCoupling
+{
+public:
+    FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+        DemEngine& engine, Ledger& ledger);
+
+    /// Void fraction and sources from the beads as they are now and from what they were given. Collective.
+    /// \param interval  time over which they were given [s]; 0 at the start: void fraction only.
+    void beadsToFluid(double interval);
+
+    /// Books what the implicit part of the source gave beyond the beads' impulse, to be made good next time.
+    void carryMomentum(const Foam::volVectorField& U, double interval);
+
+    /// The fluid at the beads, for the next interval. Collective.
+    void fluidToBeads(const Foam::volVectorField& U, const Foam::volScalarField& p);
+
+    const Foam::volScalarField& voidFraction() const
+    {
+        return voidFraction_;
+    }
+
+    /// d(eps)/dt, or zero where `useDDTvoidfraction off`.
+    Foam::tmp<Foam::volScalarField> ddtVoidFraction() const;
+
+    /// Explicit part of the beads' source [m/s2], the compensation of the implicit part included.
+    Foam::tmp<Foam::volVectorField> momentumSource(const Foam::volVectorField& U) const;
+
+    /// Implicit part: coefficient of -U [1/s]; zero with `explicitCouple`.
+    const Foam::volScalarField& implicitCoefficient() const
+    {
+        return implicitCoefficient_;
+    }
+
+    const Distribution& distribution() const
+    {
+        return distribution_;
+    }
+
+    const BeadExchange& exchange() const
+    {
+        return exchange_;
+    }
+
+private:
+    void findCells(const BeadsView& beads);
+    void updateVoidFraction(const BeadsView& beads);
+    void updateMomentumSource(double interval);
+    [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
+    Foam::string describeCell(Foam::label cell) const;
+
+    const Foam::fvMesh& mesh_;
+    const CouplingSettings& settings_;
+    const FluidProperties fluid_;
+    DemEngine& engine_;
+    Ledger& ledger_;
+
+    Distribution distribution_;
+    BeadExchange exchange_;
+
+    Foam::volScalarField voidFraction_;
+    Foam::volScalarField implicitCoefficient_;
+    /// Impulse of the beads on the fluid in the last interval [m/s2].
+    Foam::volVectorField beadSource_;
+    /// What of it the fluid has not received yet [m/s, as impulse per mass and volume].
+    Foam::volVectorField outstanding_;
+
+    // Last interval's results, from which the smoothing starts.
+    Foam::scalarField solidFraction_;
+    Foam::scalarField coefficientDensity_;
+    Foam::FixedList<Foam::scalarField, 3> impulseDensity_;
+    Foam::FixedList<Foam::scalarField, 3> smoothGradient_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,66 @@
+#pragma once
+
+#include "ledger/beadCensus.h"
+
+#include "Time.H"
+#include "dictionary.H"
+#include "vector.H"
+
+namespace clepsydra
+{
+
+/// Books what must balance between beads and fluid: solid volume, momentum, the number of beads; and what was
+/// clipped. Stops the run above the tolerances of the `ledger` sub-dictionary of couplingProperties:
+///
+///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads
+///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / beads, at any one time
+///     momentumTolerance       1e-9;   // |handed over - received - outstanding| / sum of |handed over|
+class Ledger
+{
+public:
+    Ledger(const Foam::dictionary& couplingProperties, const Foam::Time& time);
+
+    /// Counts the beads; see BeadCensus.
+    void countBeads(const BeadsView& beads);
+
+    /// The solid volume of all beads, what the cells hold of it before clipping, and what clipping cut off [m3].
+    /// All are sums over the ranks. \param worstCell  words for the error.
+    void bookSolidVolume(double beads, double cells, double clipped, const Foam::string& worstCell);
+
+    /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, what the fluid's
+    /// equation took from the fluid, and what of the difference waits for the next interval.
+    void bookMomentum(const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
+
+    /// The force of the fluid's pressure gradient on all beads, and the reaction that the fluid's equation holds [N].
+    void bookPressureForce(const Foam::vector& onBeads, const Foam::vector& inFluid);
+
+    /// One line to the log.
+    void report() const;
+
+    /// Writes postProcessing/ledger/<startTime>/summary.json. Master rank only.
+    void writeSummary() const;
+
+private:
+    double momentumError() const;
+
+    const Foam::Time& time_;
+    const Foam::dictionary tolerances_;
+    const double solidVolumeTolerance_;
+    const double clippedVolumeTolerance_;
+    const double momentumTolerance_;
+    const Foam::word startTime_;
+
+    BeadCensus census_;
+    double solidVolume_ = 0;
+    double solidVolumeError_ = 0;
+    double largestSolidVolumeError_ = 0;
+    double clippedVolume_ = 0;
+    double largestClippedVolume_ = 0;
+    Foam::vector beadsReceived_ = Foam::vector::zero;
+    Foam::vector fluidLost_ = Foam::vector::zero;
+    Foam::vector outstanding_ = Foam::vector::zero;
+    double momentumTurnover_ = 0;
+    double pressureForceError_ = 0;
+};
+
+} // namespace clepsydra

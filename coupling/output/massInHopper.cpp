@@ -1,0 +1,176 @@
+#include "output/massInHopper.h"
+
+#include "output/observedBeads.h"
+#include "runTimeSelection.h"
+
+#include "Time.H"
+#include "addToRunTimeSelectionTable.H"
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(MassInHopper, 0);
+addToRunTimeSelectionTable(functionObject, MassInHopper, dictionary);
+
+namespace
+{
+
+/// A time step's rounding must neither add nor drop a row.
+constexpr double sameTime = 1e-6;
+
+const word countEntry = "beadsInHopper";
+const word lastDepartureEntry = "lastDeparture";
+
+} // namespace
+
+MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary& dict)
+:
+    fvMeshFunctionObject(name, time, dict),
+    writeFile(mesh_, name, name, dict)
+{
+    read(dict);
+
+    Ostream& os = file();
+    writeHeader(os, "Beads in the hopper, patch '" + dict.get<word>("patch") + "'");
+    writeHeaderValue(os, "Foot of its axis [m]",
+        vector(hopper_->foot().x(), hopper_->foot().y(), hopper_->foot().z()));
+    writeHeaderValue(os, "Radius [m]", hopper_->radius());
+    writeCommented(os, "time [s]");
+    writeTabbed(os, "mass [kg]");
+    writeTabbed(os, "beads [-]");
+    writeTabbed(os, "rate [kg/s]");
+    os << endl;
+
+    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    {
+        sample();
+    }
+}
+
+bool MassInHopper::read(const dictionary& dict)
+{
+    fvMeshFunctionObject::read(dict);
+    writeFile::read(dict);
+
+    const word patchName = dict.get<word>("patch");
+    const label patch = mesh_.boundaryMesh().findPatchID(patchName);
+    if (patch < 0)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'patch' is '" << patchName << "', which the mesh has not; allowed: "
+                                     << flatOutput(mesh_.boundaryMesh().names()) << exit(FatalIOError);
+    }
+    // FatalIOError, too: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
+    if (returnReduce(mesh_.boundaryMesh()[patch].size(), sumOp<label>()) == 0)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'patch' is '" << patchName
+                                     << "', which has no faces; allowed: the patch of the hopper's wall"
+                                     << exit(FatalIOError);
+    }
+    const auto axis = dict.getOrDefault<vector>("axis", vector(0, 0, 1));
+    if (mag(axis) < SMALL)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
+                                     << exit(FatalIOError);
+    }
+    hopper_ = std::make_unique<HopperCylinder>(
+        mesh_.boundaryMesh()[patch], Vector3d(axis.x(), axis.y(), axis.z()));
+
+    rate_ = std::make_unique<TrailingRate>(
+        dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
+    stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
+    sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
+    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue()*(1 - sameTime))
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'sampleInterval' is " << sampleInterval_
+                                     << " s; allowed: at least the time step, " << time_.deltaTValue() << " s"
+                                     << exit(FatalIOError);
+    }
+    return true;
+}
+
+bool MassInHopper::execute()
+{
+    // A row is due if waiting for the next step would make the gap too long.
+    const scalar nextTime = time_.value() + time_.deltaTValue();
+    if (nextTime > lastSample_ + sampleInterval_ + sameTime*time_.deltaTValue())
+    {
+        sample();
+        stopIfFlowStopped();
+    }
+    return true;
+}
+
+bool MassInHopper::end()
+{
+    sample();
+    return true;
+}
+
+void MassInHopper::sample()
+{
+    const scalar now = time_.value();
+    if (now <= lastSample_)
+    {
+        return;
+    }
+
+    const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
+    scalar mass = 0;
+    label count = 0;
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        if (hopper_->contains(beads.position.col(bead)))
+        {
+            mass += beads.mass[bead];
+            ++count;
+        }
+    }
+    reduce(mass, sumOp<scalar>());
+    reduce(count, sumOp<label>());
+
+    Ostream& os = file();
+    writeCurrentTime(os);
+    os << tab << setw(charWidth()) << mass << tab << setw(charWidth()) << count << tab << setw(charWidth())
+       << rate_->add(now, mass) << endl;
+
+    if (count < lastBeads_)
+    {
+        setProperty(lastDepartureEntry, now);
+    }
+    setResult(countEntry, count);
+    lastBeads_ = count;
+    lastSample_ = now;
+}
+
+void MassInHopper::stopIfFlowStopped()
+{
+    scalar lastDeparture = 0;
+    if (stopping_ || stopAfter_ <= 0 || !getProperty(lastDepartureEntry, lastDeparture)
+        || time_.value() - lastDeparture < stopAfter_*(1 - sameTime))
+    {
+        return;
+    }
+    stopping_ = true;
+    Info << type() << ' ' << name() << ": no bead has left since " << lastDeparture << " s, " << lastBeads_
+         << " remain; ending the run" << endl;
+    time_.stopAt(Time::saWriteNow);
+}
+
+label MassInHopper::lastCount(const Time& time)
+{
+    const dictionary results = time.functionObjects().stateDict().subOrEmptyDict("results");
+    for (const entry& object : results)
+    {
+        label count = -1;
+        if (object.isDict()
+            && object.dict().subOrEmptyDict(pTraits<label>::typeName).readIfPresent(countEntry, count))
+        {
+            return count;
+        }
+    }
+    return -1;
+}
+
+} // namespace clepsydra

@@ -1,0 +1,127 @@
+#include "output/progress.h"
+
+#include "Pstream.H"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+constexpr std::chrono::milliseconds betweenBars{200};
+constexpr std::size_t barLength = 24;
+
+/// A longer line would wrap, and could not be rewritten in place.
+std::size_t terminalWidth()
+{
+    winsize size{};
+    return ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+std::string bar(double share)
+{
+    const auto full = static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0)*barLength));
+    return '[' + std::string(full, '=') + std::string(barLength - full, ' ') + "] ";
+}
+
+std::string clockTime(double seconds)
+{
+    const long all = std::lround(seconds);
+    std::ostringstream text;
+    text << std::setfill('0') << std::setw(2) << all/3600 << ':' << std::setw(2) << all/60%60 << ':' << std::setw(2)
+         << all%60;
+    return text.str();
+}
+
+double shareDone(const ProgressState& state)
+{
+    const double all = state.endTime - state.startTime;
+    return all > 0 ? (state.time - state.startTime)/all : 1.0;
+}
+
+} // namespace
+
+std::string describe(const ProgressState& state)
+{
+    std::ostringstream text;
+    text << "t = " << std::setprecision(4) << state.time << '/' << state.endTime << " s";
+    if (state.beads >= 0)
+    {
+        text << ", " << state.beads << " beads in the hopper";
+    }
+    const double simulated = state.time - state.startTime;
+    if (simulated > 0 && state.wallTime > 0)
+    {
+        const double wallPerSimulated = state.wallTime/simulated;
+        text << ", " << std::setprecision(3) << wallPerSimulated << " s per simulated s, "
+             << clockTime(std::max(0.0, state.endTime - state.time)*wallPerSimulated) << " to go";
+    }
+    return text.str();
+}
+
+Progress::Progress()
+:
+    Progress(std::cout, isatty(STDOUT_FILENO) == 1)
+{}
+
+Progress::Progress(std::ostream& out, bool isTerminal)
+:
+    out_(out),
+    isTerminal_(isTerminal)
+{}
+
+Progress::~Progress()
+{
+    clear();
+}
+
+void Progress::update(double time, double endTime, long beadsInHopper, bool atWriteTime)
+{
+    if (!Foam::Pstream::master())
+    {
+        return;
+    }
+    const Clock::time_point now = Clock::now();
+    if (!started_)
+    {
+        started_ = true;
+        startTime_ = time;
+        wallStart_ = now;
+    }
+    const ProgressState state{
+        time, startTime_, endTime, std::chrono::duration<double>(now - wallStart_).count(), beadsInHopper};
+
+    if (atWriteTime)
+    {
+        clear();
+        out_ << describe(state) << std::endl;
+    }
+    if (isTerminal_ && (lastBar_ == Clock::time_point{} || now - lastBar_ >= betweenBars))
+    {
+        // The cursor waits at the start of the line: whatever is printed next replaces the bar.
+        out_ << '\r' << (bar(shareDone(state)) + describe(state)).substr(0, terminalWidth() - 1) << "\x1b[K\r"
+             << std::flush;
+        barShown_ = true;
+        lastBar_ = now;
+    }
+}
+
+void Progress::clear()
+{
+    if (barShown_)
+    {
+        out_ << "\r\x1b[K" << std::flush;
+        barShown_ = false;
+    }
+}
+
+} // namespace clepsydra

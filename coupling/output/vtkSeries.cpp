@@ -1,0 +1,92 @@
+#include "output/vtkSeries.h"
+
+#include <vtkNew.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLDataParser.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// Times closer than this are the same: sums of time steps against times read back [s, relative].
+constexpr double sameTime = 1e-9;
+
+bool notAfter(double time, double other)
+{
+    return time <= other + sameTime*std::max(1.0, std::abs(other));
+}
+
+} // namespace
+
+VtkSeries::VtkSeries(std::filesystem::path file, double startTime)
+:
+    file_(std::move(file))
+{
+    if (std::filesystem::exists(file_))
+    {
+        read(startTime);
+    }
+}
+
+void VtkSeries::read(double startTime)
+{
+    vtkNew<vtkXMLDataParser> parser;
+    parser->SetFileName(file_.c_str());
+    if (parser->Parse() != 1 || parser->GetRootElement() == nullptr)
+    {
+        throw std::runtime_error(file_.string() + " is no ParaView collection; move it away to start a new one");
+    }
+    vtkXMLDataElement* collection = parser->GetRootElement()->FindNestedElementWithName("Collection");
+    for (int i = 0; collection != nullptr && i < collection->GetNumberOfNestedElements(); ++i)
+    {
+        vtkXMLDataElement* entry = collection->GetNestedElement(i);
+        double time = 0;
+        const char* name = entry->GetAttribute("file");
+        if (entry->GetScalarAttribute("timestep", time) != 0 && name != nullptr && notAfter(time, startTime)
+            && std::filesystem::exists(file_.parent_path()/name))
+        {
+            entries_.emplace(time, name);
+        }
+    }
+}
+
+void VtkSeries::add(double time, const std::filesystem::path& dataFile)
+{
+    for (auto entry = entries_.begin(); entry != entries_.end();)
+    {
+        const bool sameMoment = notAfter(entry->first, time) && notAfter(time, entry->first);
+        entry = sameMoment ? entries_.erase(entry) : std::next(entry);
+    }
+    entries_.emplace(time, dataFile);
+    write();
+}
+
+void VtkSeries::write() const
+{
+    std::filesystem::path temporary = file_;
+    temporary += ".new";
+    std::ofstream out(temporary);
+    out.precision(std::numeric_limits<double>::digits10);
+    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    for (const auto& [time, dataFile] : entries_)
+    {
+        out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << dataFile.string() << "\"/>\n";
+    }
+    out << "</Collection>\n</VTKFile>\n";
+    out.close();
+    if (!out)
+    {
+        throw std::runtime_error("Cannot write " + temporary.string());
+    }
+    std::filesystem::rename(temporary, file_);
+}
+
+} // namespace clepsydra

@@ -1,0 +1,77 @@
+"""Outflow of a hopper: rate, time to empty, and the closed formulas for the rate."""
+
+from math import sqrt
+
+import numpy as np
+
+GRAVITY = 9.81
+
+
+def smoothedRate(time, mass, deviation, points=400):
+    """-dm/dt, as the paper takes it: slope of a parabola fitted under Gaussian weights.
+
+    Times nearer than one deviation to an end are left out: the fit leans there.
+    """
+    at = np.linspace(time[0] + deviation, time[-1] - deviation, points)
+    rate = np.empty(points)
+    for index, centre in enumerate(at):
+        near = np.abs(time - centre) < 4 * deviation
+        shifted = time[near] - centre
+        # numpy weighs the residual, not its square
+        weight = np.exp(-0.25 * (shifted / deviation) ** 2)
+        rate[index] = -np.polyfit(shifted, mass[near], 2, w=weight)[1]
+    return at, rate
+
+
+def timeAtMass(time, mass, level):
+    """When the mass in the hopper first falls to level; None if it never does."""
+    below = np.flatnonzero(mass <= level)
+    if not len(below):
+        return None
+    after = below[0]
+    if after == 0:
+        return time[0]
+    part = (mass[after - 1] - level) / (mass[after - 1] - mass[after])
+    return time[after - 1] + part * (time[after] - time[after - 1])
+
+
+def meanRate(time, mass, upper, lower):
+    """Mean outflow while the hopper holds between two fractions of its fill."""
+    start, end = (timeAtMass(time, mass, fraction * mass[0]) for fraction in (upper, lower))
+    return None if end is None else (upper - lower) * mass[0] / (end - start)
+
+
+def emptyingTime(time, mass, pause):
+    """When the last bead left before the first pause of that length; None if none came."""
+    left = time[1:][np.diff(mass) < 0]
+    if not len(left):
+        return None
+    following = np.append(left[1:], np.inf)
+    last = left[np.argmax(following - left > pause)]
+    return last if time[-1] - last >= 0.99 * pause else None
+
+
+def terminalVelocity(diameter, density, fluidDensity, viscosity):
+    """Speed of a lone sphere falling in a fluid (kinematic viscosity given).
+
+    Drag coefficient: Brown & Lawler, J. Environ. Eng. 129, 222 (2003), eq. 19.
+    """
+    weight = 4 / 3 * GRAVITY * diameter * (density / fluidDensity - 1)
+    slow, fast = 0.0, 10 * sqrt(weight)
+    for _ in range(100):
+        speed = (slow + fast) / 2
+        reynolds = speed * diameter / viscosity
+        drag = (24 / reynolds * (1 + 0.150 * reynolds**0.681)
+                + 0.407 / (1 + 8710 / reynolds))
+        slow, fast = (speed, fast) if drag * speed**2 < weight else (slow, speed)
+    return speed
+
+
+def beverloo(orifice, diameter, density, packing=0.6, C=0.58, k=1.4):
+    """Dry rate [kg/s]: Beverloo et al., Chem. Eng. Sci. 15, 260 (1961), bulk density."""
+    return C * packing * density * sqrt(GRAVITY) * (orifice - k * diameter) ** 2.5
+
+
+def modifiedBeverloo(orifice, diameter, density, terminal, C=0.4, k=2.4):
+    """Submerged rate [kg/s]: Wilson et al., Papers in Physics 6, 060009 (2014)."""
+    return C * density * terminal * diameter**2 * (orifice / diameter - k) ** 2
