@@ -42,10 +42,10 @@ std::string takeLock(const std::string& path, int& file)
     }
     if (flock(file, LOCK_EX | LOCK_NB) != 0)
     {
-        const std::string cause = errno == EWOULDBLOCK
-            ? "Another program runs in this case: " + contents(file) + " holds the lock file " + path
-                + ". Wait for it, or run in a copy of the case."
-            : "Cannot lock " + path + ": " + std::strerror(errno);
+        std::string cause = errno == EWOULDBLOCK
+                                ? "Another program runs in this case: " + contents(file) + " holds the lock file "
+                                      + path + ". Wait for it, or run in a copy of the case."
+                                : "Cannot lock " + path + ": " + std::strerror(errno);
         close(file);
         file = -1;
         return cause;
@@ -69,7 +69,7 @@ CaseLock::CaseLock(const Foam::fileName& caseDirectory)
     string problem;
     if (Pstream::master())
     {
-        problem = takeLock(caseDirectory/".pimpleDemFoam.lock", file_);
+        problem = takeLock(caseDirectory / ".pimpleDemFoam.lock", file_);
     }
     Pstream::scatter(problem);
     if (!problem.empty())

@@ -5,7 +5,9 @@
 namespace clepsydra
 {
 
-BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid)
+BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers)
+:
+    timers_(timers)
 {
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
@@ -15,6 +17,7 @@ BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidPr
 
 void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force)
 {
+    const PhaseTimers::Scope timing = timers_.time("forces");
     sum_.setZero(beads.size());
     for (const ForceModel& model : models_)
     {

@@ -2,6 +2,7 @@
 
 #include "engine/demEngine.h"
 #include "forces/forceModel.h"
+#include "output/phaseTimers.h"
 
 #include "PtrList.H"
 
@@ -13,7 +14,7 @@ namespace clepsydra
 class BeadForces final : public FluidForces
 {
 public:
-    BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid);
+    BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers);
 
     void evaluate(const BeadsView& beads, double timeStep, Vectors force) override;
 
@@ -23,6 +24,7 @@ public:
     }
 
 private:
+    PhaseTimers& timers_;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;
 };

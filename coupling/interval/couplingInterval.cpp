@@ -9,7 +9,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     engine_(engine),
     stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
     interval_(settings.couplingInterval()),
-    forces_(settings.hasFluid() ? std::make_unique<BeadForces>(settings.dict(), fluid) : nullptr),
+    forces_(settings.hasFluid() ? std::make_unique<BeadForces>(settings.dict(), fluid, timers_) : nullptr),
     ledger_(settings.dict(), mesh.time()),
     observedBeads_(mesh, engine)
 {
@@ -17,8 +17,8 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     ledger_.countBeads(engine_.beads());
     if (settings.hasFluid())
     {
-        fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, engine, ledger_);
-        fluid_->beadsToFluid(0);
+        fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, engine, ledger_, timers_);
+        fluid_->start();
     }
 }
 
@@ -44,6 +44,7 @@ void CouplingInterval::advance()
 
 void CouplingInterval::advanceBeads()
 {
+    const PhaseTimers::Scope timing = timers_.time("DEM");
     engine_.advance(stepsPerInterval_);
     ledger_.countBeads(engine_.beads());
 }

@@ -39,6 +39,11 @@ public:
         return forces_.get();
     }
 
+    PhaseTimers& timers()
+    {
+        return timers_;
+    }
+
     const Ledger& ledger() const
     {
         return ledger_;
@@ -50,6 +55,7 @@ private:
     DemEngine& engine_;
     const int stepsPerInterval_;
     const double interval_;
+    PhaseTimers timers_;
     std::unique_ptr<BeadForces> forces_;
     Ledger ledger_;
     ObservedBeads observedBeads_;

@@ -1,7 +1,6 @@
 #include "interval/couplingSettings.h"
 
 #include "OSspecific.H"
-#include "Switch.H"
 #include "runTimeSelection.h"
 
 #include <cmath>
@@ -37,6 +36,12 @@ void CouplingSettings::readChoices()
     selectedModel(dict_, "modelType", {"A"});
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
+    const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");
+    if (ddtProps.found("smoothingTime"))
+    {
+        ddtSmoothingTime_ = positiveEntry(ddtProps, "smoothingTime", true);
+    }
+
     const wordList momentumModels = dict_.get<wordList>("momCoupleModels");
     if (momentumModels.size() != 1)
     {
@@ -69,6 +74,21 @@ void CouplingSettings::checkTimeStep() const
                                       << " s; allowed: the value of deltaT in system/controlDict, which is "
                                       << time_.deltaTValue() << " s" << exit(FatalIOError);
     }
+}
+
+std::vector<std::string> CouplingSettings::descriptions() const
+{
+    if (!hasFluid_)
+    {
+        return {"fluid          none: a dry run"};
+    }
+    return {"equations      model A, pressure without its hydrostatic part",
+        "momentum       " + std::string(implicitCoupling_ ? "implicitCouple" : "explicitCouple"),
+        "alphaMin       " + std::to_string(minimumVoidFraction_),
+        ddtVoidFraction_ ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
+                         : std::string("d(eps)/dt      OFF: WARNING, this removes what dilation does to the fluid, the "
+                                       "surge of a submerged hopper with it"),
+        "drag in DEM    at every step, from the bead's own velocity and the frozen fluid"};
 }
 
 LiggghtsSetup CouplingSettings::engineSetup() const

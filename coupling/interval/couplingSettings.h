@@ -3,6 +3,7 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
 #include "IOdictionary.H"
+#include "Switch.H"
 #include "Time.H"
 #include "fvMesh.H"
 
@@ -41,6 +42,12 @@ public:
         return ddtVoidFraction_;
     }
 
+    /// Time constant of the low-pass through which the void fraction enters d(eps)/dt [s]; 0 for none.
+    double ddtSmoothingTime() const
+    {
+        return ddtSmoothingTime_;
+    }
+
     /// Drag implicit in the fluid's momentum equation.
     bool implicitCoupling() const
     {
@@ -52,6 +59,15 @@ public:
     {
         return minimumVoidFraction_;
     }
+
+    /// Beads for ParaView at write times: `beadOutput { writeVtk on; }`, off by default.
+    bool writeVtk() const
+    {
+        return dict_.subOrEmptyDict("beadOutput").getOrDefault<Foam::Switch>("writeVtk", false);
+    }
+
+    /// The choices of this file for the start of the log, a line each.
+    std::vector<std::string> descriptions() const;
 
     /// The engine's script and variables, paths made absolute for a decomposed case.
     LiggghtsSetup engineSetup() const;
@@ -76,6 +92,7 @@ private:
     bool hasFluid_ = true;
     double couplingInterval_ = 0;
     bool ddtVoidFraction_ = true;
+    double ddtSmoothingTime_ = 0;
     bool implicitCoupling_ = true;
     double minimumVoidFraction_ = 0.1;
 };

@@ -46,16 +46,19 @@ MPI_Comm duplicateWorld()
 } // namespace
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, Ledger& ledger)
+    DemEngine& engine, Ledger& ledger, PhaseTimers& timers)
 :
     mesh_(mesh),
     settings_(settings),
     fluid_(fluid),
     engine_(engine),
     ledger_(ledger),
+    timers_(timers),
     distribution_(settings.dict(), mesh),
     exchange_(duplicateWorld(), distribution_.cells().box()),
     voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
+    voidFractionInContinuity_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
+    ddtVoidFraction_(couplingField<scalar>("ddtVoidFraction", mesh, dimless/dimTime, 0)),
     implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless/dimTime, 0)),
     beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
     outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
@@ -67,13 +70,24 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     voidFraction_.oldTime();
 }
 
+void FluidCoupling::start()
+{
+    beadsToFluid(0);
+    if (!voidFractionInContinuity_.typeHeaderOk<volScalarField>(false))
+    {
+        voidFractionInContinuity_ == voidFraction_;
+    }
+}
+
 void FluidCoupling::beadsToFluid(double interval)
 {
+    const PhaseTimers::Scope timing = timers_.time("distribute");
     const BeadsView beads = engine_.beads();
     findCells(beads);
     updateVoidFraction(beads);
     if (interval > 0)
     {
+        updateDdtVoidFraction(interval);
         updateMomentumSource(interval);
     }
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
@@ -84,8 +98,16 @@ void FluidCoupling::beadsToFluid(double interval)
 
 void FluidCoupling::findCells(const BeadsView& beads)
 {
-    exchange_.send(beads);
-    const Eigen::MatrixXd shareSums = exchange_.sumAtHome(distribution_.findCells(exchange_.visitors()));
+    const auto exchanged = [&](auto&& communicate) {
+        const PhaseTimers::Scope timing = timers_.time("exchange");
+        return communicate();
+    };
+    exchanged([&] { exchange_.send(beads); });
+    const Eigen::MatrixXd sharesHere = [&] {
+        const PhaseTimers::Scope timing = timers_.time("locate");
+        return distribution_.findCells(exchange_.visitors());
+    }();
+    const Eigen::MatrixXd shareSums = exchanged([&] { return exchange_.sumAtHome(sharesHere); });
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         if (!(shareSums(0, bead) > 0))
@@ -93,7 +115,13 @@ void FluidCoupling::findCells(const BeadsView& beads)
             reportBeadOutsideMesh(beads, bead);
         }
     }
-    distribution_.normalise(exchange_.toVisitors(shareSums));
+    distribution_.normalise(exchanged([&] { return exchange_.toVisitors(shareSums); }));
+}
+
+void FluidCoupling::smooth(const scalarField& density, scalarField& guess)
+{
+    const PhaseTimers::Scope timing = timers_.time("smooth");
+    distribution_.smooth(density, guess);
 }
 
 void FluidCoupling::updateVoidFraction(const BeadsView& beads)
@@ -101,7 +129,7 @@ void FluidCoupling::updateVoidFraction(const BeadsView& beads)
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
     const scalarField raw =
         distribution_.density([&](std::size_t visitor) { return sphereVolume(visitors[visitor].radius); });
-    distribution_.smooth(raw, solidFraction_);
+    smooth(raw, solidFraction_);
 
     double beadVolume = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
@@ -135,7 +163,7 @@ void FluidCoupling::updateMomentumSource(double interval)
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
     for (direction axis = 0; axis < spaceDimensions; ++axis)
     {
-        distribution_.smooth(
+        smooth(
             distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
             impulseDensity_[axis]);
         beadSource_.primitiveFieldRef().replace(
@@ -145,7 +173,7 @@ void FluidCoupling::updateMomentumSource(double interval)
 
     if (settings_.implicitCoupling())
     {
-        distribution_.smooth(
+        smooth(
             distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
             coefficientDensity_);
         implicitCoefficient_.primitiveFieldRef() = coefficientDensity_/(fluid_.density*interval);
@@ -153,14 +181,18 @@ void FluidCoupling::updateMomentumSource(double interval)
     }
 }
 
-tmp<volScalarField> FluidCoupling::ddtVoidFraction() const
+void FluidCoupling::updateDdtVoidFraction(double interval)
 {
-    if (settings_.ddtVoidFraction())
+    if (!settings_.ddtVoidFraction())
     {
-        return fvc::ddt(voidFraction_);
+        return;
     }
-    return tmp<volScalarField>::New(IOobject("ddtVoidFraction", mesh_.time().timeName(), mesh_), mesh_,
-        dimensionedScalar("zero", dimless/dimTime, 0));
+    const double smoothingTime = settings_.ddtSmoothingTime();
+    const double approach = smoothingTime > 0 ? -std::expm1(-interval/smoothingTime) : 1;
+    const scalarField change(
+        approach*(voidFraction_.primitiveField() - voidFractionInContinuity_.primitiveField()));
+    voidFractionInContinuity_.primitiveFieldRef() += change;
+    ddtVoidFraction_.primitiveFieldRef() = change/interval;
 }
 
 tmp<volVectorField> FluidCoupling::momentumSource(const volVectorField& U) const
@@ -186,6 +218,7 @@ void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
 
 void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& p)
 {
+    const PhaseTimers::Scope timing = timers_.time("distribute");
     // Rows of what is sampled at the beads.
     enum Row : Eigen::Index
     {
@@ -205,7 +238,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     for (direction axis = 0; axis < spaceDimensions; ++axis)
     {
         const scalarField pascalPerMetre(fluid_.density*gradient().primitiveField().component(axis));
-        distribution_.smooth(pascalPerMetre, smoothGradient_[axis]);
+        smooth(pascalPerMetre, smoothGradient_[axis]);
         distribution_.sample(U.primitiveField().component(axis)(), atVisitors, velocity + axis);
         distribution_.sample(smoothGradient_[axis], atVisitors, pressureGradient + axis);
         distribution_.sample(viscous().primitiveField().component(axis)(), atVisitors, viscousStressDivergence + axis);

@@ -6,6 +6,7 @@
 #include "forces/forceModel.h"
 #include "interval/couplingSettings.h"
 #include "ledger/ledger.h"
+#include "output/phaseTimers.h"
 
 #include "volFields.H"
 
@@ -20,11 +21,19 @@ namespace clepsydra
 ///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource - implicitCoefficient U
 ///
 /// p is kinematic and without its hydrostatic part.
+///
+/// The eps of d(eps)/dt passes a low-pass of first order in time (useDDTvoidfractionProps { smoothingTime }), elsewhere
+/// eps is that of the beads as they are. Collisions change the beads' velocities by jumps. The pressure answers to
+/// d2(eps)/dt2, so without the low-pass its noise grows without bound as the step falls; with it, it converges. The
+/// rate's integral over time differs from eps by no more than eps changes in a smoothing time: nothing accumulates.
 class FluidCoupling
 {
 public:
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, Ledger& ledger);
+        DemEngine& engine, Ledger& ledger, PhaseTimers& timers);
+
+    /// Void fraction of the first beads. Collective.
+    void start();
 
     /// Void fraction and sources from the beads as they are now and from what they were given. Collective.
     /// \param interval  time over which they were given [s]; 0 at the start: void fraction only.
@@ -42,7 +51,10 @@ public:
     }
 
     /// d(eps)/dt, or zero where `useDDTvoidfraction off`.
-    Foam::tmp<Foam::volScalarField> ddtVoidFraction() const;
+    const Foam::volScalarField& ddtVoidFraction() const
+    {
+        return ddtVoidFraction_;
+    }
 
     /// Explicit part of the beads' source [m/s2], the compensation of the implicit part included.
     Foam::tmp<Foam::volVectorField> momentumSource(const Foam::volVectorField& U) const;
@@ -66,7 +78,9 @@ public:
 private:
     void findCells(const BeadsView& beads);
     void updateVoidFraction(const BeadsView& beads);
+    void updateDdtVoidFraction(double interval);
     void updateMomentumSource(double interval);
+    void smooth(const Foam::scalarField& density, Foam::scalarField& guess);
     [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
     Foam::string describeCell(Foam::label cell) const;
 
@@ -75,11 +89,15 @@ private:
     const FluidProperties fluid_;
     DemEngine& engine_;
     Ledger& ledger_;
+    PhaseTimers& timers_;
 
     Distribution distribution_;
     BeadExchange exchange_;
 
     Foam::volScalarField voidFraction_;
+    /// The void fraction through a low-pass in time, whose rate enters the continuity equation.
+    Foam::volScalarField voidFractionInContinuity_;
+    Foam::volScalarField ddtVoidFraction_;
     Foam::volScalarField implicitCoefficient_;
     /// Impulse of the beads on the fluid in the last interval [m/s2].
     Foam::volVectorField beadSource_;

@@ -92,7 +92,7 @@ void Ledger::report() const
         << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_ << endl;
 }
 
-void Ledger::writeSummary() const
+void Ledger::writeSummary(const std::map<std::string, double>& phaseSeconds) const
 {
     if (!Pstream::master())
     {
@@ -105,7 +105,8 @@ void Ledger::writeSummary() const
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
         {"pressureForceError", pressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
-        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}};
+        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()},
+        {"phaseSeconds", phaseSeconds}};
     std::ofstream(folder/"summary.json") << summary.dump(2) << '\n';
 }
 

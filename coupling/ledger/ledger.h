@@ -6,6 +6,9 @@
 #include "dictionary.H"
 #include "vector.H"
 
+#include <map>
+#include <string>
+
 namespace clepsydra
 {
 
@@ -37,8 +40,8 @@ public:
     /// One line to the log.
     void report() const;
 
-    /// Writes postProcessing/ledger/<startTime>/summary.json. Master rank only.
-    void writeSummary() const;
+    /// Writes postProcessing/ledger/<startTime>/summary.json, the time of each phase with it. Master rank only.
+    void writeSummary(const std::map<std::string, double>& phaseSeconds) const;
 
 private:
     double momentumError() const;

@@ -24,7 +24,7 @@ using Packed = Eigen::Matrix<double, packedSize, Eigen::Dynamic>;
 
 Foam::scalarList pack(const BeadsView& beads)
 {
-    Foam::scalarList values(static_cast<Foam::label>(packedSize*beads.size()));
+    Foam::scalarList values(static_cast<Foam::label>(packedSize * beads.size()));
     Eigen::Map<Packed> packed(values.data(), packedSize, beads.size());
     packed.topRows<3>() = beads.position;
     packed.middleRows<3>(3) = beads.velocity;
@@ -79,8 +79,7 @@ DrawnBeads gather(const BeadsView& beads)
 } // namespace
 
 BeadWriter::BeadWriter(const Foam::Time& time)
-:
-    folder_(time.globalPath()/"VTK")
+    : folder_(time.globalPath() / "VTK")
 {
     using namespace Foam;
 
@@ -88,7 +87,7 @@ BeadWriter::BeadWriter(const Foam::Time& time)
     {
         try
         {
-            series_ = std::make_unique<VtkSeries>(std::string(folder_/"beads.pvd"), time.startTime().value());
+            series_ = std::make_unique<VtkSeries>(std::string(folder_ / "beads.pvd"), time.startTime().value());
         }
         catch (const std::runtime_error& error)
         {
@@ -112,7 +111,7 @@ void BeadWriter::write(const BeadsView& beads, double time)
     try
     {
         mkDir(folder_);
-        writeVtp(std::string(folder_/name), drawn);
+        writeVtp(std::string(folder_ / name), drawn);
         series_->add(time, std::string(name));
     }
     catch (const std::runtime_error& error)

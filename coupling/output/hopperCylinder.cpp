@@ -10,8 +10,7 @@ namespace clepsydra
 {
 
 HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwards)
-:
-    axis_(upwards.normalized())
+    : axis_(upwards.normalized())
 {
     using namespace Foam;
 
@@ -30,7 +29,7 @@ HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwa
     reduce(low, minOp<vector>());
     reduce(high, maxOp<vector>());
     height_ = high.z() - low.z();
-    foot_ = 0.5*(low.x() + high.x())*e1 + 0.5*(low.y() + high.y())*e2 + low.z()*axis_;
+    foot_ = 0.5 * (low.x() + high.x()) * e1 + 0.5 * (low.y() + high.y()) * e2 + low.z() * axis_;
 
     double furthestSqr = 0;
     for (const Foam::point& p : wall.localPoints())

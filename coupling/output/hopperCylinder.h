@@ -22,7 +22,7 @@ public:
     {
         const Vector3d fromFoot = point - foot_;
         const double height = fromFoot.dot(axis_);
-        return height > 0 && (fromFoot - height*axis_).squaredNorm() <= radius_*radius_;
+        return height > 0 && (fromFoot - height * axis_).squaredNorm() <= radius_ * radius_;
     }
 
     /// Where the axis meets the plane of the wall's lowest point.

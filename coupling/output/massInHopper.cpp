@@ -1,7 +1,6 @@
 #include "output/massInHopper.h"
 
 #include "output/observedBeads.h"
-#include "runTimeSelection.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -25,16 +24,16 @@ const word lastDepartureEntry = "lastDeparture";
 } // namespace
 
 MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary& dict)
-:
-    fvMeshFunctionObject(name, time, dict),
-    writeFile(mesh_, name, name, dict)
+    : fvMeshFunctionObject(name, time, dict),
+      writeFile(mesh_, name, name)
 {
-    read(dict);
+    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    MassInHopper::read(dict);
+    resetFile(name);
 
     Ostream& os = file();
     writeHeader(os, "Beads in the hopper, patch '" + dict.get<word>("patch") + "'");
-    writeHeaderValue(os, "Foot of its axis [m]",
-        vector(hopper_->foot().x(), hopper_->foot().y(), hopper_->foot().z()));
+    writeHeaderValue(os, "Foot of its axis [m]", vector(hopper_->foot().x(), hopper_->foot().y(), hopper_->foot().z()));
     writeHeaderValue(os, "Radius [m]", hopper_->radius());
     writeCommented(os, "time [s]");
     writeTabbed(os, "mass [kg]");
@@ -74,14 +73,12 @@ bool MassInHopper::read(const dictionary& dict)
         FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
                                      << exit(FatalIOError);
     }
-    hopper_ = std::make_unique<HopperCylinder>(
-        mesh_.boundaryMesh()[patch], Vector3d(axis.x(), axis.y(), axis.z()));
+    hopper_ = std::make_unique<HopperCylinder>(mesh_.boundaryMesh()[patch], Vector3d(axis.x(), axis.y(), axis.z()));
 
-    rate_ = std::make_unique<TrailingRate>(
-        dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
+    rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
     sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
-    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue()*(1 - sameTime))
+    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue() * (1 - sameTime))
     {
         FatalIOErrorInFunction(dict) << "Entry 'sampleInterval' is " << sampleInterval_
                                      << " s; allowed: at least the time step, " << time_.deltaTValue() << " s"
@@ -94,7 +91,7 @@ bool MassInHopper::execute()
 {
     // A row is due if waiting for the next step would make the gap too long.
     const scalar nextTime = time_.value() + time_.deltaTValue();
-    if (nextTime > lastSample_ + sampleInterval_ + sameTime*time_.deltaTValue())
+    if (nextTime > lastSample_ + sampleInterval_ + sameTime * time_.deltaTValue())
     {
         sample();
         stopIfFlowStopped();
@@ -148,7 +145,7 @@ void MassInHopper::stopIfFlowStopped()
 {
     scalar lastDeparture = 0;
     if (stopping_ || stopAfter_ <= 0 || !getProperty(lastDepartureEntry, lastDeparture)
-        || time_.value() - lastDeparture < stopAfter_*(1 - sameTime))
+        || time_.value() - lastDeparture < stopAfter_ * (1 - sameTime))
     {
         return;
     }
@@ -164,8 +161,7 @@ label MassInHopper::lastCount(const Time& time)
     for (const entry& object : results)
     {
         label count = -1;
-        if (object.isDict()
-            && object.dict().subOrEmptyDict(pTraits<label>::typeName).readIfPresent(countEntry, count))
+        if (object.isDict() && object.dict().subOrEmptyDict(pTraits<label>::typeName).readIfPresent(countEntry, count))
         {
             return count;
         }

@@ -2,6 +2,7 @@
 
 #include "output/hopperCylinder.h"
 #include "output/trailingRate.h"
+#include "runTimeSelection.h"
 
 #include "fvMeshFunctionObject.H"
 #include "writeFile.H"

@@ -29,7 +29,7 @@ std::size_t terminalWidth()
 
 std::string bar(double share)
 {
-    const auto full = static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0)*barLength));
+    const auto full = static_cast<std::size_t>(std::lround(std::clamp(share, 0.0, 1.0) * barLength));
     return '[' + std::string(full, '=') + std::string(barLength - full, ' ') + "] ";
 }
 
@@ -37,15 +37,15 @@ std::string clockTime(double seconds)
 {
     const long all = std::lround(seconds);
     std::ostringstream text;
-    text << std::setfill('0') << std::setw(2) << all/3600 << ':' << std::setw(2) << all/60%60 << ':' << std::setw(2)
-         << all%60;
+    text << std::setfill('0') << std::setw(2) << all / 3600 << ':' << std::setw(2) << all / 60 % 60 << ':'
+         << std::setw(2) << all % 60;
     return text.str();
 }
 
 double shareDone(const ProgressState& state)
 {
     const double all = state.endTime - state.startTime;
-    return all > 0 ? (state.time - state.startTime)/all : 1.0;
+    return all > 0 ? (state.time - state.startTime) / all : 1.0;
 }
 
 } // namespace
@@ -61,22 +61,20 @@ std::string describe(const ProgressState& state)
     const double simulated = state.time - state.startTime;
     if (simulated > 0 && state.wallTime > 0)
     {
-        const double wallPerSimulated = state.wallTime/simulated;
+        const double wallPerSimulated = state.wallTime / simulated;
         text << ", " << std::setprecision(3) << wallPerSimulated << " s per simulated s, "
-             << clockTime(std::max(0.0, state.endTime - state.time)*wallPerSimulated) << " to go";
+             << clockTime(std::max(0.0, state.endTime - state.time) * wallPerSimulated) << " to go";
     }
     return text.str();
 }
 
 Progress::Progress()
-:
-    Progress(std::cout, isatty(STDOUT_FILENO) == 1)
+    : Progress(std::cout, isatty(STDOUT_FILENO) == 1)
 {}
 
 Progress::Progress(std::ostream& out, bool isTerminal)
-:
-    out_(out),
-    isTerminal_(isTerminal)
+    : out_(out),
+      isTerminal_(isTerminal)
 {}
 
 Progress::~Progress()

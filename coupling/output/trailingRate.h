@@ -11,8 +11,7 @@ class TrailingRate
 public:
     /// \param window  [s], >= 0; zero: since the last sample.
     explicit TrailingRate(double window)
-    :
-        window_(window)
+        : window_(window)
     {}
 
     /// Adds a sample; times must rise.
@@ -21,14 +20,14 @@ public:
     double add(double time, double amount)
     {
         // Sums of time steps miss the end of the window by rounding.
-        const double start = time - window_*(1 - 1e-9);
+        const double start = time - window_ * (1 - 1e-9);
         while (samples_.size() > 1 && samples_[1].time <= start)
         {
             samples_.pop_front();
         }
         samples_.push_back({time, amount});
         const Sample& first = samples_.front();
-        return samples_.size() > 1 ? (first.amount - amount)/(time - first.time) : 0.0;
+        return samples_.size() > 1 ? (first.amount - amount) / (time - first.time) : 0.0;
     }
 
 private:

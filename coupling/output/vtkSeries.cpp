@@ -21,14 +21,13 @@ constexpr double sameTime = 1e-9;
 
 bool notAfter(double time, double other)
 {
-    return time <= other + sameTime*std::max(1.0, std::abs(other));
+    return time <= other + sameTime * std::max(1.0, std::abs(other));
 }
 
 } // namespace
 
 VtkSeries::VtkSeries(std::filesystem::path file, double startTime)
-:
-    file_(std::move(file))
+    : file_(std::move(file))
 {
     if (std::filesystem::exists(file_))
     {
@@ -51,7 +50,7 @@ void VtkSeries::read(double startTime)
         double time = 0;
         const char* name = entry->GetAttribute("file");
         if (entry->GetScalarAttribute("timestep", time) != 0 && name != nullptr && notAfter(time, startTime)
-            && std::filesystem::exists(file_.parent_path()/name))
+            && std::filesystem::exists(file_.parent_path() / name))
         {
             entries_.emplace(time, name);
         }
@@ -75,10 +74,13 @@ void VtkSeries::write() const
     temporary += ".new";
     std::ofstream out(temporary);
     out.precision(std::numeric_limits<double>::digits10);
-    out << "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n";
+    out << R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="0.1">
+<Collection>
+)";
     for (const auto& [time, dataFile] : entries_)
     {
-        out << "<DataSet timestep=\"" << time << "\" part=\"0\" file=\"" << dataFile.string() << "\"/>\n";
+        out << R"(<DataSet timestep=")" << time << R"(" part="0" file=")" << dataFile.string() << "\"/>\n";
     }
     out << "</Collection>\n</VTKFile>\n";
     out.close();

@@ -1,8 +1,10 @@
 // Grains and water: OpenFOAM solves the volume-averaged Navier-Stokes equations by PIMPLE, LIGGGHTS moves the beads,
 // both in this process. With `fluid none;` in constant/couplingProperties the beads move alone.
 
+#include "checkpoint/caseLock.h"
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
+#include "output/runOutput.h"
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -49,7 +51,8 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
     }
 }
 
-void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval)
+void runWithFluid(
+    Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
 {
     pimpleControl pimple(mesh);
     #include "createFields.H"
@@ -61,7 +64,6 @@ void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, Cou
     while (runTime.loop())
     {
         interval.advance(U, p, [&] {
-            const volScalarField ddtVoidFraction(beadsOnFluid.ddtVoidFraction());
             while (pimple.loop())
             {
                 #include "UEqn.H"
@@ -71,26 +73,16 @@ void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, Cou
                 }
             }
         });
-        runTime.write();
-        if (runTime.writeTime())
-        {
-            Info<< "Time = " << runTime.timeName() << nl;
-            interval.ledger().report();
-        }
+        output.afterInterval();
     }
 }
 
-void runDry(Time& runTime, CouplingInterval& interval)
+void runDry(Time& runTime, CouplingInterval& interval, RunOutput& output)
 {
     while (runTime.loop())
     {
         interval.advance();
-        runTime.write();
-        if (runTime.writeTime())
-        {
-            Info<< "Time = " << runTime.timeName() << nl;
-            interval.ledger().report();
-        }
+        output.afterInterval();
     }
 }
 
@@ -102,6 +94,7 @@ int main(int argc, char* argv[])
     #include "setRootCase.H"
     const MpiSession mpi;
     chDir(args.globalPath());
+    const CaseLock lock(args.globalPath());
 
     #include "createTime.H"
     #include "createMesh.H"
@@ -113,17 +106,19 @@ int main(int argc, char* argv[])
         const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
         CouplingInterval interval(mesh, settings, fluid, engine);
 
+        RunOutput output(runTime, mesh, settings, fluid, engine, interval);
+
         if (settings.hasFluid())
         {
             requireSameGravity(fluid, engine);
-            runWithFluid(runTime, mesh, fluid, interval);
+            runWithFluid(runTime, mesh, fluid, interval, output);
         }
         else
         {
-            runDry(runTime, interval);
+            runDry(runTime, interval, output);
         }
 
-        interval.ledger().writeSummary();
+        output.finish();
         if (!settings.finalRestart().empty())
         {
             engine.writeCheckpoint(settings.finalRestart().c_str());

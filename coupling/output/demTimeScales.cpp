@@ -1,0 +1,99 @@
+#include "output/demTimeScales.h"
+
+#include "closures/schillerNaumannDrag.h"
+#include "closures/timeScales.h"
+
+#include "PstreamReduceOps.H"
+#include "surfaceFields.H"
+
+#include <algorithm>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// The smallest value seen on any rank; empty where none was.
+class Shortest
+{
+public:
+    void see(double time)
+    {
+        shortest_ = std::min(shortest_, time);
+    }
+
+    std::optional<double> ofAllRanks() const
+    {
+        const double all = Foam::returnReduce(shortest_, Foam::minOp<Foam::scalar>());
+        return all < Foam::GREAT ? std::optional<double>(all) : std::nullopt;
+    }
+
+private:
+    Foam::scalar shortest_ = Foam::GREAT;
+};
+
+double relaxationTime(double radius, double mass, const FluidProperties& fluid)
+{
+    const auto bead =
+        closures::makeBeadInFluid(2 * radius, 1.0, DemTimeScales::speed, fluid.density, fluid.dynamicViscosity);
+    return closures::relaxationTime(mass, closures::SchillerNaumannDrag{}(bead));
+}
+
+/// Through the faces' projected areas, as OpenFOAM's Courant number has it: right for flat cells and for cells with
+/// divided faces, where the cube root of the volume is not.
+void seeCells(const Foam::fvMesh& mesh, Shortest& courant)
+{
+    using namespace Foam;
+
+    vectorField projectedAreas(mesh.nCells(), vector::zero);
+    const auto add = [&](label cell, const vector& face) { projectedAreas[cell] += 0.5 * cmptMag(face); };
+    forAll (mesh.faceOwner(), face)
+    {
+        add(mesh.faceOwner()[face], mesh.faceAreas()[face]);
+    }
+    forAll (mesh.faceNeighbour(), face)
+    {
+        add(mesh.faceNeighbour()[face], mesh.faceAreas()[face]);
+    }
+    forAll (projectedAreas, cell)
+    {
+        courant.see(mesh.cellVolumes()[cell] / (cmptMax(projectedAreas[cell]) * DemTimeScales::speed));
+    }
+}
+
+} // namespace
+
+DemTimeScales demTimeScales(
+    DemEngine& engine, double couplingInterval, const FluidProperties* fluid, const Foam::fvMesh& mesh)
+{
+    Shortest rayleigh;
+    Shortest collision;
+    Shortest relaxation;
+    Shortest courant;
+    const BeadsView beads = engine.beads();
+    const std::vector<ContactMaterial> materials = engine.contactMaterials();
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        const double radius = beads.radius[bead];
+        const double density = beads.mass[bead] / sphereVolume(radius);
+        for (const auto& [young, poisson] : materials)
+        {
+            rayleigh.see(closures::rayleighTime(radius, density, closures::shearModulus(young, poisson), poisson));
+            collision.see(closures::hertzCollisionTimeOfTwins(radius, density, young, poisson, DemTimeScales::speed));
+        }
+        if (fluid != nullptr)
+        {
+            relaxation.see(relaxationTime(radius, beads.mass[bead], *fluid));
+        }
+    }
+    if (fluid != nullptr)
+    {
+        seeCells(mesh, courant);
+    }
+    const auto allBeads = Foam::returnReduce(static_cast<Foam::label>(beads.size()), Foam::sumOp<Foam::label>());
+    return {engine.timeStep(), couplingInterval, allBeads, rayleigh.ofAllRanks(), collision.ofAllRanks(),
+        relaxation.ofAllRanks(), courant.ofAllRanks()};
+}
+
+} // namespace clepsydra

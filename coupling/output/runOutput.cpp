@@ -1,0 +1,89 @@
+#include "output/runOutput.h"
+
+#include "output/massInHopper.h"
+#include "output/startReport.h"
+
+#include "IOmanip.H"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+    DemEngine& engine, CouplingInterval& interval)
+:
+    time_(time),
+    engine_(engine),
+    interval_(interval)
+{
+    printReport(mesh, settings, fluid);
+    if (settings.writeVtk())
+    {
+        beadWriter_ = std::make_unique<BeadWriter>(time);
+        beadWriter_->write(engine.beads(), time.value());
+    }
+}
+
+void RunOutput::printReport(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid)
+{
+    std::vector<std::string> models;
+    if (const BeadForces* forces = interval_.forces())
+    {
+        for (const ForceModel& model : forces->models())
+        {
+            models.push_back("force          " + model.description());
+        }
+        const Distribution& distribution = interval_.fluid().distribution();
+        models.push_back("void fraction  " + distribution.voidFractionModel().description());
+        models.push_back("smoothing      " + distribution.smoothingModel().description());
+    }
+    for (const std::string& choice : settings.descriptions())
+    {
+        models.push_back(choice);
+    }
+    const DemTimeScales scales =
+        demTimeScales(engine_, settings.couplingInterval(), settings.hasFluid() ? &fluid : nullptr, mesh);
+    printStartReport(engine_, models, scales, settings.demDict());
+    checkDemStep(scales, settings.demDict());
+}
+
+void RunOutput::afterInterval()
+{
+    const PhaseTimers::Scope timing = interval_.timers().time("output");
+    time_.write();
+    const bool atWriteTime = time_.writeTime();
+    if (atWriteTime)
+    {
+        progress_.clear();
+        if (beadWriter_)
+        {
+            beadWriter_->write(engine_.beads(), time_.value());
+        }
+        interval_.ledger().report();
+    }
+    progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), atWriteTime);
+}
+
+void RunOutput::finish()
+{
+    progress_.clear();
+    interval_.ledger().report();
+
+    const std::map<std::string, double> seconds = interval_.timers().seconds();
+    double total = 0;
+    for (const auto& [phase, time] : seconds)
+    {
+        total += time;
+    }
+    Info<< nl << "Wall time by phase (this rank)" << nl;
+    for (const auto& [phase, time] : seconds)
+    {
+        Info<< "    " << setw(12) << phase.c_str() << ' ' << setw(10) << time << " s " << setw(6)
+            << round(1000*time/total)/10 << " %" << nl;
+    }
+    Info<< endl;
+    interval_.ledger().writeSummary(seconds);
+}
+
+} // namespace clepsydra

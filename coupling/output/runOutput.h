@@ -1,0 +1,37 @@
+#pragma once
+
+#include "interval/couplingInterval.h"
+#include "output/beadWriter.h"
+#include "output/progress.h"
+
+#include <memory>
+
+namespace clepsydra
+{
+
+/// What a run prints and writes: the report at its start, progress, and at write times OpenFOAM's fields, the beads
+/// for ParaView and the ledger's line.
+class RunOutput
+{
+public:
+    /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
+    RunOutput(Foam::Time& time, const Foam::fvMesh& mesh, const CouplingSettings& settings,
+        const FluidProperties& fluid, DemEngine& engine, CouplingInterval& interval);
+
+    /// Collective; after each interval, when the fluid is solved.
+    void afterInterval();
+
+    /// Collective; after the last interval: the table of phases, and the ledger's summary.
+    void finish();
+
+private:
+    void printReport(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid);
+
+    Foam::Time& time_;
+    DemEngine& engine_;
+    CouplingInterval& interval_;
+    std::unique_ptr<BeadWriter> beadWriter_;
+    Progress progress_;
+};
+
+} // namespace clepsydra

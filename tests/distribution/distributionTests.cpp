@@ -1,0 +1,346 @@
+// How beads are shared among cells: on real meshes with cells smaller and larger than a bead, beside a baffle, on one
+// rank and on two. Every expectation is an identity that holds for any beads, so the beads are random.
+
+#include "distribution/distribution.h"
+#include "exchange/beadExchange.h"
+#include "support/fakeEngine.h"
+#include "support/testCase.h"
+
+#include "Pstream.H"
+#include "Time.H"
+#include "fvMesh.H"
+
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <random>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double diameter = 2e-3;
+constexpr double boxWidth = 0.016;
+constexpr double boxHeight = 0.032;
+
+const char* const baffleCommands =
+    "topoSet > log.topoSet 2>&1 && createBaffles -overwrite > log.createBaffles 2>&1";
+
+/// A zero-thickness wall over the whole box at half its height.
+void addBaffle(TestCase& box)
+{
+    const std::string header = "FoamFile { version 2.0; format ascii; class dictionary; object baffle; }\n";
+    box.extraFiles["system/topoSetDict"] = header
+        + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) (1 1 0.0161); }"
+          " { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );";
+    box.extraFiles["system/createBafflesDict"] = header
+        + "internalFacesOnly true; baffles { plate { type faceZone; zoneName plate; patchPairs "
+          "{ type wall; patchFields {} } patches { master { name plate; type wall; } "
+          "slave { name plate; type wall; } } } }";
+}
+
+/// A box of water on all ranks: 16 x 16 x 32 mm.
+class BoxOnRanks
+{
+public:
+    BoxOnRanks(double cellSize, bool baffle)
+    {
+        Foam::fileName folder;
+        if (Foam::Pstream::master())
+        {
+            case_ = std::make_unique<TestCase>();
+            case_->box.upper = {boxWidth, boxWidth, boxHeight};
+            const int across = static_cast<int>(std::lround(boxWidth/cellSize));
+            case_->cells = {across, across, 2*across};
+            case_->removeFile("0/U");
+            case_->removeFile("0/p");
+            case_->file("system/decomposeParDict")
+                .set("numberOfSubdomains", "2")
+                .set("method", "simple")
+                .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+            if (baffle)
+            {
+                addBaffle(*case_);
+            }
+            Outcome made = case_->makeMesh();
+            if (made.succeeded() && baffle)
+            {
+                made = case_->runCommand(baffleCommands);
+            }
+            if (made.succeeded() && Foam::Pstream::parRun())
+            {
+                made = case_->runCommand("decomposePar > log.decomposePar 2>&1");
+            }
+            EXPECT_TRUE(made.succeeded()) << made.output;
+            folder = case_->path().string();
+        }
+        Foam::Pstream::scatter(folder);
+        Foam::fileName own = folder.name();
+        if (Foam::Pstream::parRun())
+        {
+            own = own/("processor" + Foam::name(Foam::Pstream::myProcNo()));
+        }
+        time_ = std::make_unique<Foam::Time>(Foam::Time::controlDictName, folder.path(), own);
+        mesh_ = std::make_unique<Foam::fvMesh>(
+            Foam::IOobject(Foam::fvMesh::defaultRegion, time_->timeName(), *time_, Foam::IOobject::MUST_READ));
+    }
+
+    const Foam::fvMesh& mesh() const
+    {
+        return *mesh_;
+    }
+
+private:
+    std::unique_ptr<TestCase> case_;
+    std::unique_ptr<Foam::Time> time_;
+    std::unique_ptr<Foam::fvMesh> mesh_;
+};
+
+Foam::dictionary properties(const Foam::word& voidFractionModel, const Foam::word& smoothing)
+{
+    Foam::dictionary dict("couplingProperties");
+    dict.add("voidFractionModel", voidFractionModel);
+    dict.add("smoothingModel", smoothing);
+    Foam::dictionary coefficients;
+    coefficients.add("smoothingLength", 3*diameter);
+    dict.add("constDiffSmoothingProps", coefficients);
+    return dict;
+}
+
+/// Beads put on a mesh by the whole chain: exchange between the ranks, shares, normalisation.
+class BeadsOnMesh
+{
+public:
+    /// Every rank makes all beads and keeps its part of the numbers: not the part of space that it has the cells of.
+    BeadsOnMesh(const Foam::fvMesh& mesh, const std::vector<Vector3d>& positions, const Foam::dictionary& dict)
+    :
+        mesh_(mesh),
+        engine_(1e-5),
+        distribution_(dict, mesh),
+        exchange_(MPI_COMM_WORLD, distribution_.cells().box())
+    {
+        for (std::size_t bead = 0; bead < positions.size(); ++bead)
+        {
+            if (static_cast<int>(bead) % Foam::Pstream::nProcs() == Foam::Pstream::myProcNo())
+            {
+                engine_.addBead(static_cast<int>(bead) + 1, positions[bead], diameter/2);
+            }
+        }
+        exchange_.send(engine_.beads());
+        shareSums_ = exchange_.sumAtHome(distribution_.findCells(exchange_.visitors()));
+        distribution_.normalise(exchange_.toVisitors(shareSums_));
+    }
+
+    Foam::scalarField solidFraction() const
+    {
+        const auto& visitors = exchange_.visitors();
+        return distribution_.density([&](std::size_t bead) { return sphereVolume(visitors[bead].radius); });
+    }
+
+    Foam::scalarField smoothed(const Foam::scalarField& density) const
+    {
+        Foam::scalarField result(density.size(), 0.0);
+        distribution_.smooth(density, result);
+        return result;
+    }
+
+    /// A cell field at the beads of this rank.
+    Eigen::RowVectorXd atBeads(const Foam::scalarField& field) const
+    {
+        Eigen::MatrixXd perVisitor(1, static_cast<Eigen::Index>(exchange_.visitors().size()));
+        distribution_.sample(field, perVisitor, 0);
+        return exchange_.sumAtHome(perVisitor);
+    }
+
+    double integral(const Foam::scalarField& density) const
+    {
+        return Foam::gSum(Foam::scalarField(density*mesh_.V().field()));
+    }
+
+    /// Before normalisation.
+    const Eigen::MatrixXd& shareSums() const
+    {
+        return shareSums_;
+    }
+
+private:
+    const Foam::fvMesh& mesh_;
+    FakeEngine engine_;
+    Distribution distribution_;
+    BeadExchange exchange_;
+    Eigen::MatrixXd shareSums_;
+};
+
+/// Centres of beads that may touch the walls; the same on every rank.
+std::vector<Vector3d> randomBeads(int count, const Vector3d& low, const Vector3d& high)
+{
+    std::mt19937 random(17);
+    std::uniform_real_distribution<double> part(0, 1);
+    std::vector<Vector3d> positions;
+    for (int bead = 0; bead < count; ++bead)
+    {
+        Vector3d position;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const double room = high[axis] - low[axis] - diameter;
+            position[axis] = low[axis] + diameter/2 + room*part(random);
+        }
+        positions.push_back(position);
+    }
+    return positions;
+}
+
+std::vector<Vector3d> beadsEverywhere()
+{
+    return randomBeads(200, Vector3d::Zero(), {boxWidth, boxWidth, boxHeight});
+}
+
+double cube(double x)
+{
+    return x*x*x;
+}
+
+} // namespace
+
+class OnMesh : public testing::TestWithParam<std::tuple<double, const char*, const char*>>
+{};
+
+// The cells hold the beads' volume, to rounding, whatever the cells' size, the model, the smoothing and the number of
+// ranks. An empty distribution holds nothing; one that is not normalised at walls or rank boundaries loses per cents.
+TEST_P(OnMesh, CellsHoldTheBeadsVolume)
+{
+    const auto& [cellSize, model, smoothing] = GetParam();
+    const BoxOnRanks box(cellSize, false);
+    const std::vector<Vector3d> positions = beadsEverywhere();
+    const BeadsOnMesh beads(box.mesh(), positions, properties(model, smoothing));
+
+    const double beadVolume = static_cast<double>(positions.size())*sphereVolume(diameter/2);
+    EXPECT_NEAR(beads.integral(beads.solidFraction())/beadVolume, 1, 1e-12);
+    EXPECT_NEAR(beads.integral(beads.smoothed(beads.solidFraction()))/beadVolume, 1, 1e-12);
+}
+
+// What a bead samples is the adjoint of what it gives: sum over beads of V_p f(bead) = sum over cells of the bead's
+// share of V f, with smoothing on either side. This is action = reaction for the pressure gradient. Sampling from the
+// host cell, or smoothing on one side only, fails by per cents.
+TEST_P(OnMesh, SamplingIsTheAdjointOfGiving)
+{
+    const auto& [cellSize, model, smoothing] = GetParam();
+    const BoxOnRanks box(cellSize, false);
+    const BeadsOnMesh beads(box.mesh(), beadsEverywhere(), properties(model, smoothing));
+
+    Foam::scalarField field(box.mesh().nCells());
+    forAll(field, cell)
+    {
+        const Foam::vector& centre = box.mesh().C()[cell];
+        field[cell] = std::sin(400*centre.x()) + 100*centre.z()*centre.y();
+    }
+    const double onBeads = Foam::returnReduce(
+        sphereVolume(diameter/2)*beads.atBeads(beads.smoothed(field)).sum(), Foam::sumOp<Foam::scalar>());
+    const double onCells = beads.integral(Foam::scalarField(field*beads.smoothed(beads.solidFraction())));
+    EXPECT_NEAR(onBeads/onCells, 1, 1e-8);
+}
+
+INSTANTIATE_TEST_SUITE_P(Cells, OnMesh,
+    testing::Combine(testing::Values(1e-3, 4e-3), testing::Values("divided", "centre"),
+        testing::Values("off", "constDiffSmoothing")));
+
+// On bricks the slabs cut the sphere so that its shares add up to one without normalisation, at any position and on
+// any number of ranks. Weights that only look like shares do not.
+TEST(Divided, SharesOfBricksAddUpToOne)
+{
+    for (const double cellSize : {1e-3, 4e-3})
+    {
+        const BoxOnRanks box(cellSize, false);
+        const BeadsOnMesh beads(box.mesh(), beadsEverywhere(), properties("divided", "off"));
+        for (Eigen::Index bead = 0; bead < beads.shareSums().cols(); ++bead)
+        {
+            EXPECT_NEAR(beads.shareSums()(0, bead), 1, 1e-9) << "bead " << bead << ", cells of " << cellSize;
+        }
+    }
+}
+
+// Beads that lie on a baffle of zero thickness, even pressed a little into it, put no volume behind it: not by their
+// shares and not by diffusion. Kernels by distance, or without the wall rule, put per cents there.
+TEST(Baffle, NothingLeaksThrough)
+{
+    for (const double cellSize : {1e-3, 4e-3})
+    {
+        const BoxOnRanks box(cellSize, true);
+        std::vector<Vector3d> positions = randomBeads(50, {0, 0, boxHeight/2}, {boxWidth, boxWidth, boxHeight});
+        for (Vector3d& position : positions)
+        {
+            position.z() = boxHeight/2 + 0.49*diameter;
+        }
+        for (const char* model : {"divided", "centre"})
+        {
+            const BeadsOnMesh beads(box.mesh(), positions, properties(model, "constDiffSmoothing"));
+            const Foam::scalarField raw = beads.solidFraction();
+            const Foam::scalarField smooth = beads.smoothed(raw);
+            double behind = 0;
+            forAll(raw, cell)
+            {
+                if (box.mesh().C()[cell].z() < boxHeight/2)
+                {
+                    behind = std::max({behind, std::abs(raw[cell]), std::abs(smooth[cell])});
+                }
+            }
+            EXPECT_EQ(behind, 0) << model << ", cells of " << cellSize;
+            const double beadVolume = static_cast<double>(positions.size())*sphereVolume(diameter/2);
+            EXPECT_NEAR(beads.integral(smooth)/beadVolume, 1, 1e-12);
+        }
+    }
+}
+
+// d(eps)/dt of a moving bead converges as the step falls: its jump from one step to the next falls with the step. With
+// the cell of the centre it grows instead, which is the noise of the pressure in many codes.
+TEST(Divided, VoidFractionIsSmoothInTime)
+{
+    const BoxOnRanks box(4e-3, false);
+    const Vector3d velocity(0.1, 0.07, -0.2);
+    const auto largestJump = [&](const char* model, double step) {
+        const auto at = [&](double time) {
+            return BeadsOnMesh(box.mesh(), {Vector3d(0.0061, 0.0067, 0.0161) + time*velocity},
+                properties(model, "off")).solidFraction();
+        };
+        Foam::scalarField before = at(-step);
+        Foam::scalarField now = at(0);
+        double largest = 0;
+        for (double time = 0; time < 0.02; time += step)
+        {
+            const Foam::scalarField after = at(time + step);
+            largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(after - 2*now + before)))/step);
+            before = now;
+            now = after;
+        }
+        return largest;
+    };
+    EXPECT_LT(largestJump("divided", 0.25e-3), 0.6*largestJump("divided", 0.5e-3));
+    EXPECT_GT(largestJump("centre", 0.25e-3), 1.5*largestJump("centre", 0.5e-3));
+}
+
+// The smoothing is the same on any mesh: the cloud of one bead has the variance of the kernel, b2/2 along each axis,
+// on cells of half a bead and of two. Averaging over neighbours instead would widen with the cells.
+TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingLength)
+{
+    const double smoothingLength = 1.5*diameter;
+    for (const double cellSize : {1e-3, 2e-3})
+    {
+        const BoxOnRanks box(cellSize, false);
+        Foam::dictionary dict = properties("divided", "constDiffSmoothing");
+        dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
+        const Vector3d centre(boxWidth/2, boxWidth/2, boxHeight/2);
+        const BeadsOnMesh beads(box.mesh(), {centre}, dict);
+        const Foam::scalarField raw = beads.solidFraction();
+        const Foam::scalarField heights(box.mesh().C().primitiveField().component(2));
+        const auto variance = [&](const Foam::scalarField& density) {
+            return beads.integral(Foam::scalarField(density*Foam::sqr(heights - centre.z())))/beads.integral(density);
+        };
+        const double added = variance(beads.smoothed(raw)) - variance(raw);
+        EXPECT_NEAR(added/(0.5*smoothingLength*smoothingLength), 1, 0.03) << "cells of " << cellSize;
+        EXPECT_LT(Foam::gMax(beads.smoothed(raw)), cube(0.8)*Foam::gMax(raw)) << "cells of " << cellSize;
+    }
+}
+
+} // namespace clepsydra::tests

@@ -1,0 +1,133 @@
+#pragma once
+
+#include "engine/demEngine.h"
+
+#include <algorithm>
+#include <fstream>
+#include <utility>
+
+namespace clepsydra::tests
+{
+
+/// An engine without contacts: beads fall and feel the fluid. Each rank keeps the beads that it was given; none moves
+/// to another rank. Steps are explicit: velocity first, then position with the new velocity.
+class FakeEngine final : public DemEngine
+{
+public:
+    explicit FakeEngine(double timeStep, const Vector3d& gravity = {0, 0, -9.81})
+        : timeStep_(timeStep),
+          gravity_(gravity)
+    {}
+
+    /// On this rank. \param density  [kg/m3]. \pre ids are unique over all ranks. Invalidates views.
+    void addBead(int id, const Vector3d& position, double radius, double density = 2500,
+        const Vector3d& velocity = Vector3d::Zero())
+    {
+        id_.push_back(id);
+        position_.push_back(position);
+        velocity_.push_back(velocity);
+        angularVelocity_.emplace_back(Vector3d::Zero());
+        radius_.push_back(radius);
+        mass_.push_back(density * sphereVolume(radius));
+        state_.emplace_back();
+    }
+
+    /// What LIGGGHTS does to a bead that leaves its box. \pre this rank has the bead. Invalidates views.
+    void removeBead(int id)
+    {
+        const auto at = std::find(id_.begin(), id_.end(), id) - id_.begin();
+        const auto removeFrom = [at](auto&... lists) { (lists.erase(lists.begin() + at), ...); };
+        removeFrom(id_, position_, velocity_, angularVelocity_, radius_, mass_, state_);
+    }
+
+    /// \pre this rank has the bead.
+    void moveBead(int id, const Vector3d& position)
+    {
+        position_[static_cast<std::size_t>(std::find(id_.begin(), id_.end(), id) - id_.begin())] = position;
+    }
+
+    void setContactMaterials(std::vector<ContactMaterial> materials)
+    {
+        materials_ = std::move(materials);
+    }
+
+    void initialise(FluidForces* forces) override
+    {
+        forces_ = forces;
+    }
+
+    void advance(int steps) override
+    {
+        Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(id_.size()));
+        for (int step = 0; step < steps; ++step)
+        {
+            if (forces_ != nullptr)
+            {
+                forces_->evaluate(beads(), timeStep_, Vectors(force.data(), 3, force.cols()));
+            }
+            for (std::size_t bead = 0; bead < id_.size(); ++bead)
+            {
+                velocity_[bead] += timeStep_ * (gravity_ + force.col(static_cast<Eigen::Index>(bead)) / mass_[bead]);
+                position_[bead] += timeStep_ * velocity_[bead];
+            }
+        }
+    }
+
+    BeadsView beads() override
+    {
+        const auto count = static_cast<Eigen::Index>(id_.size());
+        const auto vectors = [count](const std::vector<Vector3d>& list) {
+            return ConstVectors(list.empty() ? nullptr : list.front().data(), 3, count);
+        };
+        return {ConstView<int>(id_.data(), count), vectors(position_), vectors(velocity_), vectors(angularVelocity_),
+            ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data()};
+    }
+
+    double timeStep() const override
+    {
+        return timeStep_;
+    }
+
+    Vector3d gravity() const override
+    {
+        return gravity_;
+    }
+
+    std::vector<ContactMaterial> contactMaterials() const override
+    {
+        return materials_;
+    }
+
+    /// A line per bead of this rank: id, position, velocity.
+    void writeCheckpoint(const std::filesystem::path& file) override
+    {
+        std::ofstream out(file);
+        out.precision(17);
+        for (std::size_t bead = 0; bead < id_.size(); ++bead)
+        {
+            out << id_[bead] << ' ' << position_[bead].transpose() << ' ' << velocity_[bead].transpose() << '\n';
+        }
+    }
+
+    std::string version() const override
+    {
+        return "fake engine";
+    }
+
+private:
+    double timeStep_;
+    Vector3d gravity_;
+    FluidForces* forces_ = nullptr;
+    std::vector<ContactMaterial> materials_;
+
+    std::vector<int> id_;
+    // Eigen::Vector3d is three doubles without padding, so a vector of them is a 3 x n matrix.
+    std::vector<Vector3d> position_;
+    std::vector<Vector3d> velocity_;
+    std::vector<Vector3d> angularVelocity_;
+    std::vector<double> radius_;
+    std::vector<double> mass_;
+    std::vector<CouplingState> state_;
+};
+
+} // namespace clepsydra::tests
