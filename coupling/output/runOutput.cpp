@@ -14,6 +14,8 @@ RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& set
     DemEngine& engine, CouplingInterval& interval)
 :
     time_(time),
+    mesh_(mesh),
+    settings_(settings),
     engine_(engine),
     interval_(interval)
 {
@@ -46,6 +48,17 @@ void RunOutput::printReport(const fvMesh& mesh, const CouplingSettings& settings
         demTimeScales(engine_, settings.couplingInterval(), settings.hasFluid() ? &fluid : nullptr, mesh);
     printStartReport(engine_, models, scales, settings.demDict());
     checkDemStep(scales, settings.demDict());
+    demStepChecked_ = scales.beads > 0;
+}
+
+void RunOutput::checkDemStepOnce()
+{
+    if (!demStepChecked_)
+    {
+        const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), nullptr, mesh_);
+        checkDemStep(scales, settings_.demDict());
+        demStepChecked_ = scales.beads > 0;
+    }
 }
 
 void RunOutput::afterInterval()
@@ -61,6 +74,7 @@ void RunOutput::afterInterval()
             beadWriter_->write(engine_.beads(), time_.value());
         }
         interval_.ledger().report();
+        checkDemStepOnce();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), atWriteTime);
 }

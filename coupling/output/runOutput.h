@@ -25,13 +25,18 @@ public:
     void finish();
 
 private:
+    void checkDemStepOnce();
     void printReport(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid);
 
     Foam::Time& time_;
+    const Foam::fvMesh& mesh_;
+    const CouplingSettings& settings_;
     DemEngine& engine_;
     CouplingInterval& interval_;
     std::unique_ptr<BeadWriter> beadWriter_;
     Progress progress_;
+    /// False while there are no beads yet: pouring starts without.
+    bool demStepChecked_ = false;
 };
 
 } // namespace clepsydra

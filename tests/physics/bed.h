@@ -8,6 +8,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 namespace clepsydra::tests
 {
 
@@ -43,6 +47,68 @@ inline void startFromRelaxedBed(TestCase& test, double seconds)
     std::filesystem::copy_file(dry.path() / "DEM/bed.restart", test.path() / "DEM/bed.restart");
     test.dem.readRestart = "DEM/bed.restart";
     test.dem.beads.clear();
+}
+
+inline double crossSection(const TestCase& test)
+{
+    return test.box.size().x() * test.box.size().y();
+}
+
+/// The pressure in the middle of the lowest two layers of cells and of the highest, at one time step.
+struct EndPressures
+{
+    double time;
+    double lowest;
+    double second;
+    double difference; // lowest - highest
+
+    /// From the bottom face to the top layer, for a bed that begins right at the bottom.
+    double differenceFromFace() const
+    {
+        return difference + 0.5 * (lowest - second);
+    }
+};
+
+/// Lets a case record the pressure at its ends, at every time step.
+inline void watchEnds(TestCase& test)
+{
+    // Off the edges between cells.
+    const Eigen::Vector3d middle = test.box.lower + test.box.size().cwiseProduct(Eigen::Vector3d(0.52, 0.53, 0));
+    std::string points = "(";
+    for (const int k : {0, 1, test.cells.z() - 1})
+    {
+        points += vectorText({middle.x(), middle.y(), test.layerHeight(k)});
+    }
+    test.control().set("functions/ends", "{ type probes; libs (\"libsampling.so\"); fields (p); probeLocations "
+                                             + points + "); writeControl timeStep; writeInterval 1; }");
+}
+
+/// In Pa.
+inline std::vector<EndPressures> endPressures(const TestCase& test, double fluidDensity)
+{
+    std::vector<EndPressures> pressures;
+    for (const std::vector<double>& row : test.table("postProcessing/ends/0/p"))
+    {
+        pressures.push_back(
+            {row.at(0), fluidDensity * row.at(1), fluidDensity * row.at(2), fluidDensity * (row.at(1) - row.at(3))});
+    }
+    return pressures;
+}
+
+/// Mean over the times in (from, to].
+inline double meanDifference(const std::vector<EndPressures>& pressures, double from, double to)
+{
+    double sum = 0;
+    int count = 0;
+    for (const EndPressures& p : pressures)
+    {
+        if (p.time > from && p.time <= to)
+        {
+            sum += p.difference;
+            ++count;
+        }
+    }
+    return sum / count;
 }
 
 } // namespace clepsydra::tests
