@@ -6,8 +6,12 @@ import numpy as np
 
 GRAVITY = 9.81
 
+# of the Gaussian window [s]; the paper's window of 2 s is as long as a whole run of the
+# quick hopper
+DEVIATION = 0.08
 
-def smoothedRate(time, mass, deviation, points=400):
+
+def smoothedRate(time, mass, deviation=DEVIATION, points=400):
     """-dm/dt, as the paper takes it: slope of a parabola fitted under Gaussian weights.
 
     Times nearer than one deviation to an end are left out: the fit leans there.
@@ -41,14 +45,16 @@ def meanRate(time, mass, upper, lower):
     return None if end is None else (upper - lower) * mass[0] / (end - start)
 
 
-def emptyingTime(time, mass, pause):
-    """When the last bead left before the first pause of that length; None if none came."""
-    left = time[1:][np.diff(mass) < 0]
-    if not len(left):
+def emptyingTime(time, mass, level):
+    """When the smoothed rate falls below level [kg/s] for good; None if it does not.
+
+    Not "the last bead": single beads trickle off the heap on a flat bottom for seconds.
+    """
+    at, rate = smoothedRate(time, mass)
+    above = np.flatnonzero(rate >= level)
+    if not len(above) or above[-1] == len(rate) - 1:
         return None
-    following = np.append(left[1:], np.inf)
-    last = left[np.argmax(following - left > pause)]
-    return last if time[-1] - last >= 0.99 * pause else None
+    return at[above[-1] + 1]
 
 
 def terminalVelocity(diameter, density, fluidDensity, viscosity):

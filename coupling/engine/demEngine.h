@@ -59,13 +59,17 @@ public:
     /// \pre  initialised, steps > 0. \post earlier views are invalid; each bead's `given` has grown.
     virtual void advance(int steps) = 0;
 
+    /// Makes neighbour lists and forces anew from the beads and coupling states as they stand: as if this process had
+    /// just been resumed from a checkpoint written now. \pre initialised. \post views are invalid.
+    virtual void prepare() = 0;
+
     /// Local: the beads of this rank. \pre initialised.
     virtual BeadsView beads() = 0;
 
     /// Local: the DEM step [s].
     virtual double timeStep() const = 0;
 
-    /// Local: gravity as the engine's script states it [m/s2]. \pre initialised.
+    /// Local: gravity as the engine's script states it [m/s2].
     virtual Vector3d gravity() const = 0;
 
     /// Local: contact materials, empty where the script states none.

@@ -1,10 +1,12 @@
 #include "interval/couplingInterval.h"
 
+#include <algorithm>
+
 namespace clepsydra
 {
 
 CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings,
-    const FluidProperties& fluid, DemEngine& engine)
+    const FluidProperties& fluid, DemEngine& engine, bool resumed)
 :
     engine_(engine),
     stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
@@ -18,13 +20,16 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     if (settings.hasFluid())
     {
         fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, engine, ledger_, timers_);
-        fluid_->start();
+        fluid_->start(resumed);
     }
 }
 
 void CouplingInterval::start(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     fluid_->fluidToBeads(U, p);
+    // The first half of the first DEM step uses the forces at its beginning: with the fluid, not without.
+    engine_.prepare();
+    forgetGiven();
 }
 
 void CouplingInterval::advance(
@@ -32,6 +37,7 @@ void CouplingInterval::advance(
 {
     advanceBeads();
     fluid_->beadsToFluid(interval_);
+    forgetGiven();
     solveFluid();
     fluid_->carryMomentum(U, interval_);
     fluid_->fluidToBeads(U, p);
@@ -40,6 +46,26 @@ void CouplingInterval::advance(
 void CouplingInterval::advance()
 {
     advanceBeads();
+}
+
+void CouplingInterval::restartInPlace()
+{
+    engine_.prepare();
+}
+
+void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam::volScalarField& p)
+{
+    const BeadsView beads = engine_.beads();
+    std::fill_n(beads.state, beads.size(), CouplingState());
+    engine_.prepare();
+    fluid_->start(true);
+    start(U, p);
+}
+
+void CouplingInterval::forgetGiven()
+{
+    const BeadsView beads = engine_.beads();
+    std::for_each(beads.state, beads.state + beads.size(), [](CouplingState& state) { state.given = GivenToFluid(); });
 }
 
 void CouplingInterval::advanceBeads()

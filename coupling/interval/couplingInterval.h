@@ -15,8 +15,9 @@ class CouplingInterval
 {
 public:
     /// Initialises the engine, puts the first beads on the mesh.
+    /// \param resumed  beads and fields are those of a checkpoint
     CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine);
+        DemEngine& engine, bool resumed);
 
     /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
     void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
@@ -26,6 +27,10 @@ public:
 
     /// A dry run.
     void advance();
+
+    /// After a checkpoint: forgets all that the checkpoint does not hold, so that going on equals being resumed.
+    void restartInPlace();
+    void restartInPlace(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// What the fluid's equations need. \pre the settings have a fluid.
     const FluidCoupling& fluid() const
@@ -51,6 +56,7 @@ public:
 
 private:
     void advanceBeads();
+    void forgetGiven();
 
     DemEngine& engine_;
     const int stepsPerInterval_;

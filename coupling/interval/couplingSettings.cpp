@@ -4,6 +4,8 @@
 #include "runTimeSelection.h"
 
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 namespace clepsydra
 {
@@ -13,6 +15,23 @@ namespace
 
 /// Times that should be equal or whole multiples may differ by rounding of their decimal fractions.
 constexpr double sameTime = 1e-6;
+
+/// A value as LIGGGHTS is to read it, every digit kept.
+std::string exactText(const token& value)
+{
+    if (value.isLabel())
+    {
+        return std::to_string(value.labelToken());
+    }
+    if (value.isNumber())
+    {
+        std::ostringstream text;
+        text.precision(std::numeric_limits<double>::max_digits10);
+        text << value.number();
+        return text.str();
+    }
+    return value.isString() ? value.stringToken() : value.wordToken();
+}
 
 } // namespace
 
@@ -49,7 +68,8 @@ void CouplingSettings::readChoices()
                                       << " models; allowed: one of (implicitCouple explicitCouple)"
                                       << exit(FatalIOError);
     }
-    dictionary choice(dict_.name());
+    // The name with the file's path, for the message.
+    dictionary choice(static_cast<const dictionary&>(dict_).name());
     choice.add("momCoupleModels", momentumModels.first());
     implicitCoupling_ = selectedModel(choice, "momCoupleModels", {"implicitCouple", "explicitCouple"}) == "implicitCouple";
 
@@ -91,7 +111,7 @@ std::vector<std::string> CouplingSettings::descriptions() const
         "drag in DEM    at every step, from the bead's own velocity and the frozen fluid"};
 }
 
-LiggghtsSetup CouplingSettings::engineSetup() const
+LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeFrom) const
 {
     const dictionary& dem = dict_.subDict("DEM");
     selectedModel(dem, "engine", {"liggghts"});
@@ -107,9 +127,7 @@ LiggghtsSetup CouplingSettings::engineSetup() const
     const dictionary variables = dem.subOrEmptyDict("variables");
     for (const word& name : variables.toc())
     {
-        const token value = variables.lookup(name)[0];
-        setup.variables.emplace_back(name, value.isNumber() ? Foam::name(value.number()) : value.isString()
-                ? std::string(value.stringToken()) : std::string(value.wordToken()));
+        setup.variables.emplace_back(name, exactText(variables.lookup(name)[0]));
     }
     // Quantities that no material can have negative; the script's own checks come too late or not at all.
     for (const word& name : variables.toc())
@@ -123,6 +141,7 @@ LiggghtsSetup CouplingSettings::engineSetup() const
         }
     }
     setup.logFile = "log.liggghts";
+    setup.resumeFrom = resumeFrom;
     return setup;
 }
 

@@ -70,7 +70,8 @@ public:
     std::vector<std::string> descriptions() const;
 
     /// The engine's script and variables, paths made absolute for a decomposed case.
-    LiggghtsSetup engineSetup() const;
+    /// \param resumeFrom  the beads' part of a checkpoint, empty for a fresh start.
+    LiggghtsSetup engineSetup(const std::filesystem::path& resumeFrom) const;
 
     /// The file that the beads are written to at the end of the run, empty for none.
     Foam::fileName finalRestart() const;

@@ -68,15 +68,28 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     impulseDensity_ = scalarField(mesh.nCells(), 0.0);
     smoothGradient_ = scalarField(mesh.nCells(), 0.0);
     voidFraction_.oldTime();
+    ledger.openMomentum(momentumOutstanding());
 }
 
-void FluidCoupling::start()
+vector FluidCoupling::momentumOutstanding() const
 {
-    beadsToFluid(0);
-    if (!voidFractionInContinuity_.typeHeaderOk<volScalarField>(false))
+    return -gSum(vectorField(fluid_.density*mesh_.V().field()*outstanding_.primitiveField()));
+}
+
+void FluidCoupling::start(bool resumed)
+{
+    if (!resumed)
     {
+        beadsToFluid(0);
         voidFractionInContinuity_ == voidFraction_;
+        return;
     }
+    findCells(engine_.beads());
+    solidFraction_ = 1 - voidFraction_.primitiveField();
+    // What an earlier process would have known from its last interval, this one does not.
+    coefficientDensity_ = 0;
+    impulseDensity_ = scalarField(mesh_.nCells(), 0.0);
+    smoothGradient_ = scalarField(mesh_.nCells(), 0.0);
 }
 
 void FluidCoupling::beadsToFluid(double interval)
@@ -89,10 +102,6 @@ void FluidCoupling::beadsToFluid(double interval)
     {
         updateDdtVoidFraction(interval);
         updateMomentumSource(interval);
-    }
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
-    {
-        beads.state[bead].given = GivenToFluid();
     }
 }
 
@@ -213,7 +222,7 @@ void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
     // The beads received minus what their sources ask of the fluid.
     const vector beadsReceived = -gSum(vectorField(mass*interval*beadSource_.primitiveField()));
     const vector fluidLost = -gSum(vectorField(mass*(demanded - excess)));
-    ledger_.bookMomentum(beadsReceived, fluidLost, -gSum(vectorField(mass*excess)));
+    ledger_.bookMomentum(beadsReceived, fluidLost, momentumOutstanding());
 }
 
 void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& p)

@@ -32,8 +32,9 @@ public:
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
         DemEngine& engine, Ledger& ledger, PhaseTimers& timers);
 
-    /// Void fraction of the first beads. Collective.
-    void start();
+    /// The first beads on the mesh. Collective.
+    /// \param resumed  the fields are those of a checkpoint: kept as they are, to the last bit
+    void start(bool resumed);
 
     /// Void fraction and sources from the beads as they are now and from what they were given. Collective.
     /// \param interval  time over which they were given [s]; 0 at the start: void fraction only.
@@ -76,6 +77,8 @@ public:
     }
 
 private:
+    /// Sum over the ranks [N s].
+    Foam::vector momentumOutstanding() const;
     void findCells(const BeadsView& beads);
     void updateVoidFraction(const BeadsView& beads);
     void updateDdtVoidFraction(double interval);

@@ -59,6 +59,12 @@ void Ledger::bookSolidVolume(double beads, double cells, double clipped, const s
     }
 }
 
+void Ledger::openMomentum(const vector& outstanding)
+{
+    outstandingAtStart_ = outstanding;
+    outstanding_ = outstanding;
+}
+
 void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, const vector& outstanding)
 {
     beadsReceived_ += beadsReceived;
@@ -80,7 +86,7 @@ void Ledger::bookPressureForce(const vector& onBeads, const vector& inFluid)
 
 double Ledger::momentumError() const
 {
-    return momentumTurnover_ > 0 ? mag(beadsReceived_ - fluidLost_ - outstanding_)/momentumTurnover_ : 0;
+    return momentumTurnover_ > 0 ? mag(beadsReceived_ + outstandingAtStart_ - fluidLost_ - outstanding_)/momentumTurnover_ : 0;
 }
 
 void Ledger::report() const

@@ -30,6 +30,9 @@ public:
     /// All are sums over the ranks. \param worstCell  words for the error.
     void bookSolidVolume(double beads, double cells, double clipped, const Foam::string& worstCell);
 
+    /// What an earlier process of this run had left outstanding [N s]; sum over the ranks.
+    void openMomentum(const Foam::vector& outstanding);
+
     /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, what the fluid's
     /// equation took from the fluid, and what of the difference waits for the next interval.
     void bookMomentum(const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
@@ -61,6 +64,7 @@ private:
     double largestClippedVolume_ = 0;
     Foam::vector beadsReceived_ = Foam::vector::zero;
     Foam::vector fluidLost_ = Foam::vector::zero;
+    Foam::vector outstandingAtStart_ = Foam::vector::zero;
     Foam::vector outstanding_ = Foam::vector::zero;
     double momentumTurnover_ = 0;
     double pressureForceError_ = 0;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -48,6 +50,23 @@ double shareDone(const ProgressState& state)
     return all > 0 ? (state.time - state.startTime) / all : 1.0;
 }
 
+/// mpirun gives its ranks a terminal of their own even where its output goes to a file: then ask for mpirun's.
+bool outputIsTerminal()
+{
+    if (isatty(STDOUT_FILENO) != 1)
+    {
+        return false;
+    }
+    if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr)
+    {
+        return true;
+    }
+    std::error_code unknown;
+    const std::string output =
+        std::filesystem::read_symlink("/proc/" + std::to_string(getppid()) + "/fd/1", unknown).string();
+    return output.rfind("/dev/pts/", 0) == 0 || output.rfind("/dev/tty", 0) == 0;
+}
+
 } // namespace
 
 std::string describe(const ProgressState& state)
@@ -69,7 +88,7 @@ std::string describe(const ProgressState& state)
 }
 
 Progress::Progress()
-    : Progress(std::cout, isatty(STDOUT_FILENO) == 1)
+    : Progress(std::cout, outputIsTerminal())
 {}
 
 Progress::Progress(std::ostream& out, bool isTerminal)

@@ -11,13 +11,14 @@ namespace clepsydra
 using namespace Foam;
 
 RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, CouplingInterval& interval)
+    DemEngine& engine, CouplingInterval& interval, const Checkpoints& checkpoints)
 :
     time_(time),
     mesh_(mesh),
     settings_(settings),
     engine_(engine),
-    interval_(interval)
+    interval_(interval),
+    checkpoints_(checkpoints)
 {
     printReport(mesh, settings, fluid);
     if (settings.writeVtk())
@@ -61,13 +62,19 @@ void RunOutput::checkDemStepOnce()
     }
 }
 
-void RunOutput::afterInterval()
+bool RunOutput::afterInterval()
 {
     const PhaseTimers::Scope timing = interval_.timers().time("output");
+    if (time_.writeTime())
+    {
+        checkpoints_.begin();
+    }
+    // May end the run, and write, where a function object asks for it.
     time_.write();
     const bool atWriteTime = time_.writeTime();
     if (atWriteTime)
     {
+        checkpoints_.complete(engine_);
         progress_.clear();
         if (beadWriter_)
         {
@@ -77,6 +84,7 @@ void RunOutput::afterInterval()
         checkDemStepOnce();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), atWriteTime);
+    return atWriteTime;
 }
 
 void RunOutput::finish()

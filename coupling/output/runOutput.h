@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/checkpoints.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
 #include "output/progress.h"
@@ -16,10 +17,12 @@ class RunOutput
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     RunOutput(Foam::Time& time, const Foam::fvMesh& mesh, const CouplingSettings& settings,
-        const FluidProperties& fluid, DemEngine& engine, CouplingInterval& interval);
+        const FluidProperties& fluid, DemEngine& engine, CouplingInterval& interval,
+        const Checkpoints& checkpoints);
 
     /// Collective; after each interval, when the fluid is solved.
-    void afterInterval();
+    /// \return true if a checkpoint was written: the run must restart in place.
+    bool afterInterval();
 
     /// Collective; after the last interval: the table of phases, and the ledger's summary.
     void finish();
@@ -33,6 +36,7 @@ private:
     const CouplingSettings& settings_;
     DemEngine& engine_;
     CouplingInterval& interval_;
+    const Checkpoints& checkpoints_;
     std::unique_ptr<BeadWriter> beadWriter_;
     Progress progress_;
     /// False while there are no beads yet: pouring starts without.

@@ -2,9 +2,12 @@
 // both in this process. With `fluid none;` in constant/couplingProperties the beads move alone.
 
 #include "checkpoint/caseLock.h"
+#include "checkpoint/checkpoints.h"
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
+#include "output/demTimeScales.h"
 #include "output/runOutput.h"
+#include "output/startReport.h"
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -39,6 +42,19 @@ FluidProperties readFluidProperties(const Time& runTime)
     return {density, density*kinematicViscosity, Vector3d(g.value().x(), g.value().y(), g.value().z())};
 }
 
+/// Everything that the dictionaries say of models, before LIGGGHTS starts and opens its log: a case with a mistake
+/// stays as it was.
+void checkModels(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid)
+{
+    const Ledger ledger(settings.dict(), mesh.time());
+    if (settings.hasFluid())
+    {
+        PhaseTimers timers;
+        const BeadForces forces(settings.dict(), fluid, timers);
+        const Distribution distribution(settings.dict(), mesh);
+    }
+}
+
 /// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
 void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 {
@@ -51,8 +67,10 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
     }
 }
 
-void runWithFluid(
-    Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
+/// \param startOutput  makes the RunOutput, once there are the fields that function objects may look for.
+template<class StartOutput>
+void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval,
+    const StartOutput& startOutput)
 {
     pimpleControl pimple(mesh);
     #include "createFields.H"
@@ -60,6 +78,7 @@ void runWithFluid(
     const FluidCoupling& beadsOnFluid = interval.fluid();
     const volScalarField& voidFraction = beadsOnFluid.voidFraction();
     interval.start(U, p);
+    RunOutput output = startOutput();
 
     while (runTime.loop())
     {
@@ -73,17 +92,27 @@ void runWithFluid(
                 }
             }
         });
-        output.afterInterval();
+        if (output.afterInterval())
+        {
+            interval.restartInPlace(U, p);
+        }
     }
+    output.finish();
 }
 
-void runDry(Time& runTime, CouplingInterval& interval, RunOutput& output)
+template<class StartOutput>
+void runDry(Time& runTime, CouplingInterval& interval, const StartOutput& startOutput)
 {
+    RunOutput output = startOutput();
     while (runTime.loop())
     {
         interval.advance();
-        output.afterInterval();
+        if (output.afterInterval())
+        {
+            interval.restartInPlace();
+        }
     }
+    output.finish();
 }
 
 } // namespace
@@ -95,30 +124,39 @@ int main(int argc, char* argv[])
     const MpiSession mpi;
     chDir(args.globalPath());
     const CaseLock lock(args.globalPath());
+    Checkpoints::setAsideUnfinished(args);
 
     #include "createTime.H"
     #include "createMesh.H"
 
+    const CouplingSettings settings(runTime);
     try
     {
-        const CouplingSettings settings(runTime);
-        LiggghtsEngine engine(settings.engineSetup());
         const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
-        CouplingInterval interval(mesh, settings, fluid, engine);
-
-        RunOutput output(runTime, mesh, settings, fluid, engine, interval);
-
+        checkModels(mesh, settings, fluid);
+        const Checkpoints checkpoints(runTime);
+        LiggghtsEngine engine(settings.engineSetup(checkpoints.beads()));
+        CouplingInterval interval(mesh, settings, fluid, engine, checkpoints.resumed());
         if (settings.hasFluid())
         {
             requireSameGravity(fluid, engine);
-            runWithFluid(runTime, mesh, fluid, interval, output);
+        }
+        checkDemStep(demTimeScales(engine, settings.couplingInterval(), nullptr, mesh), settings.demDict());
+
+        const auto startOutput = [&] {
+            // They check their entries when they start: before RunOutput replaces beads of an earlier run.
+            runTime.functionObjects().start();
+            return RunOutput(runTime, mesh, settings, fluid, engine, interval, checkpoints);
+        };
+        if (settings.hasFluid())
+        {
+            runWithFluid(runTime, mesh, fluid, interval, startOutput);
         }
         else
         {
-            runDry(runTime, interval, output);
+            runDry(runTime, interval, startOutput);
         }
 
-        output.finish();
         if (!settings.finalRestart().empty())
         {
             engine.writeCheckpoint(settings.finalRestart().c_str());
@@ -126,7 +164,8 @@ int main(int argc, char* argv[])
     }
     catch (const DemEngineError& error)
     {
-        FatalErrorInFunction << error.what() << exit(FatalError);
+        FatalErrorInFunction << error.what() << nl << nl << "file: "
+                             << settings.demDict().get<fileName>("script").c_str() << exit(FatalError);
     }
 
     Info<< "End\n" << endl;

@@ -121,7 +121,7 @@ void jitter(std::vector<Eigen::Vector3d>& points, double amplitude, unsigned see
     std::mt19937 random(seed);
     // Not std::uniform_real_distribution: its numbers differ between libraries.
     const auto symmetric = [&] {
-        return 2.0 * static_cast<double>(random()) / static_cast<double>(random.max()) - 1.0;
+        return 2.0 * static_cast<double>(random()) / static_cast<double>(std::mt19937::max()) - 1.0;
     };
     for (Eigen::Vector3d& point : points)
     {

@@ -32,7 +32,7 @@ struct DemScript
     /// Instead of `beads`: a file that `DEM/writeRestart` of couplingProperties has written.
     std::string readRestart;
 
-    double timeStep = 5e-5;
+    double timeStep = 2.5e-5;
     double gravity = 9.81;
     double youngsModulus = 5e6;
     double poissonsRatio = 0.2;

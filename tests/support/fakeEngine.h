@@ -73,6 +73,9 @@ public:
         }
     }
 
+    void prepare() override
+    {}
+
     BeadsView beads() override
     {
         const auto count = static_cast<Eigen::Index>(id_.size());

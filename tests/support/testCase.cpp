@@ -241,7 +241,7 @@ Outcome TestCase::run(int ranks)
     }
     if (!std::filesystem::exists(path_ / "constant/polyMesh/faces"))
     {
-        const Outcome mesh = makeMesh();
+        Outcome mesh = makeMesh();
         if (!mesh.succeeded())
         {
             return mesh;
@@ -251,7 +251,7 @@ Outcome TestCase::run(int ranks)
     {
         return runCommand("$SOLVER");
     }
-    const Outcome decomposed = runCommand("decomposePar -force");
+    Outcome decomposed = runCommand("decomposePar -force");
     if (!decomposed.succeeded())
     {
         return decomposed;
@@ -259,7 +259,7 @@ Outcome TestCase::run(int ranks)
     Outcome solved = runCommand("mpirun -np " + number(ranks) + " $SOLVER -parallel");
     if (solved.succeeded())
     {
-        const Outcome reconstructed = runCommand("reconstructPar");
+        Outcome reconstructed = runCommand("reconstructPar");
         // A run without fluid has no fields to put together.
         if (!reconstructed.succeeded() && !reconstructed.says("No times selected"))
         {
@@ -347,6 +347,7 @@ std::vector<std::string> TestCase::times() const
     }
     std::sort(found.begin(), found.end());
     std::vector<std::string> names;
+    names.reserve(found.size());
     for (const auto& time : found)
     {
         names.push_back(time.second);

@@ -1,6 +1,7 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
 #include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/script.h"
 
 #include <atom.h>
 #include <comm.h>
@@ -18,7 +19,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 
 namespace clepsydra
 {
@@ -75,7 +75,7 @@ public:
             const std::string style = isNumber(value) ? "equal" : "string";
             execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
-        runScript(setup.script);
+        runScript(setup.script, setup.resumeFrom);
     }
 
     ~Implementation()
@@ -171,25 +171,19 @@ private:
         }
     }
 
-    void runScript(const std::filesystem::path& script)
+    void runScript(const std::filesystem::path& script, const std::filesystem::path& resumeFrom)
     {
-        std::ifstream lines(script);
-        if (!lines)
+        for (const ScriptCommand& command : readScript(script))
         {
-            throw DemEngineError("cannot read the DEM script " + script.string());
-        }
-        std::string command;
-        std::string line;
-        for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
-        {
-            command += line;
-            if (!command.empty() && command.back() == '&')
+            if (resumeFrom.empty() || !makesBeads(command.text))
             {
-                command.back() = ' ';
-                continue;
+                execute(command.text, command.where);
             }
-            execute(command, script.string() + " line " + std::to_string(lineNumber));
-            command.clear();
+            else if (!boxMade_)
+            {
+                execute("read_restart " + resumeFrom.string(), command.where + ", resumed");
+                boxMade_ = true;
+            }
         }
     }
 
@@ -205,6 +199,7 @@ private:
     std::unique_ptr<lmp::LAMMPS> program_;
     lmp::Fix* stateFix_ = nullptr;
     FluidForces* forces_ = nullptr;
+    bool boxMade_ = false;
     bool failed_ = false;
 };
 
@@ -224,7 +219,12 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     }
     // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
     implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
-    implementation_->execute("run 0 post no", "initialise");
+    prepare();
+}
+
+void LiggghtsEngine::prepare()
+{
+    implementation_->execute("run 0 post no", "preparing");
 }
 
 void LiggghtsEngine::advance(int steps)
@@ -247,6 +247,8 @@ Vector3d LiggghtsEngine::gravity() const
     Vector3d acceleration = Vector3d::Zero();
     if (lmp::Fix* fix = findFixOfStyle(*implementation_->program().modify, "gravity"))
     {
+        // The fix works out its components in init(), which LIGGGHTS itself calls before the first step only.
+        fix->init();
         static_cast<lmp::FixGravity*>(fix)->get_gravity(acceleration.data());
     }
     return acceleration;

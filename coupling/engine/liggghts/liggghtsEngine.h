@@ -17,6 +17,10 @@ struct LiggghtsSetup
     /// Become `variable <name> equal|string <value>` before the first line of the script.
     std::vector<std::pair<std::string, std::string>> variables;
     std::filesystem::path logFile;
+    /// A checkpoint to go on from; empty: the script's own beginning. With a checkpoint the script's first
+    /// `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or changes beads
+    /// (`create_atoms`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
+    std::filesystem::path resumeFrom;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 
@@ -31,6 +35,7 @@ public:
 
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
+    void prepare() override;
     BeadsView beads() override;
     double timeStep() const override;
     Vector3d gravity() const override;

@@ -1,0 +1,74 @@
+#include "engine/liggghts/script.h"
+
+#include "engine/demEngine.h"
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+std::string word(const std::string& command, int index)
+{
+    std::istringstream words(command);
+    std::string found;
+    for (int i = 0; i <= index; ++i)
+    {
+        found.clear();
+        words >> found;
+    }
+    return found;
+}
+
+} // namespace
+
+std::vector<ScriptCommand> readScript(const std::filesystem::path& script)
+{
+    std::ifstream lines(script);
+    if (!lines)
+    {
+        throw DemEngineError("cannot read the DEM script " + script.string());
+    }
+    std::vector<ScriptCommand> commands;
+    std::string text;
+    std::string line;
+    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
+    {
+        text += line.substr(0, line.find_last_not_of(" \t\r") + 1);
+        if (!text.empty() && text.back() == '&')
+        {
+            text.back() = ' ';
+            continue;
+        }
+        const std::string where = script.string() + " line " + std::to_string(lineNumber);
+        const std::string name = word(text, 0);
+        if (name == "jump" || name == "label" || name == "next")
+        {
+            throw DemEngineError(where + ": '" + name + "' is not supported, the script is run line by line");
+        }
+        if (name == "include")
+        {
+            const std::vector<ScriptCommand> included = readScript(word(text, 1));
+            commands.insert(commands.end(), included.begin(), included.end());
+        }
+        else
+        {
+            commands.push_back({text, where});
+        }
+        text.clear();
+    }
+    return commands;
+}
+
+bool makesBeads(const std::string& command)
+{
+    static const std::set<std::string> commands = {"create_box", "read_data", "read_restart", "create_atoms",
+        "delete_atoms", "displace_atoms", "set", "velocity", "reset_timestep"};
+    return commands.count(word(command, 0)) > 0;
+}
+
+} // namespace clepsydra

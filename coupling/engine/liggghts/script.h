@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace clepsydra
+{
+
+/// A command of a LIGGGHTS script and where it stands, for errors.
+struct ScriptCommand
+{
+    std::string text;
+    std::string where; // "DEM/in.pour line 12"
+};
+
+/// The commands of a script in their order: lines joined at `&`, `include`d files in their place.
+/// The commands are given to LIGGGHTS one by one, so that an error can name its line. Hence no `jump`, `label`, `next`.
+/// \throws DemEngineError where a file cannot be read or a command jumps.
+std::vector<ScriptCommand> readScript(const std::filesystem::path& script);
+
+/// True for the commands whose result a checkpoint holds: those that make, read or change beads.
+bool makesBeads(const std::string& command);
+
+} // namespace clepsydra
