@@ -129,10 +129,13 @@ double velocityOfDrop(const std::vector<std::pair<double, double>>& velocityAndD
 /// there is no drop; a missing -V_p grad p on the beads moves the plateau to 1/eps = 2.2 of the weight.
 ///
 /// The rig: cells as wide as the column, so that every layer has one void fraction; the bed lies on the inlet itself,
-/// and a narrow smoothing (2 d), for where the smoothing spreads the edge of a bed over some diameters the edge
-/// beads feel less drag than their neighbours and U_mf is that of no uniform bed (a bed of 15 d on a floor above the
-/// inlet, smoothed over 3 d: U_mf 40 % too high, and the lowest layer of beads stays on the floor). Frictionless walls
-/// carry nothing.
+/// and the smoothing is narrow (2 d), for where it spreads the edge of a bed over some diameters the beads there feel
+/// less drag than their neighbours, and U_mf is that of no uniform bed. (A bed 15 d deep on a floor above the inlet,
+/// smoothed over 3 d, was fluidised at a velocity 40 % too high, and its lowest layer stayed on the floor.)
+/// Frictionless walls carry nothing.
+///
+/// What is left of the deviation, some 3 %: the bed loosens as its load goes, so that its beads move with 1-2 % of the
+/// flow, and the velocity in the cells is not quite the flux over the void fraction.
 TEST(FluidisedBed, IsCarriedByThePressureFromErgunsVelocityOn)
 {
     TestCase test;

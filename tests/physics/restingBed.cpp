@@ -99,7 +99,7 @@ TEST(RestingBed, StaysStillInStillWater)
 /// them: no difference.
 ///
 /// Fails where the water does not receive what the beads receive (no difference at all), where it receives the drag but
-/// model A's (1 - eps) grad p is lost or counted twice (some 14 % at this void fraction), or where the bed at rest
+/// model A's (1 - eps) grad p is lost or counted twice (12 % too much at this void fraction), or where the bed at rest
 /// keeps a pressure. The mean over 0.17 s is held to 3 %: the beads' paths are not straight, their momentum fluctuates.
 TEST(SettlingCloud, IsCarriedByThePressureUntilItRests)
 {
