@@ -6,20 +6,21 @@ namespace clepsydra
 {
 
 CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings,
-    const FluidProperties& fluid, DemEngine& engine, bool resumed)
+    const FluidProperties& fluid, DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed)
 :
     engine_(engine),
     stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
     interval_(settings.couplingInterval()),
-    forces_(settings.hasFluid() ? std::make_unique<BeadForces>(settings.dict(), fluid, timers_) : nullptr),
+    timers_(timers),
     ledger_(settings.dict(), mesh.time()),
     observedBeads_(mesh, engine)
 {
-    engine_.initialise(forces_.get());
+    engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
-    if (settings.hasFluid())
+    if (models)
     {
-        fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, engine, ledger_, timers_);
+        fluid_ = std::make_unique<FluidCoupling>(
+            mesh, settings, fluid, engine, models->distribution, ledger_, timers_);
         fluid_->start(resumed);
     }
 }

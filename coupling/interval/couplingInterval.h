@@ -1,7 +1,7 @@
 #pragma once
 
-#include "forces/beadForces.h"
 #include "interval/fluidCoupling.h"
+#include "interval/fluidModels.h"
 #include "output/observedBeads.h"
 
 #include <functional>
@@ -15,9 +15,10 @@ class CouplingInterval
 {
 public:
     /// Initialises the engine, puts the first beads on the mesh.
+    /// \param models  null for a dry run
     /// \param resumed  beads and fields are those of a checkpoint
     CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, bool resumed);
+        DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed);
 
     /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
     void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
@@ -38,13 +39,7 @@ public:
         return *fluid_;
     }
 
-    /// Null in a dry run.
-    const BeadForces* forces() const
-    {
-        return forces_.get();
-    }
-
-    PhaseTimers& timers()
+    PhaseTimers& timers() const
     {
         return timers_;
     }
@@ -61,8 +56,7 @@ private:
     DemEngine& engine_;
     const int stepsPerInterval_;
     const double interval_;
-    PhaseTimers timers_;
-    std::unique_ptr<BeadForces> forces_;
+    PhaseTimers& timers_;
     Ledger ledger_;
     ObservedBeads observedBeads_;
     std::unique_ptr<FluidCoupling> fluid_;

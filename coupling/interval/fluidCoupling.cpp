@@ -46,7 +46,7 @@ MPI_Comm duplicateWorld()
 } // namespace
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, Ledger& ledger, PhaseTimers& timers)
+    DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers)
 :
     mesh_(mesh),
     settings_(settings),
@@ -54,7 +54,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     engine_(engine),
     ledger_(ledger),
     timers_(timers),
-    distribution_(settings.dict(), mesh),
+    distribution_(distribution),
     exchange_(duplicateWorld(), distribution_.cells().box()),
     voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
     voidFractionInContinuity_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),

@@ -30,7 +30,7 @@ class FluidCoupling
 {
 public:
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, Ledger& ledger, PhaseTimers& timers);
+        DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers);
 
     /// The first beads on the mesh. Collective.
     /// \param resumed  the fields are those of a checkpoint: kept as they are, to the last bit
@@ -66,11 +66,6 @@ public:
         return implicitCoefficient_;
     }
 
-    const Distribution& distribution() const
-    {
-        return distribution_;
-    }
-
     const BeadExchange& exchange() const
     {
         return exchange_;
@@ -94,7 +89,7 @@ private:
     Ledger& ledger_;
     PhaseTimers& timers_;
 
-    Distribution distribution_;
+    Distribution& distribution_;
     BeadExchange exchange_;
 
     Foam::volScalarField voidFraction_;

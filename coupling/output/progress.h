@@ -43,6 +43,11 @@ public:
     /// \param atWriteTime  true: prints a line that stays
     void update(double time, double endTime, long beadsInHopper, bool atWriteTime = false);
 
+    bool isTerminal() const
+    {
+        return isTerminal_;
+    }
+
     /// Removes the bar, so that other text can be printed in its place; the next update() brings it back.
     void clear();
 

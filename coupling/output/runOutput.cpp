@@ -11,7 +11,7 @@ namespace clepsydra
 using namespace Foam;
 
 RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, CouplingInterval& interval, const Checkpoints& checkpoints)
+    DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints)
 :
     time_(time),
     mesh_(mesh),
@@ -20,36 +20,41 @@ RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& set
     interval_(interval),
     checkpoints_(checkpoints)
 {
-    printReport(mesh, settings, fluid);
-    if (settings.writeVtk())
-    {
-        beadWriter_ = std::make_unique<BeadWriter>(time);
-        beadWriter_->write(engine.beads(), time.value());
-    }
+    printReport(fluid, models);
 }
 
-void RunOutput::printReport(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid)
+void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* models)
 {
-    std::vector<std::string> models;
-    if (const BeadForces* forces = interval_.forces())
+    std::vector<std::string> lines;
+    if (models)
     {
-        for (const ForceModel& model : forces->models())
+        for (const ForceModel& force : models->forces.models())
         {
-            models.push_back("force          " + model.description());
+            lines.push_back("force          " + force.description());
         }
-        const Distribution& distribution = interval_.fluid().distribution();
-        models.push_back("void fraction  " + distribution.voidFractionModel().description());
-        models.push_back("smoothing      " + distribution.smoothingModel().description());
+        lines.push_back("void fraction  " + models->distribution.voidFractionModel().description());
+        lines.push_back("smoothing      " + models->distribution.smoothingModel().description());
     }
-    for (const std::string& choice : settings.descriptions())
+    for (const std::string& choice : settings_.descriptions())
     {
-        models.push_back(choice);
+        lines.push_back(choice);
     }
     const DemTimeScales scales =
-        demTimeScales(engine_, settings.couplingInterval(), settings.hasFluid() ? &fluid : nullptr, mesh);
-    printStartReport(engine_, models, scales, settings.demDict());
-    checkDemStep(scales, settings.demDict());
+        demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
+    printStartReport(engine_, lines, scales, settings_.demDict());
+    checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.beads > 0;
+}
+
+void RunOutput::start()
+{
+    // They check their entries now, before anything of an earlier run is replaced.
+    time_.functionObjects().start();
+    if (settings_.writeVtk())
+    {
+        beadWriter_ = std::make_unique<BeadWriter>(time_);
+        beadWriter_->write(engine_.beads(), time_.value());
+    }
 }
 
 void RunOutput::checkDemStepOnce()

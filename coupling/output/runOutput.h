@@ -16,9 +16,19 @@ class RunOutput
 {
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
+    /// \param models  null in a dry run
     RunOutput(Foam::Time& time, const Foam::fvMesh& mesh, const CouplingSettings& settings,
-        const FluidProperties& fluid, DemEngine& engine, CouplingInterval& interval,
+        const FluidProperties& fluid, DemEngine& engine, const FluidModels* models, CouplingInterval& interval,
         const Checkpoints& checkpoints);
+
+    /// Starts the function objects and writes the first beads. Collective; once all fields exist.
+    void start();
+
+    /// True where a bar shows the progress, and other lines would break it.
+    bool onTerminal() const
+    {
+        return progress_.isTerminal();
+    }
 
     /// Collective; after each interval, when the fluid is solved.
     /// \return true if a checkpoint was written: the run must restart in place.
@@ -29,7 +39,7 @@ public:
 
 private:
     void checkDemStepOnce();
-    void printReport(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid);
+    void printReport(const FluidProperties& fluid, const FluidModels* models);
 
     Foam::Time& time_;
     const Foam::fvMesh& mesh_;

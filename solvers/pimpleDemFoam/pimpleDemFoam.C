@@ -5,9 +5,7 @@
 #include "checkpoint/checkpoints.h"
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
-#include "output/demTimeScales.h"
 #include "output/runOutput.h"
-#include "output/startReport.h"
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -42,19 +40,6 @@ FluidProperties readFluidProperties(const Time& runTime)
     return {density, density*kinematicViscosity, Vector3d(g.value().x(), g.value().y(), g.value().z())};
 }
 
-/// Everything that the dictionaries say of models, before LIGGGHTS starts and opens its log: a case with a mistake
-/// stays as it was.
-void checkModels(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid)
-{
-    const Ledger ledger(settings.dict(), mesh.time());
-    if (settings.hasFluid())
-    {
-        PhaseTimers timers;
-        const BeadForces forces(settings.dict(), fluid, timers);
-        const Distribution distribution(settings.dict(), mesh);
-    }
-}
-
 /// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
 void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 {
@@ -67,10 +52,32 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
     }
 }
 
-/// \param startOutput  makes the RunOutput, once there are the fields that function objects may look for.
-template<class StartOutput>
-void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval,
-    const StartOutput& startOutput)
+/// Silences the solvers' lines on a terminal, where they would break the progress bar. In a log they stay.
+class QuietOnTerminal
+{
+public:
+    explicit QuietOnTerminal(const RunOutput& output)
+    {
+        if (output.onTerminal())
+        {
+            messageStream::level = 0;
+        }
+    }
+
+    ~QuietOnTerminal()
+    {
+        messageStream::level = before_;
+    }
+
+    QuietOnTerminal(const QuietOnTerminal&) = delete;
+    QuietOnTerminal& operator=(const QuietOnTerminal&) = delete;
+
+private:
+    const int before_ = messageStream::level;
+};
+
+void runWithFluid(
+    Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
 {
     pimpleControl pimple(mesh);
     #include "createFields.H"
@@ -78,11 +85,13 @@ void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, Cou
     const FluidCoupling& beadsOnFluid = interval.fluid();
     const volScalarField& voidFraction = beadsOnFluid.voidFraction();
     interval.start(U, p);
-    RunOutput output = startOutput();
+    output.start();
 
     while (runTime.loop())
     {
         interval.advance(U, p, [&] {
+            const QuietOnTerminal quiet(output);
+            Info<< "Time = " << runTime.timeName() << nl;
             while (pimple.loop())
             {
                 #include "UEqn.H"
@@ -97,13 +106,11 @@ void runWithFluid(Time& runTime, fvMesh& mesh, const FluidProperties& fluid, Cou
             interval.restartInPlace(U, p);
         }
     }
-    output.finish();
 }
 
-template<class StartOutput>
-void runDry(Time& runTime, CouplingInterval& interval, const StartOutput& startOutput)
+void runDry(Time& runTime, CouplingInterval& interval, RunOutput& output)
 {
-    RunOutput output = startOutput();
+    output.start();
     while (runTime.loop())
     {
         interval.advance();
@@ -112,7 +119,6 @@ void runDry(Time& runTime, CouplingInterval& interval, const StartOutput& startO
             interval.restartInPlace();
         }
     }
-    output.finish();
 }
 
 } // namespace
@@ -130,33 +136,30 @@ int main(int argc, char* argv[])
     #include "createMesh.H"
 
     const CouplingSettings settings(runTime);
+    const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
+    PhaseTimers timers;
+    const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
+    const Checkpoints checkpoints(runTime);
     try
     {
-        const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
-        checkModels(mesh, settings, fluid);
-        const Checkpoints checkpoints(runTime);
         LiggghtsEngine engine(settings.engineSetup(checkpoints.beads()));
-        CouplingInterval interval(mesh, settings, fluid, engine, checkpoints.resumed());
-        if (settings.hasFluid())
+        if (models)
         {
             requireSameGravity(fluid, engine);
         }
-        checkDemStep(demTimeScales(engine, settings.couplingInterval(), nullptr, mesh), settings.demDict());
+        CouplingInterval interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints);
 
-        const auto startOutput = [&] {
-            // They check their entries when they start: before RunOutput replaces beads of an earlier run.
-            runTime.functionObjects().start();
-            return RunOutput(runTime, mesh, settings, fluid, engine, interval, checkpoints);
-        };
-        if (settings.hasFluid())
+        if (models)
         {
-            runWithFluid(runTime, mesh, fluid, interval, startOutput);
+            runWithFluid(runTime, mesh, fluid, interval, output);
         }
         else
         {
-            runDry(runTime, interval, startOutput);
+            runDry(runTime, interval, output);
         }
 
+        output.finish();
         if (!settings.finalRestart().empty())
         {
             engine.writeCheckpoint(settings.finalRestart().c_str());

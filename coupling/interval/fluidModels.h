@@ -1,0 +1,26 @@
+#pragma once
+
+#include "distribution/distribution.h"
+#include "forces/beadForces.h"
+#include "interval/couplingSettings.h"
+#include "output/phaseTimers.h"
+
+namespace clepsydra
+{
+
+/// The models that couplingProperties selects, with their coefficients. Made before the engine starts and anything is
+/// written, so that a mistake in a dictionary leaves the case as it was.
+struct FluidModels
+{
+    FluidModels(
+        const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid, PhaseTimers& timers)
+    :
+        forces(settings.dict(), fluid, timers),
+        distribution(settings.dict(), mesh)
+    {}
+
+    BeadForces forces;
+    Distribution distribution;
+};
+
+} // namespace clepsydra
