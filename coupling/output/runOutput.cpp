@@ -18,7 +18,8 @@ RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& set
     settings_(settings),
     engine_(engine),
     interval_(interval),
-    checkpoints_(checkpoints)
+    checkpoints_(checkpoints),
+    stopRequest_(time)
 {
     printReport(fluid, models);
 }
@@ -70,12 +71,21 @@ void RunOutput::checkDemStepOnce()
 bool RunOutput::afterInterval()
 {
     const PhaseTimers::Scope timing = interval_.timers().time("output");
-    if (time_.writeTime())
+    const bool stop = stopRequest_.asked();
+    if (time_.writeTime() || stop)
     {
         checkpoints_.begin();
     }
-    // May end the run, and write, where a function object asks for it.
-    time_.write();
+    if (stop)
+    {
+        Info<< "Asked to stop: writing a checkpoint" << endl;
+        time_.writeAndEnd();
+    }
+    else
+    {
+        // Ends the run, too, where a function object asked for it.
+        time_.write();
+    }
     const bool atWriteTime = time_.writeTime();
     if (atWriteTime)
     {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "checkpoint/checkpoints.h"
+#include "checkpoint/stopRequest.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
 #include "output/progress.h"
@@ -49,6 +50,7 @@ private:
     const Checkpoints& checkpoints_;
     std::unique_ptr<BeadWriter> beadWriter_;
     Progress progress_;
+    StopRequest stopRequest_;
     /// False while there are no beads yet: pouring starts without.
     bool demStepChecked_ = false;
 };
