@@ -1,0 +1,334 @@
+/// \file
+/// Cases with a mistake in them. The program must say where the mistake is and what is allowed, end with a status that
+/// a script notices, and leave every file as it was: the case's own, and results of an earlier run.
+
+#include "support/testCase.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <iterator>
+
+namespace
+{
+
+using namespace clepsydra::tests;
+
+const std::string couplingProperties = "constant/couplingProperties";
+const std::string transportProperties = "constant/transportProperties";
+const std::string controlDict = "system/controlDict";
+const std::string script = "DEM/in.beads";
+
+using Change = std::function<void(TestCase&)>;
+using Words = std::vector<std::string>;
+using Files = std::map<std::string, std::string>;
+
+/// The text of all files below a folder by their path in it.
+Files filesIn(const std::filesystem::path& folder)
+{
+    Files files;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    {
+        if (entry.is_regular_file())
+        {
+            std::ifstream is(entry.path(), std::ios::binary);
+            files[std::filesystem::relative(entry.path(), folder).string()] = {
+                std::istreambuf_iterator<char>(is), std::istreambuf_iterator<char>()};
+        }
+    }
+    return files;
+}
+
+/// A case that is right, where an earlier run has left its results: one bead above the middle of a box of water.
+void fillIn(TestCase& test)
+{
+    test.cells = {4, 4, 8};
+    test.dem.beads = {{0.0101, 0.0099, 0.02}};
+    test.dem.timeStep = 4e-5;
+    test.setTimes(0.004, 1e-3, 0.002);
+    test.coupling().set("beadOutput/writeVtk", "on").set("DEM/writeRestart", "\"DEM/end.restart\"");
+    test.control()
+        .set("functions/massInHopper/type", "massInHopper")
+        .set("functions/massInHopper/libs", "()")
+        .set("functions/massInHopper/patch", "walls");
+    test.extraFiles["VTK/beads.pvd"] = "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+                                       "<DataSet timestep=\"0\" file=\"beads_0.vtp\"/></Collection></VTKFile>\n";
+    for (const char* result : {"postProcessing/massInHopper/0/massInHopper.dat", "postProcessing/ledger/0/summary.json",
+             "VTK/beads_0.vtp", "DEM/end.restart", "log.liggghts"})
+    {
+        test.extraFiles[result] = "of an earlier run\n";
+    }
+}
+
+std::string commandOn(int ranks)
+{
+    return ranks == 1 ? "$SOLVER" : "mpirun -np " + std::to_string(ranks) + " $SOLVER -parallel";
+}
+
+void decompose(TestCase& test, int ranks)
+{
+    test.file("system/decomposeParDict")
+        .set("numberOfSubdomains", number(ranks))
+        .set("method", "simple")
+        .set("simpleCoeffs/n", '(' + number(ranks) + " 1 1)")
+        .set("simpleCoeffs/delta", "0.001");
+    test.write();
+    ASSERT_TRUE(test.runCommand("decomposePar").succeeded());
+}
+
+/// The mistakes that the program can see before it starts LIGGGHTS, which begins a new log.liggghts.
+enum class SeenBy
+{
+    dictionaries,
+    engine
+};
+
+void expectRefused(const Outcome& outcome, const Words& words)
+{
+    EXPECT_NE(outcome.status, 0) << outcome.output;
+    EXPECT_LT(outcome.status, 128) << "ended by a signal\n" << outcome.output;
+    for (const std::string& word : words)
+    {
+        EXPECT_TRUE(outcome.says(word)) << "not said: " << word << "\n" << outcome.output;
+    }
+}
+
+void expectSameFiles(const Files& before, const Files& after, SeenBy seenBy)
+{
+    for (const auto& [file, text] : before)
+    {
+        const auto now = after.find(file);
+        EXPECT_TRUE(now != after.end() && (now->second == text || (seenBy == SeenBy::engine && file == "log.liggghts")))
+            << file << " was changed";
+    }
+    for (const auto& [file, text] : after)
+    {
+        EXPECT_TRUE(before.count(file) || file == ".pimpleDemFoam.lock" || file == "checkpoints/beginning")
+            << file << " was written";
+    }
+}
+
+/// Makes the mistake, runs the case, expects a refusal with all of `words` that changes no file.
+void expectRefused(const Change& makeMistake, const Words& words, SeenBy seenBy, int ranks = 1)
+{
+    TestCase test;
+    fillIn(test);
+    makeMistake(test);
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    if (ranks > 1)
+    {
+        decompose(test, ranks);
+    }
+    const Files before = filesIn(test.path());
+    const Outcome outcome = test.runCommand(commandOn(ranks));
+    expectRefused(outcome, words);
+    expectSameFiles(before, filesIn(test.path()), seenBy);
+}
+
+/// One wrong entry of couplingProperties, refused with the file's name, the entry's and what is allowed.
+void expectEntryRefused(const std::string& entry, const std::string& value, const Words& allowed)
+{
+    SCOPED_TRACE(entry + ' ' + value);
+    Words words = allowed;
+    words.push_back(couplingProperties);
+    words.push_back(entry.substr(entry.rfind('/') + 1));
+    words.push_back("allowed:");
+    expectRefused([&](TestCase& test) { test.coupling().set(entry, value); }, words, SeenBy::dictionaries);
+}
+
+/// A wrong line at the end of the DEM script, refused with the script's name, the line's number and LIGGGHTS' words.
+void expectLineRefused(const std::string& line, const std::string& liggghtsSays, int ranks = 1)
+{
+    SCOPED_TRACE(line);
+    const auto append = [&](TestCase& test) { test.dem.more = line; };
+    TestCase ordinary;
+    fillIn(ordinary);
+    const std::string text = ordinary.dem.text(ordinary.box);
+    // The script ends with `more` and a line feed.
+    const auto lineNumber = std::count(text.begin(), text.end(), '\n');
+    expectRefused(append, {script + " line " + std::to_string(lineNumber) + ": LIGGGHTS", line, liggghtsSays},
+        SeenBy::engine, ranks);
+}
+
+/// The case of all tests below runs where there is no mistake in it: what they see refused is the mistake.
+TEST(BadInput, TheSameCaseWithoutMistakeRuns)
+{
+    TestCase test;
+    fillIn(test);
+    const Outcome outcome = test.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// Unknown names of models are refused with a list of the known ones. A program that took the usual model instead, or
+/// left the force out, would run to its end with status 0.
+TEST(BadInput, UnknownModels)
+{
+    expectEntryRefused("forceModels", "(DiFelice gradPForce)",
+        {"'DiFelice'", "DiFeliceDrag", "SchillerNaumannDrag", "GidaspowDrag", "KochHillDrag", "BeetstraDrag",
+            "RongDrag", "StokesDrag", "gradPForce", "viscForce", "Archimedes"});
+    expectEntryRefused("voidFractionModel", "big", {"'big'", "divided", "centre"});
+    expectEntryRefused("smoothingModel", "diffusion", {"'diffusion'", "constDiffSmoothing", "off"});
+    expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
+    expectEntryRefused("modelType", "C", {"'C'", "(A"});
+    expectEntryRefused("momCoupleModels", "(implicit)", {"'implicit'", "implicitCouple", "explicitCouple"});
+    expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
+}
+
+/// A missing file, dictionary or entry is named. A program with silent defaults would run to its end.
+TEST(BadInput, MissingEntries)
+{
+    for (const std::string entry : {"couplingInterval", "fluid", "modelType", "forceModels", "voidFractionModel",
+             "smoothingModel", "constDiffSmoothingProps/smoothingLength", "momCoupleModels", "DEM", "DEM/script"})
+    {
+        SCOPED_TRACE(entry);
+        expectRefused([&](TestCase& test) { test.coupling().remove(entry); },
+            {couplingProperties, entry.substr(entry.find('/') + 1)}, SeenBy::dictionaries);
+    }
+    for (const std::string entry : {"rho", "nu"})
+    {
+        SCOPED_TRACE(entry);
+        expectRefused([&](TestCase& test) { test.transport().remove(entry); }, {transportProperties, entry},
+            SeenBy::dictionaries);
+    }
+    for (const std::string& file : {couplingProperties, transportProperties, std::string("constant/g")})
+    {
+        SCOPED_TRACE(file);
+        expectRefused([&](TestCase& test) { test.removeFile(file); }, {file}, SeenBy::dictionaries);
+    }
+    expectEntryRefused("DEM/script", "\"DEM/in.none\"", {"'script'", "DEM/in.none", "a file"});
+}
+
+/// Quantities that cannot be negative are refused with their file and what is allowed. Negative friction is the
+/// treacherous one: LIGGGHTS takes it and pushes beads on instead of holding them.
+TEST(BadInput, NegativeQuantities)
+{
+    for (const char* entry : {"DEM/variables/beadDensity", "DEM/variables/beadDiameter",
+             "constDiffSmoothingProps/smoothingLength", "couplingInterval", "dividedProps/alphaMin"})
+    {
+        expectEntryRefused(entry, "-0.1", {"-0.1", "a number > 0"});
+    }
+    for (const char* entry :
+        {"DEM/variables/friction", "DEM/variables/frictionWall", "useDDTvoidfractionProps/smoothingTime"})
+    {
+        expectEntryRefused(entry, "-0.1", {"-0.1", "a number >= 0"});
+    }
+    for (const std::string entry : {"rho", "nu"})
+    {
+        for (const std::string value : {"-1000", "0"})
+        {
+            SCOPED_TRACE(entry + ' ' + value);
+            expectRefused([&](TestCase& test) { test.transport().set(entry, value); },
+                {transportProperties, "'" + entry + "' is " + value, "a number > 0"}, SeenBy::dictionaries);
+        }
+    }
+    expectLineRefused("set group all density -1", "Invalid density");
+    expectLineRefused("set group all diameter -0.002 density 2500", "Invalid diameter");
+    expectLineRefused("set group all mass -1e-5", "Invalid mass");
+    expectLineRefused(
+        "fix b all particletemplate/sphere 10007 atom_type 1 density constant -2540 radius constant 0.001", "density");
+}
+
+/// Steps that do not fit each other, or at which contacts explode: refused before the first step, with the number that
+/// would be right. A program that rounded the number of DEM steps would drift from the fluid's time; one without the
+/// check of the Rayleigh time would lose beads later on.
+TEST(BadInput, Steps)
+{
+    expectEntryRefused("couplingInterval", "2e-3", {"0.002 s", "deltaT", controlDict, "0.001 s"});
+    expectRefused([](TestCase& test) { test.dem.timeStep = 3e-5; },
+        {couplingProperties, "'couplingInterval' is 0.001 s", "allowed: a whole multiple", "3e-05 s", script},
+        SeenBy::engine);
+    expectRefused([](TestCase& test) { test.dem.timeStep = 2.5e-4; },
+        {couplingProperties, "DEM step above the stable one", script, "0.00025 s", "Rayleigh", "allowed: at most",
+            "'maxRayleighFraction'"},
+        SeenBy::engine);
+    expectRefused([](TestCase& test) { test.control().set("adjustTimeStep", "yes"); },
+        {controlDict, "'adjustTimeStep'", "allowed: off"}, SeenBy::dictionaries);
+}
+
+/// What the script says is at odds with the fluid's case. A bead outside the mesh would feel no water; with different
+/// gravity in the two engines beads would float or sink that should not; without the patch massInHopper counts nothing.
+TEST(BadInput, BeadsAndFluidAtOdds)
+{
+    expectRefused([](TestCase& test) { test.dem.beads.emplace_back(0.01, 0.01, 0.0412); },
+        {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh", "spans"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.dem.gravity = 1.62; },
+        {"constant/g is (0 0 -9.81)", "fix gravity of the DEM script gives (0 0 -1.62)", "allowed: the same"},
+        SeenBy::engine);
+    expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/patch", "hopper"); },
+        {controlDict, "'patch' is 'hopper'", "allowed: 1(walls)"}, SeenBy::engine);
+}
+
+/// LIGGGHTS' own errors, which it would print to its log and end the process with, reach the user with script and line.
+TEST(BadInput, DemScript)
+{
+    expectLineRefused("fix oops all gravvity 9.81", "Invalid fix style: \"gravvity\"");
+    expectLineRefused("pear_style gran model hertz", "Unknown command");
+    expectLineRefused("timestep ${demStep}", "demStep");
+    expectLineRefused("fix m all mesh/surface file DEM/none.stl type 1", "DEM/none.stl");
+    expectLineRefused("read_restart DEM/none.restart", "read_restart");
+    // What LIGGGHTS sees only when all lines are read.
+    expectRefused([](TestCase& test) { test.dem.youngsModulus = -5e6; }, {"LIGGGHTS stopped", "youngsModulus", script},
+        SeenBy::engine);
+    expectRefused([](TestCase& test) { test.dem.restitution = 1.5; },
+        {"LIGGGHTS stopped", "coefficientRestitution <= 1", script}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.dem.more = "unfix friction"; },
+        {"LIGGGHTS stopped", "coefficientFriction", script}, SeenBy::engine);
+}
+
+/// The same on two ranks: the message comes through and the program ends. An error that one rank alone reports would
+/// leave the other waiting for ever.
+TEST(BadInput, OnTwoRanks)
+{
+    expectRefused([](TestCase& test) { test.coupling().set("forceModels", "(DiFelice)"); },
+        {couplingProperties, "'DiFelice'", "DiFeliceDrag"}, SeenBy::dictionaries, 2);
+    expectLineRefused("fix oops all gravvity 9.81", "Invalid fix style: \"gravvity\"", 2);
+    expectRefused(
+        [](TestCase& test) {
+            test.dem.readRestart = "DEM/none.restart";
+            test.dem.beads.clear();
+        },
+        {script + " line ", "Cannot open restart file DEM/none.restart"}, SeenBy::engine, 2);
+    expectRefused([](TestCase& test) { test.dem.beads.emplace_back(0.01, 0.01, 0.0412); },
+        {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"}, SeenBy::engine, 2);
+}
+
+/// A case that is decomposed for two ranks does not start on three, nor one that is not decomposed on two. A program
+/// that took the parts it finds would solve half of the tank.
+TEST(BadInput, AnotherNumberOfRanks)
+{
+    TestCase test;
+    fillIn(test);
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    const Files whole = filesIn(test.path());
+    expectRefused(test.runCommand(commandOn(2)), {"decomposeParDict"});
+    expectSameFiles(whole, filesIn(test.path()), SeenBy::dictionaries);
+
+    decompose(test, 2);
+    const Files before = filesIn(test.path());
+    expectRefused(test.runCommand(commandOn(3)), {"number of processor directories = 2", "number of processors = 3"});
+    expectSameFiles(before, filesIn(test.path()), SeenBy::dictionaries);
+}
+
+/// A second program in a case that is at work is refused and does not disturb the first: its curve has every row, once.
+/// Without the lock both would write into the same files.
+TEST(BadInput, TwoProgramsInOneCase)
+{
+    TestCase test;
+    fillIn(test);
+    test.extraFiles.clear();
+    test.setTimes(0.5, 1e-3, 0.5);
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    // The first is halted while the second tries, so that it cannot have ended by then.
+    const Outcome second =
+        test.runCommand("$SOLVER > first.log 2>&1 & first=$!; "
+                        "until grep -q \"Time scales\" first.log || ! kill -0 $first; do sleep 0.02; done; "
+                        "kill -STOP $first; $SOLVER; second=$?; kill -CONT $first; "
+                        "wait $first || exit 0; exit $second");
+    expectRefused(
+        second, {"Another program runs in this case", "process ", test.path().string(), ".pimpleDemFoam.lock"});
+    EXPECT_EQ(test.table("postProcessing/massInHopper/0/massInHopper.dat").size(), 501U);
+}
+
+} // namespace
