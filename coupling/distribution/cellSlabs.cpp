@@ -106,28 +106,40 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
     }
 }
 
-double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, double radius) const
+template<class Cut>
+double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const
 {
     double fraction = 1;
     for (int i = side.firstPlane; i < side.firstPlane + side.planeCount; ++i)
     {
         const double distance = planes_[i].inwardNormal.dot(centre) - planes_[i].offset;
-        fraction = std::min(fraction, side.wall ? (distance >= 0 ? 1.0 : 0.0) : capFraction(distance/radius));
+        fraction = std::min(fraction, side.wall ? (distance >= 0 ? 1.0 : 0.0) : cut(distance));
     }
     return fraction;
 }
 
-double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
+template<class Cut>
+double CellSlabs::shareOf(label cell, const Vector3d& centre, const Cut& cut) const
 {
     double share = 1;
     for (int slab = firstSlab_[cell]; slab < firstSlab_[cell + 1] && share > 0; ++slab)
     {
-        const double low = fractionInside(slabs_[slab].low, centre, radius);
-        const double high = fractionInside(slabs_[slab].high, centre, radius);
+        const double low = fractionInside(slabs_[slab].low, centre, cut);
+        const double high = fractionInside(slabs_[slab].high, centre, cut);
         // Behind a wall is behind it however far the other side reaches.
         share *= low == 0 || high == 0 ? 0 : std::max(0.0, low + high - 1);
     }
     return share;
+}
+
+double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
+{
+    return shareOf(cell, centre, [radius](double distance) { return capFraction(distance/radius); });
+}
+
+double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth) const
+{
+    return shareOf(cell, centre, [bandwidth](double distance) { return 0.5*std::erfc(-distance/bandwidth); });
 }
 
 void CellSlabs::makeBins(const Foam::fvMesh& mesh)

@@ -30,6 +30,9 @@ public:
     /// Share of a sphere in one cell, not normalised, in [0, 1].
     double share(Foam::label cell, const Vector3d& centre, double radius) const;
 
+    /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; the same rule at walls.
+    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth) const;
+
     /// Cells whose bounding box touches the sphere's, by growing label.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
 
@@ -58,7 +61,11 @@ private:
         Side high;
     };
 
-    double fractionInside(const Side& side, const Vector3d& centre, double radius) const;
+    /// \param cut  fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre
+    template<class Cut>
+    double fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const;
+    template<class Cut>
+    double shareOf(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
     void addCell(const Foam::fvMesh& mesh, Foam::label cell);
     void makeBins(const Foam::fvMesh& mesh);
     Eigen::Vector3i binOf(const Vector3d& point) const;

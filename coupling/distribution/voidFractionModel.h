@@ -31,6 +31,12 @@ public:
     /// How far from its centre a bead acts [m].
     virtual double reach(const VisitingBead& bead) const = 0;
 
+    /// A reach that all beads have, if farther than their radius: they visit the ranks with cells that near [m].
+    virtual double commonReach() const
+    {
+        return 0;
+    }
+
     /// Share of the bead in a cell, not normalised, >= 0.
     virtual double share(Foam::label cell, const VisitingBead& bead) const = 0;
 

@@ -27,6 +27,10 @@ struct FluidAtBead
     Vector3d pressureGradient = Vector3d::Zero();
     /// Divergence of the viscous stress [Pa/m].
     Vector3d viscousStressDivergence = Vector3d::Zero();
+    /// DU/Dt = dU/dt + U.grad U, U interstitial [m/s2]; zero unless a force asks for it.
+    Vector3d acceleration = Vector3d::Zero();
+    /// curl U [1/s]; zero unless a force asks for it.
+    Vector3d vorticity = Vector3d::Zero();
 };
 
 /// What the fluid must receive from one bead, summed over the DEM steps of one interval.
@@ -60,6 +64,18 @@ using ConstView = Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>>;
 using ConstVectors = Eigen::Map<const Eigen::Matrix3Xd>;
 using Vectors = Eigen::Map<Eigen::Matrix3Xd>;
 
+/// Pairs of beads near each other, for forces between beads. A pair of own beads is listed once; a pair of an own bead
+/// and a copy of another rank's bead (or of a bead across a periodic boundary) is listed at either, its own bead first.
+struct BeadPairs
+{
+    /// Own beads first, in BeadsView's order, then the copies.
+    ConstVectors position{nullptr, 3, 0};
+    ConstVectors velocity{nullptr, 3, 0};
+    ConstView<double> radius{nullptr, 0};
+    /// 2 x number of pairs: columns of the above. Empty unless DemEngine::seePairs() was called.
+    Eigen::Map<const Eigen::Matrix2Xi> list{nullptr, 2, 0};
+};
+
 /// The beads that this rank owns; column i of every array is the same bead.
 /// Valid until the engine advances: beads move between ranks then.
 struct BeadsView
@@ -72,6 +88,10 @@ struct BeadsView
     ConstView<double> mass;
     /// `size()` entries, writable.
     CouplingState* state = nullptr;
+    /// Sum of the forces of all else: contacts, walls, gravity [N]. Meaningful while FluidForces::evaluate() runs.
+    ConstVectors otherForce{nullptr, 3, 0};
+    /// For FluidForces::evaluate() only, as is otherForce.
+    BeadPairs pairs{};
 
     Eigen::Index size() const
     {

@@ -23,8 +23,9 @@ class FluidForces
 public:
     virtual ~FluidForces() = default;
 
-    /// \param beads  the beads of this rank as they are now; `beads.state[i].fluid` is the frozen fluid. What the
-    ///               fluid must receive is added to `beads.state[i].given`.
+    /// \param beads  the beads of this rank as they are now; `beads.state[i].fluid` is the frozen fluid,
+    ///               `beads.otherForce` the sum of all other forces of this step. What the fluid must receive is added
+    ///               to `beads.state[i].given`.
     /// \param timeStep  DEM step [s]
     /// \param force  3 x beads.size(), overwritten with the force on each bead [N]
     virtual void evaluate(const BeadsView& beads, double timeStep, Vectors force) = 0;
@@ -49,6 +50,10 @@ public:
     DemEngine(const DemEngine&) = delete;
     DemEngine& operator=(const DemEngine&) = delete;
     virtual ~DemEngine() = default;
+
+    /// Asks for BeadsView::pairs: at every step at least all pairs of beads whose surfaces are closer than
+    /// `reach` times the sum of their radii. \pre not yet initialised, reach > 0.
+    virtual void seePairs(double reach) = 0;
 
     /// Makes the engine ready to advance.
     /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState.

@@ -31,12 +31,12 @@ bool touches(const Box& cells, const Vector3d& centre, double radius)
     return !cells.isEmpty() && cells.squaredExteriorDistance(centre) <= radius*radius;
 }
 
-Box boxAround(const BeadsView& beads)
+Box boxAround(const BeadsView& beads, double commonReach)
 {
     Box around;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
-        const Vector3d reach = Vector3d::Constant(beads.radius[bead]);
+        const Vector3d reach = Vector3d::Constant(std::max(beads.radius[bead], commonReach));
         around.extend(beads.position.col(bead) - reach);
         around.extend(beads.position.col(bead) + reach);
     }
@@ -52,10 +52,11 @@ VisitingBead visitFrom(const BeadsView& beads, Eigen::Index bead)
 
 } // namespace
 
-BeadExchange::BeadExchange(MPI_Comm communicator, const Box& cells)
+BeadExchange::BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach)
 :
     communicator_(communicator),
-    cells_(cells)
+    cells_(cells),
+    commonReach_(commonReach)
 {
     MPI_Comm_rank(communicator_, &rank_);
 }
@@ -66,13 +67,13 @@ void BeadExchange::makePlan(const BeadsView& beads)
     MPI_Comm_size(communicator_, &rankCount);
 
     Eigen::Matrix<double, 12, 1> mine;
-    mine << numbers(boxAround(beads)), numbers(cells_);
+    mine << numbers(boxAround(beads, commonReach_)), numbers(cells_);
     Eigen::Matrix<double, 12, Eigen::Dynamic> all(12, rankCount);
     MPI_Allgather(mine.data(), 12, MPI_DOUBLE, all.data(), 12, MPI_DOUBLE, communicator_);
 
     exports_.clear();
     imports_.clear();
-    const Box myBeads = boxAround(beads);
+    const Box myBeads = boxAround(beads, commonReach_);
     const auto add = [&](int rank) {
         const Box theirBeads = box(all.col(rank).head<6>());
         const Box theirCells = box(all.col(rank).tail<6>());
@@ -81,7 +82,7 @@ void BeadExchange::makePlan(const BeadsView& beads)
             Exports leaving{rank, {}};
             for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
             {
-                if (touches(theirCells, beads.position.col(bead), beads.radius[bead]))
+                if (touches(theirCells, beads.position.col(bead), std::max(beads.radius[bead], commonReach_)))
                 {
                     leaving.beads.push_back(bead);
                 }

@@ -29,9 +29,10 @@ class BeadExchange
 {
 public:
     /// \param cells  box around this rank's cells; the mesh does not move.
-    BeadExchange(MPI_Comm communicator, const Box& cells);
+    /// \param commonReach  how far from its centre every bead acts, if farther than its radius [m]
+    BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
 
-    /// Sends every bead to each rank whose box its sphere touches. Collective.
+    /// Sends every bead to each rank whose box its sphere, or its reach, touches. Collective.
     void send(const BeadsView& beads);
 
     /// Local: the beads that touch this rank's box, own ones first, then by rank.
@@ -75,6 +76,7 @@ private:
     MPI_Comm communicator_;
     int rank_ = 0;
     Box cells_;
+    double commonReach_;
     std::vector<Exports> exports_;
     std::vector<Imports> imports_;
     std::vector<VisitingBead> visitors_;

@@ -14,9 +14,13 @@ namespace clepsydra
 class BeadForces final : public FluidForces
 {
 public:
+    /// FatalIOError for an unknown force and for one that does not go with `modelType`.
     BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers);
 
     void evaluate(const BeadsView& beads, double timeStep, Vectors force) override;
+
+    /// What any of the forces needs.
+    ForceNeeds needs() const;
 
     const Foam::PtrList<ForceModel>& models() const
     {
@@ -25,6 +29,7 @@ public:
 
 private:
     PhaseTimers& timers_;
+    const ModelType modelType_;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;
 };

@@ -6,6 +6,7 @@
 #include "closures/schillerNaumannDrag.h"
 #include "closures/stokesDrag.h"
 #include "forces/forceModel.h"
+#include "forces/wallCorrection.h"
 
 namespace clepsydra
 {
@@ -13,14 +14,15 @@ namespace clepsydra
 namespace
 {
 
-/// A drag law of closures/ as a force model.
+/// A drag law of closures/ as a force model, `<law>Props { wallCorrection {...} }` for beads beside walls.
 template<class Law>
 class Drag : public ForceModel
 {
 public:
-    Drag(const Foam::dictionary&, const FluidProperties& fluid)
+    Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
     :
-        fluid_(fluid)
+        fluid_(fluid),
+        walls_(coefficients.subOrEmptyDict("wallCorrection"))
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
@@ -29,20 +31,30 @@ public:
         for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
         {
             const FluidAtBead& at = beads.state[bead].fluid;
-            const double slipSpeed = (at.velocity - beads.velocity.col(bead)).norm();
-            sum.implicitCoefficient[bead] += law(closures::BeadInFluid{2*beads.radius[bead], at.voidFraction,
-                at.logVoidFraction, slipSpeed, fluid_.density, fluid_.dynamicViscosity});
+            const Vector3d slip = at.velocity - beads.velocity.col(bead);
+            closures::BeadInFluid inFluid{2*beads.radius[bead], at.voidFraction, at.logVoidFraction, slip.norm(),
+                fluid_.density, fluid_.dynamicViscosity};
+            const double velocityRatio = walls_.tubeVelocityRatio(inFluid);
+            inFluid.slipSpeed /= velocityRatio;
+            const double coefficient = law(inFluid)/velocityRatio;
+            sum.implicitCoefficient[bead] += coefficient;
+            if (walls_.hasPlanes())
+            {
+                sum.source.col(bead) +=
+                    coefficient*walls_.addedSlip(slip, beads.position.col(bead), beads.radius[bead]);
+            }
         }
     }
 
     Foam::string description() const override
     {
         return Foam::string(Law::name) + ": fluid density " + Foam::name(fluid_.density) + " kg/m3, viscosity "
-            + Foam::name(fluid_.dynamicViscosity) + " Pa s";
+            + Foam::name(fluid_.dynamicViscosity) + " Pa s" + walls_.description();
     }
 
 private:
     const FluidProperties fluid_;
+    const WallCorrection walls_;
 };
 
 /// Makes a law known under its own name.

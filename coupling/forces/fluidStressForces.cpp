@@ -26,6 +26,11 @@ public:
         }
     }
 
+    bool onlyInModelA() const override
+    {
+        return true;
+    }
+
     Foam::string description() const override
     {
         return "gradPForce: -V_p grad(p), p without its hydrostatic part";
@@ -47,6 +52,11 @@ public:
         {
             sum.source.col(bead) += sphereVolume(beads.radius[bead])*beads.state[bead].fluid.viscousStressDivergence;
         }
+    }
+
+    bool onlyInModelA() const override
+    {
+        return true;
     }
 
     Foam::string description() const override

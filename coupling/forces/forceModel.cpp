@@ -13,6 +13,8 @@ void ForceSum::setZero(Eigen::Index beadCount)
     implicitCoefficient.setZero(beadCount);
     source.setZero(3, beadCount);
     shared.setZero(3, beadCount);
+    mutual.setZero(3, beadCount);
+    addedMass.setZero(beadCount);
 }
 
 Foam::autoPtr<ForceModel> ForceModel::New(

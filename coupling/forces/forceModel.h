@@ -1,8 +1,7 @@
 #pragma once
 
 #include "engine/beads.h"
-
-#include "runTimeSelection.h"
+#include "forces/modelType.h"
 
 namespace clepsydra
 {
@@ -13,10 +12,28 @@ struct FluidProperties
     double density;
     double dynamicViscosity;
     Vector3d gravity;
+    ModelType modelType = ModelType::A;
+};
+
+/// What a force needs beyond what is always there.
+struct ForceNeeds
+{
+    /// DU/Dt
+    bool acceleration = false;
+    /// curl U
+    bool vorticity = false;
+    /// BeadsView::pairs up to this gap, in units of the sum of the two radii; 0: none.
+    double pairReach = 0;
 };
 
 /// The forces of one DEM step on the beads of one rank, split by what is implicit and by whose reaction the fluid
-/// must be handed. Force on bead i = implicitCoefficient[i] (U_fluid - v_i) + source.col(i) + shared.col(i).
+/// must be handed. Force on bead i, dv_i/dt being its acceleration:
+///
+///     implicitCoefficient[i] (U_fluid - v_i) + source.col(i) + addedMass[i] (DU/Dt - dv_i/dt)    handed to the fluid
+///     + shared.col(i)                                                                            in its equation
+///     + mutual.col(i)                                                                            not the fluid's
+///
+/// In model B what is handed over is the same divided by the void fraction (BeadForces does that, no force model does).
 struct ForceSum
 {
     /// Sp [kg/s]. Reaction: handed to the fluid.
@@ -25,6 +42,12 @@ struct ForceSum
     Eigen::Matrix3Xd source;
     /// Su [N]. Reaction: already in the fluid's equation (model A's eps grad p; the hydrostatic part of p).
     Eigen::Matrix3Xd shared;
+    /// Su [N] between two beads, or a bead and a wall: the other one has the reaction.
+    Eigen::Matrix3Xd mutual;
+    /// m_a [kg], implicit in the bead's inertia. Reaction: handed to the fluid.
+    Eigen::ArrayXd addedMass;
+    /// Over which they act [s].
+    double timeStep = 0;
 
     void setZero(Eigen::Index beadCount);
 };
@@ -45,6 +68,17 @@ public:
     virtual ~ForceModel() = default;
 
     virtual void add(const BeadsView& beads, ForceSum& sum) const = 0;
+
+    virtual ForceNeeds needs() const
+    {
+        return {};
+    }
+
+    /// True for what model A has beside the drag and model B has in it.
+    virtual bool onlyInModelA() const
+    {
+        return false;
+    }
 
     /// One line for the start of the log, with the coefficients.
     virtual Foam::string description() const = 0;

@@ -15,12 +15,16 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     ledger_(settings.dict(), mesh.time()),
     observedBeads_(mesh, engine)
 {
+    if (models && models->forces.needs().pairReach > 0)
+    {
+        engine_.seePairs(models->forces.needs().pairReach);
+    }
     engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
     if (models)
     {
         fluid_ = std::make_unique<FluidCoupling>(
-            mesh, settings, fluid, engine, models->distribution, ledger_, timers_);
+            mesh, settings, fluid, models->forces.needs(), engine, models->distribution, ledger_, timers_);
         fluid_->start(resumed);
     }
 }
@@ -41,6 +45,7 @@ void CouplingInterval::advance(
     forgetGiven();
     solveFluid();
     fluid_->carryMomentum(U, interval_);
+    fluid_->updateAcceleration(U, interval_);
     fluid_->fluidToBeads(U, p);
 }
 

@@ -3,6 +3,7 @@
 #include "OSspecific.H"
 #include "runTimeSelection.h"
 
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -33,6 +34,27 @@ std::string exactText(const token& value)
     return value.isString() ? value.stringToken() : value.wordToken();
 }
 
+/// No material has a negative friction, nor a density or diameter of zero; the script's own checks come too late or
+/// not at all. Variables are known by their names, since the script may call them what it likes.
+void checkMaterialValues(const dictionary& variables)
+{
+    const auto names = [](const word& name, const std::string& quantity) {
+        return name.find(quantity) != string::npos
+            || name.find(static_cast<char>(std::toupper(quantity[0])) + quantity.substr(1)) != string::npos;
+    };
+    for (const word& name : variables.toc())
+    {
+        if (names(name, "density") || names(name, "diameter"))
+        {
+            positiveEntry(variables, name);
+        }
+        else if (names(name, "friction"))
+        {
+            positiveEntry(variables, name, true);
+        }
+    }
+}
+
 } // namespace
 
 CouplingSettings::CouplingSettings(const Time& time)
@@ -52,7 +74,7 @@ void CouplingSettings::readChoices()
     {
         return;
     }
-    selectedModel(dict_, "modelType", {"A"});
+    selectedModel(dict_, "modelType", {"A", "B"});
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
     const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");
@@ -102,7 +124,7 @@ std::vector<std::string> CouplingSettings::descriptions() const
     {
         return {"fluid          none: a dry run"};
     }
-    return {"equations      model A, pressure without its hydrostatic part",
+    return {"equations      model " + std::string(dict_.get<word>("modelType")) + ", pressure without its hydrostatic part",
         "momentum       " + std::string(implicitCoupling_ ? "implicitCouple" : "explicitCouple"),
         "alphaMin       " + std::to_string(minimumVoidFraction_),
         ddtVoidFraction_ ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
@@ -129,17 +151,7 @@ LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeF
     {
         setup.variables.emplace_back(name, exactText(variables.lookup(name)[0]));
     }
-    // Quantities that no material can have negative; the script's own checks come too late or not at all.
-    for (const word& name : variables.toc())
-    {
-        const bool never = name.find("friction") != string::npos || name.find("Friction") != string::npos
-            || name.find("density") != string::npos || name.find("Density") != string::npos
-            || name.find("diameter") != string::npos || name.find("Diameter") != string::npos;
-        if (never)
-        {
-            positiveEntry(variables, name, name.find("riction") != string::npos);
-        }
-    }
+    checkMaterialValues(variables);
     setup.logFile = "log.liggghts";
     setup.resumeFrom = resumeFrom;
     return setup;

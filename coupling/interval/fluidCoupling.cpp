@@ -1,6 +1,7 @@
 #include "interval/fluidCoupling.h"
 
 #include "fvc.H"
+#include "fvcCurl.H"
 #include "fvcDdt.H"
 #include "fvcGrad.H"
 #include "fvcLaplacian.H"
@@ -46,16 +47,21 @@ MPI_Comm duplicateWorld()
 } // namespace
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers)
+    const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers)
 :
     mesh_(mesh),
     settings_(settings),
     fluid_(fluid),
+    modelType_(readModelType(settings.dict())),
+    needs_(needs),
     engine_(engine),
     ledger_(ledger),
     timers_(timers),
     distribution_(distribution),
-    exchange_(duplicateWorld(), distribution_.cells().box()),
+    exchange_(
+        duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
+    one_(IOobject("one", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
+        dimensionedScalar("one", dimless, 1)),
     voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
     voidFractionInContinuity_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
     ddtVoidFraction_(couplingField<scalar>("ddtVoidFraction", mesh, dimless/dimTime, 0)),
@@ -67,6 +73,11 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
 {
     impulseDensity_ = scalarField(mesh.nCells(), 0.0);
     smoothGradient_ = scalarField(mesh.nCells(), 0.0);
+    if (needs_.acceleration)
+    {
+        acceleration_.reset(
+            new volVectorField(couplingField<vector>("fluidAcceleration", mesh, dimAcceleration, vector::zero)));
+    }
     voidFraction_.oldTime();
     ledger.openMomentum(momentumOutstanding());
 }
@@ -225,6 +236,17 @@ void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
     ledger_.bookMomentum(beadsReceived, fluidLost, momentumOutstanding());
 }
 
+void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
+{
+    if (needs_.acceleration)
+    {
+        const tmp<volTensorField> gradient = fvc::grad(U);
+        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField())/interval
+            + (U.primitiveField() & gradient().primitiveField());
+        acceleration_->correctBoundaryConditions();
+    }
+}
+
 void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& p)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
@@ -235,11 +257,16 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         velocity = 1,
         pressureGradient = 4,
         viscousStressDivergence = 7,
-        rowCount = 10
+        alwaysThere = 10
     };
+    const Eigen::Index acceleration = alwaysThere;
+    const Eigen::Index vorticity = alwaysThere + (needs_.acceleration ? 3 : 0);
+    const Eigen::Index rowCount = vorticity + (needs_.vorticity ? 3 : 0);
     const dimensionedScalar viscosity("mu", dimViscosity, fluid_.dynamicViscosity);
     const tmp<volVectorField> gradient = fvc::grad(p);
     const tmp<volVectorField> viscous = fvc::laplacian(viscosity, U, "laplacian(nu,U)");
+
+    const tmp<volVectorField> curl = needs_.vorticity ? fvc::curl(U) : tmp<volVectorField>();
 
     Eigen::MatrixXd atVisitors(rowCount, static_cast<Eigen::Index>(exchange_.visitors().size()));
     distribution_.sample(voidFraction_.primitiveField(), atVisitors, voidFraction);
@@ -247,10 +274,21 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     for (direction axis = 0; axis < spaceDimensions; ++axis)
     {
         const scalarField pascalPerMetre(fluid_.density*gradient().primitiveField().component(axis));
-        smooth(pascalPerMetre, smoothGradient_[axis]);
+        if (modelType_ == ModelType::A)
+        {
+            smooth(pascalPerMetre, smoothGradient_[axis]);
+        }
         distribution_.sample(U.primitiveField().component(axis)(), atVisitors, velocity + axis);
         distribution_.sample(smoothGradient_[axis], atVisitors, pressureGradient + axis);
         distribution_.sample(viscous().primitiveField().component(axis)(), atVisitors, viscousStressDivergence + axis);
+        if (needs_.acceleration)
+        {
+            distribution_.sample(acceleration_->primitiveField().component(axis)(), atVisitors, acceleration + axis);
+        }
+        if (needs_.vorticity)
+        {
+            distribution_.sample(curl().primitiveField().component(axis)(), atVisitors, vorticity + axis);
+        }
         pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre*solidFraction_*mesh_.V().field()));
     }
 
@@ -265,9 +303,21 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         fluid.velocity = atBeads.block<3, 1>(velocity, bead);
         fluid.pressureGradient = atBeads.block<3, 1>(pressureGradient, bead);
         fluid.viscousStressDivergence = atBeads.block<3, 1>(viscousStressDivergence, bead);
+        if (needs_.acceleration)
+        {
+            fluid.acceleration = atBeads.block<3, 1>(acceleration, bead);
+        }
+        if (needs_.vorticity)
+        {
+            fluid.vorticity = atBeads.block<3, 1>(vorticity, bead);
+        }
         pressureForceOnBeads -= sphereVolume(beads.radius[bead])*toFoam(fluid.pressureGradient);
     }
-    ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
+    // In model B no bead feels it, and the fluid's equation holds no reaction to it.
+    if (modelType_ == ModelType::A)
+    {
+        ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
+    }
 }
 
 string FluidCoupling::describeCell(label cell) const

@@ -20,7 +20,7 @@ namespace clepsydra
 ///     d(eps)/dt + div(eps U) = 0
 ///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource - implicitCoefficient U
 ///
-/// p is kinematic and without its hydrostatic part.
+/// p is kinematic and without its hydrostatic part. In model B grad p stands without eps, see ModelType.
 ///
 /// The eps of d(eps)/dt passes a low-pass of first order in time (useDDTvoidfractionProps { smoothingTime }), elsewhere
 /// eps is that of the beads as they are. Collisions change the beads' velocities by jumps. The pressure answers to
@@ -29,8 +29,9 @@ namespace clepsydra
 class FluidCoupling
 {
 public:
+    /// \param needs  what of the fluid the forces need at the beads
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers);
+        const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers);
 
     /// The first beads on the mesh. Collective.
     /// \param resumed  the fields are those of a checkpoint: kept as they are, to the last bit
@@ -43,12 +44,22 @@ public:
     /// Books what the implicit part of the source gave beyond the beads' impulse, to be made good next time.
     void carryMomentum(const Foam::volVectorField& U, double interval);
 
+    /// DU/Dt over the interval that has just been solved, where a force needs it. It is kept as a field, so that a
+    /// resumed run has it too.
+    void updateAcceleration(const Foam::volVectorField& U, double interval);
+
     /// The fluid at the beads, for the next interval. Collective.
     void fluidToBeads(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     const Foam::volScalarField& voidFraction() const
     {
         return voidFraction_;
+    }
+
+    /// What the fluid's equation multiplies grad p with: eps in model A, 1 in model B.
+    const Foam::volScalarField& pressureFactor() const
+    {
+        return modelType_ == ModelType::A ? voidFraction_ : one_;
     }
 
     /// d(eps)/dt, or zero where `useDDTvoidfraction off`.
@@ -85,6 +96,8 @@ private:
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     const FluidProperties fluid_;
+    const ModelType modelType_;
+    const ForceNeeds needs_;
     DemEngine& engine_;
     Ledger& ledger_;
     PhaseTimers& timers_;
@@ -92,6 +105,7 @@ private:
     Distribution& distribution_;
     BeadExchange exchange_;
 
+    const Foam::volScalarField one_;
     Foam::volScalarField voidFraction_;
     /// The void fraction through a low-pass in time, whose rate enters the continuity equation.
     Foam::volScalarField voidFractionInContinuity_;
@@ -101,6 +115,8 @@ private:
     Foam::volVectorField beadSource_;
     /// What of it the fluid has not received yet [m/s, as impulse per mass and volume].
     Foam::volVectorField outstanding_;
+    /// DU/Dt [m/s2]; none where no force needs it.
+    Foam::autoPtr<Foam::volVectorField> acceleration_;
 
     // Last interval's results, from which the smoothing starts.
     Foam::scalarField solidFraction_;

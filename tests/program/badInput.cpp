@@ -223,6 +223,8 @@ TEST(BadInput, NegativeQuantities)
                 {transportProperties, "'" + entry + "' is " + value, "a number > 0"}, SeenBy::dictionaries);
         }
     }
+    expectRefused([](TestCase& test) { test.dem.friction = -0.1; },
+        {script, "coefficientFriction", "-0.1", "a number >= 0"}, SeenBy::engine);
     expectLineRefused("set group all density -1", "Invalid density");
     expectLineRefused("set group all diameter -0.002 density 2500", "Invalid diameter");
     expectLineRefused("set group all mass -1e-5", "Invalid mass");

@@ -51,6 +51,12 @@ public:
         materials_ = std::move(materials);
     }
 
+    /// All pairs of beads of this rank, near or not.
+    void seePairs(double) override
+    {
+        seesPairs_ = true;
+    }
+
     void initialise(FluidForces* forces) override
     {
         forces_ = forces;
@@ -59,6 +65,12 @@ public:
     void advance(int steps) override
     {
         Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(id_.size()));
+        weight_.resize(3, force.cols());
+        for (Eigen::Index bead = 0; bead < force.cols(); ++bead)
+        {
+            weight_.col(bead) = mass_[static_cast<std::size_t>(bead)] * gravity_;
+        }
+        listPairs();
         for (int step = 0; step < steps; ++step)
         {
             if (forces_ != nullptr)
@@ -83,7 +95,10 @@ public:
             return ConstVectors(list.empty() ? nullptr : list.front().data(), 3, count);
         };
         return {ConstView<int>(id_.data(), count), vectors(position_), vectors(velocity_), vectors(angularVelocity_),
-            ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data()};
+            ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data(),
+            ConstVectors(weight_.data(), 3, weight_.cols()),
+            BeadPairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
+                Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())}};
     }
 
     double timeStep() const override
@@ -118,6 +133,20 @@ public:
     }
 
 private:
+    void listPairs()
+    {
+        const int count = seesPairs_ ? static_cast<int>(id_.size()) : 0;
+        pairs_.resize(2, count * (count - 1) / 2);
+        Eigen::Index pair = 0;
+        for (int first = 0; first < count; ++first)
+        {
+            for (int second = first + 1; second < count; ++second)
+            {
+                pairs_.col(pair++) << first, second;
+            }
+        }
+    }
+
     double timeStep_;
     Vector3d gravity_;
     FluidForces* forces_ = nullptr;
@@ -131,6 +160,10 @@ private:
     std::vector<double> radius_;
     std::vector<double> mass_;
     std::vector<CouplingState> state_;
+    /// Of the step that advance() is in.
+    Eigen::Matrix3Xd weight_;
+    bool seesPairs_ = false;
+    Eigen::Matrix2Xi pairs_;
 };
 
 } // namespace clepsydra::tests

@@ -10,10 +10,14 @@
 #include <fix_gravity.h>
 #include <fix_property_atom.h>
 #include <fix_property_global.h>
+#include <force.h>
 #include <input.h>
 #include <lammps.h>
 #include <modify.h>
+#include <neigh_list.h>
+#include <neighbor.h>
 #include <output.h>
+#include <pair.h>
 #include <universe.h>
 #include <update.h>
 
@@ -122,6 +126,24 @@ public:
             stateFixId, "property/atom", "vector", static_cast<int>(couplingStateSize), 0, "coupling");
     }
 
+    /// LIGGGHTS takes a negative friction without complaint.
+    void checkMaterials() const
+    {
+        auto* const friction = static_cast<lmp::FixPropertyGlobal*>(program_->modify->find_fix_property(
+            "coefficientFriction", "property/global", "peratomtypepair", 0, 0, "coupling", false));
+        const int materialCount = program_->atom->ntypes;
+        for (int pair = 0; friction && pair < materialCount*materialCount; ++pair)
+        {
+            const double value = friction->compute_array(pair/materialCount, pair % materialCount);
+            if (value < 0)
+            {
+                throw DemEngineError("coefficientFriction of the materials " + std::to_string(pair/materialCount + 1)
+                    + " and " + std::to_string(pair % materialCount + 1) + " is " + std::to_string(value)
+                    + "; allowed: a number >= 0");
+            }
+        }
+    }
+
     void addFluidForce(FluidForces* forces)
     {
         forces_ = forces;
@@ -131,6 +153,13 @@ public:
         external->set_callback(&Implementation::fluidForceCallback, this);
     }
 
+    void seePairs(double reach)
+    {
+        seesPairs_ = true;
+        // Widens the lists beyond the skin, so that what the skin allows the beads to move costs none of it.
+        program_->neighbor->register_contact_dist_factor(1 + reach);
+    }
+
     BeadsView beads()
     {
         lmp::Atom& atom = *program_->atom;
@@ -138,7 +167,29 @@ public:
         return BeadsView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
             ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
             ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
-            reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom))};
+            reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)),
+            ConstVectors(firstElement(atom.f), 3, count)};
+    }
+
+    /// LIGGGHTS' own list: half, with `newton off` pairs across ranks on both.
+    BeadPairs pairs()
+    {
+        pairList_.clear();
+        lmp::NeighList* const neighbours = program_->force->pair ? program_->force->pair->list : nullptr;
+        for (int i = 0; neighbours && i < neighbours->inum; ++i)
+        {
+            const int bead = neighbours->ilist[i];
+            for (int j = 0; j < neighbours->numneigh[bead]; ++j)
+            {
+                pairList_.push_back({bead, neighbours->firstneigh[bead][j] & NEIGHMASK});
+            }
+        }
+        lmp::Atom& atom = *program_->atom;
+        const Eigen::Index count = atom.nlocal + atom.nghost;
+        return BeadPairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
+            ConstView<double>(atom.radius, count),
+            Eigen::Map<const Eigen::Matrix2Xi>(
+                pairList_.empty() ? nullptr : pairList_.front().data(), 2, static_cast<Eigen::Index>(pairList_.size()))};
     }
 
     lmp::LAMMPS& program()
@@ -190,7 +241,9 @@ private:
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
     {
         auto& engine = *static_cast<Implementation*>(self);
-        const BeadsView beads = engine.beads();
+        const BeadsView own = engine.beads();
+        const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
+            own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{}};
         engine.forces_->evaluate(
             beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
     }
@@ -199,6 +252,8 @@ private:
     std::unique_ptr<lmp::LAMMPS> program_;
     lmp::Fix* stateFix_ = nullptr;
     FluidForces* forces_ = nullptr;
+    bool seesPairs_ = false;
+    std::vector<std::array<int, 2>> pairList_;
     bool boxMade_ = false;
     bool failed_ = false;
 };
@@ -210,6 +265,11 @@ LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
+void LiggghtsEngine::seePairs(double reach)
+{
+    implementation_->seePairs(reach);
+}
+
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     implementation_->addCouplingState();
@@ -217,6 +277,7 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     {
         implementation_->addFluidForce(forces);
     }
+    implementation_->checkMaterials();
     // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
     implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
     prepare();

@@ -33,6 +33,7 @@ public:
     explicit LiggghtsEngine(const LiggghtsSetup& setup);
     ~LiggghtsEngine() override;
 
+    void seePairs(double reach) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;

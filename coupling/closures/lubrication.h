@@ -1,0 +1,39 @@
+/// \file
+/// Normal squeeze of the fluid between two near spheres, or a sphere and a wall: leading term of lubrication theory,
+/// R. G. Cox, Int. J. Multiphase Flow 1, 343 (1974); S. Kim & S. J. Karrila, Microhydrodynamics (1991), ch. 9.
+///
+///     F = c v_n,     c = 6 pi mu R_eff^2 (1/max(h, roughness) - 1/reach)   for h < reach, else 0
+///     R_eff = R1 R2/(R1 + R2), for a wall R
+///
+/// h is the gap between the surfaces, v_n the speed of approach. The roughness is the gap at which the surfaces'
+/// asperities touch: without it c has no bound and no contact ever happens (Davis, Serayssol & Hinch, J. Fluid Mech.
+/// 163, 479 (1986); glass beads: 0.1..5 um). Beyond `reach` the drag law has all of the force; subtracting its value
+/// there makes the force continuous. Tangential parts, which grow as ln(1/h) only, are left out.
+///
+/// Range: gap Reynolds number rho v h/mu << 1, h << R.
+#pragma once
+
+#include "closures/constants.h"
+
+#include <algorithm>
+
+namespace clepsydra::closures
+{
+
+/// R_eff of two spheres [m].
+inline double effectiveRadius(double first, double second) noexcept
+{
+    return first * second / (first + second);
+}
+
+/// c [kg/s] \param dynamicViscosity  [Pa s] \param radius  R_eff [m] \param gap  h, negative in contact [m]
+/// \param roughness, reach  [m], 0 < roughness < reach
+inline double squeezeCoefficient(
+    double dynamicViscosity, double radius, double gap, double roughness, double reach) noexcept
+{
+    return gap >= reach
+               ? 0.0
+               : 6.0 * pi * dynamicViscosity * radius * radius * (1.0 / std::max(gap, roughness) - 1.0 / reach);
+}
+
+} // namespace clepsydra::closures

@@ -1,0 +1,49 @@
+/// \file
+/// Lift by rotation. w = omega_p - curl U/2: the bead's rotation against the fluid's; Re_r = rho |w| d^2/mu.
+///
+/// S. I. Rubinow & J. B. Keller, J. Fluid Mech. 11, 447 (1961), exact for Re, Re_r -> 0:
+///
+///     F = pi/8 rho d^3 U_r x w
+///
+/// B. Oesterle & T. Bui Dinh, Exp. Fluids 25, 16 (1998), measured at 10 < Re < 140, 1 < Re_r/Re < 6, with the former as
+/// its limit for small Re:
+///
+///     F = pi/8 rho d^2 C |U_r| U_r x w/|w|,     C = .45 + (Re_r/Re - .45) exp(-.05684 Re_r^.4 Re^.3)
+///
+/// At Re = 100, Re_r = 200 Rubinow & Keller's lift is 2.9 times as large.
+#pragma once
+
+#include "closures/liftOnBead.h"
+
+namespace clepsydra::closures
+{
+
+struct RubinowKellerLift
+{
+    static constexpr const char* name = "MagnusLiftForce";
+    static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
+
+    double operator()(const BeadInRotation& bead) const noexcept
+    {
+        return pi / 8.0 * bead.density * bead.diameter * bead.diameter * bead.diameter;
+    }
+};
+
+struct OesterleBuiDinhLift
+{
+    static constexpr const char* name = "MagnusLiftForceOesterle";
+    static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
+
+    double operator()(const BeadInRotation& bead) const noexcept
+    {
+        constexpr double slowest = 1e-30; // 1/s: no rotation, no force
+        const double turning = std::max(bead.rotation, slowest);
+        const double decay =
+            std::exp(-0.05684 * std::pow(rotationReynolds(bead), 0.4) * std::pow(slipReynolds(bead), 0.3));
+        // C |U_r|/(d |w|), regular at U_r = 0
+        const double part = decay + 0.45 * (1.0 - decay) * bead.slipSpeed / (bead.diameter * turning);
+        return RubinowKellerLift{}(bead)*part;
+    }
+};
+
+} // namespace clepsydra::closures

@@ -1,0 +1,127 @@
+#include "closures/lubrication.h"
+#include "forces/forceModel.h"
+#include "forces/wallPlanes.h"
+
+#include "addToRunTimeSelectionTable.H"
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// The fluid squeezed out between two beads or a bead and a wall resists their approach: see closures/lubrication.h.
+/// Equal and opposite on the two; nothing of it is handed to the fluid's equation.
+///
+///     lubricationForceProps
+///     {
+///         roughness 1e-6;     // [m], gap at which the surfaces touch
+///         reach     0.1;      // gap beyond which the drag law has it all, in sums of the two radii; default 0.1
+///         walls     ( ((0 0 0) (0 0 1)) );    // point and normal of planes; default none
+///     }
+///
+/// It acts explicitly at every DEM step, so that steps must stay below m/(6 pi mu R_eff^2/roughness): 0.5 ms for 2 mm
+/// glass beads at a wall in water with 1 um. FatalError above half of it.
+class LubricationForce : public ForceModel
+{
+public:
+    TypeName("lubricationForce");
+
+    LubricationForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
+    :
+        viscosity_(fluid.dynamicViscosity),
+        roughness_(positiveEntry(coefficients, "roughness")),
+        reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
+        walls_(readWallPlanes(coefficients))
+    {}
+
+    void add(const BeadsView& beads, ForceSum& sum) const override
+    {
+        addBetweenBeads(beads, sum);
+        for (const WallPlane& wall : walls_)
+        {
+            addAtWall(wall, beads, sum);
+        }
+    }
+
+    ForceNeeds needs() const override
+    {
+        ForceNeeds needs;
+        needs.pairReach = reach_;
+        return needs;
+    }
+
+    Foam::string description() const override
+    {
+        return "lubricationForce: normal squeeze, roughness " + Foam::name(roughness_) + " m, reach "
+            + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size())) + " walls";
+    }
+
+private:
+    void addBetweenBeads(const BeadsView& beads, ForceSum& sum) const
+    {
+        const BeadPairs& near = beads.pairs;
+        for (Eigen::Index pair = 0; pair < near.list.cols(); ++pair)
+        {
+            const int first = near.list(0, pair);
+            const int second = near.list(1, pair);
+            const double radii = near.radius[first] + near.radius[second];
+            const Vector3d apart = near.position.col(second) - near.position.col(first);
+            const double reach = reach_*radii;
+            if (apart.squaredNorm() >= (radii + reach)*(radii + reach))
+            {
+                continue;
+            }
+            const double distance = apart.norm();
+            const Vector3d normal = apart/distance;
+            const double approach = (near.velocity.col(first) - near.velocity.col(second)).dot(normal);
+            const double coefficient = closures::squeezeCoefficient(viscosity_,
+                closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_, reach);
+            requireStable(coefficient, beads.mass[first], sum.timeStep);
+            const Vector3d force = coefficient*approach*normal;
+            sum.mutual.col(first) -= force;
+            if (second < beads.size())
+            {
+                sum.mutual.col(second) += force;
+            }
+        }
+    }
+
+    void addAtWall(const WallPlane& wall, const BeadsView& beads, ForceSum& sum) const
+    {
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            const double radius = beads.radius[bead];
+            const double gap = wall.distance(beads.position.col(bead)) - radius;
+            const double coefficient =
+                closures::squeezeCoefficient(viscosity_, radius, gap, roughness_, 2*radius*reach_);
+            requireStable(coefficient, beads.mass[bead], sum.timeStep);
+            sum.mutual.col(bead) -= coefficient*wall.normal.dot(beads.velocity.col(bead))*wall.normal;
+        }
+    }
+
+    void requireStable(double coefficient, double mass, double timeStep) const
+    {
+        constexpr double largestPart = 0.5;
+        if (coefficient*timeStep > largestPart*mass)
+        {
+            FatalErrorInFunction << "lubricationForce damps a bead of " << mass << " kg at the rate "
+                                 << coefficient/mass << " 1/s, too fast for DEM steps of " << timeStep
+                                 << " s; allowed: steps up to " << largestPart*mass/coefficient
+                                 << " s, or a larger roughness than " << roughness_ << " m"
+                                 << Foam::exit(Foam::FatalError);
+        }
+    }
+
+    const double viscosity_;
+    const double roughness_;
+    const double reach_;
+    const std::vector<WallPlane> walls_;
+};
+
+defineTypeNameAndDebug(LubricationForce, 0);
+addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
+
+} // namespace
+
+} // namespace clepsydra

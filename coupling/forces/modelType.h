@@ -1,0 +1,30 @@
+#pragma once
+
+#include "runTimeSelection.h"
+
+namespace clepsydra
+{
+
+/// How the fluid's pressure gradient and viscous stress are shared with the beads; Zhou, Kuang, Chu & Yu, J. Fluid
+/// Mech. 661, 482 (2010).
+///
+/// A (their set II): the fluid keeps eps grad p, a bead feels drag, -V_p grad p and V_p div(tau).
+/// B (their set III): the fluid keeps all of grad p and div(tau); a bead feels (drag + other forces)/eps.
+/// Both with Archimedes' force, p being without its hydrostatic part. In a steady homogeneous bed they are the same.
+enum class ModelType
+{
+    A,
+    B
+};
+
+/// Entry `modelType` of couplingProperties; A where there is none. FatalIOError for anything but A and B.
+inline ModelType readModelType(const Foam::dictionary& couplingProperties)
+{
+    if (!couplingProperties.found("modelType"))
+    {
+        return ModelType::A;
+    }
+    return selectedModel(couplingProperties, "modelType", {"A", "B"}) == "B" ? ModelType::B : ModelType::A;
+}
+
+} // namespace clepsydra

@@ -1,0 +1,95 @@
+#pragma once
+
+#include "closures/beadInFluid.h"
+#include "closures/wallCorrection.h"
+#include "engine/beads.h"
+#include "forces/wallPlanes.h"
+
+#include <algorithm>
+
+namespace clepsydra
+{
+
+/// Drag beside walls, in the coefficients of any drag law; see closures/wallCorrection.h.
+///
+///     wallCorrection { law none; }                                        // as without the entry
+///     wallCorrection { law DiFelice1996; tubeDiameter 0.094; }            // [m], any Re
+///     wallCorrection { law Faxen; walls ( ((0 0 0) (0 0 1)) ); }          // point and normal of planes, Re << 1
+///
+/// Several planes add up (Oseen). The drag of a bead is then F = Sp (slip + addedSlip).
+class WallCorrection
+{
+public:
+    /// FatalIOError for an unknown law and for a tube or walls that are missing.
+    explicit WallCorrection(const Foam::dictionary& dict)
+    {
+        const Foam::word law =
+            dict.found("law") ? selectedModel(dict, "law", {"none", "DiFelice1996", "Faxen"}) : Foam::word("none");
+        if (law == "DiFelice1996")
+        {
+            tubeDiameter_ = positiveEntry(dict, "tubeDiameter");
+        }
+        if (law == "Faxen")
+        {
+            planes_ = readWallPlanes(dict);
+            if (planes_.empty())
+            {
+                FatalIOErrorInFunction(dict) << "Entry 'walls' is missing or empty; allowed: at least one pair of a "
+                                             << "point and a normal" << Foam::exit(Foam::FatalIOError);
+            }
+        }
+    }
+
+    /// Speed of the bead over that of a free bead with the same drag; 1 without a tube. FatalError for a bead as wide
+    /// as the tube.
+    double tubeVelocityRatio(const closures::BeadInFluid& bead) const
+    {
+        if (tubeDiameter_ == 0)
+        {
+            return 1;
+        }
+        const double lambda = bead.diameter/tubeDiameter_;
+        if (lambda >= 1)
+        {
+            FatalErrorInFunction << "A bead of diameter " << bead.diameter << " m in wallCorrection's tube of "
+                                 << tubeDiameter_ << " m; allowed: beads narrower than tubeDiameter"
+                                 << Foam::exit(Foam::FatalError);
+        }
+        return closures::diFeliceWallVelocityRatioAtSpeed(lambda, closures::loneReynolds(bead));
+    }
+
+    bool hasPlanes() const
+    {
+        return !planes_.empty();
+    }
+
+    /// By how much more slip a free bead would have the same drag [m/s].
+    Vector3d addedSlip(const Vector3d& slip, const Vector3d& position, double radius) const
+    {
+        Vector3d added = Vector3d::Zero();
+        for (const WallPlane& plane : planes_)
+        {
+            const double lambda = radius/std::max(radius, plane.distance(position));
+            const Vector3d across = plane.normal.dot(slip)*plane.normal;
+            added += (closures::faxenParallelFactor(lambda) - 1)*(slip - across)
+                + (closures::faxenPerpendicularFactor(lambda) - 1)*across;
+        }
+        return added;
+    }
+
+    /// To follow that of the drag law; empty without correction.
+    Foam::string description() const
+    {
+        if (tubeDiameter_ > 0)
+        {
+            return ", walls after Di Felice 1996, tube of " + Foam::name(tubeDiameter_) + " m";
+        }
+        return hasPlanes() ? ", Faxen's walls, " + Foam::name(static_cast<Foam::label>(planes_.size())) + " planes" : "";
+    }
+
+private:
+    double tubeDiameter_ = 0;
+    std::vector<WallPlane> planes_;
+};
+
+} // namespace clepsydra

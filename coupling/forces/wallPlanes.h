@@ -1,0 +1,49 @@
+#pragma once
+
+#include "runTimeSelection.h"
+
+#include "Tuple2.H"
+#include "vector.H"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace clepsydra
+{
+
+/// A plane wall; the fluid is on the side that the normal points to.
+struct WallPlane
+{
+    Eigen::Vector3d point;
+    Eigen::Vector3d normal; // of length 1
+
+    /// Of a point from the wall [m].
+    double distance(const Eigen::Vector3d& position) const
+    {
+        return normal.dot(position - point);
+    }
+};
+
+/// Entry `walls ( ((point) (normal)) ... );`, none where it is missing. FatalIOError for a normal without length.
+inline std::vector<WallPlane> readWallPlanes(const Foam::dictionary& dict)
+{
+    using Plane = Foam::Tuple2<Foam::vector, Foam::vector>;
+    std::vector<WallPlane> planes;
+    for (const Plane& plane : dict.getOrDefault<Foam::List<Plane>>("walls", Foam::List<Plane>()))
+    {
+        const Foam::vector& point = plane.first();
+        const Foam::vector& normal = plane.second();
+        if (!(Foam::mag(normal) > 0))
+        {
+            FatalIOErrorInFunction(dict) << "Entry 'walls' has the normal " << normal
+                                         << "; allowed: pairs of a point and a normal that is not zero"
+                                         << Foam::exit(Foam::FatalIOError);
+        }
+        planes.push_back({Eigen::Vector3d(point.x(), point.y(), point.z()),
+            Eigen::Vector3d(normal.x(), normal.y(), normal.z()).normalized()});
+    }
+    return planes;
+}
+
+} // namespace clepsydra

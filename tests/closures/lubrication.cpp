@@ -1,0 +1,40 @@
+/// \file
+/// Squeeze flow between near spheres.
+
+#include "closures/lubrication.h"
+
+#include "relative.h"
+
+namespace
+{
+
+using namespace clepsydra::closures;
+
+/// 6 pi * 1e-3 * 1e-6 = 1.884956e-8 for R 1 mm at a wall; h 10 um, reach 100 um: (1e5 - 1e4) = 9e4: 1.696460e-3 kg/s.
+/// Between two such beads R_eff = R/2: a quarter, 4.241150e-4. With R1 + R2 for R_eff it is 16 times too much.
+TEST(Lubrication, GrowsAsTheGapCloses)
+{
+    EXPECT_RELATIVE(squeezeCoefficient(1e-3, 1e-3, 1e-5, 1e-6, 1e-4), 1.696460033e-3, 1e-8);
+    EXPECT_RELATIVE(squeezeCoefficient(1e-3, effectiveRadius(1e-3, 1e-3), 1e-5, 1e-6, 1e-4), 4.241150082e-4, 1e-8);
+    EXPECT_RELATIVE(effectiveRadius(1e-3, 3e-3), 0.75e-3, 1e-12);
+}
+
+/// Bounded at the roughness, also in contact: (1e6 - 1e4) * 1.884956e-8 = 1.866106e-2 kg/s. Without the cut-off it is
+/// infinite or changes its sign with the overlap.
+TEST(Lubrication, IsBoundedByTheRoughness)
+{
+    for (const double gap : {1e-6, 1e-9, 0.0, -1e-5})
+    {
+        EXPECT_RELATIVE(squeezeCoefficient(1e-3, 1e-3, gap, 1e-6, 1e-4), 1.866106037e-2, 1e-8);
+    }
+}
+
+/// It ends at the reach without a jump.
+TEST(Lubrication, EndsAtItsReach)
+{
+    EXPECT_EQ(squeezeCoefficient(1e-3, 1e-3, 1e-4, 1e-6, 1e-4), 0.0);
+    EXPECT_LT(squeezeCoefficient(1e-3, 1e-3, 0.9999e-4, 1e-6, 1e-4), 1e-7);
+    EXPECT_GT(squeezeCoefficient(1e-3, 1e-3, 0.9999e-4, 1e-6, 1e-4), 0.0);
+}
+
+} // namespace

@@ -1,0 +1,309 @@
+/// \file
+/// What the models ask of LIGGGHTS, and LIGGGHTS' own models that cases use, through the engine on one rank and on two.
+
+#include "closures/addedMass.h"
+#include "closures/lubrication.h"
+#include "engine/liggghts/liggghtsEngine.h"
+#include "forcesOnBeads.h"
+#include "support/demScript.h"
+
+#include <gtest/gtest.h>
+#include <mpi.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <string>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double radius = 1e-3;
+constexpr double beadDensity = 2500;
+
+/// Exerts nothing, and keeps the sum of the other forces of the last step.
+class Probe final : public FluidForces
+{
+public:
+    void evaluate(const BeadsView& beads, double, Vectors force) override
+    {
+        force.setZero();
+        otherForce = beads.otherForce;
+        id = beads.id;
+        pairs = beads.pairs.list.cols();
+    }
+
+    Eigen::Matrix3Xd otherForce;
+    Eigen::ArrayXi id;
+    Eigen::Index pairs = 0;
+};
+
+Vector3d sumOverRanks(Vector3d value)
+{
+    MPI_Allreduce(MPI_IN_PLACE, value.data(), 3, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return value;
+}
+
+/// LIGGGHTS with beads in a box of 4 x 2 x 2 cm.
+class Beads
+{
+public:
+    Beads()
+    {
+        box.upper = {0.04, 0.02, 0.02};
+        dem.diameter = 2 * radius;
+        dem.density = beadDensity;
+        dem.timeStep = 1e-5;
+        dem.walls = false;
+    }
+
+    /// \param contactModel  after "model hertz"
+    LiggghtsEngine& start(
+        FluidForces* forces, double pairReach = 0, const std::string& contactModel = "tangential history")
+    {
+        std::string text = dem.text(box);
+        const std::string usual = "model hertz tangential history";
+        for (std::size_t at = 0; (at = text.find(usual, at)) != std::string::npos; ++at)
+        {
+            text.replace(at, usual.size(), "model hertz " + contactModel);
+        }
+        // Each rank reads its own copy.
+        const std::string name = testing::TempDir() + "clepsydraModels" + std::to_string(getpid());
+        std::ofstream(name) << text;
+        LiggghtsSetup setup;
+        setup.script = name;
+        setup.logFile = name + ".log";
+        engine_ = std::make_unique<LiggghtsEngine>(setup);
+        std::filesystem::remove(name);
+        std::filesystem::remove(name + ".log");
+        if (pairReach > 0)
+        {
+            engine_->seePairs(pairReach);
+        }
+        engine_->initialise(forces);
+        return *engine_;
+    }
+
+    /// On whichever rank it is.
+    Vector3d velocity(int bead)
+    {
+        const BeadsView beads = engine_->beads();
+        Vector3d found = Vector3d::Zero();
+        for (Eigen::Index i = 0; i < beads.size(); ++i)
+        {
+            found += beads.id[i] == bead ? Vector3d(beads.velocity.col(i)) : Vector3d::Zero();
+        }
+        return sumOverRanks(found);
+    }
+
+    Box box;
+    DemScript dem;
+
+private:
+    std::unique_ptr<LiggghtsEngine> engine_;
+};
+
+Vector3d otherForce(const Probe& probe, int bead)
+{
+    Vector3d found = Vector3d::Zero();
+    for (Eigen::Index i = 0; i < probe.id.size(); ++i)
+    {
+        found += probe.id[i] == bead ? Vector3d(probe.otherForce.col(i)) : Vector3d::Zero();
+    }
+    return sumOverRanks(found);
+}
+
+const double beadMass = beadDensity * sphereVolume(radius);
+
+} // namespace
+
+/// The last fix sees all other forces: the weight of a falling bead, and with it the contact of two that overlap.
+/// Defined earlier, or reading the forces of the step before, it sees none of them at the first step.
+TEST(Liggghts, ShowsAllOtherForces)
+{
+    Beads beads;
+    beads.dem.beads = {{0.005, 0.01, 0.01}, {0.0198, 0.01, 0.01}, {0.0217, 0.01, 0.01}};
+    Probe probe;
+    beads.start(&probe);
+    EXPECT_NEAR(otherForce(probe, 1).z() / (-9.81 * beadMass), 1, 1e-9);
+    // Hertz: 4/3 E* sqrt(R*) overlap^1.5, E* = E/(2 (1 - nu^2)), R* = R/2.
+    const double hertz = 4.0 / 3 * 5e6 / (2 * (1 - 0.04)) * std::sqrt(radius / 2) * std::pow(1e-4, 1.5);
+    EXPECT_NEAR(otherForce(probe, 3).x() / hertz, 1, 1e-6);
+    EXPECT_NEAR(otherForce(probe, 2).x() / -hertz, 1, 1e-6);
+    EXPECT_EQ(probe.pairs, 0);
+}
+
+/// Glass starts with 4.97 m/s2 in LIGGGHTS' own integration too (5.95 without added mass).
+TEST(Liggghts, TakesTheAddedMassImplicitly)
+{
+    Beads beads;
+    beads.dem.beads = {{0.005, 0.01, 0.01}};
+    Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
+    PhaseTimers timers;
+    BeadForces forces(dict, water(), timers);
+    beads.start(&forces).advance(100);
+    EXPECT_NEAR(
+        beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
+}
+
+/// Two beads 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by
+/// .2 mm/s: lubrication slows both alike by c v/m, and no contact force acts at that distance. A list that ends at
+/// the skin shows no force; pairs counted once per rank but applied to both beads on either show twice of it.
+TEST(Liggghts, LubricatesPairsAcrossRanks)
+{
+    Beads beads;
+    constexpr double gap = 5e-5;
+    constexpr double speed = 1e-4;
+    beads.dem.gravity = 0;
+    beads.dem.beads = {{0.02 - radius - gap / 2, 0.01, 0.01}, {0.02 + radius + gap / 2, 0.01, 0.01}};
+    beads.dem.more = "neighbor 1e-6 bin\ngroup first id 1\ngroup second id 2\nvelocity first set 1e-4 0 0 units box\n"
+                     "velocity second set -1e-4 0 0 units box\n";
+    const FluidProperties fluid{1000, 1e-3, Vector3d::Zero()};
+    Foam::dictionary dict(
+        Foam::IStringStream("forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.1; }")());
+    PhaseTimers timers;
+    BeadForces forces(dict, fluid, timers);
+    LiggghtsEngine& engine = beads.start(&forces, forces.needs().pairReach);
+    engine.advance(20);
+    const double coefficient = closures::squeezeCoefficient(1e-3, radius / 2, gap, 1e-6, 0.2 * radius);
+    const double slowed = speed - beads.velocity(1).x();
+    EXPECT_NEAR(slowed / (20 * engine.timeStep() * coefficient * 2 * speed / beadMass), 1, 0.01);
+    EXPECT_LT((beads.velocity(1) + beads.velocity(2)).norm(), 1e-12 * speed);
+}
+
+/// sjkr: an attraction k A, A the area where the spheres cut each other, pi (R^2 - (l/2)^2) for alike ones at distance
+/// l: R 1 mm, l 1.9 mm: pi*9.75e-8 = 3.063053e-7 m2, * 1e5 J/m3 = 3.063053e-2 N. With the wrong sign the beads repel.
+TEST(Liggghts, CohesionSjkrAttractsByTheAreaOfContact)
+{
+    const auto forceOnSecond = [](const std::string& model, double energyDensity) {
+        Beads beads;
+        beads.dem.gravity = 0;
+        beads.dem.beads = {{0.0090, 0.01, 0.01}, {0.0109, 0.01, 0.01}};
+        if (energyDensity > 0)
+        {
+            beads.dem.more =
+                "fix cohesion all property/global cohesionEnergyDensity peratomtypepair 2 1e5 1e5 1e5 1e5\n";
+        }
+        Probe probe;
+        beads.start(&probe, 0, model);
+        return otherForce(probe, 2).x();
+    };
+    const double attraction =
+        forceOnSecond("tangential history", 0) - forceOnSecond("tangential history cohesion sjkr", 1e5);
+    EXPECT_NEAR(attraction / 3.063053e-2, 1, 1e-4);
+}
+
+namespace
+{
+
+struct Roll
+{
+    double sliding; // deceleration while the bead slides, in units of g
+    double rolling; // speed when it has begun to roll, in units of the first
+    double slowing; // deceleration while it rolls, in units of g
+};
+
+/// A bead on the floor, started at 10 cm/s without spin.
+Roll roll(double wallFriction, const std::string& model, double rollingFriction)
+{
+    Beads beads;
+    beads.dem.walls = true;
+    beads.dem.restitution = 0.5;
+    beads.dem.wallFriction = wallFriction;
+    beads.dem.beads = {{0.005, 0.01, radius}};
+    beads.dem.more = "velocity all set 0.1 0 0 units box\n";
+    if (rollingFriction > 0)
+    {
+        const std::string value = std::to_string(rollingFriction);
+        beads.dem.more += "fix rolling all property/global coefficientRollingFriction peratomtypepair 2 " + value + ' '
+                          + value + ' ' + value + ' ' + value + '\n';
+    }
+    Probe probe;
+    LiggghtsEngine& engine = beads.start(&probe, 0, model);
+    const auto speedAfter = [&](double seconds) {
+        engine.advance(static_cast<int>(std::lround(seconds / engine.timeStep())));
+        return beads.velocity(1).x();
+    };
+    const double first = speedAfter(0.003);
+    const double second = speedAfter(0.006);
+    const double third = speedAfter(0.041);
+    const double last = speedAfter(0.1);
+    return {(first - second) / 0.006 / 9.81, third / 0.1, (third - last) / 0.1 / 9.81};
+}
+
+} // namespace
+
+/// Friction of its own for the floor: a sliding bead is slowed by mu g (.15 among beads, .3 here), then rolls on at 5/7
+/// of its speed for ever. With the beads' own friction for the wall it is half.
+TEST(Liggghts, WallsHaveTheirOwnFriction)
+{
+    for (const double friction : {0.15, 0.3})
+    {
+        const Roll r = roll(friction, "tangential history", 0);
+        EXPECT_NEAR(r.sliding / friction, 1, 0.03);
+        EXPECT_NEAR(r.rolling, 5.0 / 7, 0.01);
+        EXPECT_NEAR(r.slowing, 0, 1e-4);
+    }
+}
+
+/// Rolling friction mu_r: a torque mu_r F_n R slows a rolling bead by 5/7 mu_r g; none is there without the model.
+TEST(Liggghts, RollingFrictionSlowsARollingBead)
+{
+    for (const std::string model : {"cdt", "epsd2"})
+    {
+        const Roll r = roll(0.3, "tangential history rolling_friction " + model, 0.03);
+        EXPECT_NEAR(r.slowing / (5.0 / 7 * 0.03), 1, 0.05) << model;
+    }
+}
+
+namespace
+{
+
+std::string outputOf(const std::string& command)
+{
+    FILE* pipe = popen(command.c_str(), "r");
+    std::string output;
+    std::array<char, 4096> buffer;
+    for (std::size_t count; (count = fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+    {
+        output.append(buffer.data(), count);
+    }
+    EXPECT_EQ(pclose(pipe), 0) << command;
+    return output;
+}
+
+} // namespace
+
+/// scripts/sizeDistribution's lines make LIGGGHTS pour beads of a normal distribution cut at two deviations: mean 2 mm,
+/// deviation .8796 * .1 mm (a normal one cut there), less 1 % for the classes, none outside. Shares taken by mass, as
+/// LIGGGHTS does by default, shift the mean by a per cent; a single template has no deviation.
+TEST(Liggghts, PoursADistributionOfSizes)
+{
+    Beads beads;
+    beads.dem.more = outputOf(std::string(SIZE_DISTRIBUTION) + " --mean 2e-3 --deviation 1e-4")
+                     + "region inside block 0 0.04 0 0.02 0 0.02 units box\n"
+                       "fix pour all insert/pack seed 86028157 distributiontemplate beads maxattempt 200 "
+                       "insert_every once overlapcheck yes all_in yes vel constant 0. 0. 0. region inside "
+                       "particles_in_region 800\n";
+    Probe probe;
+    LiggghtsEngine& engine = beads.start(&probe);
+    engine.advance(2);
+    const Eigen::ArrayXd diameters = 2 * engine.beads().radius;
+    const Vector3d sums =
+        sumOverRanks({static_cast<double>(diameters.size()), diameters.sum(), diameters.square().sum()});
+    const double mean = sums[1] / sums[0];
+    const double deviation = std::sqrt(sums[2] / sums[0] - mean * mean);
+    EXPECT_EQ(sums[0], 800);
+    EXPECT_NEAR(mean / 2e-3, 1, 2e-3);
+    EXPECT_NEAR(deviation / 0.8796e-4, 1, 0.06);
+    EXPECT_GT(diameters.minCoeff(), 1.8e-3);
+    EXPECT_LT(diameters.maxCoeff(), 2.2e-3);
+}
+
+} // namespace clepsydra::tests

@@ -1,0 +1,79 @@
+/// \file
+/// lubricationForce between beads of the fake engine and at a wall.
+
+#include "forcesOnBeads.h"
+
+#include <gtest/gtest.h>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double radius = 1e-3;
+const FluidProperties weightlessWater{1000, 1e-3, {0, 0, 0}};
+
+/// Two beads of 2 mm, 10 um apart, approaching by 2 cm/s, reach 0.05 (R1 + R2) = 100 um: 4.241150e-4 kg/s * .02 m/s
+/// push them apart, along the line between them only, equal and opposite, and the fluid is given nothing. The third
+/// bead, beyond the reach, feels nothing.
+TEST(Lubrication, PushesApproachingBeadsApart)
+{
+    ForcesOnBeads test(
+        "forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.05; }", weightlessWater);
+    EXPECT_EQ(test.forces().needs().pairReach, 0.05);
+    test.engine().seePairs(0.05);
+    test.engine().addBead(1, {0, 0, 0}, radius, 2500, {0.01, 0.003, 0});
+    test.engine().addBead(2, {2.01e-3, 0, 0}, radius, 2500, {-0.01, 0.007, 0});
+    test.engine().addBead(3, {0, 2.101e-3, 0}, radius, 2500, {0, -1, 0});
+    const Eigen::Matrix3Xd before = test.engine().beads().velocity;
+    test.engine().advance(1);
+    const Eigen::Matrix3Xd force =
+        (test.engine().beads().velocity - before) * 2500 * sphereVolume(radius) / test.engine().timeStep();
+    EXPECT_NEAR(force(0, 0), -8.482300e-6, 1e-11);
+    EXPECT_LT((force.col(0) + force.col(1)).norm(), 1e-16);
+    EXPECT_NEAR(force(1, 0), 0, 1e-16);
+    EXPECT_NEAR(force.col(2).norm(), 0, 1e-20);
+    EXPECT_EQ(test.given(0).impulse.norm(), 0);
+}
+
+/// At a wall: 10 um above it, reach 0.05*2 R = 100 um, sinking by 1 cm/s: 1.696460e-3*.01 upwards; sliding costs nothing.
+TEST(Lubrication, SlowsTheApproachToAWall)
+{
+    ForcesOnBeads test("forceModels (lubricationForce); lubricationForceProps"
+                       " { roughness 1e-6; reach 0.05; walls ( ((5 5 0.1) (0 0 2)) ); }",
+        weightlessWater);
+    test.engine().addBead(1, {0, 0, 0.1 + radius + 1e-5}, radius, 2500, {0.3, 0, -0.01});
+    const Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
+    EXPECT_NEAR(force.z(), 1.696460e-5, 1e-10);
+    EXPECT_NEAR(force.x(), 0, 1e-16);
+}
+
+/// A step that is too long for so smooth a bead is an error with the longest step: m/c = 1.047198e-5/1.884956e-8*1e-9 =
+/// .56 us here. Left alone the bead would bounce off the squeezed film with more than it brought.
+TEST(Lubrication, RefusesAStepThatItCannotDamp)
+{
+    ForcesOnBeads test(
+        "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; walls ( ((0 0 0) (0 0 1)) ); }",
+        weightlessWater);
+    test.engine().addBead(1, {0, 0, radius}, radius, 2500, {0, 0, -0.01});
+    try
+    {
+        test.engine().advance(1);
+        FAIL() << "the step was taken";
+    }
+    catch (const Foam::error& error)
+    {
+        EXPECT_NE(error.message().find("steps up to 2.77"), std::string::npos) << error.message();
+    }
+}
+
+/// The roughness has no default: results depend on it.
+TEST(Lubrication, AsksForARoughness)
+{
+    EXPECT_THROW(ForcesOnBeads("forceModels (lubricationForce);"), Foam::IOerror);
+}
+
+} // namespace
+
+} // namespace clepsydra::tests

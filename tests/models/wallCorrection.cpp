@@ -1,0 +1,66 @@
+/// \file
+/// Drag laws with `wallCorrection`.
+
+#include "closures/wallCorrection.h"
+#include "forcesOnBeads.h"
+
+#include <gtest/gtest.h>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double radius = 1e-3;
+
+Vector3d dragOn(const std::string& properties, const Vector3d& position, const Vector3d& velocity)
+{
+    ForcesOnBeads test(properties, {1000, 1e-3, Vector3d::Zero()});
+    test.engine().addBead(1, position, radius, 2500, velocity);
+    const Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
+    EXPECT_LT((test.given(0).impulse - test.engine().timeStep() * force).norm(), 1e-14 * force.norm());
+    return force;
+}
+
+/// Half a diameter above a plane's surface (lambda = .5) Stokes' drag of 1.884956e-5 * .01 N grows 1.386 times along the
+/// plane and 2 times towards it. One factor for both directions fails.
+TEST(WallCorrection, OfAPlaneDependsOnTheDirection)
+{
+    const Vector3d force = dragOn("forceModels (StokesDrag); StokesDragProps { wallCorrection"
+                                  " { law Faxen; walls ( ((0 0 1) (0 0 3)) ); } }",
+        {0.2, 0.3, 1 + 2 * radius}, {0.01, 0, -0.01});
+    EXPECT_NEAR(force.x(), -1.884956e-7 * 1.3861252, 1e-13);
+    EXPECT_NEAR(force.z(), 1.884956e-7 * 2, 1e-13);
+}
+
+/// In a tube the bead at speed k v has the drag of the free bead at v: it settles k times as fast. Here d/D = .2,
+/// Re = 200 at k v. The correction as a factor on the drag coefficient at the same speed fails.
+TEST(WallCorrection, OfATubeSlowsTheBeadByDiFelicesRatio)
+{
+    const double freeSpeed = 0.2;
+    const double ratio = closures::diFeliceWallVelocityRatio(0.2, 400);
+    const double inTube = dragOn("forceModels (SchillerNaumannDrag); SchillerNaumannDragProps"
+                                 " { wallCorrection { law DiFelice1996; tubeDiameter 0.01; } }",
+        Vector3d::Zero(), {0, 0, -ratio * freeSpeed})
+                              .z();
+    const double free = dragOn("forceModels (SchillerNaumannDrag);", Vector3d::Zero(), {0, 0, -freeSpeed}).z();
+    EXPECT_NEAR(inTube / free, 1, 1e-5);
+    EXPECT_NEAR(ratio, 0.868586, 1e-6);
+}
+
+/// A mistake in the entry is refused.
+TEST(WallCorrection, RefusesWhatItCannotUse)
+{
+    for (const std::string entry : {"law Oseen;", "law DiFelice1996;", "law DiFelice1996; tubeDiameter -1;",
+             "law Faxen;", "law Faxen; walls ( ((0 0 0) (0 0 0)) );"})
+    {
+        EXPECT_THROW(ForcesOnBeads("forceModels (StokesDrag); StokesDragProps { wallCorrection { " + entry + " } }"),
+            Foam::IOerror)
+            << entry;
+    }
+}
+
+} // namespace
+
+} // namespace clepsydra::tests
