@@ -1,9 +1,9 @@
 #pragma once
 
+#include "FlatOutput.H"
 #include "autoPtr.H"
 #include "dictionary.H"
 #include "runTimeSelectionTables.H"
-#include "FlatOutput.H"
 #include "wordList.H"
 
 namespace clepsydra
@@ -14,8 +14,7 @@ using namespace Foam;
 
 /// The model that an entry of a dictionary names; FatalIOError with the file, the entry and the known names where it
 /// names none of them.
-inline word selectedModel(
-    const dictionary& dict, const word& entry, const wordList& known)
+inline word selectedModel(const dictionary& dict, const word& entry, const wordList& known)
 {
     const word name = dict.get<word>(entry);
     if (!known.found(name))

@@ -25,7 +25,7 @@ const word beginningName("beginning");
 
 bool isComplete(const fileName& checkpoint)
 {
-    return isFile(checkpoint/completeName);
+    return isFile(checkpoint / completeName);
 }
 
 /// The case's own folder and those of the ranks.
@@ -36,7 +36,7 @@ fileNameList partsOf(const fileName& caseDirectory)
     {
         if (folder.starts_with("processor"))
         {
-            parts.append(caseDirectory/folder);
+            parts.append(caseDirectory / folder);
         }
     }
     return parts;
@@ -46,18 +46,18 @@ fileNameList partsOf(const fileName& caseDirectory)
 word beginningOf(const fileName& folder)
 {
     string line;
-    if (isFile(folder/beginningName))
+    if (isFile(folder / beginningName))
     {
-        IFstream(folder/beginningName).getLine(line);
+        IFstream(folder / beginningName).getLine(line);
     }
     return word(line);
 }
 
 void setAside(const fileName& part, const word& timeName)
 {
-    const fileName aside = part/("unfinished." + timeName);
+    const fileName aside = part / ("unfinished." + timeName);
     rmDir(aside, true);
-    mv(part/timeName, aside);
+    mv(part / timeName, aside);
 }
 
 } // namespace
@@ -65,7 +65,7 @@ void setAside(const fileName& part, const word& timeName)
 void Checkpoints::setAsideUnfinished(const argList& args)
 {
     const fileName caseDirectory = args.globalPath();
-    const fileName folder = caseDirectory/folderName;
+    const fileName folder = caseDirectory / folderName;
     const word beginning = beginningOf(folder);
     if (Pstream::master() && !beginning.empty())
     {
@@ -73,10 +73,10 @@ void Checkpoints::setAsideUnfinished(const argList& args)
         {
             for (const instant& time : Time::findTimes(part))
             {
-                if (time.name() != "constant" && time.name() != beginning && !isComplete(folder/time.name()))
+                if (time.name() != "constant" && time.name() != beginning && !isComplete(folder / time.name()))
                 {
-                    Info<< "Setting aside " << part.name()/time.name()
-                        << ": the run was ended while it wrote this time" << endl;
+                    Info << "Setting aside " << part.name() / time.name()
+                         << ": the run was ended while it wrote this time" << endl;
                     setAside(part, time.name());
                 }
             }
@@ -87,15 +87,14 @@ void Checkpoints::setAsideUnfinished(const argList& args)
 }
 
 Checkpoints::Checkpoints(const Time& time)
-:
-    time_(time)
+    : time_(time)
 {
-    const fileName folder = time.globalPath()/folderName;
-    const fileName checkpoint = folder/time.timeName();
+    const fileName folder = time.globalPath() / folderName;
+    const fileName checkpoint = folder / time.timeName();
     if (isComplete(checkpoint))
     {
-        resumeFrom_ = (checkpoint/beadsName).c_str();
-        Info<< "Resuming from the checkpoint of time " << time.timeName() << nl << endl;
+        resumeFrom_ = (checkpoint / beadsName).c_str();
+        Info << "Resuming from the checkpoint of time " << time.timeName() << nl << endl;
         return;
     }
     const word beginning = beginningOf(folder);
@@ -111,7 +110,7 @@ Checkpoints::Checkpoints(const Time& time)
     if (Pstream::master())
     {
         mkDir(folder);
-        OFstream file(folder/beginningName);
+        OFstream file(folder / beginningName);
         file << time.timeName() << nl;
     }
 }
@@ -120,22 +119,22 @@ void Checkpoints::begin() const
 {
     if (Pstream::master())
     {
-        rm(time_.globalPath()/folderName/time_.timeName()/completeName);
+        rm(time_.globalPath() / folderName / time_.timeName() / completeName);
     }
 }
 
 void Checkpoints::complete(DemEngine& engine) const
 {
-    const fileName checkpoint = time_.globalPath()/folderName/time_.timeName();
+    const fileName checkpoint = time_.globalPath() / folderName / time_.timeName();
     if (Pstream::master())
     {
         mkDir(checkpoint);
     }
     // Collective, and with a barrier at its end: all ranks' fields are on disk then, too.
-    engine.writeCheckpoint((checkpoint/beadsName).c_str());
+    engine.writeCheckpoint((checkpoint / beadsName).c_str());
     if (Pstream::master())
     {
-        const fileName marker = checkpoint/completeName;
+        const fileName marker = checkpoint / completeName;
         {
             OFstream unfinished(marker + ".unfinished");
             unfinished << "time " << time_.timeName() << nl << "ranks " << Pstream::nProcs() << nl << "commit "

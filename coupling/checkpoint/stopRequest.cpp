@@ -22,8 +22,7 @@ void noteTerminate(int)
 } // namespace
 
 StopRequest::StopRequest(const Time& time)
-:
-    time_(time)
+    : time_(time)
 {
     if (time.controlDict().found("maxClockTime"))
     {

@@ -30,7 +30,7 @@ double capFraction(double s)
     {
         return 1;
     }
-    return s <= -1 ? 0 : 0.25*(2 + 3*s - s*s*s);
+    return s <= -1 ? 0 : 0.25 * (2 + 3 * s - s * s * s);
 }
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
@@ -68,12 +68,11 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
     for (const label face : mesh.cells()[cell])
     {
         const double sign = mesh.faceOwner()[face] == cell ? -1 : 1;
-        const Vector3d normal = sign*toEigen(mesh.faceAreas()[face]).normalized();
+        const Vector3d normal = sign * toEigen(mesh.faceAreas()[face]).normalized();
         const Plane plane{normal, normal.dot(toEigen(mesh.faceCentres()[face]))};
         const bool wall = isWallFace(mesh, face);
-        const auto sameSide = std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-            return group.wall == wall && group.normal.dot(normal) > sameSideCosine;
-        });
+        const auto sameSide = std::find_if(groups.begin(), groups.end(),
+            [&](const Group& group) { return group.wall == wall && group.normal.dot(normal) > sameSideCosine; });
         if (sameSide == groups.end())
         {
             groups.push_back({normal, {plane}, wall});
@@ -94,9 +93,8 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
         const Group low = std::move(groups.back());
         groups.pop_back();
         Slab slab{store(low), {0, 0, false}};
-        const auto high = std::min_element(groups.begin(), groups.end(), [&](const Group& a, const Group& b) {
-            return a.normal.dot(low.normal) < b.normal.dot(low.normal);
-        });
+        const auto high = std::min_element(groups.begin(), groups.end(),
+            [&](const Group& a, const Group& b) { return a.normal.dot(low.normal) < b.normal.dot(low.normal); });
         if (high != groups.end() && high->normal.dot(low.normal) < oppositeCosine)
         {
             slab.high = store(*high);
@@ -134,12 +132,12 @@ double CellSlabs::shareOf(label cell, const Vector3d& centre, const Cut& cut) co
 
 double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
 {
-    return shareOf(cell, centre, [radius](double distance) { return capFraction(distance/radius); });
+    return shareOf(cell, centre, [radius](double distance) { return capFraction(distance / radius); });
 }
 
 double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth) const
 {
-    return shareOf(cell, centre, [bandwidth](double distance) { return 0.5*std::erfc(-distance/bandwidth); });
+    return shareOf(cell, centre, [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); });
 }
 
 void CellSlabs::makeBins(const Foam::fvMesh& mesh)
@@ -154,7 +152,7 @@ void CellSlabs::makeBins(const Foam::fvMesh& mesh)
         }
         cellBoxes_.push_back(cellBox);
         box_.extend(cellBox);
-        meanSize += cellBox.sizes().mean()/mesh.nCells();
+        meanSize += cellBox.sizes().mean() / mesh.nCells();
     }
     if (mesh.nCells() == 0)
     {
@@ -164,8 +162,8 @@ void CellSlabs::makeBins(const Foam::fvMesh& mesh)
     const Vector3d sizes = box_.sizes();
     for (int axis = 0; axis < 3; ++axis)
     {
-        binCount_[axis] = std::max(1, static_cast<int>(sizes[axis]/meanSize));
-        binSize_[axis] = sizes[axis]/binCount_[axis];
+        binCount_[axis] = std::max(1, static_cast<int>(sizes[axis] / meanSize));
+        binSize_[axis] = sizes[axis] / binCount_[axis];
     }
 
     const auto forEachBin = [&](const Box& cellBox, auto&& act) {
@@ -177,7 +175,7 @@ void CellSlabs::makeBins(const Foam::fvMesh& mesh)
             {
                 for (int x = first.x(); x <= last.x(); ++x)
                 {
-                    act((z*binCount_.y() + y)*binCount_.x() + x);
+                    act((z * binCount_.y() + y) * binCount_.x() + x);
                 }
             }
         }
@@ -227,7 +225,7 @@ void CellSlabs::cellsNear(const Vector3d& centre, double radius, std::vector<lab
         {
             for (int x = first.x(); x <= last.x(); ++x)
             {
-                const int bin = (z*binCount_.y() + y)*binCount_.x() + x;
+                const int bin = (z * binCount_.y() + y) * binCount_.x() + x;
                 for (int i = firstInBin_[bin]; i < firstInBin_[bin + 1]; ++i)
                 {
                     if (cellBoxes_[cellsInBins_[i]].intersects(around))

@@ -30,13 +30,12 @@ public:
     TypeName("constDiffSmoothing");
 
     ConstDiffSmoothing(const dictionary& coefficients, const fvMesh& mesh)
-    :
-        smoothingLength_(positiveEntry(coefficients, "smoothingLength")),
-        nSteps_(coefficients.getOrDefault<label>("nSteps", 1)),
-        mesh_(mesh),
-        work_(IOobject("smoothing", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-            dimensionedScalar("zero", dimless, 0), zeroGradientFvPatchScalarField::typeName),
-        matrix_(work_, dimVolume)
+        : smoothingLength_(positiveEntry(coefficients, "smoothingLength")),
+          nSteps_(coefficients.getOrDefault<label>("nSteps", 1)),
+          mesh_(mesh),
+          work_(IOobject("smoothing", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
+              dimensionedScalar("zero", dimless, 0), zeroGradientFvPatchScalarField::typeName),
+          matrix_(work_, dimVolume)
     {
         if (nSteps_ < 1)
         {
@@ -44,10 +43,10 @@ public:
                 << "Entry 'nSteps' is " << nSteps_ << "; allowed: 1, 2, ..." << exit(FatalIOError);
         }
         const dimensionedScalar diffusionLengthSqr(
-            "diffusionLengthSqr", dimArea, smoothingLength_*smoothingLength_/(4*nSteps_));
+            "diffusionLengthSqr", dimArea, smoothingLength_ * smoothingLength_ / (4 * nSteps_));
         // Uncorrected for non-orthogonality: only then is the matrix symmetric, and the operator self-adjoint.
         matrix_ = fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
-            diffusionLengthSqr*mesh.magSf(), mesh.deltaCoeffs(), work_);
+            diffusionLengthSqr * mesh.magSf(), mesh.deltaCoeffs(), work_);
         matrix_.negate();
         matrix_.diag() += mesh.V();
         solver_ = matrix_.solver();
@@ -59,7 +58,7 @@ public:
         scalarField start(density);
         for (label step = 0; step < nSteps_; ++step)
         {
-            matrix_.source() = start*mesh_.V().field();
+            matrix_.source() = start * mesh_.V().field();
             work_.primitiveFieldRef() = guess;
             work_.correctBoundaryConditions();
 
@@ -83,7 +82,7 @@ public:
     Foam::string description() const override
     {
         return "constDiffSmoothing: smoothingLength " + Foam::name(smoothingLength_) + " m, nSteps "
-            + Foam::name(nSteps_);
+               + Foam::name(nSteps_);
     }
 
 private:

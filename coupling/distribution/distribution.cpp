@@ -4,11 +4,10 @@ namespace clepsydra
 {
 
 Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
-:
-    mesh_(mesh),
-    cells_(mesh),
-    voidFraction_(VoidFractionModel::New(couplingProperties, cells_)),
-    smoothing_(SmoothingModel::New(couplingProperties, mesh))
+    : mesh_(mesh),
+      cells_(mesh),
+      voidFraction_(VoidFractionModel::New(couplingProperties, cells_)),
+      smoothing_(SmoothingModel::New(couplingProperties, mesh))
 {}
 
 Eigen::MatrixXd Distribution::findCells(const std::vector<VisitingBead>& visitors)
@@ -54,7 +53,7 @@ void Distribution::sample(const Foam::scalarField& cellValues, Eigen::MatrixXd& 
         double value = 0;
         for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
         {
-            value += shares_[i].share*cellValues[shares_[i].cell];
+            value += shares_[i].share * cellValues[shares_[i].cell];
         }
         perVisitor(at, visitor) = value;
     }

@@ -78,7 +78,7 @@ Foam::scalarField Distribution::density(Amount&& amount) const
         const double total = amount(visitor);
         for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
         {
-            density[shares_[i].cell] += shares_[i].share*total;
+            density[shares_[i].cell] += shares_[i].share * total;
         }
     }
     density /= mesh_.V().field();

@@ -24,9 +24,8 @@ public:
     TypeName("Gaussian");
 
     Gaussian(const Foam::dictionary& coefficients, const CellSlabs& cells)
-    :
-        VoidFractionModel(cells),
-        bandwidth_(positiveEntry(coefficients, "bandwidth"))
+        : VoidFractionModel(cells),
+          bandwidth_(positiveEntry(coefficients, "bandwidth"))
     {}
 
     double reach(const VisitingBead& bead) const override
@@ -37,7 +36,7 @@ public:
     double commonReach() const override
     {
         // Beyond it lie 2e-5 of the kernel along each axis.
-        return 3*bandwidth_;
+        return 3 * bandwidth_;
     }
 
     double share(Foam::label cell, const VisitingBead& bead) const override

@@ -8,8 +8,7 @@ namespace clepsydra
 defineTypeNameAndDebug(SmoothingModel, 0);
 defineRunTimeSelectionTable(SmoothingModel, dictionary);
 
-Foam::autoPtr<SmoothingModel> SmoothingModel::New(
-    const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
+Foam::autoPtr<SmoothingModel> SmoothingModel::New(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
 {
     const Foam::word name =
         selectedModel(couplingProperties, "smoothingModel", dictionaryConstructorTablePtr_->sortedToc());

@@ -19,7 +19,7 @@ public:
     declareRunTimeSelectionTable(Foam::autoPtr, SmoothingModel, dictionary,
         (const Foam::dictionary& coefficients, const Foam::fvMesh& mesh), (coefficients, mesh))
 
-    static Foam::autoPtr<SmoothingModel> New(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
+        static Foam::autoPtr<SmoothingModel> New(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
     virtual ~SmoothingModel() = default;
 

@@ -26,8 +26,7 @@ public:
     TypeName("divided");
 
     Divided(const Foam::dictionary&, const CellSlabs& cells)
-    :
-        VoidFractionModel(cells)
+        : VoidFractionModel(cells)
     {}
 
     double reach(const VisitingBead& bead) const override
@@ -53,18 +52,17 @@ public:
     TypeName("centre");
 
     Centre(const Foam::dictionary&, const CellSlabs& cells)
-    :
-        VoidFractionModel(cells)
+        : VoidFractionModel(cells)
     {}
 
     double reach(const VisitingBead& bead) const override
     {
-        return smallPart*bead.radius;
+        return smallPart * bead.radius;
     }
 
     double share(Foam::label cell, const VisitingBead& bead) const override
     {
-        return cells().share(cell, bead.position, smallPart*bead.radius);
+        return cells().share(cell, bead.position, smallPart * bead.radius);
     }
 
     Foam::string description() const override

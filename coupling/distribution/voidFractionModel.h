@@ -18,12 +18,11 @@ public:
     declareRunTimeSelectionTable(Foam::autoPtr, VoidFractionModel, dictionary,
         (const Foam::dictionary& coefficients, const CellSlabs& cells), (coefficients, cells))
 
-    /// \param couplingProperties  FatalIOError listing the known models where its entry names none of them.
-    static Foam::autoPtr<VoidFractionModel> New(const Foam::dictionary& couplingProperties, const CellSlabs& cells);
+        /// \param couplingProperties  FatalIOError listing the known models where its entry names none of them.
+        static Foam::autoPtr<VoidFractionModel> New(const Foam::dictionary& couplingProperties, const CellSlabs& cells);
 
     explicit VoidFractionModel(const CellSlabs& cells)
-    :
-        cells_(cells)
+        : cells_(cells)
     {}
 
     virtual ~VoidFractionModel() = default;

@@ -52,7 +52,7 @@ struct CouplingState
     GivenToFluid given;
 };
 
-constexpr std::size_t couplingStateSize = sizeof(CouplingState)/sizeof(double);
+constexpr std::size_t couplingStateSize = sizeof(CouplingState) / sizeof(double);
 static_assert(std::is_standard_layout_v<CouplingState> && sizeof(CouplingState) % sizeof(double) == 0,
     "an engine stores CouplingState as plain doubles beside the bead");
 
@@ -102,7 +102,7 @@ struct BeadsView
 /// Volume of a sphere [m3].
 inline double sphereVolume(double radius)
 {
-    return 4.0/3.0*static_cast<double>(EIGEN_PI)*radius*radius*radius;
+    return 4.0 / 3.0 * static_cast<double>(EIGEN_PI) * radius * radius * radius;
 }
 
 } // namespace clepsydra

@@ -28,7 +28,7 @@ Box box(const BoxNumbers& six)
 
 bool touches(const Box& cells, const Vector3d& centre, double radius)
 {
-    return !cells.isEmpty() && cells.squaredExteriorDistance(centre) <= radius*radius;
+    return !cells.isEmpty() && cells.squaredExteriorDistance(centre) <= radius * radius;
 }
 
 Box boxAround(const BeadsView& beads, double commonReach)
@@ -53,10 +53,9 @@ VisitingBead visitFrom(const BeadsView& beads, Eigen::Index bead)
 } // namespace
 
 BeadExchange::BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach)
-:
-    communicator_(communicator),
-    cells_(cells),
-    commonReach_(commonReach)
+    : communicator_(communicator),
+      cells_(cells),
+      commonReach_(commonReach)
 {
     MPI_Comm_rank(communicator_, &rank_);
 }
@@ -119,7 +118,7 @@ std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRa
         requests.emplace_back();
         MPI_Isend(out[i].data(), static_cast<int>(out[i].size()), MPI_DOUBLE, toRanks[i], messageTag, communicator_,
             &requests.back());
-        bytesSent_ += out[i].size()*sizeof(double);
+        bytesSent_ += out[i].size() * sizeof(double);
     }
     std::vector<std::vector<double>> in(fromRanks.size());
     for (std::size_t i = 0; i < fromRanks.size(); ++i)
@@ -142,7 +141,7 @@ std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRa
 
 void BeadExchange::send(const BeadsView& beads)
 {
-    constexpr std::size_t size = sizeof(VisitingBead)/sizeof(double);
+    constexpr std::size_t size = sizeof(VisitingBead) / sizeof(double);
     static_assert(std::is_standard_layout_v<VisitingBead> && sizeof(VisitingBead) % sizeof(double) == 0);
 
     bytesSent_ = 0;
@@ -154,7 +153,7 @@ void BeadExchange::send(const BeadsView& beads)
     for (const Exports& leaving : exports_)
     {
         toRanks.push_back(leaving.rank);
-        std::vector<double>& message = out.emplace_back(leaving.beads.size()*size);
+        std::vector<double>& message = out.emplace_back(leaving.beads.size() * size);
         double* place = message.data();
         for (const Eigen::Index bead : leaving.beads)
         {
@@ -173,12 +172,12 @@ void BeadExchange::send(const BeadsView& beads)
     const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
     for (std::size_t i = 0; i < in.size(); ++i)
     {
-        const std::size_t count = in[i].size()/size;
+        const std::size_t count = in[i].size() / size;
         imports_[i].first = static_cast<Eigen::Index>(visitors_.size());
         imports_[i].count = static_cast<Eigen::Index>(count);
         for (std::size_t visit = 0; visit < count; ++visit)
         {
-            std::memcpy(static_cast<void*>(&visitors_.emplace_back()), &in[i][visit*size], sizeof(VisitingBead));
+            std::memcpy(static_cast<void*>(&visitors_.emplace_back()), &in[i][visit * size], sizeof(VisitingBead));
         }
     }
 }
@@ -191,8 +190,8 @@ Eigen::MatrixXd BeadExchange::sumAtHome(const Eigen::MatrixXd& perVisitor) const
     for (const Imports& hosted : imports_)
     {
         toRanks.push_back(hosted.rank);
-        const double* first = perVisitor.data() + hosted.first*width;
-        out.emplace_back(first, first + hosted.count*width);
+        const double* first = perVisitor.data() + hosted.first * width;
+        out.emplace_back(first, first + hosted.count * width);
     }
     std::vector<int> fromRanks;
     for (const Exports& home : exports_)
@@ -223,7 +222,7 @@ Eigen::MatrixXd BeadExchange::toVisitors(const Eigen::MatrixXd& perBead) const
     {
         toRanks.push_back(home.rank);
         std::vector<double>& message = out.emplace_back();
-        message.reserve(home.beads.size()*static_cast<std::size_t>(width));
+        message.reserve(home.beads.size() * static_cast<std::size_t>(width));
         for (const Eigen::Index bead : home.beads)
         {
             message.insert(message.end(), perBead.col(bead).begin(), perBead.col(bead).end());

@@ -8,9 +8,8 @@ namespace clepsydra
 {
 
 BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers)
-:
-    timers_(timers),
-    modelType_(readModelType(couplingProperties))
+    : timers_(timers),
+      modelType_(readModelType(couplingProperties))
 {
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
@@ -49,24 +48,24 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         CouplingState& state = beads.state[bead];
-        const double ofModel = modelType_ == ModelType::B ? 1/state.fluid.voidFraction : 1;
-        const double coefficient = ofModel*sum_.implicitCoefficient[bead];
-        const double addedMass = ofModel*sum_.addedMass[bead];
+        const double ofModel = modelType_ == ModelType::B ? 1 / state.fluid.voidFraction : 1;
+        const double coefficient = ofModel * sum_.implicitCoefficient[bead];
+        const double addedMass = ofModel * sum_.addedMass[bead];
         Vector3d handedOver =
-            coefficient*(state.fluid.velocity - beads.velocity.col(bead)) + ofModel*sum_.source.col(bead);
+            coefficient * (state.fluid.velocity - beads.velocity.col(bead)) + ofModel * sum_.source.col(bead);
         const Vector3d notHandedOver = sum_.shared.col(bead) + sum_.mutual.col(bead);
         if (addedMass > 0)
         {
             // The bead's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
             const Vector3d others = beads.otherForce.col(bead) + handedOver + notHandedOver;
             const Vector3d acceleration =
-                (others + addedMass*state.fluid.acceleration)/(beads.mass[bead] + addedMass);
-            handedOver += addedMass*(state.fluid.acceleration - acceleration);
+                (others + addedMass * state.fluid.acceleration) / (beads.mass[bead] + addedMass);
+            handedOver += addedMass * (state.fluid.acceleration - acceleration);
         }
         force.col(bead) = handedOver + notHandedOver;
-        state.given.impulse += timeStep*handedOver;
-        state.given.sharedImpulse += timeStep*sum_.shared.col(bead);
-        state.given.implicitCoefficientTime += timeStep*coefficient;
+        state.given.impulse += timeStep * handedOver;
+        state.given.sharedImpulse += timeStep * sum_.shared.col(bead);
+        state.given.implicitCoefficientTime += timeStep * coefficient;
     }
 }
 

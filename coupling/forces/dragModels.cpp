@@ -20,9 +20,8 @@ class Drag : public ForceModel
 {
 public:
     Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
-    :
-        fluid_(fluid),
-        walls_(coefficients.subOrEmptyDict("wallCorrection"))
+        : fluid_(fluid),
+          walls_(coefficients.subOrEmptyDict("wallCorrection"))
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
@@ -32,16 +31,16 @@ public:
         {
             const FluidAtBead& at = beads.state[bead].fluid;
             const Vector3d slip = at.velocity - beads.velocity.col(bead);
-            closures::BeadInFluid inFluid{2*beads.radius[bead], at.voidFraction, at.logVoidFraction, slip.norm(),
+            closures::BeadInFluid inFluid{2 * beads.radius[bead], at.voidFraction, at.logVoidFraction, slip.norm(),
                 fluid_.density, fluid_.dynamicViscosity};
             const double velocityRatio = walls_.tubeVelocityRatio(inFluid);
             inFluid.slipSpeed /= velocityRatio;
-            const double coefficient = law(inFluid)/velocityRatio;
+            const double coefficient = law(inFluid) / velocityRatio;
             sum.implicitCoefficient[bead] += coefficient;
             if (walls_.hasPlanes())
             {
                 sum.source.col(bead) +=
-                    coefficient*walls_.addedSlip(slip, beads.position.col(bead), beads.radius[bead]);
+                    coefficient * walls_.addedSlip(slip, beads.position.col(bead), beads.radius[bead]);
             }
         }
     }
@@ -49,7 +48,7 @@ public:
     Foam::string description() const override
     {
         return Foam::string(Law::name) + ": fluid density " + Foam::name(fluid_.density) + " kg/m3, viscosity "
-            + Foam::name(fluid_.dynamicViscosity) + " Pa s" + walls_.description();
+               + Foam::name(fluid_.dynamicViscosity) + " Pa s" + walls_.description();
     }
 
 private:

@@ -22,7 +22,7 @@ public:
     {
         for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
         {
-            sum.shared.col(bead) -= sphereVolume(beads.radius[bead])*beads.state[bead].fluid.pressureGradient;
+            sum.shared.col(bead) -= sphereVolume(beads.radius[bead]) * beads.state[bead].fluid.pressureGradient;
         }
     }
 
@@ -50,7 +50,7 @@ public:
     {
         for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
         {
-            sum.source.col(bead) += sphereVolume(beads.radius[bead])*beads.state[bead].fluid.viscousStressDivergence;
+            sum.source.col(bead) += sphereVolume(beads.radius[bead]) * beads.state[bead].fluid.viscousStressDivergence;
         }
     }
 
@@ -72,15 +72,14 @@ public:
     TypeName("Archimedes");
 
     Archimedes(const Foam::dictionary&, const FluidProperties& fluid)
-    :
-        weightDensity_(fluid.density*fluid.gravity)
+        : weightDensity_(fluid.density * fluid.gravity)
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {
         for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
         {
-            sum.shared.col(bead) -= sphereVolume(beads.radius[bead])*weightDensity_;
+            sum.shared.col(bead) -= sphereVolume(beads.radius[bead]) * weightDensity_;
         }
     }
 

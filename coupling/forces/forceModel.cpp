@@ -24,8 +24,9 @@ Foam::autoPtr<ForceModel> ForceModel::New(
     if (!constructor.found())
     {
         FatalIOErrorInFunction(couplingProperties)
-            << "Unknown model '" << name << "' in entry 'forceModels'; allowed: "
-            << Foam::flatOutput(dictionaryConstructorTablePtr_->sortedToc()) << Foam::exit(Foam::FatalIOError);
+            << "Unknown model '" << name
+            << "' in entry 'forceModels'; allowed: " << Foam::flatOutput(dictionaryConstructorTablePtr_->sortedToc())
+            << Foam::exit(Foam::FatalIOError);
     }
     return (*constructor)(couplingProperties.subOrEmptyDict(name + "Props"), fluid);
 }

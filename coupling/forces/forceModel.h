@@ -62,8 +62,8 @@ public:
     declareRunTimeSelectionTable(Foam::autoPtr, ForceModel, dictionary,
         (const Foam::dictionary& coefficients, const FluidProperties& fluid), (coefficients, fluid))
 
-    static Foam::autoPtr<ForceModel> New(
-        const Foam::word& name, const Foam::dictionary& couplingProperties, const FluidProperties& fluid);
+        static Foam::autoPtr<ForceModel> New(
+            const Foam::word& name, const Foam::dictionary& couplingProperties, const FluidProperties& fluid);
 
     virtual ~ForceModel() = default;
 

@@ -14,8 +14,7 @@ class Lift : public ForceModel
 {
 public:
     Lift(const Foam::dictionary&, const FluidProperties& fluid)
-    :
-        fluid_(fluid)
+        : fluid_(fluid)
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
@@ -26,11 +25,11 @@ public:
             const FluidAtBead& at = beads.state[bead].fluid;
             const Vector3d slip = at.velocity - beads.velocity.col(bead);
             const Vector3d rotation = Law::rotation == closures::Rotation::ofFluid
-                ? at.vorticity
-                : Vector3d(beads.angularVelocity.col(bead) - 0.5*at.vorticity);
+                                          ? at.vorticity
+                                          : Vector3d(beads.angularVelocity.col(bead) - 0.5 * at.vorticity);
             const double coefficient = law(closures::BeadInRotation{
-                2*beads.radius[bead], slip.norm(), rotation.norm(), fluid_.density, fluid_.dynamicViscosity});
-            sum.source.col(bead) += coefficient*slip.cross(rotation);
+                2 * beads.radius[bead], slip.norm(), rotation.norm(), fluid_.density, fluid_.dynamicViscosity});
+            sum.source.col(bead) += coefficient * slip.cross(rotation);
         }
     }
 

@@ -28,11 +28,10 @@ public:
     TypeName("lubricationForce");
 
     LubricationForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
-    :
-        viscosity_(fluid.dynamicViscosity),
-        roughness_(positiveEntry(coefficients, "roughness")),
-        reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
-        walls_(readWallPlanes(coefficients))
+        : viscosity_(fluid.dynamicViscosity),
+          roughness_(positiveEntry(coefficients, "roughness")),
+          reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
+          walls_(readWallPlanes(coefficients))
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
@@ -54,7 +53,7 @@ public:
     Foam::string description() const override
     {
         return "lubricationForce: normal squeeze, roughness " + Foam::name(roughness_) + " m, reach "
-            + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size())) + " walls";
+               + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size())) + " walls";
     }
 
 private:
@@ -67,18 +66,19 @@ private:
             const int second = near.list(1, pair);
             const double radii = near.radius[first] + near.radius[second];
             const Vector3d apart = near.position.col(second) - near.position.col(first);
-            const double reach = reach_*radii;
-            if (apart.squaredNorm() >= (radii + reach)*(radii + reach))
+            const double reach = reach_ * radii;
+            if (apart.squaredNorm() >= (radii + reach) * (radii + reach))
             {
                 continue;
             }
             const double distance = apart.norm();
-            const Vector3d normal = apart/distance;
+            const Vector3d normal = apart / distance;
             const double approach = (near.velocity.col(first) - near.velocity.col(second)).dot(normal);
             const double coefficient = closures::squeezeCoefficient(viscosity_,
-                closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_, reach);
+                closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_,
+                reach);
             requireStable(coefficient, beads.mass[first], sum.timeStep);
-            const Vector3d force = coefficient*approach*normal;
+            const Vector3d force = coefficient * approach * normal;
             sum.mutual.col(first) -= force;
             if (second < beads.size())
             {
@@ -94,20 +94,20 @@ private:
             const double radius = beads.radius[bead];
             const double gap = wall.distance(beads.position.col(bead)) - radius;
             const double coefficient =
-                closures::squeezeCoefficient(viscosity_, radius, gap, roughness_, 2*radius*reach_);
+                closures::squeezeCoefficient(viscosity_, radius, gap, roughness_, 2 * radius * reach_);
             requireStable(coefficient, beads.mass[bead], sum.timeStep);
-            sum.mutual.col(bead) -= coefficient*wall.normal.dot(beads.velocity.col(bead))*wall.normal;
+            sum.mutual.col(bead) -= coefficient * wall.normal.dot(beads.velocity.col(bead)) * wall.normal;
         }
     }
 
     void requireStable(double coefficient, double mass, double timeStep) const
     {
         constexpr double largestPart = 0.5;
-        if (coefficient*timeStep > largestPart*mass)
+        if (coefficient * timeStep > largestPart * mass)
         {
             FatalErrorInFunction << "lubricationForce damps a bead of " << mass << " kg at the rate "
-                                 << coefficient/mass << " 1/s, too fast for DEM steps of " << timeStep
-                                 << " s; allowed: steps up to " << largestPart*mass/coefficient
+                                 << coefficient / mass << " 1/s, too fast for DEM steps of " << timeStep
+                                 << " s; allowed: steps up to " << largestPart * mass / coefficient
                                  << " s, or a larger roughness than " << roughness_ << " m"
                                  << Foam::exit(Foam::FatalError);
         }

@@ -19,8 +19,7 @@ public:
     TypeName("virtualMassForce");
 
     VirtualMassForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
-    :
-        fluidDensity_(fluid.density)
+        : fluidDensity_(fluid.density)
     {
         if (coefficients.found("law"))
         {
@@ -52,7 +51,7 @@ public:
     Foam::string description() const override
     {
         return "virtualMassForce: added mass, coefficient "
-            + (zuber_ ? Foam::string("after Zuber") : Foam::string(Foam::name(coefficient_)));
+               + (zuber_ ? Foam::string("after Zuber") : Foam::string(Foam::name(coefficient_)));
     }
 
 private:

@@ -48,7 +48,7 @@ public:
         {
             return 1;
         }
-        const double lambda = bead.diameter/tubeDiameter_;
+        const double lambda = bead.diameter / tubeDiameter_;
         if (lambda >= 1)
         {
             FatalErrorInFunction << "A bead of diameter " << bead.diameter << " m in wallCorrection's tube of "
@@ -69,10 +69,10 @@ public:
         Vector3d added = Vector3d::Zero();
         for (const WallPlane& plane : planes_)
         {
-            const double lambda = radius/std::max(radius, plane.distance(position));
-            const Vector3d across = plane.normal.dot(slip)*plane.normal;
-            added += (closures::faxenParallelFactor(lambda) - 1)*(slip - across)
-                + (closures::faxenPerpendicularFactor(lambda) - 1)*across;
+            const double lambda = radius / std::max(radius, plane.distance(position));
+            const Vector3d across = plane.normal.dot(slip) * plane.normal;
+            added += (closures::faxenParallelFactor(lambda) - 1) * (slip - across)
+                     + (closures::faxenPerpendicularFactor(lambda) - 1) * across;
         }
         return added;
     }
@@ -84,7 +84,8 @@ public:
         {
             return ", walls after Di Felice 1996, tube of " + Foam::name(tubeDiameter_) + " m";
         }
-        return hasPlanes() ? ", Faxen's walls, " + Foam::name(static_cast<Foam::label>(planes_.size())) + " planes" : "";
+        return hasPlanes() ? ", Faxen's walls, " + Foam::name(static_cast<Foam::label>(planes_.size())) + " planes"
+                           : "";
     }
 
 private:

@@ -7,13 +7,12 @@ namespace clepsydra
 
 CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings,
     const FluidProperties& fluid, DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed)
-:
-    engine_(engine),
-    stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
-    interval_(settings.couplingInterval()),
-    timers_(timers),
-    ledger_(settings.dict(), mesh.time()),
-    observedBeads_(mesh, engine)
+    : engine_(engine),
+      stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
+      interval_(settings.couplingInterval()),
+      timers_(timers),
+      ledger_(settings.dict(), mesh.time()),
+      observedBeads_(mesh, engine)
 {
     if (models && models->forces.needs().pairReach > 0)
     {

@@ -40,7 +40,7 @@ void checkMaterialValues(const dictionary& variables)
 {
     const auto names = [](const word& name, const std::string& quantity) {
         return name.find(quantity) != string::npos
-            || name.find(static_cast<char>(std::toupper(quantity[0])) + quantity.substr(1)) != string::npos;
+               || name.find(static_cast<char>(std::toupper(quantity[0])) + quantity.substr(1)) != string::npos;
     };
     for (const word& name : variables.toc())
     {
@@ -58,9 +58,8 @@ void checkMaterialValues(const dictionary& variables)
 } // namespace
 
 CouplingSettings::CouplingSettings(const Time& time)
-:
-    time_(time),
-    dict_(IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE))
+    : time_(time),
+      dict_(IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE))
 {
     readChoices();
     checkTimeStep();
@@ -93,7 +92,8 @@ void CouplingSettings::readChoices()
     // The name with the file's path, for the message.
     dictionary choice(static_cast<const dictionary&>(dict_).name());
     choice.add("momCoupleModels", momentumModels.first());
-    implicitCoupling_ = selectedModel(choice, "momCoupleModels", {"implicitCouple", "explicitCouple"}) == "implicitCouple";
+    implicitCoupling_ =
+        selectedModel(choice, "momCoupleModels", {"implicitCouple", "explicitCouple"}) == "implicitCouple";
 
     const dictionary voidFractionProps = dict_.subOrEmptyDict(dict_.get<word>("voidFractionModel") + "Props");
     if (voidFractionProps.found("alphaMin"))
@@ -110,7 +110,7 @@ void CouplingSettings::checkTimeStep() const
             << "Entry 'adjustTimeStep' is on; allowed: off, for the fluid's time step is the coupling interval"
             << exit(FatalIOError);
     }
-    if (std::abs(time_.deltaTValue()/couplingInterval_ - 1) > sameTime)
+    if (std::abs(time_.deltaTValue() / couplingInterval_ - 1) > sameTime)
     {
         FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
                                       << " s; allowed: the value of deltaT in system/controlDict, which is "
@@ -124,7 +124,8 @@ std::vector<std::string> CouplingSettings::descriptions() const
     {
         return {"fluid          none: a dry run"};
     }
-    return {"equations      model " + std::string(dict_.get<word>("modelType")) + ", pressure without its hydrostatic part",
+    return {
+        "equations      model " + std::string(dict_.get<word>("modelType")) + ", pressure without its hydrostatic part",
         "momentum       " + std::string(implicitCoupling_ ? "implicitCouple" : "explicitCouple"),
         "alphaMin       " + std::to_string(minimumVoidFraction_),
         ddtVoidFraction_ ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
@@ -164,8 +165,8 @@ fileName CouplingSettings::finalRestart() const
 
 int CouplingSettings::stepsPerInterval(double demTimeStep) const
 {
-    const double steps = couplingInterval_/demTimeStep;
-    if (steps < 0.5 || std::abs(steps - std::round(steps)) > sameTime*steps)
+    const double steps = couplingInterval_ / demTimeStep;
+    if (steps < 0.5 || std::abs(steps - std::round(steps)) > sameTime * steps)
     {
         FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
                                       << " s; allowed: a whole multiple of the DEM step, which is " << demTimeStep

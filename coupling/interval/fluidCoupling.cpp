@@ -48,28 +48,26 @@ MPI_Comm duplicateWorld()
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
     const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, Ledger& ledger, PhaseTimers& timers)
-:
-    mesh_(mesh),
-    settings_(settings),
-    fluid_(fluid),
-    modelType_(readModelType(settings.dict())),
-    needs_(needs),
-    engine_(engine),
-    ledger_(ledger),
-    timers_(timers),
-    distribution_(distribution),
-    exchange_(
-        duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
-    one_(IOobject("one", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-        dimensionedScalar("one", dimless, 1)),
-    voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
-    voidFractionInContinuity_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
-    ddtVoidFraction_(couplingField<scalar>("ddtVoidFraction", mesh, dimless/dimTime, 0)),
-    implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless/dimTime, 0)),
-    beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
-    outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
-    solidFraction_(1 - voidFraction_.primitiveField()),
-    coefficientDensity_(mesh.nCells(), 0.0)
+    : mesh_(mesh),
+      settings_(settings),
+      fluid_(fluid),
+      modelType_(readModelType(settings.dict())),
+      needs_(needs),
+      engine_(engine),
+      ledger_(ledger),
+      timers_(timers),
+      distribution_(distribution),
+      exchange_(duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
+      one_(IOobject("one", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
+          dimensionedScalar("one", dimless, 1)),
+      voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
+      voidFractionInContinuity_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
+      ddtVoidFraction_(couplingField<scalar>("ddtVoidFraction", mesh, dimless / dimTime, 0)),
+      implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless / dimTime, 0)),
+      beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
+      outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
+      solidFraction_(1 - voidFraction_.primitiveField()),
+      coefficientDensity_(mesh.nCells(), 0.0)
 {
     impulseDensity_ = scalarField(mesh.nCells(), 0.0);
     smoothGradient_ = scalarField(mesh.nCells(), 0.0);
@@ -84,7 +82,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
 
 vector FluidCoupling::momentumOutstanding() const
 {
-    return -gSum(vectorField(fluid_.density*mesh_.V().field()*outstanding_.primitiveField()));
+    return -gSum(vectorField(fluid_.density * mesh_.V().field() * outstanding_.primitiveField()));
 }
 
 void FluidCoupling::start(bool resumed)
@@ -157,19 +155,19 @@ void FluidCoupling::updateVoidFraction(const BeadsView& beads)
         beadVolume += sphereVolume(beads.radius[bead]);
     }
     const scalarField& cellVolumes = mesh_.V().field();
-    const double cellVolume = gSum(scalarField(solidFraction_*cellVolumes));
+    const double cellVolume = gSum(scalarField(solidFraction_ * cellVolumes));
 
     scalarField& voidFraction = voidFraction_.primitiveFieldRef();
     voidFraction = 1 - solidFraction_;
     double clipped = 0;
     label worstCell = -1;
     const double minimum = settings_.minimumVoidFraction();
-    forAll(voidFraction, cell)
+    forAll (voidFraction, cell)
     {
         if (voidFraction[cell] < minimum)
         {
             worstCell = worstCell < 0 || solidFraction_[cell] > solidFraction_[worstCell] ? cell : worstCell;
-            clipped += (minimum - voidFraction[cell])*cellVolumes[cell];
+            clipped += (minimum - voidFraction[cell]) * cellVolumes[cell];
             voidFraction[cell] = minimum;
         }
     }
@@ -183,20 +181,18 @@ void FluidCoupling::updateMomentumSource(double interval)
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
     for (direction axis = 0; axis < spaceDimensions; ++axis)
     {
-        smooth(
-            distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
+        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
             impulseDensity_[axis]);
         beadSource_.primitiveFieldRef().replace(
-            axis, scalarField(impulseDensity_[axis]*(-1/(fluid_.density*interval))));
+            axis, scalarField(impulseDensity_[axis] * (-1 / (fluid_.density * interval))));
     }
     beadSource_.correctBoundaryConditions();
 
     if (settings_.implicitCoupling())
     {
-        smooth(
-            distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
+        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
             coefficientDensity_);
-        implicitCoefficient_.primitiveFieldRef() = coefficientDensity_/(fluid_.density*interval);
+        implicitCoefficient_.primitiveFieldRef() = coefficientDensity_ / (fluid_.density * interval);
         implicitCoefficient_.correctBoundaryConditions();
     }
 }
@@ -208,31 +204,30 @@ void FluidCoupling::updateDdtVoidFraction(double interval)
         return;
     }
     const double smoothingTime = settings_.ddtSmoothingTime();
-    const double approach = smoothingTime > 0 ? -std::expm1(-interval/smoothingTime) : 1;
-    const scalarField change(
-        approach*(voidFraction_.primitiveField() - voidFractionInContinuity_.primitiveField()));
+    const double approach = smoothingTime > 0 ? -std::expm1(-interval / smoothingTime) : 1;
+    const scalarField change(approach * (voidFraction_.primitiveField() - voidFractionInContinuity_.primitiveField()));
     voidFractionInContinuity_.primitiveFieldRef() += change;
-    ddtVoidFraction_.primitiveFieldRef() = change/interval;
+    ddtVoidFraction_.primitiveFieldRef() = change / interval;
 }
 
 tmp<volVectorField> FluidCoupling::momentumSource(const volVectorField& U) const
 {
     const dimensionedScalar interval("interval", dimTime, settings_.couplingInterval());
-    return beadSource_ + outstanding_/interval + implicitCoefficient_*U.oldTime();
+    return beadSource_ + outstanding_ / interval + implicitCoefficient_ * U.oldTime();
 }
 
 void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
 {
-    const scalarField mass(fluid_.density*mesh_.V().field());
-    const vectorField demanded(interval*beadSource_.primitiveField() + outstanding_.primitiveField());
+    const scalarField mass(fluid_.density * mesh_.V().field());
+    const vectorField demanded(interval * beadSource_.primitiveField() + outstanding_.primitiveField());
     const vectorField excess(
-        interval*implicitCoefficient_.primitiveField()*(U.primitiveField() - U.oldTime().primitiveField()));
+        interval * implicitCoefficient_.primitiveField() * (U.primitiveField() - U.oldTime().primitiveField()));
     outstanding_.primitiveFieldRef() = excess;
     outstanding_.correctBoundaryConditions();
 
     // The beads received minus what their sources ask of the fluid.
-    const vector beadsReceived = -gSum(vectorField(mass*interval*beadSource_.primitiveField()));
-    const vector fluidLost = -gSum(vectorField(mass*(demanded - excess)));
+    const vector beadsReceived = -gSum(vectorField(mass * interval * beadSource_.primitiveField()));
+    const vector fluidLost = -gSum(vectorField(mass * (demanded - excess)));
     ledger_.bookMomentum(beadsReceived, fluidLost, momentumOutstanding());
 }
 
@@ -241,8 +236,8 @@ void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
     if (needs_.acceleration)
     {
         const tmp<volTensorField> gradient = fvc::grad(U);
-        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField())/interval
-            + (U.primitiveField() & gradient().primitiveField());
+        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField()) / interval
+                                             + (U.primitiveField() & gradient().primitiveField());
         acceleration_->correctBoundaryConditions();
     }
 }
@@ -273,7 +268,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     vector pressureForceInFluid = vector::zero;
     for (direction axis = 0; axis < spaceDimensions; ++axis)
     {
-        const scalarField pascalPerMetre(fluid_.density*gradient().primitiveField().component(axis));
+        const scalarField pascalPerMetre(fluid_.density * gradient().primitiveField().component(axis));
         if (modelType_ == ModelType::A)
         {
             smooth(pascalPerMetre, smoothGradient_[axis]);
@@ -289,7 +284,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         {
             distribution_.sample(curl().primitiveField().component(axis)(), atVisitors, vorticity + axis);
         }
-        pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre*solidFraction_*mesh_.V().field()));
+        pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre * solidFraction_ * mesh_.V().field()));
     }
 
     const Eigen::MatrixXd atBeads = exchange_.sumAtHome(atVisitors);
@@ -311,7 +306,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         {
             fluid.vorticity = atBeads.block<3, 1>(vorticity, bead);
         }
-        pressureForceOnBeads -= sphereVolume(beads.radius[bead])*toFoam(fluid.pressureGradient);
+        pressureForceOnBeads -= sphereVolume(beads.radius[bead]) * toFoam(fluid.pressureGradient);
     }
     // In model B no bead feels it, and the fluid's equation holds no reaction to it.
     if (modelType_ == ModelType::A)
@@ -335,8 +330,8 @@ string FluidCoupling::describeCell(label cell) const
         }
     }
     return "cell " + Foam::name(cell) + " at " + Foam::name(centre) + " m, void fraction "
-        + Foam::name(1 - solidFraction_[cell])
-        + (nearest ? ", nearest bead " + Foam::name(label(nearest->id)) : string());
+           + Foam::name(1 - solidFraction_[cell])
+           + (nearest ? ", nearest bead " + Foam::name(label(nearest->id)) : string());
 }
 
 void FluidCoupling::reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const
@@ -345,9 +340,8 @@ void FluidCoupling::reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index b
     const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
     FatalErrorInFunction << "Bead " << beads.id[bead] << " at " << position
                          << " m lies in no cell of the mesh; the nearest, cell " << nearest << " of rank "
-                         << Pstream::myProcNo() << ", is at "
-                         << (nearest < 0 ? vector::zero : mesh_.C()[nearest]) << " m, the mesh of this rank spans "
-                         << mesh_.bounds() << exit(FatalError);
+                         << Pstream::myProcNo() << ", is at " << (nearest < 0 ? vector::zero : mesh_.C()[nearest])
+                         << " m, the mesh of this rank spans " << mesh_.bounds() << exit(FatalError);
     std::abort();
 }
 

@@ -14,9 +14,8 @@ struct FluidModels
 {
     FluidModels(
         const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid, PhaseTimers& timers)
-    :
-        forces(settings.dict(), fluid, timers),
-        distribution(settings.dict(), mesh)
+        : forces(settings.dict(), fluid, timers),
+          distribution(settings.dict(), mesh)
     {}
 
     BeadForces forces;

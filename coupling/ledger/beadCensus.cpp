@@ -65,7 +65,7 @@ void BeadCensus::reportMissing(const BeadsView& beads, Foam::label missing) cons
         if (!present.found(seen.id))
         {
             names += "\n    bead " + Foam::name(seen.id) + ", last seen at (" + Foam::name(seen.position.x()) + ' '
-                + Foam::name(seen.position.y()) + ' ' + Foam::name(seen.position.z()) + ") m";
+                     + Foam::name(seen.position.y()) + ' ' + Foam::name(seen.position.z()) + ") m";
         }
     }
     stringList namesOfRanks(Pstream::nProcs());

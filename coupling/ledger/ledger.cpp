@@ -23,13 +23,12 @@ double tolerance(const dictionary& dict, const word& entry, double byDefault)
 } // namespace
 
 Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
-:
-    time_(time),
-    tolerances_(couplingProperties.subOrEmptyDict("ledger")),
-    solidVolumeTolerance_(tolerance(tolerances_, "solidVolumeTolerance", 1e-9)),
-    clippedVolumeTolerance_(tolerance(tolerances_, "clippedVolumeTolerance", 1e-3)),
-    momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
-    startTime_(time.timeName())
+    : time_(time),
+      tolerances_(couplingProperties.subOrEmptyDict("ledger")),
+      solidVolumeTolerance_(tolerance(tolerances_, "solidVolumeTolerance", 1e-9)),
+      clippedVolumeTolerance_(tolerance(tolerances_, "clippedVolumeTolerance", 1e-3)),
+      momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
+      startTime_(time.timeName())
 {}
 
 void Ledger::countBeads(const BeadsView& beads)
@@ -40,7 +39,7 @@ void Ledger::countBeads(const BeadsView& beads)
 void Ledger::bookSolidVolume(double beads, double cells, double clipped, const string& worstCell)
 {
     solidVolume_ = beads;
-    solidVolumeError_ = beads > 0 ? mag(cells - beads)/beads : mag(cells);
+    solidVolumeError_ = beads > 0 ? mag(cells - beads) / beads : mag(cells);
     largestSolidVolumeError_ = max(largestSolidVolumeError_, solidVolumeError_);
     clippedVolume_ = clipped;
     largestClippedVolume_ = max(largestClippedVolume_, clipped);
@@ -50,7 +49,7 @@ void Ledger::bookSolidVolume(double beads, double cells, double clipped, const s
                              << " m3: relative error " << solidVolumeError_ << ", solidVolumeTolerance is "
                              << solidVolumeTolerance_ << exit(FatalError);
     }
-    if (clipped > clippedVolumeTolerance_*beads)
+    if (clipped > clippedVolumeTolerance_ * beads)
     {
         FatalErrorInFunction << "The void fraction was clipped at alphaMin: " << clipped << " m3 of " << beads
                              << " m3 of beads cut off, clippedVolumeTolerance is " << clippedVolumeTolerance_
@@ -81,21 +80,22 @@ void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, 
 
 void Ledger::bookPressureForce(const vector& onBeads, const vector& inFluid)
 {
-    pressureForceError_ = mag(onBeads - inFluid)/max(mag(onBeads), SMALL);
+    pressureForceError_ = mag(onBeads - inFluid) / max(mag(onBeads), SMALL);
 }
 
 double Ledger::momentumError() const
 {
-    return momentumTurnover_ > 0 ? mag(beadsReceived_ + outstandingAtStart_ - fluidLost_ - outstanding_)/momentumTurnover_ : 0;
+    return momentumTurnover_ > 0
+               ? mag(beadsReceived_ + outstandingAtStart_ - fluidLost_ - outstanding_) / momentumTurnover_
+               : 0;
 }
 
 void Ledger::report() const
 {
-    Info<< "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (lost " << census_.lost()
-        << "), solid volume "
-        << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
-        << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", outstanding "
-        << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_ << endl;
+    Info << "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (lost " << census_.lost()
+         << "), solid volume " << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
+         << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", outstanding "
+         << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_ << endl;
 }
 
 void Ledger::writeSummary(const std::map<std::string, double>& phaseSeconds) const
@@ -104,16 +104,15 @@ void Ledger::writeSummary(const std::map<std::string, double>& phaseSeconds) con
     {
         return;
     }
-    const fileName folder = time_.globalPath()/"postProcessing"/"ledger"/startTime_;
+    const fileName folder = time_.globalPath() / "postProcessing" / "ledger" / startTime_;
     mkDir(folder);
     const nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
         {"pressureForceError", pressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
-        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()},
-        {"phaseSeconds", phaseSeconds}};
-    std::ofstream(folder/"summary.json") << summary.dump(2) << '\n';
+        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", phaseSeconds}};
+    std::ofstream(folder / "summary.json") << summary.dump(2) << '\n';
 }
 
 } // namespace clepsydra

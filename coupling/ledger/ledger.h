@@ -35,7 +35,8 @@ public:
 
     /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, what the fluid's
     /// equation took from the fluid, and what of the difference waits for the next interval.
-    void bookMomentum(const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
+    void bookMomentum(
+        const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
 
     /// The force of the fluid's pressure gradient on all beads, and the reaction that the fluid's equation holds [N].
     void bookPressureForce(const Foam::vector& onBeads, const Foam::vector& inFluid);

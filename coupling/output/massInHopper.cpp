@@ -32,7 +32,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     MassInHopper::read(dict);
     if (Pstream::master())
     {
-        makeRoomFrom(time.value(), time.globalPath()/outputPrefix/name, name + ".dat");
+        makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     }
     resetFile(name);
 

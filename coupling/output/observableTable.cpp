@@ -47,7 +47,7 @@ void makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
 {
     for (const instant& start : Time::findTimes(folder))
     {
-        const fileName file = folder/start.name()/table;
+        const fileName file = folder / start.name() / table;
         if (!isFile(file))
         {
             continue;

@@ -17,9 +17,8 @@ public:
     static constexpr const char* registryName = "beads";
 
     ObservedBeads(const Foam::objectRegistry& database, DemEngine& engine)
-    :
-        regIOobject(Foam::IOobject(registryName, database.time().timeName(), database)),
-        engine_(engine)
+        : regIOobject(Foam::IOobject(registryName, database.time().timeName(), database)),
+          engine_(engine)
     {}
 
     /// The beads of this rank, at the end of the last coupling interval.

@@ -17,9 +17,8 @@ public:
     {
     public:
         Scope(PhaseTimers& timers, const char* phase)
-        :
-            timers_(timers),
-            outer_(timers.switchTo(phase))
+            : timers_(timers),
+              outer_(timers.switchTo(phase))
         {}
 
         ~Scope()

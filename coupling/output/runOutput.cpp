@@ -12,14 +12,13 @@ using namespace Foam;
 
 RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
     DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints)
-:
-    time_(time),
-    mesh_(mesh),
-    settings_(settings),
-    engine_(engine),
-    interval_(interval),
-    checkpoints_(checkpoints),
-    stopRequest_(time)
+    : time_(time),
+      mesh_(mesh),
+      settings_(settings),
+      engine_(engine),
+      interval_(interval),
+      checkpoints_(checkpoints),
+      stopRequest_(time)
 {
     printReport(fluid, models);
 }
@@ -40,8 +39,7 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     {
         lines.push_back(choice);
     }
-    const DemTimeScales scales =
-        demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
+    const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
     printStartReport(engine_, lines, scales, settings_.demDict());
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.beads > 0;
@@ -78,7 +76,7 @@ bool RunOutput::afterInterval()
     }
     if (stop)
     {
-        Info<< "Asked to stop: writing a checkpoint" << endl;
+        Info << "Asked to stop: writing a checkpoint" << endl;
         time_.writeAndEnd();
     }
     else
@@ -113,13 +111,13 @@ void RunOutput::finish()
     {
         total += time;
     }
-    Info<< nl << "Wall time by phase (this rank)" << nl;
+    Info << nl << "Wall time by phase (this rank)" << nl;
     for (const auto& [phase, time] : seconds)
     {
-        Info<< "    " << setw(12) << phase.c_str() << ' ' << setw(10) << time << " s " << setw(6)
-            << round(1000*time/total)/10 << " %" << nl;
+        Info << "    " << setw(12) << phase.c_str() << ' ' << setw(10) << time << " s " << setw(6)
+             << round(1000 * time / total) / 10 << " %" << nl;
     }
-    Info<< endl;
+    Info << endl;
     interval_.ledger().writeSummary(seconds);
 }
 

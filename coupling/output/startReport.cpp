@@ -46,8 +46,9 @@ void printStartReport(const DemEngine& engine, const std::vector<std::string>& m
     const dictionary& demDict)
 {
     Info << "Versions\n"
-         << "    Clepsydra " << version << ", commit " << gitCommit << nl << "    OpenFOAM v"
-         << foamVersion::api << " patch " << foamVersion::patch.c_str() << nl << "    " << engine.version().c_str() << nl << nl << "Models" << nl;
+         << "    Clepsydra " << version << ", commit " << gitCommit << nl << "    OpenFOAM v" << foamVersion::api
+         << " patch " << foamVersion::patch.c_str() << nl << "    " << engine.version().c_str() << nl << nl << "Models"
+         << nl;
     for (const std::string& model : models)
     {
         Info << "    " << model.c_str() << nl;

@@ -37,14 +37,14 @@ FluidProperties readFluidProperties(const Time& runTime)
     const double density = positive("rho", dimDensity);
     const double kinematicViscosity = positive("nu", dimViscosity);
 
-    return {density, density*kinematicViscosity, Vector3d(g.value().x(), g.value().y(), g.value().z())};
+    return {density, density * kinematicViscosity, Vector3d(g.value().x(), g.value().y(), g.value().z())};
 }
 
 /// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
 void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 {
     const Vector3d dem = engine.gravity();
-    if ((fluid.gravity - dem).norm() > 1e-6*fluid.gravity.norm())
+    if ((fluid.gravity - dem).norm() > 1e-6 * fluid.gravity.norm())
     {
         FatalErrorInFunction << "constant/g is (" << fluid.gravity.x() << ' ' << fluid.gravity.y() << ' '
                              << fluid.gravity.z() << ") m/s2, fix gravity of the DEM script gives (" << dem.x() << ' '
@@ -80,7 +80,7 @@ void runWithFluid(
     Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
 {
     pimpleControl pimple(mesh);
-    #include "createFields.H"
+#include "createFields.H"
 
     const FluidCoupling& beadsOnFluid = interval.fluid();
     const volScalarField& voidFraction = beadsOnFluid.voidFraction();
@@ -91,13 +91,13 @@ void runWithFluid(
     {
         interval.advance(U, p, [&] {
             const QuietOnTerminal quiet(output);
-            Info<< "Time = " << runTime.timeName() << nl;
+            Info << "Time = " << runTime.timeName() << nl;
             while (pimple.loop())
             {
-                #include "UEqn.H"
+#include "UEqn.H"
                 while (pimple.correct())
                 {
-                    #include "pEqn.H"
+#include "pEqn.H"
                 }
             }
         });
@@ -126,14 +126,17 @@ void runDry(Time& runTime, CouplingInterval& interval, RunOutput& output)
 int main(int argc, char* argv[])
 {
     argList::addNote("Grains in water: PIMPLE with LIGGGHTS beads, coupled by constant/couplingProperties");
-    #include "setRootCase.H"
+#include "setRootCase.H"
     const MpiSession mpi;
     chDir(args.globalPath());
     const CaseLock lock(args.globalPath());
     Checkpoints::setAsideUnfinished(args);
 
+// The order matters.
+// clang-format off
     #include "createTime.H"
     #include "createMesh.H"
+    // clang-format on
 
     const CouplingSettings settings(runTime);
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
@@ -167,10 +170,10 @@ int main(int argc, char* argv[])
     }
     catch (const DemEngineError& error)
     {
-        FatalErrorInFunction << error.what() << nl << nl << "file: "
-                             << settings.demDict().get<fileName>("script").c_str() << exit(FatalError);
+        FatalErrorInFunction << error.what() << nl << nl
+                             << "file: " << settings.demDict().get<fileName>("script").c_str() << exit(FatalError);
     }
 
-    Info<< "End\n" << endl;
+    Info << "End\n" << endl;
     return 0;
 }

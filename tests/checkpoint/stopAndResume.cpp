@@ -44,14 +44,14 @@ double distance(const BeadSnapshot& a, const BeadSnapshot& b, double diameter)
 {
     EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.id, b.id);
-    return (a.position - b.position).cwiseAbs().maxCoeff()/diameter;
+    return (a.position - b.position).cwiseAbs().maxCoeff() / diameter;
 }
 
 /// All rows of m(t), the parts of a resumed run joined in the order of their start times.
 std::vector<std::vector<double>> massRows(const TestCase& test)
 {
     std::map<double, std::filesystem::path> parts;
-    for (const auto& part : std::filesystem::directory_iterator(test.path()/"postProcessing/massInHopper"))
+    for (const auto& part : std::filesystem::directory_iterator(test.path() / "postProcessing/massInHopper"))
     {
         parts[std::stod(part.path().filename())] = part.path();
     }
@@ -91,16 +91,17 @@ TEST_P(StopAndResume, EqualsNeverStopped)
     ASSERT_TRUE(second.succeeded()) << second.output;
     EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.12")) << second.output;
 
-    const double apart =
-        distance(through.beadHistory().back(), stopped.beadHistory().back(), through.dem.diameter);
+    const double apart = distance(through.beadHistory().back(), stopped.beadHistory().back(), through.dem.diameter);
     std::cout << (fluid ? "with fluid: " : "dry: ") << apart << " d after 1000 steps from the checkpoint" << std::endl;
     EXPECT_LT(apart, 1e-9);
     if (fluid)
     {
         for (const char* field : {"U", "p", "voidFraction"})
         {
-            EXPECT_TRUE(through.runCommand("cmp 0.16/" + std::string(field) + ' '
-                + (stopped.path()/"0.16"/field).string()).succeeded()) << field;
+            EXPECT_TRUE(
+                through.runCommand("cmp 0.16/" + std::string(field) + ' ' + (stopped.path() / "0.16" / field).string())
+                    .succeeded())
+                << field;
         }
     }
 }
@@ -138,8 +139,8 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     std::cout << apart << " d apart after 125 steps on two ranks" << std::endl;
     EXPECT_LT(apart, 1e-6);
 
-    const Outcome back = changed.runCommand(
-        "reconstructPar -latestTime && echo \"endTime 0.13;\" >> system/controlDict && $SOLVER");
+    const Outcome back =
+        changed.runCommand("reconstructPar -latestTime && echo \"endTime 0.13;\" >> system/controlDict && $SOLVER");
     ASSERT_TRUE(back.succeeded()) << back.output;
     EXPECT_TRUE(back.says("Resuming from the checkpoint of time 0.125")) << back.output;
     EXPECT_EQ(changed.ledgerSummary("0.125")["beadsEnd"], static_cast<int>(changed.dem.beads.size()));
@@ -176,7 +177,7 @@ TEST(Killed, GoesOnEveryTimeWithNothingLostOrDoubled)
     ASSERT_EQ(rows.size(), 301u);
     for (std::size_t row = 0; row < rows.size(); ++row)
     {
-        EXPECT_NEAR(rows[row][0], static_cast<double>(row)*interval, 1e-9) << "row " << row;
+        EXPECT_NEAR(rows[row][0], static_cast<double>(row) * interval, 1e-9) << "row " << row;
         EXPECT_EQ(rows[row][2], static_cast<double>(test.dem.beads.size()));
     }
 }
@@ -197,7 +198,7 @@ TEST(AskedToStop, WritesACheckpointAndEnds)
         EXPECT_TRUE(asked.says("writing a checkpoint")) << how << asked.output;
         const std::vector<std::string> times = test.times();
         ASSERT_EQ(times.size(), 1u) << how;
-        EXPECT_TRUE(std::filesystem::exists(test.path()/"checkpoints"/times.back()/"complete")) << how;
+        EXPECT_TRUE(std::filesystem::exists(test.path() / "checkpoints" / times.back() / "complete")) << how;
     }
 }
 

@@ -25,17 +25,18 @@ constexpr double diameter = 2e-3;
 constexpr double boxWidth = 0.016;
 constexpr double boxHeight = 0.032;
 
-const char* const baffleCommands =
-    "topoSet > log.topoSet 2>&1 && createBaffles -overwrite > log.createBaffles 2>&1";
+const char* const baffleCommands = "topoSet > log.topoSet 2>&1 && createBaffles -overwrite > log.createBaffles 2>&1";
 
 /// A zero-thickness wall over the whole box at half its height.
 void addBaffle(TestCase& box)
 {
     const std::string header = "FoamFile { version 2.0; format ascii; class dictionary; object baffle; }\n";
-    box.extraFiles["system/topoSetDict"] = header
+    box.extraFiles["system/topoSetDict"] =
+        header
         + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) (1 1 0.0161); }"
           " { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );";
-    box.extraFiles["system/createBafflesDict"] = header
+    box.extraFiles["system/createBafflesDict"] =
+        header
         + "internalFacesOnly true; baffles { plate { type faceZone; zoneName plate; patchPairs "
           "{ type wall; patchFields {} } patches { master { name plate; type wall; } "
           "slave { name plate; type wall; } } } }";
@@ -52,8 +53,8 @@ public:
         {
             case_ = std::make_unique<TestCase>();
             case_->box.upper = {boxWidth, boxWidth, boxHeight};
-            const int across = static_cast<int>(std::lround(boxWidth/cellSize));
-            case_->cells = {across, across, 2*across};
+            const int across = static_cast<int>(std::lround(boxWidth / cellSize));
+            case_->cells = {across, across, 2 * across};
             case_->removeFile("0/U");
             case_->removeFile("0/p");
             case_->file("system/decomposeParDict")
@@ -80,7 +81,7 @@ public:
         Foam::fileName own = folder.name();
         if (Foam::Pstream::parRun())
         {
-            own = own/("processor" + Foam::name(Foam::Pstream::myProcNo()));
+            own = own / ("processor" + Foam::name(Foam::Pstream::myProcNo()));
         }
         time_ = std::make_unique<Foam::Time>(Foam::Time::controlDictName, folder.path(), own);
         mesh_ = std::make_unique<Foam::fvMesh>(
@@ -104,11 +105,11 @@ Foam::dictionary properties(const Foam::word& voidFractionModel, const Foam::wor
     dict.add("voidFractionModel", voidFractionModel);
     dict.add("smoothingModel", smoothing);
     Foam::dictionary coefficients;
-    coefficients.add("smoothingLength", 3*diameter);
+    coefficients.add("smoothingLength", 3 * diameter);
     dict.add("constDiffSmoothingProps", coefficients);
     // It reaches 3 bandwidths: over several of the small cells, not through a baffle that the bead touches.
     Foam::dictionary gaussian;
-    gaussian.add("bandwidth", 0.25*diameter);
+    gaussian.add("bandwidth", 0.25 * diameter);
     dict.add("GaussianProps", gaussian);
     return dict;
 }
@@ -119,17 +120,16 @@ class BeadsOnMesh
 public:
     /// Every rank makes all beads and keeps its part of the numbers: not the part of space that it has the cells of.
     BeadsOnMesh(const Foam::fvMesh& mesh, const std::vector<Vector3d>& positions, const Foam::dictionary& dict)
-    :
-        mesh_(mesh),
-        engine_(1e-5),
-        distribution_(dict, mesh),
-        exchange_(MPI_COMM_WORLD, distribution_.cells().box(), distribution_.voidFractionModel().commonReach())
+        : mesh_(mesh),
+          engine_(1e-5),
+          distribution_(dict, mesh),
+          exchange_(MPI_COMM_WORLD, distribution_.cells().box(), distribution_.voidFractionModel().commonReach())
     {
         for (std::size_t bead = 0; bead < positions.size(); ++bead)
         {
             if (static_cast<int>(bead) % Foam::Pstream::nProcs() == Foam::Pstream::myProcNo())
             {
-                engine_.addBead(static_cast<int>(bead) + 1, positions[bead], diameter/2);
+                engine_.addBead(static_cast<int>(bead) + 1, positions[bead], diameter / 2);
             }
         }
         exchange_.send(engine_.beads());
@@ -160,7 +160,7 @@ public:
 
     double integral(const Foam::scalarField& density) const
     {
-        return Foam::gSum(Foam::scalarField(density*mesh_.V().field()));
+        return Foam::gSum(Foam::scalarField(density * mesh_.V().field()));
     }
 
     /// Before normalisation.
@@ -189,7 +189,7 @@ std::vector<Vector3d> randomBeads(int count, const Vector3d& low, const Vector3d
         for (int axis = 0; axis < 3; ++axis)
         {
             const double room = high[axis] - low[axis] - diameter;
-            position[axis] = low[axis] + diameter/2 + room*part(random);
+            position[axis] = low[axis] + diameter / 2 + room * part(random);
         }
         positions.push_back(position);
     }
@@ -203,7 +203,7 @@ std::vector<Vector3d> beadsEverywhere()
 
 double cube(double x)
 {
-    return x*x*x;
+    return x * x * x;
 }
 
 } // namespace
@@ -220,9 +220,9 @@ TEST_P(OnMesh, CellsHoldTheBeadsVolume)
     const std::vector<Vector3d> positions = beadsEverywhere();
     const BeadsOnMesh beads(box.mesh(), positions, properties(model, smoothing));
 
-    const double beadVolume = static_cast<double>(positions.size())*sphereVolume(diameter/2);
-    EXPECT_NEAR(beads.integral(beads.solidFraction())/beadVolume, 1, 1e-12);
-    EXPECT_NEAR(beads.integral(beads.smoothed(beads.solidFraction()))/beadVolume, 1, 1e-12);
+    const double beadVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
+    EXPECT_NEAR(beads.integral(beads.solidFraction()) / beadVolume, 1, 1e-12);
+    EXPECT_NEAR(beads.integral(beads.smoothed(beads.solidFraction())) / beadVolume, 1, 1e-12);
 }
 
 // What a bead samples is the adjoint of what it gives: sum over beads of V_p f(bead) = sum over cells of the bead's
@@ -235,15 +235,15 @@ TEST_P(OnMesh, SamplingIsTheAdjointOfGiving)
     const BeadsOnMesh beads(box.mesh(), beadsEverywhere(), properties(model, smoothing));
 
     Foam::scalarField field(box.mesh().nCells());
-    forAll(field, cell)
+    forAll (field, cell)
     {
         const Foam::vector& centre = box.mesh().C()[cell];
-        field[cell] = std::sin(400*centre.x()) + 100*centre.z()*centre.y();
+        field[cell] = std::sin(400 * centre.x()) + 100 * centre.z() * centre.y();
     }
     const double onBeads = Foam::returnReduce(
-        sphereVolume(diameter/2)*beads.atBeads(beads.smoothed(field)).sum(), Foam::sumOp<Foam::scalar>());
-    const double onCells = beads.integral(Foam::scalarField(field*beads.smoothed(beads.solidFraction())));
-    EXPECT_NEAR(onBeads/onCells, 1, 1e-8);
+        sphereVolume(diameter / 2) * beads.atBeads(beads.smoothed(field)).sum(), Foam::sumOp<Foam::scalar>());
+    const double onCells = beads.integral(Foam::scalarField(field * beads.smoothed(beads.solidFraction())));
+    EXPECT_NEAR(onBeads / onCells, 1, 1e-8);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, OnMesh,
@@ -272,10 +272,10 @@ TEST(Baffle, NothingLeaksThrough)
     for (const double cellSize : {1e-3, 4e-3})
     {
         const BoxOnRanks box(cellSize, true);
-        std::vector<Vector3d> positions = randomBeads(50, {0, 0, boxHeight/2}, {boxWidth, boxWidth, boxHeight});
+        std::vector<Vector3d> positions = randomBeads(50, {0, 0, boxHeight / 2}, {boxWidth, boxWidth, boxHeight});
         for (Vector3d& position : positions)
         {
-            position.z() = boxHeight/2 + 0.49*diameter;
+            position.z() = boxHeight / 2 + 0.49 * diameter;
         }
         for (const char* model : {"divided", "centre", "Gaussian"})
         {
@@ -283,16 +283,16 @@ TEST(Baffle, NothingLeaksThrough)
             const Foam::scalarField raw = beads.solidFraction();
             const Foam::scalarField smooth = beads.smoothed(raw);
             double behind = 0;
-            forAll(raw, cell)
+            forAll (raw, cell)
             {
-                if (box.mesh().C()[cell].z() < boxHeight/2)
+                if (box.mesh().C()[cell].z() < boxHeight / 2)
                 {
                     behind = std::max({behind, std::abs(raw[cell]), std::abs(smooth[cell])});
                 }
             }
             EXPECT_EQ(behind, 0) << model << ", cells of " << cellSize;
-            const double beadVolume = static_cast<double>(positions.size())*sphereVolume(diameter/2);
-            EXPECT_NEAR(beads.integral(smooth)/beadVolume, 1, 1e-12);
+            const double beadVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
+            EXPECT_NEAR(beads.integral(smooth) / beadVolume, 1, 1e-12);
         }
     }
 }
@@ -305,8 +305,9 @@ TEST(Divided, VoidFractionIsSmoothInTime)
     const Vector3d velocity(0.1, 0.07, -0.2);
     const auto largestJump = [&](const char* model, double step) {
         const auto at = [&](double time) {
-            return BeadsOnMesh(box.mesh(), {Vector3d(0.0061, 0.0067, 0.0161) + time*velocity},
-                properties(model, "off")).solidFraction();
+            return BeadsOnMesh(
+                box.mesh(), {Vector3d(0.0061, 0.0067, 0.0161) + time * velocity}, properties(model, "off"))
+                .solidFraction();
         };
         Foam::scalarField before = at(-step);
         Foam::scalarField now = at(0);
@@ -314,14 +315,14 @@ TEST(Divided, VoidFractionIsSmoothInTime)
         for (double time = 0; time < 0.02; time += step)
         {
             const Foam::scalarField after = at(time + step);
-            largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(after - 2*now + before)))/step);
+            largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(after - 2 * now + before))) / step);
             before = now;
             now = after;
         }
         return largest;
     };
-    EXPECT_LT(largestJump("divided", 0.25e-3), 0.6*largestJump("divided", 0.5e-3));
-    EXPECT_GT(largestJump("centre", 0.25e-3), 1.5*largestJump("centre", 0.5e-3));
+    EXPECT_LT(largestJump("divided", 0.25e-3), 0.6 * largestJump("divided", 0.5e-3));
+    EXPECT_GT(largestJump("centre", 0.25e-3), 1.5 * largestJump("centre", 0.5e-3));
 }
 
 // The kernel is the Gaussian of its bandwidth b, variance b2/2 along each axis (plus a cell's own s2/12), also where it
@@ -334,17 +335,18 @@ TEST(Gaussian, HasItsBandwidth)
     const BoxOnRanks box(cellSize, false);
     Foam::dictionary dict = properties("Gaussian", "off");
     dict.subDict("GaussianProps").set("bandwidth", bandwidth);
-    const Vector3d centre(boxWidth/2 - 0.6*diameter, boxWidth/2, boxHeight/2);
+    const Vector3d centre(boxWidth / 2 - 0.6 * diameter, boxWidth / 2, boxHeight / 2);
     const BeadsOnMesh beads(box.mesh(), {centre}, dict);
     const Foam::scalarField density = beads.solidFraction();
     const double volume = beads.integral(density);
-    EXPECT_NEAR(volume/sphereVolume(diameter/2), 1, 1e-12);
+    EXPECT_NEAR(volume / sphereVolume(diameter / 2), 1, 1e-12);
     for (const Foam::direction axis : {0, 2})
     {
         const Foam::scalarField from(box.mesh().C().primitiveField().component(axis) - centre[axis]);
-        const double variance = beads.integral(Foam::scalarField(density*Foam::sqr(from)))/volume;
+        const double variance = beads.integral(Foam::scalarField(density * Foam::sqr(from))) / volume;
         // A wall 6.8 mm away keeps the tail.
-        EXPECT_NEAR(variance/(0.5*bandwidth*bandwidth + cellSize*cellSize/12), 1, 0.01) << "axis " << int(axis);
+        EXPECT_NEAR(variance / (0.5 * bandwidth * bandwidth + cellSize * cellSize / 12), 1, 0.01)
+            << "axis " << int(axis);
     }
 }
 
@@ -352,22 +354,23 @@ TEST(Gaussian, HasItsBandwidth)
 // on cells of half a bead and of two. Averaging over neighbours instead would widen with the cells.
 TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingLength)
 {
-    const double smoothingLength = 1.5*diameter;
+    const double smoothingLength = 1.5 * diameter;
     for (const double cellSize : {1e-3, 2e-3})
     {
         const BoxOnRanks box(cellSize, false);
         Foam::dictionary dict = properties("divided", "constDiffSmoothing");
         dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
-        const Vector3d centre(boxWidth/2, boxWidth/2, boxHeight/2);
+        const Vector3d centre(boxWidth / 2, boxWidth / 2, boxHeight / 2);
         const BeadsOnMesh beads(box.mesh(), {centre}, dict);
         const Foam::scalarField raw = beads.solidFraction();
         const Foam::scalarField heights(box.mesh().C().primitiveField().component(2));
         const auto variance = [&](const Foam::scalarField& density) {
-            return beads.integral(Foam::scalarField(density*Foam::sqr(heights - centre.z())))/beads.integral(density);
+            return beads.integral(Foam::scalarField(density * Foam::sqr(heights - centre.z())))
+                   / beads.integral(density);
         };
         const double added = variance(beads.smoothed(raw)) - variance(raw);
-        EXPECT_NEAR(added/(0.5*smoothingLength*smoothingLength), 1, 0.03) << "cells of " << cellSize;
-        EXPECT_LT(Foam::gMax(beads.smoothed(raw)), cube(0.8)*Foam::gMax(raw)) << "cells of " << cellSize;
+        EXPECT_NEAR(added / (0.5 * smoothingLength * smoothingLength), 1, 0.03) << "cells of " << cellSize;
+        EXPECT_LT(Foam::gMax(beads.smoothed(raw)), cube(0.8) * Foam::gMax(raw)) << "cells of " << cellSize;
     }
 }
 

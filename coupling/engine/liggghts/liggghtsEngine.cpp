@@ -69,8 +69,7 @@ class LiggghtsEngine::Implementation
 {
 public:
     explicit Implementation(const LiggghtsSetup& setup)
-    :
-        communicator_(setup.communicator)
+        : communicator_(setup.communicator)
     {
         keepLiggghtsErrorReplacements();
         start(setup.logFile);
@@ -113,7 +112,8 @@ public:
     void addCouplingState()
     {
         // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
-        std::string command = std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
+        std::string command =
+            std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
         const CouplingState initial{};
         std::array<double, couplingStateSize> defaults{};
         std::copy_n(reinterpret_cast<const double*>(&initial), couplingStateSize, defaults.begin());
@@ -132,14 +132,14 @@ public:
         auto* const friction = static_cast<lmp::FixPropertyGlobal*>(program_->modify->find_fix_property(
             "coefficientFriction", "property/global", "peratomtypepair", 0, 0, "coupling", false));
         const int materialCount = program_->atom->ntypes;
-        for (int pair = 0; friction && pair < materialCount*materialCount; ++pair)
+        for (int pair = 0; friction && pair < materialCount * materialCount; ++pair)
         {
-            const double value = friction->compute_array(pair/materialCount, pair % materialCount);
+            const double value = friction->compute_array(pair / materialCount, pair % materialCount);
             if (value < 0)
             {
-                throw DemEngineError("coefficientFriction of the materials " + std::to_string(pair/materialCount + 1)
-                    + " and " + std::to_string(pair % materialCount + 1) + " is " + std::to_string(value)
-                    + "; allowed: a number >= 0");
+                throw DemEngineError("coefficientFriction of the materials " + std::to_string(pair / materialCount + 1)
+                                     + " and " + std::to_string(pair % materialCount + 1) + " is "
+                                     + std::to_string(value) + "; allowed: a number >= 0");
             }
         }
     }
@@ -188,8 +188,8 @@ public:
         const Eigen::Index count = atom.nlocal + atom.nghost;
         return BeadPairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
             ConstView<double>(atom.radius, count),
-            Eigen::Map<const Eigen::Matrix2Xi>(
-                pairList_.empty() ? nullptr : pairList_.front().data(), 2, static_cast<Eigen::Index>(pairList_.size()))};
+            Eigen::Map<const Eigen::Matrix2Xi>(pairList_.empty() ? nullptr : pairList_.front().data(), 2,
+                static_cast<Eigen::Index>(pairList_.size()))};
     }
 
     lmp::LAMMPS& program()
@@ -214,7 +214,8 @@ private:
         }
         try
         {
-            program_ = std::make_unique<lmp::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator_);
+            program_ =
+                std::make_unique<lmp::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator_);
         }
         catch (const LiggghtsStopped& stopped)
         {
@@ -244,8 +245,7 @@ private:
         const BeadsView own = engine.beads();
         const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
             own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{}};
-        engine.forces_->evaluate(
-            beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
+        engine.forces_->evaluate(beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
     }
 
     MPI_Comm communicator_;
@@ -259,8 +259,7 @@ private:
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
-:
-    implementation_(std::make_unique<Implementation>(setup))
+    : implementation_(std::make_unique<Implementation>(setup))
 {}
 
 LiggghtsEngine::~LiggghtsEngine() = default;

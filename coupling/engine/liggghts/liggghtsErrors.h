@@ -15,9 +15,8 @@ class LiggghtsStopped : public std::runtime_error
 {
 public:
     LiggghtsStopped(const std::string& message, bool onOneRankOnly)
-    :
-        std::runtime_error(message),
-        onOneRankOnly_(onOneRankOnly)
+        : std::runtime_error(message),
+          onOneRankOnly_(onOneRankOnly)
     {}
 
     /// True if the other ranks do not know and may wait for this one.
