@@ -132,11 +132,8 @@ int main(int argc, char* argv[])
     const CaseLock lock(args.globalPath());
     Checkpoints::setAsideUnfinished(args);
 
-// The order matters.
-// clang-format off
-    #include "createTime.H"
-    #include "createMesh.H"
-    // clang-format on
+#include "createTime.H"
+#include "createMesh.H"
 
     const CouplingSettings settings(runTime);
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
