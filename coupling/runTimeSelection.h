@@ -16,7 +16,7 @@ using namespace Foam;
 /// names none of them.
 inline word selectedModel(const dictionary& dict, const word& entry, const wordList& known)
 {
-    const word name = dict.get<word>(entry);
+    word name = dict.get<word>(entry);
     if (!known.found(name))
     {
         FatalIOErrorInFunction(dict) << "Unknown " << entry << " '" << name << "'; allowed: " << flatOutput(known)

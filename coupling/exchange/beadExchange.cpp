@@ -1,7 +1,6 @@
 #include "exchange/beadExchange.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace clepsydra
 {
@@ -125,7 +124,8 @@ std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRa
     {
         if (fromRanks[i] == rank_)
         {
-            in[i] = *toSelf;
+            // There is one: both plans compare this rank's own two boxes.
+            in[i] = toSelf ? *toSelf : std::vector<double>();
             continue;
         }
         MPI_Status status;
@@ -158,7 +158,7 @@ void BeadExchange::send(const BeadsView& beads)
         for (const Eigen::Index bead : leaving.beads)
         {
             const VisitingBead visit = visitFrom(beads, bead);
-            std::memcpy(place, &visit, sizeof(visit));
+            std::copy_n(reinterpret_cast<const double*>(&visit), size, place);
             place += size;
         }
     }
@@ -177,7 +177,7 @@ void BeadExchange::send(const BeadsView& beads)
         imports_[i].count = static_cast<Eigen::Index>(count);
         for (std::size_t visit = 0; visit < count; ++visit)
         {
-            std::memcpy(static_cast<void*>(&visitors_.emplace_back()), &in[i][visit * size], sizeof(VisitingBead));
+            std::copy_n(&in[i][visit * size], size, reinterpret_cast<double*>(&visitors_.emplace_back()));
         }
     }
 }

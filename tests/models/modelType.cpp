@@ -63,7 +63,7 @@ TEST(ModelType, BRefusesThePressureGradientOnTheBeads)
     {
         try
         {
-            ForcesOnBeads("modelType B; forceModels (DiFeliceDrag " + name + ");");
+            const ForcesOnBeads taken("modelType B; forceModels (DiFeliceDrag " + name + ");");
             FAIL() << name << " was taken";
         }
         catch (const Foam::IOerror& error)

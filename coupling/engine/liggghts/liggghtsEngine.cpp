@@ -208,6 +208,7 @@ private:
         // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
         std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
         std::vector<char*> arguments;
+        arguments.reserve(words.size());
         for (std::string& word : words)
         {
             arguments.push_back(word.data());
