@@ -66,8 +66,9 @@ Noise noise(const Eigen::VectorXd& pressure, double step)
 ///
 /// One packing of 1300 beads, three runs, the case's own low-pass of d(eps)/dt (smoothingTime 4 ms). After the first
 /// contacts the runs are independent of one another. Measured: 6.8, 6.8, 6.5 Pa, each +-5.5 % (one standard error from
-/// 170 to 200 independent samples in 1 s), so each ratio of two is known to 7.5 %, and a true ratio of 1 lies two of
-/// these below the limit of 1.15. In 600 beads' .45 s the ratios would be known to 12 % only.
+/// 170 to 200 independent samples in 1 s), so each ratio of two is known to 7.5 %. Other rounding gives another sample of
+/// the same noise, so the limit is a ratio of 1 plus three of its own standard errors, about 1.22; the prototype's ratios
+/// were 2.8 and 1.6. In 600 beads' .45 s the ratios would be known to 12 % only.
 TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
 {
     QuickHopper hopper({{"beadCount", "1300"}, {"hopperDiameter", "0.018"}, {"orificeDiameter", "0.009"},
@@ -106,9 +107,10 @@ TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
     for (std::size_t i = 0; i + 1 < measured.size(); ++i)
     {
         const double ratio = measured[i].deviation / measured[i + 1].deviation;
-        std::cout << "    to that of twice the interval: " << ratio << " +- "
-                  << ratio * std::hypot(measured[i].relativeError(), measured[i + 1].relativeError()) << std::endl;
-        EXPECT_LE(ratio, 1.15);
+        const double error = ratio * std::hypot(measured[i].relativeError(), measured[i + 1].relativeError());
+        std::cout << "    to that of twice the interval: " << ratio << " +- " << error << std::endl;
+        EXPECT_LE(ratio, 1 + 3 * error);
+        EXPECT_LT(error, 0.1);
         EXPECT_GT(measured[i].deviation, 3);
     }
 }
