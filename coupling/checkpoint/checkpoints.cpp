@@ -53,6 +53,13 @@ word beginningOf(const fileName& folder)
     return word(line);
 }
 
+/// No rank goes on before the others have come here: OpenFOAM has no barrier but a reduction.
+void waitForAllRanks()
+{
+    label nothing = 0;
+    reduce(nothing, sumOp<label>());
+}
+
 void setAside(const fileName& part, const word& timeName)
 {
     const fileName aside = part / ("unfinished." + timeName);
@@ -82,8 +89,7 @@ void Checkpoints::setAsideUnfinished(const argList& args)
             }
         }
     }
-    label done = 0;
-    reduce(done, sumOp<label>());
+    waitForAllRanks();
 }
 
 Checkpoints::Checkpoints(const Time& time)
@@ -105,8 +111,7 @@ Checkpoints::Checkpoints(const Time& time)
                              << ". Choose one of them by startTime in system/controlDict, or remove " << folder
                              << " to start afresh" << exit(FatalError);
     }
-    label looked = 0;
-    reduce(looked, sumOp<label>());
+    waitForAllRanks();
     if (Pstream::master())
     {
         mkDir(folder);

@@ -1,5 +1,7 @@
 #include "distribution/cellSlabs.h"
 
+#include "vectors.h"
+
 #include "coupledPolyPatch.H"
 
 #include <algorithm>
@@ -17,11 +19,6 @@ namespace
 constexpr double sameSideCosine = 0.9;
 /// Sides whose normals are within about 60 degrees of opposite bound the same slab.
 constexpr double oppositeCosine = -0.5;
-
-Vector3d toEigen(const Foam::vector& v)
-{
-    return {v.x(), v.y(), v.z()};
-}
 
 /// Fraction of a sphere of radius 1 on the inner side of a plane at signed distance s from its centre.
 double capFraction(double s)

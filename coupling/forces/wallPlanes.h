@@ -1,5 +1,6 @@
 #pragma once
 
+#include "vectors.h"
 #include "runTimeSelection.h"
 
 #include "Tuple2.H"
@@ -40,8 +41,7 @@ inline std::vector<WallPlane> readWallPlanes(const Foam::dictionary& dict)
                                          << "; allowed: pairs of a point and a normal that is not zero"
                                          << Foam::exit(Foam::FatalIOError);
         }
-        planes.push_back({Eigen::Vector3d(point.x(), point.y(), point.z()),
-            Eigen::Vector3d(normal.x(), normal.y(), normal.z()).normalized()});
+        planes.push_back({toEigen(point), toEigen(normal).normalized()});
     }
     return planes;
 }

@@ -1,5 +1,7 @@
 #include "interval/fluidCoupling.h"
 
+#include "vectors.h"
+
 #include "fvc.H"
 #include "fvcCurl.H"
 #include "fvcDdt.H"
@@ -30,11 +32,6 @@ GeometricField<Type, fvPatchField, volMesh> couplingField(
     return GeometricField<Type, fvPatchField, volMesh>(
         IOobject(name, mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), mesh,
         dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
-}
-
-vector toFoam(const Vector3d& v)
-{
-    return vector(v.x(), v.y(), v.z());
 }
 
 MPI_Comm duplicateWorld()

@@ -1,5 +1,7 @@
 #include "output/hopperCylinder.h"
 
+#include "vectors.h"
+
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 
@@ -21,7 +23,7 @@ HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwa
     vector high = vector::min;
     for (const Foam::point& p : wall.localPoints())
     {
-        const Vector3d q(p.x(), p.y(), p.z());
+        const Vector3d q = toEigen(p);
         const Foam::vector inFrame(q.dot(e1), q.dot(e2), q.dot(axis_));
         low = Foam::min(low, inFrame);
         high = Foam::max(high, inFrame);
@@ -34,7 +36,7 @@ HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwa
     double furthestSqr = 0;
     for (const Foam::point& p : wall.localPoints())
     {
-        const Vector3d fromFoot = Vector3d(p.x(), p.y(), p.z()) - foot_;
+        const Vector3d fromFoot = toEigen(p) - foot_;
         furthestSqr = std::max(furthestSqr, fromFoot.squaredNorm() - std::pow(fromFoot.dot(axis_), 2));
     }
     reduce(furthestSqr, maxOp<scalar>());

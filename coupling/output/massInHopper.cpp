@@ -2,6 +2,7 @@
 
 #include "output/observableTable.h"
 #include "output/observedBeads.h"
+#include "vectors.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -38,7 +39,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
 
     Ostream& os = file();
     writeHeader(os, "Beads in the hopper, patch '" + dict.get<word>("patch") + "'");
-    writeHeaderValue(os, "Foot of its axis [m]", vector(hopper_->foot().x(), hopper_->foot().y(), hopper_->foot().z()));
+    writeHeaderValue(os, "Foot of its axis [m]", toFoam(hopper_->foot()));
     writeHeaderValue(os, "Radius [m]", hopper_->radius());
     writeCommented(os, "time [s]");
     writeTabbed(os, "mass [kg]");
@@ -78,7 +79,7 @@ bool MassInHopper::read(const dictionary& dict)
         FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
                                      << exit(FatalIOError);
     }
-    hopper_ = std::make_unique<HopperCylinder>(mesh_.boundaryMesh()[patch], Vector3d(axis.x(), axis.y(), axis.z()));
+    hopper_ = std::make_unique<HopperCylinder>(mesh_.boundaryMesh()[patch], toEigen(axis));
 
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;

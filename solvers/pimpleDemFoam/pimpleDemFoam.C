@@ -6,6 +6,7 @@
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
 #include "output/runOutput.h"
+#include "vectors.h"
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -37,7 +38,7 @@ FluidProperties readFluidProperties(const Time& runTime)
     const double density = positive("rho", dimDensity);
     const double kinematicViscosity = positive("nu", dimViscosity);
 
-    return {density, density * kinematicViscosity, Vector3d(g.value().x(), g.value().y(), g.value().z())};
+    return {density, density * kinematicViscosity, toEigen(g.value())};
 }
 
 /// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
