@@ -6,13 +6,27 @@ from pathlib import Path
 import numpy as np
 
 
+ENTRY = re.compile(r"^(\s*)(\w+)(\s+)([^;]+);", re.MULTILINE)
+
+
 def parameters(path):
     """The entries "name value;" of a flat OpenFOAM dictionary, $name replaced."""
-    text = re.sub(r"//.*", "", Path(path).read_text())
+    return parametersIn(Path(path).read_text())
+
+
+def parametersIn(text):
     found = {}
-    for name, value in re.findall(r"^\s*(\w+)\s+([^;]+);", text, re.MULTILINE):
+    for _, name, _, value in ENTRY.findall(re.sub(r"//.*", "", text)):
         found[name] = found[value[1:]] if value.startswith("$") else number(value)
     return found
+
+
+def withParameters(text, values):
+    """The dictionary's text with other values of entries that it has."""
+    missing = set(values) - set(parametersIn(text))
+    if missing:
+        raise KeyError(", ".join(sorted(missing)))
+    return ENTRY.sub(lambda entry: entry[1] + entry[2] + entry[3] + values.get(entry[2], entry[4]) + ";", text)
 
 
 def number(text):

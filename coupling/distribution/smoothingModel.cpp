@@ -26,9 +26,12 @@ public:
     NoSmoothing(const Foam::dictionary&, const Foam::fvMesh&)
     {}
 
-    void smooth(const Foam::scalarField& density, Foam::scalarField& guess) const override
+    void smooth(Eigen::MatrixXd&) const override
+    {}
+
+    double bandwidth() const override
     {
-        guess = density;
+        return 0;
     }
 
     Foam::string description() const override

@@ -1,5 +1,6 @@
 #include "interval/fluidCoupling.h"
 
+#include "closures/gaussianDisturbance.h"
 #include "vectors.h"
 
 #include "fvc.H"
@@ -22,7 +23,14 @@ using namespace Foam;
 namespace
 {
 
-constexpr direction spaceDimensions = 3;
+/// Rows of what beads put into cells.
+enum GivenRow : Eigen::Index
+{
+    solidVolume = 0,
+    impulse = 1,
+    implicitCoefficientTime = 4,
+    givenRowCount = 5
+};
 
 /// A field of the coupling: read where the run was stopped, otherwise uniform.
 template<class Type>
@@ -41,6 +49,36 @@ MPI_Comm duplicateWorld()
     return own;
 }
 
+/// Diffusion on a lattice of cells from one cell, at that cell: exp(-x) I_0(x)/h with x = b2/(2 h2), which is the peak
+/// 1/(sqrt(pi) b) of the Gaussian where cells are small [1/m].
+double latticePeak(double bandwidthSqr, double cellSize)
+{
+    const double x = bandwidthSqr / (2 * sqr(cellSize));
+    return x > 100 ? 1 / std::sqrt(constant::mathematical::pi * bandwidthSqr)
+                   : std::exp(-x) * std::cyl_bessel_i(0, x) / cellSize;
+}
+
+/// A force in one cell acts on that cell like a Gaussian of this b2/h2: 1/(2 pi^1.5 b) of the Gaussian equals the
+/// simple cubic lattice's Green's function at its origin, 0.2527/h (Watson's integral).
+constexpr double latticeBandwidthSqr = 0.126;
+
+bool readSelfDisturbance(const CouplingSettings& settings)
+{
+    const dictionary& dict = settings.dict();
+    const word entry = "selfDisturbance";
+    if (!dict.found(entry) || selectedModel(dict, entry, {"off", "Oseen"}) == "off")
+    {
+        return false;
+    }
+    if (!settings.implicitCoupling())
+    {
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen; allowed: with momCoupleModels "
+                                     << "(implicitCouple), whose coefficient says how dense the neighbours are"
+                                     << exit(FatalIOError);
+    }
+    return true;
+}
+
 } // namespace
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
@@ -50,6 +88,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       fluid_(fluid),
       modelType_(readModelType(settings.dict())),
       needs_(needs),
+      removesSelfDisturbance_(readSelfDisturbance(settings)),
       engine_(engine),
       ledger_(ledger),
       timers_(timers),
@@ -63,11 +102,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless / dimTime, 0)),
       beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
       outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
-      solidFraction_(1 - voidFraction_.primitiveField()),
-      coefficientDensity_(mesh.nCells(), 0.0)
+      solidFraction_(1 - voidFraction_.primitiveField())
 {
-    impulseDensity_ = scalarField(mesh.nCells(), 0.0);
-    smoothGradient_ = scalarField(mesh.nCells(), 0.0);
     if (needs_.acceleration)
     {
         acceleration_.reset(
@@ -92,10 +128,6 @@ void FluidCoupling::start(bool resumed)
     }
     findCells(engine_.beads());
     solidFraction_ = 1 - voidFraction_.primitiveField();
-    // What an earlier process would have known from its last interval, this one does not.
-    coefficientDensity_ = 0;
-    impulseDensity_ = scalarField(mesh_.nCells(), 0.0);
-    smoothGradient_ = scalarField(mesh_.nCells(), 0.0);
 }
 
 void FluidCoupling::beadsToFluid(double interval)
@@ -103,11 +135,12 @@ void FluidCoupling::beadsToFluid(double interval)
     const PhaseTimers::Scope timing = timers_.time("distribute");
     const BeadsView beads = engine_.beads();
     findCells(beads);
-    updateVoidFraction(beads);
+    const Eigen::MatrixXd densities = densitiesOfBeads();
+    updateVoidFraction(beads, densities);
     if (interval > 0)
     {
         updateDdtVoidFraction(interval);
-        updateMomentumSource(interval);
+        updateMomentumSource(densities, interval);
     }
 }
 
@@ -133,19 +166,31 @@ void FluidCoupling::findCells(const BeadsView& beads)
     distribution_.normalise(exchanged([&] { return exchange_.toVisitors(shareSums); }));
 }
 
-void FluidCoupling::smooth(const scalarField& density, scalarField& guess)
+void FluidCoupling::smooth(Eigen::MatrixXd& densities)
 {
     const PhaseTimers::Scope timing = timers_.time("smooth");
-    distribution_.smooth(density, guess);
+    distribution_.smooth(densities);
 }
 
-void FluidCoupling::updateVoidFraction(const BeadsView& beads)
+Eigen::MatrixXd FluidCoupling::densitiesOfBeads()
 {
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
-    const scalarField raw =
-        distribution_.density([&](std::size_t visitor) { return sphereVolume(visitors[visitor].radius); });
-    smooth(raw, solidFraction_);
+    Eigen::MatrixXd given(givenRowCount, static_cast<Eigen::Index>(visitors.size()));
+    for (Eigen::Index i = 0; i < given.cols(); ++i)
+    {
+        const VisitingBead& bead = visitors[static_cast<std::size_t>(i)];
+        given(solidVolume, i) = sphereVolume(bead.radius);
+        given.block<3, 1>(impulse, i) = bead.impulse;
+        given(implicitCoefficientTime, i) = bead.implicitCoefficientTime;
+    }
+    Eigen::MatrixXd densities = distribution_.densities(given);
+    smooth(densities);
+    return densities;
+}
 
+void FluidCoupling::updateVoidFraction(const BeadsView& beads, const Eigen::MatrixXd& densities)
+{
+    columns(solidFraction_) = densities.row(solidVolume);
     double beadVolume = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
@@ -173,23 +218,14 @@ void FluidCoupling::updateVoidFraction(const BeadsView& beads)
         returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
 }
 
-void FluidCoupling::updateMomentumSource(double interval)
+void FluidCoupling::updateMomentumSource(const Eigen::MatrixXd& densities, double interval)
 {
-    const std::vector<VisitingBead>& visitors = exchange_.visitors();
-    for (direction axis = 0; axis < spaceDimensions; ++axis)
-    {
-        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
-            impulseDensity_[axis]);
-        beadSource_.primitiveFieldRef().replace(
-            axis, scalarField(impulseDensity_[axis] * (-1 / (fluid_.density * interval))));
-    }
+    const double perMassAndTime = 1 / (fluid_.density * interval);
+    columns(beadSource_.primitiveFieldRef()) = -perMassAndTime * densities.middleRows<3>(impulse);
     beadSource_.correctBoundaryConditions();
-
     if (settings_.implicitCoupling())
     {
-        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
-            coefficientDensity_);
-        implicitCoefficient_.primitiveFieldRef() = coefficientDensity_ / (fluid_.density * interval);
+        columns(implicitCoefficient_.primitiveFieldRef()) = perMassAndTime * densities.row(implicitCoefficientTime);
         implicitCoefficient_.correctBoundaryConditions();
     }
 }
@@ -253,38 +289,47 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     };
     const Eigen::Index acceleration = alwaysThere;
     const Eigen::Index vorticity = alwaysThere + (needs_.acceleration ? 3 : 0);
-    const Eigen::Index rowCount = vorticity + (needs_.vorticity ? 3 : 0);
+    const Eigen::Index resistance = vorticity + (needs_.vorticity ? 3 : 0);
+    const Eigen::Index cellSize = resistance + 1;
+    const Eigen::Index rowCount = resistance + (removesSelfDisturbance_ ? 2 : 0);
     const dimensionedScalar viscosity("mu", dimViscosity, fluid_.dynamicViscosity);
     const tmp<volVectorField> gradient = fvc::grad(p);
     const tmp<volVectorField> viscous = fvc::laplacian(viscosity, U, "laplacian(nu,U)");
 
     const tmp<volVectorField> curl = needs_.vorticity ? fvc::curl(U) : tmp<volVectorField>();
 
-    Eigen::MatrixXd atVisitors(rowCount, static_cast<Eigen::Index>(exchange_.visitors().size()));
-    distribution_.sample(voidFraction_.primitiveField(), atVisitors, voidFraction);
-    vector pressureForceInFluid = vector::zero;
-    for (direction axis = 0; axis < spaceDimensions; ++axis)
+    Eigen::MatrixXd pascalPerMetre = fluid_.density * columns(gradient().primitiveField());
+    const vector pressureForceInFluid =
+        -gSum(vectorField(fluid_.density * gradient().primitiveField() * solidFraction_ * mesh_.V().field()));
+    if (modelType_ == ModelType::A)
     {
-        const scalarField pascalPerMetre(fluid_.density * gradient().primitiveField().component(axis));
-        if (modelType_ == ModelType::A)
-        {
-            smooth(pascalPerMetre, smoothGradient_[axis]);
-        }
-        distribution_.sample(U.primitiveField().component(axis)(), atVisitors, velocity + axis);
-        distribution_.sample(smoothGradient_[axis], atVisitors, pressureGradient + axis);
-        distribution_.sample(viscous().primitiveField().component(axis)(), atVisitors, viscousStressDivergence + axis);
-        if (needs_.acceleration)
-        {
-            distribution_.sample(acceleration_->primitiveField().component(axis)(), atVisitors, acceleration + axis);
-        }
-        if (needs_.vorticity)
-        {
-            distribution_.sample(curl().primitiveField().component(axis)(), atVisitors, vorticity + axis);
-        }
-        pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre * solidFraction_ * mesh_.V().field()));
+        smooth(pascalPerMetre);
+    }
+    else
+    {
+        pascalPerMetre.setZero();
     }
 
-    const Eigen::MatrixXd atBeads = exchange_.sumAtHome(atVisitors);
+    Eigen::MatrixXd inCells(rowCount, mesh_.nCells());
+    inCells.row(voidFraction) = columns(voidFraction_.primitiveField());
+    inCells.middleRows<3>(velocity) = columns(U.primitiveField());
+    inCells.middleRows<3>(pressureGradient) = pascalPerMetre;
+    inCells.middleRows<3>(viscousStressDivergence) = columns(viscous().primitiveField());
+    if (needs_.acceleration)
+    {
+        inCells.middleRows<3>(acceleration) = columns(acceleration_->primitiveField());
+    }
+    if (needs_.vorticity)
+    {
+        inCells.middleRows<3>(vorticity) = columns(curl().primitiveField());
+    }
+    if (removesSelfDisturbance_)
+    {
+        inCells.row(resistance) = fluid_.density * columns(implicitCoefficient_.primitiveField());
+        inCells.row(cellSize) = columns(mesh_.V().field()).array().pow(1.0 / 3.0);
+    }
+
+    const Eigen::MatrixXd atBeads = exchange_.sumAtHome(distribution_.sample(inCells));
     const BeadsView beads = engine_.beads();
     vector pressureForceOnBeads = vector::zero;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
@@ -293,6 +338,12 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         fluid.voidFraction = atBeads(voidFraction, bead);
         fluid.logVoidFraction = std::log(fluid.voidFraction);
         fluid.velocity = atBeads.block<3, 1>(velocity, bead);
+        fluid.velocityInCells = fluid.velocity;
+        if (removesSelfDisturbance_)
+        {
+            fluid.selfMobility = selfMobility(beads.state[bead], beads.radius[bead], beads.velocity.col(bead),
+                atBeads(resistance, bead), atBeads(cellSize, bead));
+        }
         fluid.pressureGradient = atBeads.block<3, 1>(pressureGradient, bead);
         fluid.viscousStressDivergence = atBeads.block<3, 1>(viscousStressDivergence, bead);
         if (needs_.acceleration)
@@ -310,6 +361,24 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     {
         ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
     }
+}
+
+double FluidCoupling::selfMobility(
+    const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance, double cellSize) const
+{
+    // The force is spread by the bead's sphere and the smoothing, the velocity is sampled through the sphere. Variances
+    // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
+    const double bandwidthSqr = sqr(distribution_.smoothingModel().bandwidth()) + sqr(2 * radius) / 5;
+    // Closures of beds speak of means over the bed, the bead's own disturbance included. So it is taken away only as far
+    // as the solid at the bead is its own: all of it from a lone bead, next to nothing in a bed.
+    const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));
+    const double lone = std::min(1.0, ownSolid / std::max(1 - state.fluid.voidFraction, VSMALL));
+    const double slip =
+        (state.fluid.velocityInCells + state.fluid.selfMobility * state.handedOver - beadVelocity).norm();
+    const double bandwidth = std::sqrt(bandwidthSqr + latticeBandwidthSqr * sqr(cellSize));
+    return lone
+           * closures::velocityPerForce(
+               {bandwidth, fluid_.density, fluid_.dynamicViscosity, slip, (1 - lone) * resistance});
 }
 
 string FluidCoupling::describeCell(label cell) const
