@@ -32,15 +32,17 @@ def local(campaign, cores):
 
 
 def slurm(campaign, options):
-    """Submits the tasks as job arrays, shared parts first. Returns the jobs' numbers."""
+    """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
     levels = []
     for name, task in campaign.tasks.items():
+        if (campaign.folder(task) / "done").exists():
+            continue
         level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
         while len(levels) <= level:
             levels.append([])
         levels[level].append(name)
     jobs, before = [], []
-    for names in levels:
+    for names in filter(None, levels):
         here = [submit(campaign, [name for name in names if campaign.tasks[name].ranks == ranks], ranks, before, options)
                 for ranks in sorted({campaign.tasks[name].ranks for name in names})]
         jobs += here

@@ -138,6 +138,44 @@ class CampaignOfStandIns(CampaignTest):
         self.assertFalse((self.folder / "work" / "runs").exists())
 
 
+class CampaignOnSlurm(CampaignTest):
+    """The same list as job arrays of a real Slurm, which the test starts on this machine."""
+
+    def setUp(self):
+        super().setUp()
+        if not all(map(shutil.which, ("munged", "slurmctld", "slurmd"))) or os.geteuid() != 0:
+            self.skipTest("needs the packages slurm-wlm and munge, and root")
+        onLoopback = REPOSITORY / "scripts" / "slurm" / "onLoopback"
+        self.addCleanup(subprocess.run, [onLoopback, "stop", self.folder / "slurm"])
+        subprocess.run([onLoopback, "start", self.folder / "slurm", "2"], check=True, stdout=subprocess.DEVNULL)
+        os.environ["SLURM_CONF"] = str(self.folder / "slurm" / "slurm.conf")
+
+    def testJobArraysCancelledAndSubmittedAgain(self):
+        """Cancelled in the midst of its runs, all four of them go on where they were when the list is submitted again;
+        what was done by then is not submitted."""
+        hold = self.folder / "hold"
+        hold.touch()
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry", "submerged"], packings=[1, 2],
+                   ranks=2, parameters={"hold": str(hold)}, runs={"mu": {}})
+        first = self.call("run", "--executor", "slurm", "--", "--time=20")
+        self.assertRegex(first.stdout, r"submitted as jobs \d+, \d+, \d+;", first.stderr)
+        self.waitFor(lambda: self.work("runs/*/held"), "a run")
+        subprocess.run(["scancel", "--name=test"], check=True)
+        self.waitFor(lambda: not self.queue(), "the end of the cancelled jobs")
+        self.assertRegex(self.call("status").stdout, "3 done, 1 stopped, 3 waiting")
+        hold.unlink()
+        second = self.call("run", "--executor", "slurm")
+        self.assertRegex(second.stdout, r"submitted as jobs \d+;", second.stderr)
+        self.waitFor(lambda: not self.queue(), "the end of the jobs")
+        self.assertIn("7 done", self.call("status").stdout)
+        for name in ("mu.1.dry", "mu.1.submerged", "mu.2.dry", "mu.2.submerged"):
+            self.assertEqual([beads for _, _, beads in self.rows(name)], list(range(100, 80, -1)), name)
+        self.assertIn("dry on 2\n", self.work("runs/mu.1.dry/starts")[0].read_text())
+
+    def queue(self):
+        return subprocess.run(["squeue", "--noheader"], check=True, capture_output=True, text=True).stdout
+
+
 class CampaignOfHoppers(CampaignTest):
     def testTheQuickHopperThroughTheRealProgram(self):
         """300 beads, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very same
