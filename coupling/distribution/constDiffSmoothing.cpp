@@ -42,6 +42,11 @@ public:
         diffusion_.applyChebyshev(series_, densities);
     }
 
+    double bandwidth() const override
+    {
+        return smoothingLength_;
+    }
+
     Foam::string description() const override
     {
         return "constDiffSmoothing: Gaussian of smoothingLength " + Foam::name(smoothingLength_) + " m, in "

@@ -29,6 +29,11 @@ public:
     void smooth(Eigen::MatrixXd&) const override
     {}
 
+    double bandwidth() const override
+    {
+        return 0;
+    }
+
     Foam::string description() const override
     {
         return "off";

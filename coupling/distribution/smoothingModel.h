@@ -29,6 +29,9 @@ public:
     /// \param densities  quantities x cells of this rank
     virtual void smooth(Eigen::MatrixXd& densities) const = 0;
 
+    /// b, where the result is like a Gaussian exp(-r2/b2) [m].
+    virtual double bandwidth() const = 0;
+
     /// One line for the start of the log.
     virtual Foam::string description() const = 0;
 };

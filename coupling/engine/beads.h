@@ -21,8 +21,12 @@ struct FluidAtBead
     double voidFraction = 1;
     /// Natural logarithm of the void fraction, so that a drag law needs exp() instead of pow() at every DEM step.
     double logVoidFraction = 0;
-    /// Interstitial velocity [m/s].
+    /// Interstitial velocity, as the forces see it [m/s].
     Vector3d velocity = Vector3d::Zero();
+    /// The same as the cells have it, with what the bead itself stirs up.
+    Vector3d velocityInCells = Vector3d::Zero();
+    /// What a force on the fluid at the bead's place adds to velocityInCells there [m/(N s)]; 0: not to be taken away.
+    double selfMobility = 0;
     /// Gradient of the pressure without its hydrostatic part [Pa/m].
     Vector3d pressureGradient = Vector3d::Zero();
     /// Divergence of the viscous stress [Pa/m].
@@ -50,6 +54,8 @@ struct CouplingState
 {
     FluidAtBead fluid;
     GivenToFluid given;
+    /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N].
+    Vector3d handedOver = Vector3d::Zero();
 };
 
 constexpr std::size_t couplingStateSize = sizeof(CouplingState) / sizeof(double);

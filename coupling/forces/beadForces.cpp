@@ -41,6 +41,7 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
     const PhaseTimers::Scope timing = timers_.time("forces");
     sum_.setZero(beads.size());
     sum_.timeStep = timeStep;
+    removeSelfDisturbance(beads);
     for (const ForceModel& model : models_)
     {
         model.add(beads, sum_);
@@ -63,9 +64,23 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
             handedOver += addedMass * (state.fluid.acceleration - acceleration);
         }
         force.col(bead) = handedOver + notHandedOver;
+        state.handedOver = handedOver;
         state.given.impulse += timeStep * handedOver;
         state.given.sharedImpulse += timeStep * sum_.shared.col(bead);
         state.given.implicitCoefficientTime += timeStep * coefficient;
+    }
+}
+
+void BeadForces::removeSelfDisturbance(const BeadsView& beads)
+{
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        FluidAtBead& fluid = beads.state[bead].fluid;
+        if (fluid.selfMobility > 0)
+        {
+            // The fluid has the opposite force. The one of the step before: it changes little from step to step.
+            fluid.velocity = fluid.velocityInCells + fluid.selfMobility * beads.state[bead].handedOver;
+        }
     }
 }
 

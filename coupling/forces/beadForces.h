@@ -28,6 +28,9 @@ public:
     }
 
 private:
+    /// Sets the velocity that the forces see to the one that the fluid would have without the bead.
+    static void removeSelfDisturbance(const BeadsView& beads);
+
     PhaseTimers& timers_;
     const ModelType modelType_;
     Foam::PtrList<ForceModel> models_;

@@ -1,5 +1,6 @@
 #include "interval/fluidCoupling.h"
 
+#include "closures/gaussianDisturbance.h"
 #include "vectors.h"
 
 #include "fvc.H"
@@ -48,6 +49,36 @@ MPI_Comm duplicateWorld()
     return own;
 }
 
+/// Diffusion on a lattice of cells from one cell, at that cell: exp(-x) I_0(x)/h with x = b2/(2 h2), which is the peak
+/// 1/(sqrt(pi) b) of the Gaussian where cells are small [1/m].
+double latticePeak(double bandwidthSqr, double cellSize)
+{
+    const double x = bandwidthSqr / (2 * sqr(cellSize));
+    return x > 100 ? 1 / std::sqrt(constant::mathematical::pi * bandwidthSqr)
+                   : std::exp(-x) * std::cyl_bessel_i(0, x) / cellSize;
+}
+
+/// A force in one cell acts on that cell like a Gaussian of this b2/h2: 1/(2 pi^1.5 b) of the Gaussian equals the
+/// simple cubic lattice's Green's function at its origin, 0.2527/h (Watson's integral).
+constexpr double latticeBandwidthSqr = 0.126;
+
+bool readSelfDisturbance(const CouplingSettings& settings)
+{
+    const dictionary& dict = settings.dict();
+    const word entry = "selfDisturbance";
+    if (!dict.found(entry) || selectedModel(dict, entry, {"off", "Oseen"}) == "off")
+    {
+        return false;
+    }
+    if (!settings.implicitCoupling())
+    {
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen; allowed: with momCoupleModels "
+                                     << "(implicitCouple), whose coefficient says how dense the neighbours are"
+                                     << exit(FatalIOError);
+    }
+    return true;
+}
+
 } // namespace
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
@@ -57,6 +88,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       fluid_(fluid),
       modelType_(readModelType(settings.dict())),
       needs_(needs),
+      removesSelfDisturbance_(readSelfDisturbance(settings)),
       engine_(engine),
       ledger_(ledger),
       timers_(timers),
@@ -257,7 +289,9 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     };
     const Eigen::Index acceleration = alwaysThere;
     const Eigen::Index vorticity = alwaysThere + (needs_.acceleration ? 3 : 0);
-    const Eigen::Index rowCount = vorticity + (needs_.vorticity ? 3 : 0);
+    const Eigen::Index resistance = vorticity + (needs_.vorticity ? 3 : 0);
+    const Eigen::Index cellSize = resistance + 1;
+    const Eigen::Index rowCount = resistance + (removesSelfDisturbance_ ? 2 : 0);
     const dimensionedScalar viscosity("mu", dimViscosity, fluid_.dynamicViscosity);
     const tmp<volVectorField> gradient = fvc::grad(p);
     const tmp<volVectorField> viscous = fvc::laplacian(viscosity, U, "laplacian(nu,U)");
@@ -289,6 +323,11 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     {
         inCells.middleRows<3>(vorticity) = columns(curl().primitiveField());
     }
+    if (removesSelfDisturbance_)
+    {
+        inCells.row(resistance) = fluid_.density * columns(implicitCoefficient_.primitiveField());
+        inCells.row(cellSize) = columns(mesh_.V().field()).array().pow(1.0 / 3.0);
+    }
 
     const Eigen::MatrixXd atBeads = exchange_.sumAtHome(distribution_.sample(inCells));
     const BeadsView beads = engine_.beads();
@@ -299,6 +338,12 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         fluid.voidFraction = atBeads(voidFraction, bead);
         fluid.logVoidFraction = std::log(fluid.voidFraction);
         fluid.velocity = atBeads.block<3, 1>(velocity, bead);
+        fluid.velocityInCells = fluid.velocity;
+        if (removesSelfDisturbance_)
+        {
+            fluid.selfMobility = selfMobility(beads.state[bead], beads.radius[bead], beads.velocity.col(bead),
+                atBeads(resistance, bead), atBeads(cellSize, bead));
+        }
         fluid.pressureGradient = atBeads.block<3, 1>(pressureGradient, bead);
         fluid.viscousStressDivergence = atBeads.block<3, 1>(viscousStressDivergence, bead);
         if (needs_.acceleration)
@@ -316,6 +361,24 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     {
         ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
     }
+}
+
+double FluidCoupling::selfMobility(
+    const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance, double cellSize) const
+{
+    // The force is spread by the bead's sphere and the smoothing, the velocity is sampled through the sphere. Variances
+    // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
+    const double bandwidthSqr = sqr(distribution_.smoothingModel().bandwidth()) + sqr(2 * radius) / 5;
+    // Closures of beds speak of means over the bed, the bead's own disturbance included. So it is taken away only as far
+    // as the solid at the bead is its own: all of it from a lone bead, next to nothing in a bed.
+    const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));
+    const double lone = std::min(1.0, ownSolid / std::max(1 - state.fluid.voidFraction, VSMALL));
+    const double slip =
+        (state.fluid.velocityInCells + state.fluid.selfMobility * state.handedOver - beadVelocity).norm();
+    const double bandwidth = std::sqrt(bandwidthSqr + latticeBandwidthSqr * sqr(cellSize));
+    return lone
+           * closures::velocityPerForce(
+               {bandwidth, fluid_.density, fluid_.dynamicViscosity, slip, (1 - lone) * resistance});
 }
 
 string FluidCoupling::describeCell(label cell) const

@@ -92,6 +92,10 @@ private:
     void updateDdtVoidFraction(double interval);
     void updateMomentumSource(const Eigen::MatrixXd& densities, double interval);
     void smooth(Eigen::MatrixXd& densities);
+    /// See FluidAtBead::selfMobility.
+    /// \param resistance  of all beads, this one included [kg/(m3 s)]
+    double selfMobility(const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance,
+        double cellSize) const;
     [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
     Foam::string describeCell(Foam::label cell) const;
 
@@ -100,6 +104,7 @@ private:
     const FluidProperties fluid_;
     const ModelType modelType_;
     const ForceNeeds needs_;
+    const bool removesSelfDisturbance_;
     DemEngine& engine_;
     Ledger& ledger_;
     PhaseTimers& timers_;

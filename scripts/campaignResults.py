@@ -1,0 +1,49 @@
+"""What scripts/campaign has published: curves and inputs of runs, gathered by the entry of the campaign's list."""
+
+import csv
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Run:
+    name: str           # <case>.<seed>.<stage>
+    case: str           # <entry>-<swept values>
+    stage: str
+    seed: int
+    parameters: dict
+    time: np.ndarray    # s
+    mass: np.ndarray    # in the hopper, kg
+    cost: dict
+
+
+def read(folder):
+    """All runs whose results lie in a folder, by name."""
+    return [readRun(path) for path in sorted(Path(folder).glob("*.json"))]
+
+
+def readRun(path):
+    inputs = json.loads(path.read_text())
+    with path.with_suffix(".csv").open() as stream:
+        rows = np.array([[float(value) for value in row] for row in list(csv.reader(stream))[1:]])
+    return Run(inputs["run"], inputs["run"].rsplit(".", 2)[0], inputs["stage"], int(inputs["seed"]),
+               inputs["parameters"], rows[:, 0], rows[:, 1], inputs["cost"])
+
+
+def byCase(runs):
+    """The runs of each case, as {case: [Run, ...]}: repeats that differ by their packing."""
+    found = {}
+    for run in runs:
+        found.setdefault(run.case, []).append(run)
+    return found
+
+
+def meanAndError(values, deviation=None):
+    """Mean of repeats and its standard error: from their own scatter, or from the deviation of one run where given."""
+    values = np.asarray(values, dtype=float)
+    if deviation is None:
+        deviation = values.std(ddof=1)
+    return values.mean(), deviation / np.sqrt(len(values))
