@@ -19,8 +19,10 @@ def local(campaign, cores):
     rules = [f"all: {' '.join(targets.values())}"]
     for name, task in campaign.tasks.items():
         rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
-                  "\t@" + shlex.join([COMMAND, "task", str(campaign.path), name])]
+                  # exec: the signals of make must reach the task, not a shell before it
+                  "\t@exec " + shlex.join([COMMAND, "task", str(campaign.path), name]) + " 2>&1"]
     makefile.write_text("\n".join(rules) + "\n")
+    # without make's own words on what failed: the tasks say it themselves
     make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
                             cwd=campaign.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
@@ -30,15 +32,17 @@ def local(campaign, cores):
 
 
 def slurm(campaign, options):
-    """Submits the tasks as job arrays, shared parts first. Returns the jobs' numbers."""
+    """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
     levels = []
     for name, task in campaign.tasks.items():
+        if (campaign.folder(task) / "done").exists():
+            continue
         level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
         while len(levels) <= level:
             levels.append([])
         levels[level].append(name)
     jobs, before = [], []
-    for names in levels:
+    for names in filter(None, levels):
         here = [submit(campaign, [name for name in names if campaign.tasks[name].ranks == ranks], ranks, before, options)
                 for ranks in sorted({campaign.tasks[name].ranks for name in names})]
         jobs += here

@@ -8,13 +8,14 @@ import hashlib
 import itertools
 import re
 from dataclasses import dataclass
+from math import pi
 from pathlib import Path
 
 import yaml
 
 import caseFiles
 
-CAMPAIGN_ENTRIES = {"case": "the template's folder", "work": "folder of the runs (default: work)",
+CAMPAIGN_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
                     "stages": "of each run", "packings": "values of the template's seed",
                     "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
@@ -42,14 +43,25 @@ class Campaign:
 
     def __init__(self, path):
         self.path = Path(path).resolve()
-        self.settings = readYaml(self.path, CAMPAIGN_ENTRIES, required=("case", "stages", "runs"))
+        self.settings = readYaml(self.path, CAMPAIGN_ENTRIES, required=())
+        if "base" in self.settings:
+            base = readYaml(self._folder("base"), CAMPAIGN_ENTRIES, required=())
+            parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
+            # paths are relative to the file that has them
+            base |= {name: str(self._folder("base").parent / base[name]) for name in ("case", "work", "results") if name in base}
+            self.settings = {**base, **self.settings, "parameters": parameters}
+        for name in ("case", "stages", "runs"):
+            if name not in self.settings:
+                raise CampaignError(f"{self.path}: entry '{name}' is missing")
         self.case = self._folder("case")
         self.work = self._folder("work", "work")
         self.results = self._folder("results", "results")
-        self.template = readYaml(self.case / "template.yaml", ("shared", "stages", "seed", "summary"),
+        self.template = readYaml(self.case / "template.yaml", ("shared", "stages", "seed", "summary", "derived"),
                                  required=("shared", "stages", "seed", "summary"))
+        self.derived = self.template.get("derived", {})
         self.defaults = caseFiles.parameters(self.case / "parameters")
-        self.common = self._overrides(self.settings.get("parameters"), "parameters")
+        self.given = self._overrides(self.settings.get("parameters"), "parameters")
+        self.common = self._derive(self.given)
         self.tasks = self._plan()
 
     @property
@@ -76,7 +88,7 @@ class Campaign:
         return name and float(self.parameters(task)[name])
 
     def _folder(self, entry, default=None):
-        return (self.path.parent / self.settings.get(entry, default)).resolve()
+        return (self.path.parent / str(self.settings.get(entry, default))).resolve()
 
     def _error(self, entry, value, allowed):
         return CampaignError(f"{self.path}: entry '{entry}' is {value!r}; allowed: {allowed}")
@@ -86,9 +98,19 @@ class Campaign:
         if not isinstance(given or {}, dict):
             raise self._error(entry, given, "a list of `name: value`")
         for name in given or {}:
-            if name not in self.defaults:
-                raise self._error(entry, name, "the template's parameters, which are " + ", ".join(self.defaults))
+            if name not in self.defaults and name not in self.derived:
+                raise self._error(entry, name, "the template's parameters, which are "
+                                  + ", ".join([*self.defaults, *self.derived]))
         return {name: parameterValue(value) for name, value in (given or {}).items()}
+
+    def _derive(self, overrides):
+        """The parameters that follow from what the campaign says in their place."""
+        plain = {name: value for name, value in overrides.items() if name not in self.derived}
+        known = self._resolved(plain) | {"pi": pi, "round": round, "__builtins__": {}}
+        for name in overrides.keys() - plain.keys():
+            rule = self.derived[name]
+            plain[rule["sets"]] = str(eval(rule["to"], known | {name: float(overrides[name])}))
+        return plain
 
     def _plan(self):
         tasks = {}
@@ -115,7 +137,7 @@ class Campaign:
             swept = dict(zip(sweep, map(parameterValue, values)))
             case = "-".join([name, *swept.values()])
             for seed in asList(entry.get("packings", self.settings.get("packings", [None]))):
-                overrides = {**self.common, **fixed, **swept}
+                overrides = self._derive({**self.given, **fixed, **swept})
                 if seed is not None:
                     overrides[self.template["seed"]] = parameterValue(seed)
                 yield from self._tasksOfRun(name, safeName(case), entry, overrides, ofPour)

@@ -1,0 +1,220 @@
+"""Tests of scripts/campaign."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+import yaml
+
+REPOSITORY = Path(__file__).resolve().parent.parent.parent
+CAMPAIGN = REPOSITORY / "scripts" / "campaign"
+
+
+class CampaignTest(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-campaign-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, **settings):
+        (self.folder / "test.yaml").write_text(yaml.safe_dump(settings))
+
+    def command(self, *arguments):
+        return [CAMPAIGN, arguments[0], self.folder / "test.yaml", *arguments[1:]]
+
+    def call(self, *arguments):
+        return subprocess.run(self.command(*arguments), capture_output=True, text=True)
+
+    def start(self):
+        runner = subprocess.Popen(self.command("run", "--cores", "2"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                  text=True)
+        self.addCleanup(runner.stdout.close)
+        return runner
+
+    def work(self, pattern):
+        return sorted((self.folder / "work").glob(pattern))
+
+    def rows(self, name):
+        lines = (self.folder / "results" / f"{name}.csv").read_text().splitlines()[1:]
+        return [tuple(map(float, line.split(","))) for line in lines]
+
+    def waitFor(self, condition, what):
+        end = time.time() + 120
+        while not condition():
+            self.assertLess(time.time(), end, f"{what} did not come within 120 s")
+            time.sleep(0.05)
+
+
+class CampaignOfStandIns(CampaignTest):
+    """The runner alone: standIn/Allrun takes the place of the solver."""
+
+    def sweep(self, frictions, **more):
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry", "submerged"], packings=[1, 2],
+                   runs={"mu": {"sweep": {"friction": frictions}}}, **more)
+
+    def testEveryRunIsDoneAndThePackingIsShared(self):
+        """Eight runs, two packings, one mesh: 2 pours and not 8, and every run began from the pour of its own seed
+        (the stand-in asserts so). A runner that poured for each run would start more; one that ignored the seed fewer."""
+        self.sweep([0.1, 0.2])
+        outcome = self.call("run", "--cores", "2")
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        starts = "".join(path.read_text() for path in self.work("*/*/starts")).split("\n")
+        self.assertEqual(sorted(line for line in starts if line),
+                         sorted(["mesh on 1"] + 2 * ["pour on 1"] + 4 * ["dry on 1"] + 4 * ["submerged on 1"]))
+        for name in ("mu-0.1.1.dry", "mu-0.2.2.submerged"):
+            self.assertEqual([beads for _, _, beads in self.rows(name)], list(range(100, 80, -1)))
+        record = json.loads((self.folder / "results" / "mu-0.2.2.submerged.json").read_text())
+        self.assertEqual(record["parameters"]["friction"], 0.2)
+        self.assertEqual(record["seed"], 2)
+        self.assertEqual(record["packing"]["otherParameters"], {"friction": 0.1})
+        self.assertEqual(record["code"], ["Clepsydra 0, commit standIn"])
+
+    def testAFailureStopsNoOtherRunAndShowsItsLog(self):
+        """The stand-in refuses a friction of 2. Its message must reach the user, the others must end."""
+        self.sweep([0.1, 2])
+        outcome = self.call("run", "--cores", "2")
+        self.assertNotEqual(outcome.returncode, 0)
+        self.assertIn("the stand-in's own error message", outcome.stderr)
+        self.assertEqual(len(list((self.folder / "results").glob("*.csv"))), 4)
+        table = self.call("status").stdout
+        self.assertRegex(table, r"mu-2\.1\.dry +failed")
+        self.assertRegex(table, r"mu-0\.1\.1\.dry +done")
+        self.assertIn("7 done, 4 failed", table)
+
+    def testStoppedOrKilledItGoesOn(self):
+        """Asked to stop, then (the runner and all below it) killed: each time `run` goes on, and every row of m(t) is
+        there once. A runner that began anew would have its first rows twice."""
+        hold = self.folder / "hold"
+        hold.touch()
+        self.sweep([0.1], parameters={"hold": str(hold)})
+        for how in (signal.SIGTERM, signal.SIGKILL):
+            before = self.heldRuns()
+            runner = self.start()
+            self.waitFor(lambda: self.heldRuns() == before + 2, "a pair of runs")
+            if how == signal.SIGTERM:
+                self.assertEqual(self.call("stop").returncode, 0)
+            else:
+                killTree(runner.pid)
+            runner.communicate()
+            self.assertNotEqual(runner.returncode, 0)
+            self.assertRegex(self.call("status").stdout, "[1-9] stopped")
+        hold.unlink()
+        outcome = self.call("run", "--cores", "2")
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        attempts = 0
+        for name in ("mu-0.1.1.dry", "mu-0.1.2.dry", "mu-0.1.1.submerged", "mu-0.1.2.submerged"):
+            self.assertEqual([beads for _, _, beads in self.rows(name)], list(range(100, 80, -1)), name)
+            attempts += json.loads((self.folder / "results" / f"{name}.json").read_text())["cost"]["attempts"]
+        self.assertEqual(attempts, 8)
+
+    def heldRuns(self):
+        return sum(path.read_text().count("\n") for path in self.work("runs/*/held"))
+
+    def testWhatIsDoneIsNotDoneAgain(self):
+        """Nor is a run that was begun with other parameters mistaken for this one."""
+        self.sweep([0.1])
+        self.assertEqual(self.call("run").returncode, 0)
+        self.assertEqual(self.call("run").returncode, 0)
+        self.assertEqual({path.read_text().count("\n") for path in self.work("*/*/starts")}, {1})
+        (self.work("runs/mu-0.1.1.dry")[0] / "done").unlink()
+        self.sweep([0.1], parameters={"steps": 30})
+        outcome = self.call("run")
+        self.assertNotEqual(outcome.returncode, 0)
+        self.assertIn("begun with other parameters", outcome.stdout + outcome.stderr)
+
+    def testWrongFilesAreNamedWithWhatIsAllowed(self):
+        self.sweep([0.1], parameters={"fricton": 1})
+        outcome = self.call("run")
+        self.assertEqual(outcome.returncode, 2)
+        self.assertRegex(outcome.stderr, r"test\.yaml.*fricton.*seed, friction, cellSize")
+        self.sweep([0.1], stage="dry")
+        self.assertRegex(self.call("status").stderr, "unknown entry 'stage'; allowed: case")
+        self.assertFalse((self.folder / "work" / "runs").exists())
+
+
+class CampaignOnSlurm(CampaignTest):
+    """The same list as job arrays of a real Slurm, which the test starts on this machine."""
+
+    def setUp(self):
+        super().setUp()
+        if not all(map(shutil.which, ("munged", "slurmctld", "slurmd"))) or os.geteuid() != 0:
+            self.skipTest("needs the packages slurm-wlm and munge, and root")
+        onLoopback = REPOSITORY / "scripts" / "slurm" / "onLoopback"
+        self.addCleanup(subprocess.run, [onLoopback, "stop", self.folder / "slurm"])
+        subprocess.run([onLoopback, "start", self.folder / "slurm", "2"], check=True, stdout=subprocess.DEVNULL)
+        os.environ["SLURM_CONF"] = str(self.folder / "slurm" / "slurm.conf")
+
+    def testJobArraysCancelledAndSubmittedAgain(self):
+        """Cancelled in the midst of its runs, all four of them go on where they were when the list is submitted again;
+        what was done by then is not submitted."""
+        hold = self.folder / "hold"
+        hold.touch()
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry", "submerged"], packings=[1, 2],
+                   ranks=2, parameters={"hold": str(hold)}, runs={"mu": {}})
+        first = self.call("run", "--executor", "slurm", "--", "--time=20")
+        self.assertRegex(first.stdout, r"submitted as jobs \d+, \d+, \d+;", first.stderr)
+        self.waitFor(lambda: self.work("runs/*/held"), "a run")
+        subprocess.run(["scancel", "--name=test"], check=True)
+        self.waitFor(lambda: not self.queue(), "the end of the cancelled jobs")
+        self.assertRegex(self.call("status").stdout, "3 done, 1 stopped, 3 waiting")
+        hold.unlink()
+        second = self.call("run", "--executor", "slurm")
+        self.assertRegex(second.stdout, r"submitted as jobs \d+;", second.stderr)
+        self.waitFor(lambda: not self.queue(), "the end of the jobs")
+        self.assertIn("7 done", self.call("status").stdout)
+        for name in ("mu.1.dry", "mu.1.submerged", "mu.2.dry", "mu.2.submerged"):
+            self.assertEqual([beads for _, _, beads in self.rows(name)], list(range(100, 80, -1)), name)
+        self.assertIn("dry on 2\n", self.work("runs/mu.1.dry/starts")[0].read_text())
+
+    def queue(self):
+        return subprocess.run(["squeue", "--noheader"], check=True, capture_output=True, text=True).stdout
+
+
+class CampaignOfHoppers(CampaignTest):
+    def testTheQuickHopperThroughTheRealProgram(self):
+        """300 beads, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very same
+        mass and reach their end, and no row may be lost or doubled by the stop."""
+        self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), stages="dry", keepTimes=2, parameters={
+            "beadCount": 300, "hopperDiameter": 0.015, "orificeDiameter": 0.009, "hopperHeight": 0.04,
+            "tankDiameter": 0.04, "tankDepth": 0.025, "waterAboveRim": 0.01, "pourTime": 0.7, "dryTime": 1.5},
+            runs={"mu": {"sweep": {"friction": [0.1, 0.5]}}})
+        runner = self.start()
+        tables = "runs/mu-0.1*/stages/dry/postProcessing/massInHopper/0/massInHopper.dat"
+        self.waitFor(lambda: any(path.read_text().count("\n") > 20 for path in self.work(tables)), "the discharge")
+        runner.terminate()
+        said, _ = runner.communicate()
+        self.assertIn("stopped", said)
+        outcome = self.call("run")
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        low, high = self.rows("mu-0.1.100003.dry"), self.rows("mu-0.5.100003.dry")
+        self.assertEqual(low[0], high[0])
+        self.assertEqual(low[0][2], 300)
+        self.assertLess(low[-1][2], high[-1][2])
+        for rows in (low, high):
+            times = [time for time, _, _ in rows]
+            steps = [later - earlier for earlier, later in zip(times, times[1:])]
+            self.assertLess(max(steps), 0.0021)
+            self.assertGreater(min(steps), 0.0019)
+        records = [json.loads(path.read_text()) for path in (self.folder / "results").glob("*.json")]
+        self.assertGreater(sum(record["cost"]["attempts"] for record in records), 2)
+        self.assertEqual([record["summary"]["beads_lost"] for record in records], [0, 0])
+        self.assertEqual(len(self.work("runs/mu-0.1*/stages/dry/checkpoints/*/complete")), 2)
+
+
+def killTree(process):
+    """SIGKILL to a process and all its descendants, parents first, as a power cut would."""
+    children = subprocess.run(["pgrep", "-P", str(process)], capture_output=True, text=True).stdout.split()
+    os.kill(process, signal.SIGKILL)
+    for child in children:
+        killTree(int(child))
+
+
+if __name__ == "__main__":
+    sys.dont_write_bytecode = True
+    unittest.main()
