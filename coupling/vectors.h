@@ -2,7 +2,7 @@
 
 #include "engine/beads.h"
 
-#include "vector.H"
+#include "vectorField.H"
 
 namespace clepsydra
 {
@@ -17,6 +17,27 @@ inline Vector3d toEigen(const Foam::vector& v)
 inline Foam::vector toFoam(const Vector3d& v)
 {
     return {v.x(), v.y(), v.z()};
+}
+
+/// A field's values as columns, without a copy.
+inline Eigen::Map<const Eigen::Matrix3Xd> columns(const Foam::vectorField& field)
+{
+    return {field.empty() ? nullptr : field.cdata()->v_, 3, field.size()};
+}
+
+inline Eigen::Map<Eigen::Matrix3Xd> columns(Foam::vectorField& field)
+{
+    return {field.empty() ? nullptr : field.data()->v_, 3, field.size()};
+}
+
+inline Eigen::Map<const Eigen::RowVectorXd> columns(const Foam::scalarField& field)
+{
+    return {field.cdata(), field.size()};
+}
+
+inline Eigen::Map<Eigen::RowVectorXd> columns(Foam::scalarField& field)
+{
+    return {field.data(), field.size()};
 }
 
 } // namespace clepsydra

@@ -6,13 +6,27 @@ from pathlib import Path
 import numpy as np
 
 
+ENTRY = re.compile(r"^(\s*)(\w+)(\s+)([^;]+);", re.MULTILINE)
+
+
 def parameters(path):
     """The entries "name value;" of a flat OpenFOAM dictionary, $name replaced."""
-    text = re.sub(r"//.*", "", Path(path).read_text())
+    return parametersIn(Path(path).read_text())
+
+
+def parametersIn(text):
     found = {}
-    for name, value in re.findall(r"^\s*(\w+)\s+([^;]+);", text, re.MULTILINE):
+    for _, name, _, value in ENTRY.findall(re.sub(r"//.*", "", text)):
         found[name] = found[value[1:]] if value.startswith("$") else number(value)
     return found
+
+
+def withParameters(text, values):
+    """The dictionary's text with other values of entries that it has."""
+    missing = set(values) - set(parametersIn(text))
+    if missing:
+        raise KeyError(", ".join(sorted(missing)))
+    return ENTRY.sub(lambda entry: entry[1] + entry[2] + entry[3] + values.get(entry[2], entry[4]) + ";", text)
 
 
 def number(text):
@@ -39,3 +53,39 @@ def columns(case, name):
     if not len(rows):
         raise SystemExit(f"{case}: no data in postProcessing/{name}")
     return rows.T
+
+
+def times(case):
+    """Names of the time directories after the start, in order."""
+    found = [path.name for path in Path(case).iterdir() if re.fullmatch(r"[0-9][0-9.e-]*", path.name)]
+    return sorted((name for name in found if float(name) > 0), key=float)
+
+
+def field(case, time, name):
+    """Values of a field in all cells, one row per cell; of one row where the field is uniform. Written as ascii."""
+    text = (Path(case) / time / name).read_text()
+    entry = re.search(r"^internalField\s+(nonuniform List<\w+>\s*\d+\s*\((.*?)\n\)|uniform ([^;]*))\s*;",
+                      text, re.MULTILINE | re.DOTALL)
+    if not entry:
+        raise SystemExit(f"{case}/{time}/{name}: no internalField in ascii")
+    lines = (entry.group(2) or entry.group(3)).strip().splitlines()
+    return np.array([[float(part) for part in line.strip("() ").split()] for line in lines])
+
+
+def surfaceValues(case, name):
+    """Times and values, one row per time, of a function object surfaceFieldValue."""
+    directory = startDirectories(case, name)[0]
+    lines = (directory / "surfaceFieldValue.dat").read_text().replace("(", " ").replace(")", " ").splitlines()
+    rows = np.array([[float(part) for part in line.split()] for line in lines if not line.startswith("#")])
+    return rows[:, 0], rows[:, 1:]
+
+
+def dumpedBeads(case, dump="DEM/beads.dump"):
+    """The entries of a LIGGGHTS dump: step, and an array with a row per bead and the columns that the dump has."""
+    lines = (Path(case) / dump).read_text().splitlines()
+    entries, at = [], 0
+    while at < len(lines):
+        step, count = int(lines[at + 1]), int(lines[at + 3])
+        entries.append((step, np.array([line.split() for line in lines[at + 9:at + 9 + count]], dtype=float)))
+        at += 9 + count
+    return entries

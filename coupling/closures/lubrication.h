@@ -2,13 +2,17 @@
 /// Normal squeeze of the fluid between two near spheres, or a sphere and a wall: leading term of lubrication theory,
 /// R. G. Cox, Int. J. Multiphase Flow 1, 343 (1974); S. Kim & S. J. Karrila, Microhydrodynamics (1991), ch. 9.
 ///
-///     F = c v_n,     c = 6 pi mu R_eff^2 (1/max(h, roughness) - 1/reach)   for h < reach, else 0
+///     F = c v_n,     c = 6 pi mu R_eff^2 (1/max(h, roughness) - 1/reach)   for 0 <= h < reach, else 0
 ///     R_eff = R1 R2/(R1 + R2), for a wall R
 ///
 /// h is the gap between the surfaces, v_n the speed of approach. The roughness is the gap at which the surfaces'
 /// asperities touch: without it c has no bound and no contact ever happens (Davis, Serayssol & Hinch, J. Fluid Mech.
 /// 163, 479 (1986); glass beads: 0.1..5 um). Beyond `reach` the drag law has all of the force; subtracting its value
 /// there makes the force continuous. Tangential parts, which grow as ln(1/h) only, are left out.
+///
+/// In contact, h < 0, there is none: the asperities hold the film at one roughness, and it is the solids that give way.
+/// A force that went on there would damp a bounce by as much as the contact is soft, and DEM's contacts are softened
+/// (left out as well by E. Biegert, B. Vowinckel & E. Meiburg, J. Comput. Phys. 340, 105 (2017), eq. 21).
 ///
 /// Range: gap Reynolds number rho v h/mu << 1, h << R.
 #pragma once
@@ -31,7 +35,7 @@ inline double effectiveRadius(double first, double second) noexcept
 inline double squeezeCoefficient(
     double dynamicViscosity, double radius, double gap, double roughness, double reach) noexcept
 {
-    return gap >= reach
+    return gap < 0.0 || gap >= reach
                ? 0.0
                : 6.0 * pi * dynamicViscosity * radius * radius * (1.0 / std::max(gap, roughness) - 1.0 / reach);
 }

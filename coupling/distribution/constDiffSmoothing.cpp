@@ -1,26 +1,19 @@
+#include "distribution/cellDiffusion.h"
+#include "distribution/chebyshevExponential.h"
 #include "distribution/smoothingModel.h"
 
-
 #include "addToRunTimeSelectionTable.H"
-#include "fvMatrices.H"
-#include "fvcSurfaceIntegrate.H"
-#include "gaussLaplacianScheme.H"
-#include "surfaceFields.H"
-#include "volFields.H"
-#include "zeroGradientFvPatchFields.H"
 
 namespace clepsydra
 {
 
-using namespace Foam;
-
 namespace
 {
 
-/// Diffusion over a fixed pseudo-time, in implicit steps: Sun & Xiao, "Diffusion-based coarse graining in hybrid
-/// continuum-discrete solvers", Int. J. Multiphase Flow 72 (2015). With bandwidth b = smoothingLength the exact
-/// operator is a Gaussian exp(-r2/b2), reached by diffusing over D t = b2/4; each of the `nSteps` implicit steps has
-/// D dt = b2/(4 nSteps). The kernel's variance is the same for any number of steps.
+/// Diffusion over a fixed pseudo-time: Sun & Xiao, "Diffusion-based coarse graining in hybrid continuum-discrete
+/// solvers", Int. J. Multiphase Flow 72 (2015). With bandwidth b = smoothingLength it diffuses over D t = b2/4, exactly
+/// in t: the operator is exp(-b2/4 L), on a fine mesh a Gaussian exp(-r2/b2), of variance b2/2 along each axis on a mesh
+/// of any size. (One implicit Euler step, Sun & Xiao's choice, has exp(-2 r/b)/r instead, with a peak at the bead.)
 ///
 /// Walls and baffles are faces without neighbour: nothing diffuses through them, and going round an edge costs the
 /// length of the way.
@@ -31,67 +24,38 @@ public:
 
     ConstDiffSmoothing(const dictionary& coefficients, const fvMesh& mesh)
         : smoothingLength_(positiveEntry(coefficients, "smoothingLength")),
-          nSteps_(coefficients.getOrDefault<label>("nSteps", 1)),
-          mesh_(mesh),
-          work_(IOobject("smoothing", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-              dimensionedScalar("zero", dimless, 0), zeroGradientFvPatchScalarField::typeName),
-          matrix_(work_, dimVolume)
+          diffusion_(mesh),
+          series_(chebyshevExponential(
+              0.5 * diffusion_.largestEigenvalue() * smoothingLength_ * smoothingLength_ / 4, tolerance))
     {
-        if (nSteps_ < 1)
+        if (coefficients.found("nSteps"))
         {
             FatalIOErrorInFunction(coefficients)
-                << "Entry 'nSteps' is " << nSteps_ << "; allowed: 1, 2, ..." << exit(FatalIOError);
+                << "Entry 'nSteps' has no meaning: the diffusion is exact in pseudo-time, as with nSteps -> infinity; "
+                   "allowed: no such entry"
+                << exit(FatalIOError);
         }
-        const dimensionedScalar diffusionLengthSqr(
-            "diffusionLengthSqr", dimArea, smoothingLength_ * smoothingLength_ / (4 * nSteps_));
-        // Uncorrected for non-orthogonality: only then is the matrix symmetric, and the operator self-adjoint.
-        matrix_ = fv::gaussLaplacianScheme<scalar, scalar>::fvmLaplacianUncorrected(
-            diffusionLengthSqr * mesh.magSf(), mesh.deltaCoeffs(), work_);
-        matrix_.negate();
-        matrix_.diag() += mesh.V();
-        solver_ = matrix_.solver();
-        mesh.setFluxRequired(work_.name());
     }
 
-    void smooth(const scalarField& density, scalarField& guess) const override
+    void smooth(Eigen::MatrixXd& densities) const override
     {
-        scalarField start(density);
-        for (label step = 0; step < nSteps_; ++step)
-        {
-            matrix_.source() = start * mesh_.V().field();
-            work_.primitiveFieldRef() = guess;
-            work_.correctBoundaryConditions();
-
-            const int solverOutput = SolverPerformance<scalar>::debug;
-            SolverPerformance<scalar>::debug = 0;
-            const solverPerformance performance = solver_->solve();
-            SolverPerformance<scalar>::debug = solverOutput;
-            if (!performance.converged())
-            {
-                FatalErrorInFunction << "The smoothing solver did not converge: residual "
-                                     << performance.finalResidual() << " after " << performance.nIterations()
-                                     << " iterations; see solvers/smoothing in system/fvSolution" << exit(FatalError);
-            }
-            // One explicit evaluation with the converged fluxes. What leaves a cell through a face enters the next,
-            // so the integral is kept to rounding whatever the solver's tolerance.
-            guess = start - fvc::surfaceIntegrate(matrix_.flux())().primitiveField();
-            start = guess;
-        }
+        diffusion_.applyChebyshev(series_, densities);
     }
 
     Foam::string description() const override
     {
-        return "constDiffSmoothing: smoothingLength " + Foam::name(smoothingLength_) + " m, nSteps "
-               + Foam::name(nSteps_);
+        return "constDiffSmoothing: Gaussian of smoothingLength " + Foam::name(smoothingLength_) + " m, in "
+               + Foam::name(static_cast<label>(series_.size() - 1)) + " sweeps over the mesh";
     }
 
 private:
+    /// Largest error of the operator, relative to what it acts on, in the volume-weighted mean square. Volume, momentum
+    /// and reaction do not depend on it: they are kept to rounding.
+    static constexpr double tolerance = 1e-8;
+
     const double smoothingLength_;
-    const label nSteps_;
-    const fvMesh& mesh_;
-    mutable volScalarField work_;
-    mutable fvScalarMatrix matrix_;
-    mutable autoPtr<fvScalarMatrix::fvSolver> solver_;
+    const CellDiffusion diffusion_;
+    const std::vector<double> series_;
 };
 
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);

@@ -46,17 +46,36 @@ void Distribution::normalise(const Eigen::MatrixXd& shareSums)
     }
 }
 
-void Distribution::sample(const Foam::scalarField& cellValues, Eigen::MatrixXd& perVisitor, Eigen::Index at) const
+Eigen::MatrixXd Distribution::densities(const Eigen::MatrixXd& amounts) const
 {
-    for (Eigen::Index visitor = 0; visitor < perVisitor.cols(); ++visitor)
+    Eigen::MatrixXd densities = Eigen::MatrixXd::Zero(amounts.rows(), mesh_.nCells());
+    for (Eigen::Index visitor = 0; visitor < amounts.cols(); ++visitor)
     {
-        double value = 0;
         for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
         {
-            value += shares_[i].share * cellValues[shares_[i].cell];
+            densities.col(shares_[i].cell) += shares_[i].share * amounts.col(visitor);
         }
-        perVisitor(at, visitor) = value;
     }
+    const Foam::scalarField& volumes = mesh_.V().field();
+    forAll (volumes, cell)
+    {
+        densities.col(cell) /= volumes[cell];
+    }
+    return densities;
+}
+
+Eigen::MatrixXd Distribution::sample(const Eigen::MatrixXd& cellValues) const
+{
+    Eigen::MatrixXd values =
+        Eigen::MatrixXd::Zero(cellValues.rows(), static_cast<Eigen::Index>(firstShare_.size()) - 1);
+    for (Eigen::Index visitor = 0; visitor < values.cols(); ++visitor)
+    {
+        for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
+        {
+            values.col(visitor) += shares_[i].share * cellValues.col(shares_[i].cell);
+        }
+    }
+    return values;
 }
 
 } // namespace clepsydra

@@ -23,20 +23,20 @@ public:
     /// \param shareSums  1 x visitors: sums over all ranks.
     void normalise(const Eigen::MatrixXd& shareSums);
 
-    /// Adds a bead's amount to its cells, without smoothing. Local.
-    /// \param amount(visitor)  extensive (volume, impulse component ...)
-    /// \return amount per cell volume
-    template<class Amount>
-    Foam::scalarField density(Amount&& amount) const;
+    /// Adds the beads' amounts to their cells, without smoothing. Local.
+    /// \param amounts  quantities x visitors, extensive (volume, impulse component ...)
+    /// \return amounts per cell volume, quantities x cells
+    Eigen::MatrixXd densities(const Eigen::MatrixXd& amounts) const;
 
-    /// Value at each bead: shares times cell values, summed over this rank's cells only. Local.
-    /// \param at  row of `perVisitor` to fill
-    void sample(const Foam::scalarField& cellValues, Eigen::MatrixXd& perVisitor, Eigen::Index at) const;
+    /// Values at each bead: shares times cell values, summed over this rank's cells only. Local.
+    /// \param cellValues  quantities x cells
+    /// \return quantities x visitors
+    Eigen::MatrixXd sample(const Eigen::MatrixXd& cellValues) const;
 
-    /// Smooths a density; see SmoothingModel::smooth. Collective.
-    void smooth(const Foam::scalarField& density, Foam::scalarField& guess) const
+    /// Smooths densities; see SmoothingModel::smooth. Collective.
+    void smooth(Eigen::MatrixXd& densities) const
     {
-        smoothing_->smooth(density, guess);
+        smoothing_->smooth(densities);
     }
 
     const CellSlabs& cells() const
@@ -68,21 +68,5 @@ private:
     std::vector<Share> shares_;
     std::vector<std::size_t> firstShare_;
 };
-
-template<class Amount>
-Foam::scalarField Distribution::density(Amount&& amount) const
-{
-    Foam::scalarField density(mesh_.nCells(), 0.0);
-    for (std::size_t visitor = 0; visitor + 1 < firstShare_.size(); ++visitor)
-    {
-        const double total = amount(visitor);
-        for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
-        {
-            density[shares_[i].cell] += shares_[i].share * total;
-        }
-    }
-    density /= mesh_.V().field();
-    return density;
-}
 
 } // namespace clepsydra

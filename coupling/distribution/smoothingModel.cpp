@@ -26,10 +26,8 @@ public:
     NoSmoothing(const Foam::dictionary&, const Foam::fvMesh&)
     {}
 
-    void smooth(const Foam::scalarField& density, Foam::scalarField& guess) const override
-    {
-        guess = density;
-    }
+    void smooth(Eigen::MatrixXd&) const override
+    {}
 
     Foam::string description() const override
     {

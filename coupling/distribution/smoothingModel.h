@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include "fvMesh.H"
 #include "runTimeSelection.h"
 
@@ -23,9 +25,9 @@ public:
 
     virtual ~SmoothingModel() = default;
 
-    /// Smooths a quantity per volume, one value per cell. Collective.
-    /// \param guess  something near the result (the last interval's); becomes the result.
-    virtual void smooth(const Foam::scalarField& density, Foam::scalarField& guess) const = 0;
+    /// Smooths quantities per volume, all in one pass over the mesh. Collective.
+    /// \param densities  quantities x cells of this rank
+    virtual void smooth(Eigen::MatrixXd& densities) const = 0;
 
     /// One line for the start of the log.
     virtual Foam::string description() const = 0;

@@ -1,10 +1,4 @@
-#include "closures/beetstraDrag.h"
-#include "closures/diFeliceDrag.h"
-#include "closures/gidaspowDrag.h"
-#include "closures/kochHillDrag.h"
-#include "closures/rongDrag.h"
-#include "closures/schillerNaumannDrag.h"
-#include "closures/stokesDrag.h"
+#include "closures/dragLaws.h"
 #include "forces/forceModel.h"
 #include "forces/wallCorrection.h"
 
@@ -56,18 +50,22 @@ private:
     const WallCorrection walls_;
 };
 
-/// Makes a law known under its own name.
 template<class Law>
 using Register = ForceModel::adddictionaryConstructorToTable<Drag<Law>>;
 
-// Adding a drag law to the program is one line here.
-const Register<closures::BeetstraDrag> beetstra(closures::BeetstraDrag::name);
-const Register<closures::DiFeliceDrag> diFelice(closures::DiFeliceDrag::name);
-const Register<closures::GidaspowDrag> gidaspow(closures::GidaspowDrag::name);
-const Register<closures::KochHillDrag> kochHill(closures::KochHillDrag::name);
-const Register<closures::RongDrag> rong(closures::RongDrag::name);
-const Register<closures::SchillerNaumannDrag> schillerNaumann(closures::SchillerNaumannDrag::name);
-const Register<closures::StokesDrag> stokes(closures::StokesDrag::name);
+/// Makes every law known under its own name.
+template<class Laws>
+struct RegisterEach;
+
+template<class... Laws>
+struct RegisterEach<std::tuple<Laws...>> : Register<Laws>...
+{
+    RegisterEach()
+        : Register<Laws>(Laws::name)...
+    {}
+};
+
+const RegisterEach<closures::DragLaws> allLaws;
 
 } // namespace
 

@@ -22,7 +22,14 @@ using namespace Foam;
 namespace
 {
 
-constexpr direction spaceDimensions = 3;
+/// Rows of what beads put into cells.
+enum GivenRow : Eigen::Index
+{
+    solidVolume = 0,
+    impulse = 1,
+    implicitCoefficientTime = 4,
+    givenRowCount = 5
+};
 
 /// A field of the coupling: read where the run was stopped, otherwise uniform.
 template<class Type>
@@ -63,11 +70,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       implicitCoefficient_(couplingField<scalar>("implicitCoefficient", mesh, dimless / dimTime, 0)),
       beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
       outstanding_(couplingField<vector>("outstandingMomentum", mesh, dimVelocity, vector::zero)),
-      solidFraction_(1 - voidFraction_.primitiveField()),
-      coefficientDensity_(mesh.nCells(), 0.0)
+      solidFraction_(1 - voidFraction_.primitiveField())
 {
-    impulseDensity_ = scalarField(mesh.nCells(), 0.0);
-    smoothGradient_ = scalarField(mesh.nCells(), 0.0);
     if (needs_.acceleration)
     {
         acceleration_.reset(
@@ -92,10 +96,6 @@ void FluidCoupling::start(bool resumed)
     }
     findCells(engine_.beads());
     solidFraction_ = 1 - voidFraction_.primitiveField();
-    // What an earlier process would have known from its last interval, this one does not.
-    coefficientDensity_ = 0;
-    impulseDensity_ = scalarField(mesh_.nCells(), 0.0);
-    smoothGradient_ = scalarField(mesh_.nCells(), 0.0);
 }
 
 void FluidCoupling::beadsToFluid(double interval)
@@ -103,11 +103,12 @@ void FluidCoupling::beadsToFluid(double interval)
     const PhaseTimers::Scope timing = timers_.time("distribute");
     const BeadsView beads = engine_.beads();
     findCells(beads);
-    updateVoidFraction(beads);
+    const Eigen::MatrixXd densities = densitiesOfBeads();
+    updateVoidFraction(beads, densities);
     if (interval > 0)
     {
         updateDdtVoidFraction(interval);
-        updateMomentumSource(interval);
+        updateMomentumSource(densities, interval);
     }
 }
 
@@ -133,19 +134,31 @@ void FluidCoupling::findCells(const BeadsView& beads)
     distribution_.normalise(exchanged([&] { return exchange_.toVisitors(shareSums); }));
 }
 
-void FluidCoupling::smooth(const scalarField& density, scalarField& guess)
+void FluidCoupling::smooth(Eigen::MatrixXd& densities)
 {
     const PhaseTimers::Scope timing = timers_.time("smooth");
-    distribution_.smooth(density, guess);
+    distribution_.smooth(densities);
 }
 
-void FluidCoupling::updateVoidFraction(const BeadsView& beads)
+Eigen::MatrixXd FluidCoupling::densitiesOfBeads()
 {
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
-    const scalarField raw =
-        distribution_.density([&](std::size_t visitor) { return sphereVolume(visitors[visitor].radius); });
-    smooth(raw, solidFraction_);
+    Eigen::MatrixXd given(givenRowCount, static_cast<Eigen::Index>(visitors.size()));
+    for (Eigen::Index i = 0; i < given.cols(); ++i)
+    {
+        const VisitingBead& bead = visitors[static_cast<std::size_t>(i)];
+        given(solidVolume, i) = sphereVolume(bead.radius);
+        given.block<3, 1>(impulse, i) = bead.impulse;
+        given(implicitCoefficientTime, i) = bead.implicitCoefficientTime;
+    }
+    Eigen::MatrixXd densities = distribution_.densities(given);
+    smooth(densities);
+    return densities;
+}
 
+void FluidCoupling::updateVoidFraction(const BeadsView& beads, const Eigen::MatrixXd& densities)
+{
+    columns(solidFraction_) = densities.row(solidVolume);
     double beadVolume = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
@@ -173,23 +186,14 @@ void FluidCoupling::updateVoidFraction(const BeadsView& beads)
         returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
 }
 
-void FluidCoupling::updateMomentumSource(double interval)
+void FluidCoupling::updateMomentumSource(const Eigen::MatrixXd& densities, double interval)
 {
-    const std::vector<VisitingBead>& visitors = exchange_.visitors();
-    for (direction axis = 0; axis < spaceDimensions; ++axis)
-    {
-        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].impulse[axis]; }),
-            impulseDensity_[axis]);
-        beadSource_.primitiveFieldRef().replace(
-            axis, scalarField(impulseDensity_[axis] * (-1 / (fluid_.density * interval))));
-    }
+    const double perMassAndTime = 1 / (fluid_.density * interval);
+    columns(beadSource_.primitiveFieldRef()) = -perMassAndTime * densities.middleRows<3>(impulse);
     beadSource_.correctBoundaryConditions();
-
     if (settings_.implicitCoupling())
     {
-        smooth(distribution_.density([&](std::size_t visitor) { return visitors[visitor].implicitCoefficientTime; }),
-            coefficientDensity_);
-        implicitCoefficient_.primitiveFieldRef() = coefficientDensity_ / (fluid_.density * interval);
+        columns(implicitCoefficient_.primitiveFieldRef()) = perMassAndTime * densities.row(implicitCoefficientTime);
         implicitCoefficient_.correctBoundaryConditions();
     }
 }
@@ -260,31 +264,33 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
 
     const tmp<volVectorField> curl = needs_.vorticity ? fvc::curl(U) : tmp<volVectorField>();
 
-    Eigen::MatrixXd atVisitors(rowCount, static_cast<Eigen::Index>(exchange_.visitors().size()));
-    distribution_.sample(voidFraction_.primitiveField(), atVisitors, voidFraction);
-    vector pressureForceInFluid = vector::zero;
-    for (direction axis = 0; axis < spaceDimensions; ++axis)
+    Eigen::MatrixXd pascalPerMetre = fluid_.density * columns(gradient().primitiveField());
+    const vector pressureForceInFluid =
+        -gSum(vectorField(fluid_.density * gradient().primitiveField() * solidFraction_ * mesh_.V().field()));
+    if (modelType_ == ModelType::A)
     {
-        const scalarField pascalPerMetre(fluid_.density * gradient().primitiveField().component(axis));
-        if (modelType_ == ModelType::A)
-        {
-            smooth(pascalPerMetre, smoothGradient_[axis]);
-        }
-        distribution_.sample(U.primitiveField().component(axis)(), atVisitors, velocity + axis);
-        distribution_.sample(smoothGradient_[axis], atVisitors, pressureGradient + axis);
-        distribution_.sample(viscous().primitiveField().component(axis)(), atVisitors, viscousStressDivergence + axis);
-        if (needs_.acceleration)
-        {
-            distribution_.sample(acceleration_->primitiveField().component(axis)(), atVisitors, acceleration + axis);
-        }
-        if (needs_.vorticity)
-        {
-            distribution_.sample(curl().primitiveField().component(axis)(), atVisitors, vorticity + axis);
-        }
-        pressureForceInFluid[axis] = -gSum(scalarField(pascalPerMetre * solidFraction_ * mesh_.V().field()));
+        smooth(pascalPerMetre);
+    }
+    else
+    {
+        pascalPerMetre.setZero();
     }
 
-    const Eigen::MatrixXd atBeads = exchange_.sumAtHome(atVisitors);
+    Eigen::MatrixXd inCells(rowCount, mesh_.nCells());
+    inCells.row(voidFraction) = columns(voidFraction_.primitiveField());
+    inCells.middleRows<3>(velocity) = columns(U.primitiveField());
+    inCells.middleRows<3>(pressureGradient) = pascalPerMetre;
+    inCells.middleRows<3>(viscousStressDivergence) = columns(viscous().primitiveField());
+    if (needs_.acceleration)
+    {
+        inCells.middleRows<3>(acceleration) = columns(acceleration_->primitiveField());
+    }
+    if (needs_.vorticity)
+    {
+        inCells.middleRows<3>(vorticity) = columns(curl().primitiveField());
+    }
+
+    const Eigen::MatrixXd atBeads = exchange_.sumAtHome(distribution_.sample(inCells));
     const BeadsView beads = engine_.beads();
     vector pressureForceOnBeads = vector::zero;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)

@@ -86,10 +86,12 @@ private:
     /// Sum over the ranks [N s].
     Foam::vector momentumOutstanding() const;
     void findCells(const BeadsView& beads);
-    void updateVoidFraction(const BeadsView& beads);
+    /// What the beads put into the cells, smoothed: rows as in GivenRow.
+    Eigen::MatrixXd densitiesOfBeads();
+    void updateVoidFraction(const BeadsView& beads, const Eigen::MatrixXd& densities);
     void updateDdtVoidFraction(double interval);
-    void updateMomentumSource(double interval);
-    void smooth(const Foam::scalarField& density, Foam::scalarField& guess);
+    void updateMomentumSource(const Eigen::MatrixXd& densities, double interval);
+    void smooth(Eigen::MatrixXd& densities);
     [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
     Foam::string describeCell(Foam::label cell) const;
 
@@ -118,11 +120,8 @@ private:
     /// DU/Dt [m/s2]; none where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
 
-    // Last interval's results, from which the smoothing starts.
+    /// Volume of beads per volume, before it is clipped.
     Foam::scalarField solidFraction_;
-    Foam::scalarField coefficientDensity_;
-    Foam::FixedList<Foam::scalarField, 3> impulseDensity_;
-    Foam::FixedList<Foam::scalarField, 3> smoothGradient_;
 };
 
 } // namespace clepsydra

@@ -1,9 +1,13 @@
 #include "output/runOutput.h"
 
+#include "output/costModel.h"
 #include "output/massInHopper.h"
 #include "output/startReport.h"
 
 #include "IOmanip.H"
+#include "globalMeshData.H"
+
+#include <cstdlib>
 
 namespace clepsydra
 {
@@ -41,8 +45,26 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     }
     const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
     printStartReport(engine_, lines, scales, settings_.demDict());
+    printEstimate(static_cast<double>(scales.beads), models != nullptr);
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.beads > 0;
+}
+
+void RunOutput::printEstimate(double beads, bool withFluid) const
+{
+    const char* clepsydra = std::getenv("CLEPSYDRA");
+    const std::optional<CostModel> model =
+        clepsydra ? CostModel::read(std::filesystem::path(clepsydra) / "scripts/benchmarks/costModel.json")
+                  : std::nullopt;
+    if (!model || !(beads > 0))
+    {
+        return;
+    }
+    const double duration = time_.endTime().value() - time_.value();
+    const RunWork work{beads, withFluid ? static_cast<double>(mesh_.globalData().nTotalCells()) : 0,
+        duration / engine_.timeStep(), duration / settings_.couplingInterval()};
+    Info << "Estimated wall time: " << round(model->seconds(work, Pstream::nProcs())) << " s to " << time_.endTime().value()
+         << " s, from costs measured on " << model->machine.c_str() << nl << endl;
 }
 
 void RunOutput::start()

@@ -41,6 +41,7 @@ public:
 private:
     void checkDemStepOnce();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
+    void printEstimate(double beads, bool withFluid) const;
 
     Foam::Time& time_;
     const Foam::fvMesh& mesh_;

@@ -173,6 +173,7 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
     expectEntryRefused("modelType", "C", {"'C'", "(A"});
     expectEntryRefused("momCoupleModels", "(implicit)", {"'implicit'", "implicitCouple", "explicitCouple"});
+    expectEntryRefused("constDiffSmoothingProps/nSteps", "4", {"'nSteps'", "no such entry"});
     expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
 }
 

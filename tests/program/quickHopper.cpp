@@ -64,7 +64,7 @@ Outcome QuickHopper::run(const std::string& stage)
 
 Outcome QuickHopper::runVariant(const std::string& stage, const std::string& name, const std::string& entries)
 {
-    return withAllrun("cp -r stages/" + stage + " stages/" + name + "\ncat >> stages/" + name + "/stage << 'END'\n"
+    return withAllrun("prepareStage " + stage + "\ncp -r stages/" + stage + " stages/" + name + "\ncat >> stages/" + name + "/stage << 'END'\n"
                       + entries + "\nEND\nrunStages " + name + '\n');
 }
 

@@ -26,7 +26,7 @@ void fillIn(TestCase& test)
     test.cells = {8, 8, 16};
     test.setTimes(intervals * interval, interval, 0.025);
     const std::string tolerance = " tolerance 1e-13; relTol 0; }";
-    for (const std::string field : {"p", "pFinal", "smoothing"})
+    for (const std::string field : {"p", "pFinal"})
     {
         test.solution().set("solvers/" + field, "{ solver PCG; preconditioner DIC;" + tolerance);
     }

@@ -1,0 +1,318 @@
+// Prints values of the formulas of this folder, one number per line, for scripts: a formula has one home, and Python
+// asks it. Options are named as the entries of a case's `parameters`, in SI units. `closures <formula> --help`.
+
+#include "closures/beverloo.h"
+#include "closures/dragLaws.h"
+#include "closures/ergun.h"
+#include "closures/richardsonZaki.h"
+#include "closures/terminalVelocity.h"
+#include "closures/wallCorrection.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <exception>
+#include <functional>
+#include <iostream>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace clepsydra::closures;
+
+/// What the formulas ask for; each formula reads its own part of it.
+struct Input
+{
+    double beadDiameter = 0;
+    double beadDensity = 0;
+    double fluidDensity = 0;
+    double fluidViscosity = 0; // kinematic, as in `parameters`
+    double gravity = usualGravity;
+    std::vector<double> voidFraction;
+    std::string dragLaw;
+    std::vector<double> speed;
+    double bulkDensity = 0;
+    double orificeDiameter = 0;
+    double ratio = 0;
+    double reynolds = 0;
+
+    double dynamicViscosity() const
+    {
+        return fluidDensity * fluidViscosity;
+    }
+
+    SettlingBead settlingBead(double eps = 1) const
+    {
+        return {beadDiameter, beadDensity, fluidDensity, dynamicViscosity(), gravity, eps};
+    }
+
+    BeadInFluid beadInFluid(double slipSpeed) const
+    {
+        return makeBeadInFluid(
+            beadDiameter, voidFraction.empty() ? 1 : voidFraction.front(), slipSpeed, fluidDensity, dynamicViscosity());
+    }
+
+    PackedBed bed(double eps) const
+    {
+        return {beadDiameter, eps, fluidDensity, dynamicViscosity()};
+    }
+};
+
+/// One formula of the program: a subcommand with its options.
+class Formula
+{
+public:
+    Formula(CLI::App& program, const std::string& name, const std::string& description)
+        : command_(program.add_subcommand(name, description))
+    {}
+
+    Formula& bead()
+    {
+        return positive("--beadDiameter", input_->beadDiameter, "[m]");
+    }
+
+    Formula& beadDensity()
+    {
+        return positive("--beadDensity", input_->beadDensity, "[kg/m3]");
+    }
+
+    Formula& fluid()
+    {
+        return positive("--fluidDensity", input_->fluidDensity, "[kg/m3]")
+            .positive("--fluidViscosity", input_->fluidViscosity, "kinematic [m2/s]");
+    }
+
+    Formula& gravity()
+    {
+        command_->add_option("--gravity", input_->gravity, "[m/s2]")->capture_default_str()->check(CLI::PositiveNumber);
+        return *this;
+    }
+
+    Formula& dragLaw()
+    {
+        command_->add_option("--dragLaw", input_->dragLaw, "its name, see `closures dragLaws`")
+            ->required()
+            ->check(CLI::IsMember(dragLawNames()));
+        return *this;
+    }
+
+    Formula& voidFractions()
+    {
+        command_->add_option("--voidFraction", input_->voidFraction, "[-], one or more")
+            ->required()
+            ->check(CLI::Range(1e-6, 1.0));
+        return *this;
+    }
+
+    Formula& oneVoidFraction()
+    {
+        command_->add_option("--voidFraction", input_->voidFraction, "[-]; 1 unless given")
+            ->expected(1)
+            ->check(CLI::Range(1e-6, 1.0));
+        return *this;
+    }
+
+    Formula& speeds(const std::string& name)
+    {
+        command_->add_option(name, input_->speed, "[m/s], one or more")->required()->check(CLI::NonNegativeNumber);
+        return *this;
+    }
+
+    Formula& positive(const std::string& name, double& value, const std::string& description)
+    {
+        command_->add_option(name, value, description)->required()->check(CLI::PositiveNumber);
+        return *this;
+    }
+
+    Formula& fraction(const std::string& name, const std::string& description)
+    {
+        command_->add_option(name, input_->ratio, description)->required()->check(CLI::Range(0.0, 1.0));
+        return *this;
+    }
+
+    Input& input()
+    {
+        return *input_;
+    }
+
+    /// Prints what the function makes of the input.
+    void prints(const std::function<std::vector<double>(const Input&)>& values)
+    {
+        command_->callback([input = input_, values] {
+            std::cout.precision(std::numeric_limits<double>::max_digits10);
+            for (const double value : values(*input))
+            {
+                std::cout << value << '\n';
+            }
+        });
+    }
+
+private:
+    CLI::App* command_;
+    std::shared_ptr<Input> input_ = std::make_shared<Input>();
+};
+
+std::vector<double> forEach(const std::vector<double>& arguments, const std::function<double(double)>& formula)
+{
+    std::vector<double> values(arguments.size());
+    std::transform(arguments.begin(), arguments.end(), values.begin(), formula);
+    return values;
+}
+
+void addDrag(CLI::App& program)
+{
+    program.add_subcommand("dragLaws", "Names of all drag laws")->callback([] {
+        for (const std::string& name : dragLawNames())
+        {
+            std::cout << name << '\n';
+        }
+    });
+    Formula(program, "drag", "Sp [kg/s] of model A's drag Sp (U_f - u_p), at each interstitial slip speed")
+        .dragLaw()
+        .bead()
+        .fluid()
+        .oneVoidFraction()
+        .speeds("--slipSpeed")
+        .prints([](const Input& in) {
+            return forEach(in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.beadInFluid(slip)); });
+        });
+    Formula(program, "dragCoefficient", "C_d [-] = Sp/(pi/8 rho d^2 |U_r|), at each slip speed (> 0)")
+        .dragLaw()
+        .bead()
+        .fluid()
+        .oneVoidFraction()
+        .speeds("--slipSpeed")
+        .prints([](const Input& in) {
+            const double scale = pi / 8 * in.fluidDensity * in.beadDiameter * in.beadDiameter;
+            return forEach(
+                in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.beadInFluid(slip)) / (scale * slip); });
+        });
+}
+
+void addSettling(CLI::App& program)
+{
+    Formula(program, "terminalVelocity", "[m/s] of a lone bead in still fluid")
+        .dragLaw()
+        .bead()
+        .beadDensity()
+        .fluid()
+        .gravity()
+        .prints([](const Input& in) {
+            return std::vector<double>{terminalVelocity(dragLaw(in.dragLaw), in.settlingBead())};
+        });
+    Formula(program, "hinderedSettlingVelocity", "[m/s] against the vessel; superficial one that fluidises to it, too")
+        .dragLaw()
+        .bead()
+        .beadDensity()
+        .fluid()
+        .gravity()
+        .voidFractions()
+        .prints([](const Input& in) {
+            return forEach(in.voidFraction,
+                [&](double eps) { return hinderedSettlingVelocity(dragLaw(in.dragLaw), in.settlingBead(eps)); });
+        });
+
+    Formula richardsonZaki(program, "richardsonZakiExponent", "n [-] of v/v_t = eps^n, Richardson & Zaki 1954");
+    richardsonZaki.positive("--reynolds", richardsonZaki.input().reynolds, "of the lone bead at v_t")
+        .fraction("--diameterRatio", "bead over column")
+        .prints([](const Input& in) { return std::vector<double>{richardsonZakiExponent(in.reynolds, in.ratio)}; });
+    Formula rowe(program, "roweExponent", "n [-], smooth form of Rowe 1987");
+    rowe.positive("--reynolds", rowe.input().reynolds, "of the lone bead at v_t").prints([](const Input& in) {
+        return std::vector<double>{roweExponent(in.reynolds)};
+    });
+}
+
+void addWalls(CLI::App& program)
+{
+    Formula tube(program, "tubeVelocityRatio", "v/v_t [-] of a bead on the axis of a tube, Di Felice 1996");
+    tube.fraction("--diameterRatio", "bead over tube")
+        .positive("--reynolds", tube.input().reynolds, "of the free bead at v_t")
+        .prints([](const Input& in) { return std::vector<double>{diFeliceWallVelocityRatio(in.ratio, in.reynolds)}; });
+    Formula(program, "faxenParallelFactor", "drag over free drag [-], creeping motion along a plane wall")
+        .fraction("--lambda", "radius over distance of the centre")
+        .prints([](const Input& in) { return std::vector<double>{faxenParallelFactor(in.ratio)}; });
+    Formula(program, "faxenPerpendicularFactor", "drag over free drag [-], creeping motion across a plane wall")
+        .fraction("--lambda", "radius over distance of the centre")
+        .prints([](const Input& in) { return std::vector<double>{faxenPerpendicularFactor(in.ratio)}; });
+}
+
+void addBeds(CLI::App& program)
+{
+    Formula(program, "ergunPressureGradient", "[Pa/m] at each void fraction and superficial velocity")
+        .bead()
+        .fluid()
+        .voidFractions()
+        .speeds("--superficialVelocity")
+        .prints([](const Input& in) {
+            std::vector<double> values;
+            for (const double eps : in.voidFraction)
+            {
+                for (const double speed : in.speed)
+                {
+                    values.push_back(ergunPressureGradient(in.bed(eps), speed));
+                }
+            }
+            return values;
+        });
+    Formula(program, "minimumFluidisationVelocity", "[m/s], superficial, by Ergun, at each void fraction")
+        .bead()
+        .beadDensity()
+        .fluid()
+        .gravity()
+        .voidFractions()
+        .prints([](const Input& in) {
+            return forEach(in.voidFraction,
+                [&](double eps) { return minimumFluidisationVelocity(in.bed(eps), in.beadDensity, in.gravity); });
+        });
+}
+
+void addHoppers(CLI::App& program)
+{
+    Formula dry(program, "beverlooRate", "[kg/s], dry, C = .58, k = 1.4");
+    dry.bead()
+        .positive("--bulkDensity", dry.input().bulkDensity, "of the flowing bed [kg/m3]")
+        .positive("--orificeDiameter", dry.input().orificeDiameter, "[m]")
+        .gravity()
+        .prints([](const Input& in) {
+            return std::vector<double>{beverlooRate(in.bulkDensity, in.gravity, in.orificeDiameter, in.beadDiameter)};
+        });
+    Formula submerged(program, "modifiedBeverlooRate", "[kg/s], submerged, v_t by the drag law, C = .4, k = 2.4");
+    submerged.dragLaw()
+        .bead()
+        .beadDensity()
+        .fluid()
+        .gravity()
+        .positive("--orificeDiameter", submerged.input().orificeDiameter, "[m]")
+        .prints([](const Input& in) {
+            const double fall = terminalVelocity(dragLaw(in.dragLaw), in.settlingBead());
+            return std::vector<double>{modifiedBeverlooRate(in.beadDensity, fall, in.orificeDiameter, in.beadDiameter)};
+        });
+}
+
+} // namespace
+
+int main(int argc, char* argv[])
+{
+    try
+    {
+        CLI::App program("Prints values of closed formulas, one number per line. Options in SI units.", "closures");
+        program.require_subcommand(1);
+        addDrag(program);
+        addSettling(program);
+        addWalls(program);
+        addBeds(program);
+        addHoppers(program);
+        CLI11_PARSE(program, argc, argv);
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "closures: " << error.what() << '\n';
+        return EXIT_FAILURE;
+    }
+    return EXIT_SUCCESS;
+}

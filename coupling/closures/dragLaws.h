@@ -1,0 +1,75 @@
+/// \file
+/// All drag laws, by name. What stands in DragLaws can be chosen in a case's forceModels and by the program `closures`.
+#pragma once
+
+#include "closures/beetstraDrag.h"
+#include "closures/brownLawlerDrag.h"
+#include "closures/diFeliceDrag.h"
+#include "closures/gidaspowDrag.h"
+#include "closures/kochHillDrag.h"
+#include "closures/morrisonDrag.h"
+#include "closures/rongDrag.h"
+#include "closures/schillerNaumannDrag.h"
+#include "closures/stokesDrag.h"
+
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace clepsydra::closures
+{
+
+// Adding a drag law to the programs is one line here.
+// clang-format off
+using DragLaws = std::tuple<
+    BeetstraDrag,
+    BrownLawlerDrag,
+    DiFeliceDrag,
+    ErgunDrag,
+    GidaspowDrag,
+    KochHillDrag,
+    MorrisonDrag,
+    RongDrag,
+    SchillerNaumannDrag,
+    StokesDrag,
+    WenYuDrag
+>;
+// clang-format on
+
+/// Calls visit(law) with each drag law.
+template<class Visitor>
+void forEachDragLaw(Visitor visit)
+{
+    std::apply([&](const auto&... law) { (visit(law), ...); }, DragLaws{});
+}
+
+inline std::vector<std::string> dragLawNames()
+{
+    std::vector<std::string> names;
+    forEachDragLaw([&](const auto& law) { names.emplace_back(law.name); });
+    return names;
+}
+
+/// A law whose name is known at run time only: too slow for the time loop.
+using AnyDragLaw = std::function<double(const BeadInFluid&)>;
+
+/// Throws std::invalid_argument where there is no law of that name.
+inline AnyDragLaw dragLaw(const std::string& name)
+{
+    AnyDragLaw found;
+    forEachDragLaw([&](const auto& law) {
+        if (name == law.name)
+        {
+            found = law;
+        }
+    });
+    if (!found)
+    {
+        throw std::invalid_argument("no drag law '" + name + "'");
+    }
+    return found;
+}
+
+} // namespace clepsydra::closures

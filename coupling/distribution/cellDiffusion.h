@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "fvMesh.H"
+
+#include <vector>
+
+namespace clepsydra
+{
+
+/// Diffusion between the cells of a mesh, of several quantities at once:
+///
+///     (L u)_P = 1/V_P sum over faces of |S_f| (u_P - u_N)/|d_f|
+///
+/// Uncorrected for non-orthogonality: only then is L self-adjoint in the volume-weighted product. A face without a cell
+/// behind it (wall, baffle, inlet) lets nothing through; processor and cyclic faces are faces like any other. What leaves
+/// a cell enters its neighbour, so the integral over the mesh stays to rounding.
+class CellDiffusion
+{
+public:
+    /// Collective. FatalError for a mesh whose cells are coupled in another way.
+    explicit CellDiffusion(const Foam::fvMesh& mesh);
+
+    /// Upper bound of L's eigenvalues, after Gershgorin; the lower one is zero [1/m2].
+    double largestEigenvalue() const
+    {
+        return largestEigenvalue_;
+    }
+
+    /// u <- sum_k c_k T_k(1 - 2 L/largestEigenvalue) u, T_k being Chebyshev's polynomials. Collective; one message to
+    /// each neighbouring rank per term for up to five quantities.
+    /// \param coefficients  c_k, at least one
+    /// \param u  quantities x cells of this rank
+    void applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const;
+
+private:
+    /// The cells at one boundary to another rank, and where the values of the cells behind it are kept.
+    struct Boundary
+    {
+        int rank;
+        int tag;
+        int communicator;
+        std::vector<Foam::label> cells;
+        Eigen::Index firstBehind;
+    };
+
+    /// The same for a number of quantities that the compiler knows, to keep the sums of a cell in registers.
+    template<int Quantities>
+    void applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const;
+    /// Fills in the values behind the boundaries to other ranks.
+    template<class Values>
+    void exchange(Values& values) const;
+
+    Foam::label cellCount_;
+    /// The cells of this rank, then those behind its boundaries.
+    Eigen::Index columnCount_;
+    std::vector<Boundary> boundaries_;
+
+    // Neighbours of cell P: entries firstNeighbour_[P] to firstNeighbour_[P + 1].
+    std::vector<Foam::label> firstNeighbour_;
+    std::vector<Foam::label> neighbour_;
+    /// 2/largestEigenvalue |S_f|/(|d_f| V_P)
+    std::vector<double> rate_;
+    double largestEigenvalue_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,98 @@
+#include "output/beadHeight.h"
+
+#include "output/observableTable.h"
+#include "output/observedBeads.h"
+
+#include "Time.H"
+#include "addToRunTimeSelectionTable.H"
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(BeadHeight, 0);
+addToRunTimeSelectionTable(functionObject, BeadHeight, dictionary);
+
+BeadHeight::BeadHeight(const word& name, const Time& time, const dictionary& dict)
+    : fvMeshFunctionObject(name, time, dict),
+      writeFile(mesh_, name, name)
+{
+    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    BeadHeight::read(dict);
+    if (Pstream::master())
+    {
+        makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
+    }
+    resetFile(name);
+
+    Ostream& os = file();
+    writeHeader(os, "Bead " + Foam::name(bead_));
+    writeHeaderValue(os, "Axis", toFoam(axis_));
+    writeCommented(os, "time [s]");
+    writeTabbed(os, "height [m]");
+    writeTabbed(os, "velocity [m/s]");
+    os << endl;
+
+    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    {
+        sample();
+    }
+}
+
+bool BeadHeight::read(const dictionary& dict)
+{
+    fvMeshFunctionObject::read(dict);
+    writeFile::read(dict);
+
+    const auto axis = dict.getOrDefault<vector>("axis", vector(0, 0, 1));
+    if (mag(axis) < SMALL)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
+                                     << exit(FatalIOError);
+    }
+    axis_ = toEigen(axis).normalized();
+
+    bead_ = dict.getOrDefault<label>("bead", 1);
+    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    {
+        const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
+        if (!returnReduce((beads.id == bead_).any(), orOp<bool>()))
+        {
+            FatalIOErrorInFunction(dict) << "Entry 'bead' is " << bead_ << "; allowed: the id of one of the "
+                                         << returnReduce(label(beads.size()), sumOp<label>()) << " beads"
+                                         << exit(FatalIOError);
+        }
+    }
+    return true;
+}
+
+bool BeadHeight::execute()
+{
+    sample();
+    return true;
+}
+
+void BeadHeight::sample()
+{
+    // One rank has the bead, the others add nothing.
+    scalar height = 0;
+    scalar velocity = 0;
+    const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
+    for (Eigen::Index i = 0; i < beads.size(); ++i)
+    {
+        if (beads.id[i] == bead_)
+        {
+            height = axis_.dot(beads.position.col(i));
+            velocity = axis_.dot(beads.velocity.col(i));
+        }
+    }
+    reduce(height, sumOp<scalar>());
+    reduce(velocity, sumOp<scalar>());
+
+    Ostream& os = file();
+    writeCurrentTime(os);
+    os << tab << setw(charWidth()) << height << tab << setw(charWidth()) << velocity << endl;
+}
+
+} // namespace clepsydra

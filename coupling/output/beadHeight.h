@@ -1,0 +1,51 @@
+#pragma once
+
+#include "runTimeSelection.h"
+#include "vectors.h"
+
+#include "fvMeshFunctionObject.H"
+#include "writeFile.H"
+
+namespace clepsydra
+{
+
+/// Function object: where one bead is along an axis, and how fast it moves there.
+///
+///     beadHeight
+///     {
+///         type    beadHeight;
+///         bead    1;          // its id; default 1
+///         axis    (0 0 1);    // upwards; default (0 0 1)
+///     }
+///
+/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s], a row per
+/// execution (executeControl, executeInterval) and one at the start. A restart continues in a folder of its own start
+/// time.
+///
+/// FatalIOError where there is no such bead or the axis is zero.
+class BeadHeight : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
+{
+public:
+    TypeName("beadHeight");
+
+    BeadHeight(const Foam::word& name, const Foam::Time& time, const Foam::dictionary& dict);
+
+    bool read(const Foam::dictionary& dict) override;
+
+    /// Adds a row. Collective.
+    bool execute() override;
+
+    /// Nothing: rows are written when they are taken.
+    bool write() override
+    {
+        return true;
+    }
+
+private:
+    void sample();
+
+    Foam::label bead_ = 1;
+    Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
+};
+
+} // namespace clepsydra

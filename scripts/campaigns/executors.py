@@ -1,0 +1,68 @@
+"""What queues the tasks: GNU make on this machine, or Slurm. Both run `scripts/campaign task FILE NAME`."""
+
+import os
+import shlex
+import signal
+import subprocess
+import sys
+
+from campaigns.plan import CampaignError
+
+COMMAND = os.path.abspath(sys.argv[0])
+
+
+def local(campaign, cores):
+    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns its status."""
+    slots = max(1, cores // max(task.ranks for task in campaign.tasks.values()))
+    makefile = campaign.work / "Makefile"
+    targets = {name: f"{name}/done" for name in campaign.tasks}
+    rules = [f"all: {' '.join(targets.values())}"]
+    for name, task in campaign.tasks.items():
+        rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
+                  "\t@" + shlex.join([COMMAND, "task", str(campaign.path), name])]
+    makefile.write_text("\n".join(rules) + "\n")
+    make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
+                            cwd=campaign.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
+    signal.signal(signal.SIGTERM, lambda *_: make.send_signal(signal.SIGTERM))
+    signal.signal(signal.SIGINT, lambda *_: None)
+    return make.wait()
+
+
+def slurm(campaign, options):
+    """Submits the tasks as job arrays, shared parts first. Returns the jobs' numbers."""
+    levels = []
+    for name, task in campaign.tasks.items():
+        level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
+        while len(levels) <= level:
+            levels.append([])
+        levels[level].append(name)
+    jobs, before = [], []
+    for names in levels:
+        here = [submit(campaign, [name for name in names if campaign.tasks[name].ranks == ranks], ranks, before, options)
+                for ranks in sorted({campaign.tasks[name].ranks for name in names})]
+        jobs += here
+        before = here
+    return jobs
+
+
+def submit(campaign, names, ranks, before, options):
+    """One job array. Its tasks find their names by the line of a list."""
+    number = len(list(campaign.work.glob("slurm.*.list")))
+    listed = campaign.work / f"slurm.{number}.list"
+    listed.write_text("\n".join(names) + "\n")
+    name = f'$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})'
+    # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
+    script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(campaign.path)])} {name}\n"
+    command = ["sbatch", "--parsable", f"--job-name={campaign.path.stem}", f"--array=1-{len(names)}", "--nodes=1",
+               f"--ntasks={ranks}", "--signal=B:TERM@300", f"--output={campaign.work}/slurm.%A_%a.log", *options]
+    if before:
+        # after any end of the others: a task whose needs are not done says so by itself
+        command.append("--dependency=afterany:" + ":".join(before))
+    try:
+        answer = subprocess.run(command, input=script, text=True, stdout=subprocess.PIPE, check=True)
+    except FileNotFoundError:
+        raise CampaignError("there is no sbatch here: is Slurm installed?") from None
+    except subprocess.CalledProcessError:
+        raise CampaignError("sbatch refused the job; see above") from None
+    return answer.stdout.strip().split(";")[0]

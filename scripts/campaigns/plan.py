@@ -1,0 +1,193 @@
+"""From a campaign's file to its list of tasks.
+
+A task is one command `Allrun [-np RANKS] PART` in a folder of its own, a copy of the template case with some of its
+parameters replaced. What runs have in common (the mesh, the packing) is a task as well, on which they depend.
+"""
+
+import hashlib
+import itertools
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+import yaml
+
+import caseFiles
+
+CAMPAIGN_ENTRIES = {"case": "the template's folder", "work": "folder of the runs (default: work)",
+                    "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
+                    "stages": "of each run", "packings": "values of the template's seed",
+                    "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
+RUN_ENTRIES = ("sweep", "parameters", "pour", "stages", "packings", "ranks")
+
+
+class CampaignError(Exception):
+    """What is wrong with a campaign's file, in words for its author."""
+
+
+@dataclass(frozen=True)
+class Task:
+    name: str           # also its folder below the campaign's work folder
+    part: str           # what Allrun is asked for
+    ranks: int
+    overrides: tuple    # (parameter, text) pairs
+    needs: tuple        # names of tasks
+    links: tuple        # (path in the case, task that makes it) pairs
+    publish: str        # stem of its result files; empty: none
+    entry: str          # the campaign's entry that it belongs to
+
+
+class Campaign:
+    """A campaign file and its template, read and checked. CampaignError where anything is wrong."""
+
+    def __init__(self, path):
+        self.path = Path(path).resolve()
+        self.settings = readYaml(self.path, CAMPAIGN_ENTRIES, required=("case", "stages", "runs"))
+        self.case = self._folder("case")
+        self.work = self._folder("work", "work")
+        self.results = self._folder("results", "results")
+        self.template = readYaml(self.case / "template.yaml", ("shared", "stages", "seed", "summary"),
+                                 required=("shared", "stages", "seed", "summary"))
+        self.defaults = caseFiles.parameters(self.case / "parameters")
+        self.common = self._overrides(self.settings.get("parameters"), "parameters")
+        self.tasks = self._plan()
+
+    @property
+    def keepTimes(self):
+        """How many times of a run stay on disk; None for all."""
+        kept = self.settings.get("keepTimes", "all")
+        if kept != "all" and not (isinstance(kept, int) and kept > 1):
+            raise self._error("keepTimes", kept, "all, or a whole number above 1")
+        return None if kept == "all" else kept
+
+    def parameterText(self, task):
+        """The task's file `parameters`."""
+        return caseFiles.withParameters((self.case / "parameters").read_text(), dict(task.overrides))
+
+    def parameters(self, task):
+        return caseFiles.parametersIn(self.parameterText(task))
+
+    def folder(self, task):
+        return self.work / task.name
+
+    def endTime(self, task):
+        """Simulated seconds, at most; None for a part that simulates nothing."""
+        name = self.template["stages"].get(task.part)
+        return name and float(self.parameters(task)[name])
+
+    def _folder(self, entry, default=None):
+        return (self.path.parent / self.settings.get(entry, default)).resolve()
+
+    def _error(self, entry, value, allowed):
+        return CampaignError(f"{self.path}: entry '{entry}' is {value!r}; allowed: {allowed}")
+
+    def _overrides(self, given, entry):
+        """The parameters given, as text, all of them known to the template."""
+        if not isinstance(given or {}, dict):
+            raise self._error(entry, given, "a list of `name: value`")
+        for name in given or {}:
+            if name not in self.defaults:
+                raise self._error(entry, name, "the template's parameters, which are " + ", ".join(self.defaults))
+        return {name: parameterValue(value) for name, value in (given or {}).items()}
+
+    def _plan(self):
+        tasks = {}
+        if not isinstance(self.settings["runs"], dict):
+            raise self._error("runs", self.settings["runs"], "a list of `name: { ... }`")
+        for name, entry in self.settings["runs"].items():
+            for task in self._tasksOf(str(name), entry or {}):
+                known = tasks.setdefault(task.name, task)
+                if known.overrides != task.overrides:
+                    raise CampaignError(f"{self.path}: two different runs are both named {task.name}")
+        return tasks
+
+    def _tasksOf(self, name, entry):
+        unknown = set(entry) - set(RUN_ENTRIES)
+        if unknown:
+            raise self._error(f"runs/{name}", ", ".join(sorted(unknown)), ", ".join(RUN_ENTRIES))
+        if not re.fullmatch(r"[\w.+-]+", name):
+            raise self._error("runs", name, "names of letters, digits and . _ + -")
+        fixed = self._overrides(entry.get("parameters"), f"runs/{name}/parameters")
+        ofPour = self._overrides(entry.get("pour"), f"runs/{name}/pour")
+        sweep = entry.get("sweep") or {}
+        self._overrides(sweep, f"runs/{name}/sweep")
+        for values in itertools.product(*(asList(values) for values in sweep.values())):
+            swept = dict(zip(sweep, map(parameterValue, values)))
+            case = "-".join([name, *swept.values()])
+            for seed in asList(entry.get("packings", self.settings.get("packings", [None]))):
+                overrides = {**self.common, **fixed, **swept}
+                if seed is not None:
+                    overrides[self.template["seed"]] = parameterValue(seed)
+                yield from self._tasksOfRun(name, safeName(case), entry, overrides, ofPour)
+
+    def _tasksOfRun(self, entryName, case, entry, overrides, ofPour):
+        ranks = entry.get("ranks", self.settings.get("ranks", 1))
+        if not (isinstance(ranks, int) and ranks > 0):
+            raise self._error("ranks", ranks, "a whole number above 0")
+        pour = self._shared("pour", {**overrides, **ofPour}, keep=ofPour)
+        # the packing's own mesh serves no more than to tell where the hopper is: it need not be the run's
+        pourMesh, mesh = self._shared("mesh", dict(pour.overrides)), self._shared("mesh", overrides)
+        yield pourMesh
+        yield mesh
+        yield withNeeds(pour, self._links(pourMesh))
+        seed = self._resolved(overrides)[self.template["seed"]]
+        for stage in asList(entry.get("stages", self.settings["stages"])):
+            if stage not in self.template["stages"] or stage in self.template["shared"]:
+                allowed = [name for name in self.template["stages"] if name not in self.template["shared"]]
+                raise self._error("stages", stage, ", ".join(allowed))
+            name = f"{case}.{seed:.10g}.{stage}"
+            run = Task(f"runs/{name}", stage, ranks, tuple(sorted(overrides.items())), (), (), name, entryName)
+            yield withNeeds(run, self._links(mesh) + self._links(pour))
+
+    def _shared(self, part, overrides, keep=()):
+        """The task of a shared part, named by the values of the parameters on which it depends."""
+        about = self.template["shared"][part]
+        own = {name: value for name, value in overrides.items() if name in about["dependsOn"] and
+               (name not in about.get("fixed", ()) or name in keep)}
+        overrides = {**self.common, **own}
+        values = self._resolved(overrides)
+        code = hashlib.sha256(repr([(name, values[name]) for name in about["dependsOn"]]).encode()).hexdigest()[:8]
+        return Task(f"shared/{part}-{code}", part, 1, tuple(sorted(overrides.items())), (), (), "", part)
+
+    def _links(self, task):
+        return tuple((made, task.name) for made in self.template["shared"][task.part]["makes"])
+
+    def _resolved(self, overrides):
+        text = (self.case / "parameters").read_text()
+        return caseFiles.parametersIn(caseFiles.withParameters(text, overrides))
+
+
+def readYaml(path, allowed, required):
+    try:
+        found = yaml.safe_load(path.read_text())
+    except OSError as problem:
+        raise CampaignError(f"{path}: {problem.strerror}") from None
+    except yaml.YAMLError as problem:
+        raise CampaignError(f"{path} is not YAML: {problem}") from None
+    if not isinstance(found, dict):
+        raise CampaignError(f"{path}: must be a list of `entry: value`; allowed entries: {', '.join(allowed)}")
+    for name in found:
+        if name not in allowed:
+            raise CampaignError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}")
+    for name in required:
+        if name not in found:
+            raise CampaignError(f"{path}: entry '{name}' is missing")
+    return found
+
+
+def asList(values):
+    return values if isinstance(values, list) else [values]
+
+
+def parameterValue(value):
+    """As an OpenFOAM dictionary has it; YAML reads on and off as booleans."""
+    return {True: "on", False: "off"}[value] if isinstance(value, bool) else str(value)
+
+
+def safeName(text):
+    return re.sub(r"[^\w.+-]+", "_", text)
+
+
+def withNeeds(task, links):
+    needs = tuple(dict.fromkeys(maker for _, maker in links))
+    return Task(**{**task.__dict__, "needs": needs, "links": links})

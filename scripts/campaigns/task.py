@@ -1,0 +1,234 @@
+"""Runs one task of a campaign: makes its folder, runs or resumes it, publishes its results.
+
+The folder of a task holds, beside the copy of the case: `log` (what Allrun said), `attempts` (start and end of each, one
+JSON object per line), and then `done` or `failed`. Whoever runs it holds a lock on `attempts`.
+"""
+
+import contextlib
+import csv
+import fcntl
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+import caseFiles
+
+# What a template's outputs are called, which must not be copied with it.
+OUTPUTS = ("stages", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
+STOPPED = 143           # exit status of Allrun, and of a task, that SIGTERM ended with a checkpoint
+BETWEEN_LOOKS = 1       # s
+BETWEEN_PRUNINGS = 60   # s
+MOST_ROWS = 5000        # of a published m(t)
+NICENESS = "10"
+
+
+def execute(campaign, task):
+    """Returns the exit status: 0 done, 1 failed, 143 stopped with a checkpoint."""
+    folder = campaign.folder(task)
+    if (folder / "done").exists():
+        return 0
+    makeFolder(campaign, task)
+    with locked(folder / "attempts") as attempts:
+        (folder / "failed").unlink(missing_ok=True)
+        status = 0 if hasEnded(folder) else attempt(campaign, task, attempts)
+        if status == STOPPED:
+            return status
+        try:
+            if status != 0:
+                raise RuntimeError(tail(folder / "log"))
+            if task.publish:
+                publish(campaign, task)
+        except (Exception, SystemExit) as problem:  # whatever it is, the other runs go on, and status shows it
+            (folder / "failed").write_text(f"{problem}\n")
+            return 1
+        (folder / "done").touch()
+    return 0
+
+
+def hasEnded(folder):
+    """True where the last attempt came to its end, and only its results may be missing."""
+    return events(folder)[-1:] != [] and events(folder)[-1].get("status") == 0
+
+
+def attempt(campaign, task, attempts):
+    note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
+    status = runAllrun(campaign, task)
+    note(attempts, {"end": time.time(), "status": status})
+    return status
+
+
+def makeFolder(campaign, task):
+    """The copy of the template; one that is there from an earlier attempt must have the same parameters."""
+    folder, text = campaign.folder(task), campaign.parameterText(task)
+    if folder.exists():
+        if (folder / "parameters").read_text() != text:
+            raise SystemExit(f"campaign: {folder} was begun with other parameters than the campaign's file has now; "
+                             "remove that folder to begin anew, or give the run another name")
+        return
+    unfinished = folder.with_name(folder.name + ".unfinished")
+    shutil.rmtree(unfinished, ignore_errors=True)
+    shutil.copytree(campaign.case, unfinished, ignore=shutil.ignore_patterns(*OUTPUTS))
+    (unfinished / "parameters").write_text(text)
+    for program in campaign.case.iterdir():
+        # a link: it finds the repository's scripts from where it really is
+        if program.is_file() and os.access(program, os.X_OK):
+            (unfinished / program.name).unlink()
+            (unfinished / program.name).symlink_to(program)
+    for made, maker in task.links:
+        (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
+        (unfinished / made).symlink_to(campaign.work / maker / made)
+    unfinished.rename(folder)
+
+
+@contextlib.contextmanager
+def locked(path):
+    with open(path, "a") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise SystemExit(f"campaign: {path.parent} is being run already") from None
+        yield file
+
+
+def note(attempts, event):
+    attempts.write(json.dumps(event) + "\n")
+    attempts.flush()
+
+
+def runAllrun(campaign, task):
+    folder = campaign.folder(task)
+    program = campaign.work / "program"
+    libraries = [str(program / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
+    environment = os.environ | {"CLEPSYDRA_BUILD": str(program), "LD_LIBRARY_PATH": ":".join(libraries)}
+    with open(folder / "log", "a") as log:
+        # a session of its own: an interrupt from the terminal reaches this program only, which asks for a checkpoint
+        process = subprocess.Popen(["nice", "-n", NICENESS, "./Allrun", "-np", str(task.ranks), task.part], cwd=folder,
+                                   env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
+    for stop in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(stop, lambda *_: process.send_signal(signal.SIGTERM))
+    nextPruning = time.time() + BETWEEN_PRUNINGS
+    while process.poll() is None:
+        time.sleep(BETWEEN_LOOKS)
+        if time.time() > nextPruning:
+            prune(campaign, task)
+            nextPruning = time.time() + BETWEEN_PRUNINGS
+    prune(campaign, task)
+    return process.returncode
+
+
+def prune(campaign, task):
+    """Removes the older fields and checkpoints, where the campaign says so."""
+    stage = stageFolder(campaign, task)
+    if campaign.keepTimes is None or not (stage / "checkpoints").is_dir():
+        return
+    complete = sorted((marker.parent for marker in (stage / "checkpoints").glob("*/complete")),
+                      key=lambda checkpoint: float(checkpoint.name))
+    for checkpoint in complete[:-campaign.keepTimes]:
+        for part in [stage, *stage.glob("processor*")]:
+            shutil.rmtree(part / checkpoint.name, ignore_errors=True)
+        shutil.rmtree(checkpoint)
+
+
+def stageFolder(campaign, task):
+    return campaign.folder(task) / "stages" / task.part
+
+
+def tail(path, lines=25):
+    return "\n".join(path.read_text(errors="replace").splitlines()[-lines:]) + "\n"
+
+
+# --- results -------------------------------------------------------------------------------------
+
+def publish(campaign, task):
+    """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
+    campaign.results.mkdir(parents=True, exist_ok=True)
+    stage = stageFolder(campaign, task)
+    columns = caseFiles.columns(stage, "massInHopper")
+    rows = columns.T[::-(-columns.shape[1] // MOST_ROWS)]
+    with replacing(campaign.results / f"{task.publish}.csv") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["time [s]", "mass [kg]", "beads [-]"])
+        table.writerows((f"{t:.6g}", f"{m:.7g}", int(beads)) for t, m, beads, *_ in rows)
+
+    parameters = campaign.parameters(task)
+    text = subprocess.run([*campaign.template["summary"], task.part],
+                          cwd=campaign.folder(task), stdout=subprocess.PIPE, check=True).stdout
+    record = {"campaign": campaign.path.stem, "run": task.publish, "entry": task.entry, "stage": task.part,
+              "seed": parameters[campaign.template["seed"]], "parameters": parameters,
+              "packing": packing(campaign, task), "code": codeVersions(stage / "log.pimpleDemFoam"),
+              "cost": cost(campaign, task), "summary": json.loads(text)}
+    with replacing(campaign.results / f"{task.publish}.json") as file:
+        json.dump(record, file, indent=2)
+        file.write("\n")
+
+
+@contextlib.contextmanager
+def replacing(path):
+    """A file that is there whole or as it was before."""
+    unfinished = path.with_name(path.name + ".unfinished")
+    with open(unfinished, "w") as file:
+        yield file
+    unfinished.rename(path)
+
+
+def packing(campaign, task):
+    """Which pour a run began from, and where its parameters differ from the run's."""
+    pour = next(campaign.tasks[name] for name in task.needs if campaign.tasks[name].part == "pour")
+    own, poured = campaign.parameters(task), campaign.parameters(pour)
+    return {"name": pour.name, "otherParameters": {name: poured[name] for name in own if own[name] != poured[name]}}
+
+
+def codeVersions(log):
+    """What the solver says of itself, once for each version that took part."""
+    with open(log, errors="replace") as lines:
+        return list(dict.fromkeys(line.strip() for line in lines if line.startswith("    Clepsydra ")))
+
+
+def events(folder):
+    path = folder / "attempts"
+    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+
+
+def attemptsOf(folder):
+    """[start, end, ranks] of each; an attempt that was killed ended when its log was last written."""
+    found = []
+    for event in events(folder):
+        if "start" in event:
+            found.append([event["start"], None, event["ranks"]])
+        else:
+            found[-1][1] = event["end"]
+    for number, (_, end, _) in enumerate(found):
+        if end is None:
+            following = found[number + 1][0] if number + 1 < len(found) else time.time()
+            found[number][1] = min(lastWritten(folder), following)
+    return found
+
+
+def lastWritten(folder):
+    return max(path.stat().st_mtime for path in [folder / "attempts", *folder.glob("stages/*/log.pimpleDemFoam")])
+
+
+def wallSeconds(folder):
+    return sum(max(0, end - start) for start, end, _ in attemptsOf(folder))
+
+
+def cost(campaign, task):
+    attempts = attemptsOf(campaign.folder(task))
+    return {"wallSeconds": round(wallSeconds(campaign.folder(task)), 1), "attempts": len(attempts),
+            "coreHours": round(sum((end - start) * ranks for start, end, ranks in attempts) / 3600, 4),
+            "ranks": task.ranks, "host": socket.gethostname(), "processor": processorName(),
+            "loadAverage": round(os.getloadavg()[2], 2), "finished": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+
+
+def processorName():
+    with contextlib.suppress(OSError):
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return "unknown"

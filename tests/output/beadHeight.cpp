@@ -1,0 +1,101 @@
+// First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
+#include <gmock/gmock.h>
+
+#include "output/beadHeight.h"
+#include "output/observedBeads.h"
+#include "support/boxMesh.h"
+#include "support/fakeEngine.h"
+#include "support/temporaryCase.h"
+
+#include "IStringStream.H"
+#include "functionObject.H"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+using Foam::Pstream;
+
+/// Two beads in a unit cube, 1 at rest and 2 that moves, each on the last rank.
+class TwoBeads
+{
+public:
+    explicit TwoBeads(TemporaryCase& temporaryCase)
+        : mesh_(boxMesh(temporaryCase.time(), {0, 0, 0}, {1, 1, 1}, {2, 2, 2})),
+          engine_(0.01),
+          observed_(*mesh_, engine_)
+    {
+        if (Pstream::myProcNo() == Pstream::nProcs() - 1)
+        {
+            engine_.addBead(1, {0.5, 0.5, 0.5}, 0.01);
+            engine_.addBead(2, {0.25, 0.5, 0.75}, 0.01, 2500, {0.3, 0, -0.4});
+        }
+        engine_.initialise(nullptr);
+    }
+
+private:
+    std::unique_ptr<Foam::fvMesh> mesh_;
+    FakeEngine engine_;
+    ObservedBeads observed_;
+};
+
+/// Bead 2 along an axis that is neither z nor of length 1: height .25*.6 + .75*.8 = .75, velocity .3*.6 - .4*.8 = -.14,
+/// in the row that OpenFOAM itself leaves out, at t = 0, and in each of the run's steps. The other bead, the z axis, an
+/// axis that is not normalised or one rank's part only give other numbers.
+TEST(BeadHeight, FollowsTheBeadNamed)
+{
+    TemporaryCase temporaryCase("functions { height { type beadHeight; bead 2; axis (3 0 4); } } endTime 0.03;");
+    TwoBeads beads(temporaryCase);
+    while (temporaryCase.time().loop())
+    {}
+
+    if (Pstream::master())
+    {
+        std::ifstream in(temporaryCase.folder() / "postProcessing/height/0/height.dat");
+        int rows = 0;
+        for (std::string line; std::getline(in, line);)
+        {
+            double time = 0;
+            double height = 0;
+            double velocity = 0;
+            if (line.front() != '#' && std::istringstream(line) >> time >> height >> velocity)
+            {
+                EXPECT_NEAR(time, 0.01 * rows, 1e-9);
+                EXPECT_NEAR(height, 0.75, 1e-6);
+                EXPECT_NEAR(velocity, -0.14, 1e-6);
+                ++rows;
+            }
+        }
+        EXPECT_EQ(rows, 4);
+    }
+}
+
+/// A bead that is not there must end the run with words that help, and leave no file behind.
+TEST(BeadHeight, RefusesABeadThatIsNotThere)
+{
+    TemporaryCase temporaryCase;
+    TwoBeads beads(temporaryCase);
+    const Foam::dictionary dict(Foam::IStringStream("type beadHeight; bead 3;")());
+    try
+    {
+        Foam::functionObject::New("beadHeight", temporaryCase.time(), dict);
+        ADD_FAILURE() << "taken";
+    }
+    catch (const Foam::IOerror& error)
+    {
+        EXPECT_THAT(std::string(error.message()),
+            testing::AllOf(testing::HasSubstr("'bead' is 3"), testing::HasSubstr("2 beads")));
+    }
+    EXPECT_FALSE(std::filesystem::exists(temporaryCase.folder() / "postProcessing"));
+}
+
+} // namespace
+
+} // namespace clepsydra::tests
