@@ -55,6 +55,29 @@ void checkMaterialValues(const dictionary& variables)
     }
 }
 
+/// \param changes  the dictionary DEM/groupChanges, a sub-dictionary each.
+std::vector<GroupChange> readGroupChanges(const dictionary& changes)
+{
+    std::vector<GroupChange> read;
+    for (const entry& item : changes)
+    {
+        if (!item.isDict())
+        {
+            FatalIOErrorInFunction(changes)
+                << "Entry '" << item.keyword() << "' of DEM/groupChanges is no dictionary; allowed: "
+                << "name { from <group>; to <group>; below <z>; }" << exit(FatalIOError);
+        }
+        const dictionary& dict = item.dict();
+        GroupChange change{item.keyword(), dict.get<word>("from"), dict.get<word>("to"), dict.get<double>("below"), {}};
+        if (dict.found("slowerThan"))
+        {
+            change.rest = GroupChange::Rest{positiveEntry(dict, "slowerThan"), positiveEntry(dict, "during")};
+        }
+        read.push_back(std::move(change));
+    }
+    return read;
+}
+
 } // namespace
 
 CouplingSettings::CouplingSettings(const Time& time)
@@ -153,6 +176,7 @@ LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeF
         setup.variables.emplace_back(name, exactText(variables.lookup(name)[0]));
     }
     checkMaterialValues(variables);
+    setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));
     setup.logFile = "log.liggghts";
     setup.resumeFrom = resumeFrom;
     return setup;

@@ -18,7 +18,8 @@ namespace
 
 constexpr double interval = 1e-3;
 
-/// 72 beads that fall and pile up on a floor: contacts with beads and walls, friction and its history.
+/// 72 beads that fall and pile up on a floor: contacts with beads and walls, friction and its history. The
+/// lowest come to rest for good.
 void pilingBeads(TestCase& test, bool fluid)
 {
     test.box.upper = {0.012, 0.012, 0.024};
@@ -27,6 +28,15 @@ void pilingBeads(TestCase& test, bool fluid)
     jitter(test.dem.beads, 2e-4, 11);
     test.dem.timeStep = 4e-5;
     test.dem.dumpEvery = 250;
+    test.dem.fixed = true;
+    test.dem.more = "group moving union all\ngroup resting initialize\nneigh_modify exclude group resting resting\n"
+                    "fix integrate moving nve/sphere\n";
+    test.coupling()
+        .set("DEM/groupChanges/atRest/from", "moving")
+        .set("DEM/groupChanges/atRest/to", "resting")
+        .set("DEM/groupChanges/atRest/below", "3e-3")
+        .set("DEM/groupChanges/atRest/slowerThan", "5e-3")
+        .set("DEM/groupChanges/atRest/during", "0.02");
     test.setFluid(1000, 1e-6);
     test.control()
         .set("startFrom", "latestTime")
@@ -90,6 +100,10 @@ TEST_P(StopAndResume, EqualsNeverStopped)
     const Outcome second = stopped.runCommand("echo \"endTime 0.16;\" >> system/controlDict && $SOLVER");
     ASSERT_TRUE(second.succeeded()) << second.output;
     EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.12")) << second.output;
+
+    const auto resting = through.beadHistory().back().velocity.colwise().squaredNorm().array() == 0;
+    EXPECT_GT(resting.count(), 5);
+    EXPECT_LT(resting.count(), resting.size() - 20);
 
     const double apart = distance(through.beadHistory().back(), stopped.beadHistory().back(), through.dem.diameter);
     std::cout << (fluid ? "with fluid: " : "dry: ") << apart << " d after 1000 steps from the checkpoint" << std::endl;

@@ -79,6 +79,7 @@ public:
         LiggghtsSetup setup;
         setup.script = name;
         setup.logFile = name + ".log";
+        setup.groupChanges = groupChanges;
         engine_ = std::make_unique<LiggghtsEngine>(setup);
         std::filesystem::remove(name);
         std::filesystem::remove(name + ".log");
@@ -102,8 +103,20 @@ public:
         return sumOverRanks(found);
     }
 
+    Vector3d position(int bead)
+    {
+        const BeadsView beads = engine_->beads();
+        Vector3d found = Vector3d::Zero();
+        for (Eigen::Index i = 0; i < beads.size(); ++i)
+        {
+            found += beads.id[i] == bead ? Vector3d(beads.position.col(i)) : Vector3d::Zero();
+        }
+        return sumOverRanks(found);
+    }
+
     Box box;
     DemScript dem;
+    std::vector<GroupChange> groupChanges;
 
 private:
     std::unique_ptr<LiggghtsEngine> engine_;
@@ -304,6 +317,92 @@ TEST(Liggghts, PoursADistributionOfSizes)
     EXPECT_NEAR(deviation / 0.8796e-4, 1, 0.06);
     EXPECT_GT(diameters.minCoeff(), 1.8e-3);
     EXPECT_LT(diameters.maxCoeff(), 2.2e-3);
+}
+
+namespace
+{
+
+/// Beads that rest below 5 mm once slower than 5 mm/s for 10 ms, and then are no more integrated.
+Beads restingBeads()
+{
+    Beads beads;
+    beads.dem.walls = true;
+    beads.dem.fixed = true;
+    beads.dem.restitution = 0.3;
+    beads.dem.more = "group moving union all\ngroup resting initialize\nneigh_modify exclude group resting resting\n"
+                     "fix integrate moving nve/sphere\n";
+    beads.groupChanges = {{"atRest", "moving", "resting", 5e-3, GroupChange::Rest{5e-3, 0.01}}};
+    return beads;
+}
+
+void advanceInIntervals(LiggghtsEngine& engine, double seconds)
+{
+    constexpr double interval = 1e-3;
+    for (int i = 0; i < std::lround(seconds / interval); ++i)
+    {
+        engine.advance(static_cast<int>(std::lround(interval / engine.timeStep())));
+    }
+}
+
+} // namespace
+
+/// A bead that has settled on the floor does not move any more, not even when another falls on it; that one, which
+/// starts at the same time but higher, is thrown back by it and does not go through. Without the change of group the
+/// bead below is moved by micrometres and more; a resting bead that is taken out altogether lets the other through.
+TEST(GroupChange, RestingBeadsStayAndAreFeltByOthers)
+{
+    Beads beads = restingBeads();
+    beads.dem.beads = {{0.0201, 0.01, 1.1e-3}, {0.0199, 0.01, 0.019}};
+    LiggghtsEngine& engine = beads.start(nullptr);
+    advanceInIntervals(engine, 0.05);
+    const Vector3d before = beads.position(1);
+    EXPECT_EQ(beads.velocity(1), Vector3d::Zero());
+    ASSERT_GT(beads.position(2).z(), 3e-3);
+    advanceInIntervals(engine, 0.05);
+    EXPECT_EQ(beads.position(1), before);
+    EXPECT_GT((beads.position(2) - before).norm(), 1.98e-3);
+    EXPECT_NE(beads.velocity(2), Vector3d::Zero());
+}
+
+/// Above the threshold no bead rests for good: the same bead on the same floor goes on trembling.
+TEST(GroupChange, LeavesBeadsAboveTheThreshold)
+{
+    Beads beads = restingBeads();
+    beads.groupChanges.front().below = 0.5e-3;
+    beads.dem.beads = {{0.0201, 0.01, 1.1e-3}};
+    advanceInIntervals(beads.start(nullptr), 0.05);
+    EXPECT_NE(beads.velocity(1), Vector3d::Zero());
+}
+
+/// A group that the script does not make, and beads that are in neither of the two, are refused by name: nothing would
+/// move them.
+TEST(GroupChange, RefusesWhatTheScriptLacks)
+{
+    const auto messageOf = [](Beads& beads) {
+        beads.dem.beads = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+        try
+        {
+            beads.start(nullptr).advance(1);
+        }
+        catch (const DemEngineError& error)
+        {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    Beads misspelt = restingBeads();
+    misspelt.groupChanges.front().to = "restng";
+    const std::string unknown = messageOf(misspelt);
+    EXPECT_NE(unknown.find("atRest"), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("'restng'"), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("all moving resting"), std::string::npos) << unknown;
+
+    Beads forgotten = restingBeads();
+    forgotten.groupChanges.front().from = "resting";
+    forgotten.groupChanges.front().to = "other";
+    forgotten.dem.more += "group other initialize\n";
+    const std::string inNone = messageOf(forgotten);
+    EXPECT_NE(inNone.find("is in neither of the groups 'resting' and 'other'"), std::string::npos) << inNone;
 }
 
 } // namespace clepsydra::tests

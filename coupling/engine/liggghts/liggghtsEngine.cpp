@@ -79,6 +79,10 @@ public:
             execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
         runScript(setup.script, setup.resumeFrom);
+        for (const GroupChange& change : setup.groupChanges)
+        {
+            groupChangers_.emplace_back(*program_, change);
+        }
     }
 
     ~Implementation()
@@ -141,6 +145,26 @@ public:
                                      + " and " + std::to_string(pair % materialCount + 1) + " is "
                                      + std::to_string(value) + "; allowed: a number >= 0");
             }
+        }
+    }
+
+    void addGroupChanges()
+    {
+        for (const GroupChanger& changer : groupChangers_)
+        {
+            const std::string command = changer.propertyCommand();
+            if (!command.empty())
+            {
+                execute(command, "group changes");
+            }
+        }
+    }
+
+    void changeGroups(double elapsed)
+    {
+        for (GroupChanger& changer : groupChangers_)
+        {
+            changer.apply(elapsed);
         }
     }
 
@@ -255,6 +279,7 @@ private:
     FluidForces* forces_ = nullptr;
     bool seesPairs_ = false;
     std::vector<std::array<int, 2>> pairList_;
+    std::vector<GroupChanger> groupChangers_;
     bool boxMade_ = false;
     bool failed_ = false;
 };
@@ -273,6 +298,7 @@ void LiggghtsEngine::seePairs(double reach)
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     implementation_->addCouplingState();
+    implementation_->addGroupChanges();
     if (forces)
     {
         implementation_->addFluidForce(forces);
@@ -291,6 +317,7 @@ void LiggghtsEngine::prepare()
 void LiggghtsEngine::advance(int steps)
 {
     implementation_->execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+    implementation_->changeGroups(steps * timeStep());
 }
 
 BeadsView LiggghtsEngine::beads()

@@ -1,11 +1,13 @@
 #pragma once
 
 #include "engine/demEngine.h"
+#include "engine/liggghts/groupChanges.h"
 
 #include <mpi.h>
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace clepsydra
 {
@@ -19,8 +21,10 @@ struct LiggghtsSetup
     std::filesystem::path logFile;
     /// A checkpoint to go on from; empty: the script's own beginning. With a checkpoint the script's first
     /// `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or changes beads
-    /// (`create_atoms`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
+    /// (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
     std::filesystem::path resumeFrom;
+    /// Between two intervals, in this order.
+    std::vector<GroupChange> groupChanges;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 

@@ -67,7 +67,7 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script)
 bool makesBeads(const std::string& command)
 {
     static const std::set<std::string> commands = {"create_box", "read_data", "read_restart", "create_atoms",
-        "delete_atoms", "displace_atoms", "set", "velocity", "reset_timestep"};
+        "delete_atoms", "displace_atoms", "group", "set", "velocity", "reset_timestep"};
     return commands.count(word(command, 0)) > 0;
 }
 

@@ -1,0 +1,84 @@
+"""cases/hopperQuick in a folder of its own, poured once; every comparison starts from this packing."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parent.parent.parent
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+import caseFiles
+
+# The hopper of the measurements: 13,900 beads of 2 mm in 5 cm.
+FULL_SIZE = {"beadCount": "13900", "hopperDiameter": "0.05", "hopperHeight": "0.095", "orificeDiameter": "0.02",
+             "tankDiameter": "0.12", "tankDepth": "0.06", "pourTime": "1.4"}
+
+
+class Hopper:
+    def __init__(self, folder, quick):
+        self.case = folder / "cases" / "hopperQuick"
+        self.quick = quick
+        shutil.copytree(REPOSITORY / "cases" / "hopperQuick", self.case,
+                        ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
+        for name in ("meshes", "scripts"):
+            (folder / name).symlink_to(REPOSITORY / name)
+        if not quick:
+            self._setParameters(FULL_SIZE)
+        self.parameters = caseFiles.parameters(self.case / "parameters")
+        self._poured = False
+
+    def stage(self, template, name, duration, ranks=1, **entries):
+        """A stage like `dry` or `submerged`, from the packing, that ends after `duration` [s]; its folder."""
+        self._pour()
+        folder = self.case / "stages" / name
+        shutil.rmtree(folder, ignore_errors=True)
+        self.inFolder(self.case, f". ./functions; ranks=1; prepareStage {template}")
+        shutil.copytree(self.case / "stages" / template, folder, symlinks=True)
+        entries = {"stageEndTime": duration, "ranks": ranks, **entries}
+        with open(folder / "stage", "a") as stage:
+            stage.writelines(f"{entry} {value};\n" for entry, value in entries.items())
+        if ranks > 1:
+            self.inFolder(folder, "decomposePar > log.decomposePar 2>&1")
+        return folder
+
+    @property
+    def packing(self):
+        self._pour()
+        return self.case / "stages" / "pour" / "packing.restart"
+
+    @staticmethod
+    def inFolder(folder, commands):
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, capture_output=True, text=True)
+        if done.returncode != 0:
+            sys.exit(f"{done.stdout[-2000:]}{done.stderr[-2000:]}\nbenchmark: failed in {folder}: {commands}")
+        return done.stdout
+
+    def _pour(self):
+        if not self._poured:
+            # All of Allrun but its last line, which calls main.
+            self.inFolder(self.case, "sed '$d' Allrun > functions; . ./functions; ranks=1; "
+                                     "startAfresh; makeMesh; runStages pour; requireAllBeads")
+            self._poured = True
+
+    def _setParameters(self, values):
+        file = self.case / "parameters"
+        text = file.read_text().splitlines()
+        for name, value in values.items():
+            at = [i for i, line in enumerate(text) if line.split(" ")[0] == name]
+            if len(at) != 1:
+                sys.exit(f"benchmark: {file} has no entry '{name}'")
+            text[at[0]] = f"{name} {value};"
+        file.write_text("\n".join(text) + "\n")
+
+
+def solver(ranks=1):
+    command = ["pimpleDemFoam"]
+    return command if ranks == 1 else ["mpirun", "-np", str(ranks), *command, "-parallel"]
+
+
+def forgetResults(folder):
+    """Lets a stage begin anew: it would go on from its last checkpoint."""
+    for pattern in ("checkpoints", "postProcessing", "VTK", "[0-9]*", "processor*/[0-9]*"):
+        for path in folder.glob(pattern):
+            if path.name != "0":
+                shutil.rmtree(path)

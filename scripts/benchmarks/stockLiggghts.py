@@ -1,0 +1,55 @@
+"""Our way to run the beads against stock LIGGGHTS: mesh walls, every bead integrated, half the step."""
+
+from . import timing
+from .hopper import forgetResults, solver
+
+STOCK_STEP = 2e-5
+
+
+def demOverStockLiggghts(hopper, repetitions):
+    duration = 0.3 if hopper.quick else float(hopper.parameters["dryTime"])
+    folder = hopper.stage("dry", "ours", duration)
+    (folder / "in.stock").write_text(script(hopper, duration))
+    times = timing.interleaved({
+        "stock": timing.Run(["liggghts", "-in", "in.stock", "-screen", "/dev/null", "-log", "log.stock"], folder),
+        "ours": timing.Run(solver(), folder, prepare=lambda: forgetResults(folder)),
+    }, repetitions)
+    return timing.Figure(
+        timing.ratios(times, "stock", "ours", "processor"), target=">= 2.5",
+        meaning=f"processor time of stock LIGGGHTS, mesh walls, dt 2e-5 s, over ours; first {duration} s of the drain",
+        details={name: [time.processor for time in of] for name, of in times.items()})
+
+
+def script(hopper, duration):
+    """A LIGGGHTS script as its tutorials write it, for the packing that the case poured."""
+    p = hopper.parameters
+
+    def perMaterial(name, count):
+        return " ".join([str(p[name])] * count)
+
+    return f"""atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+units si
+neighbor {0.3 * p["beadDiameter"]} bin
+neigh_modify delay 0
+read_restart {hopper.packing}
+fix youngs all property/global youngsModulus peratomtype {perMaterial("youngsModulus", 3)}
+fix poisson all property/global poissonsRatio peratomtype {perMaterial("poissonRatio", 3)}
+fix restitution all property/global coefficientRestitution peratomtypepair 3 {perMaterial("restitution", 9)}
+fix friction all property/global coefficientFriction peratomtypepair 3 {perMaterial("friction", 9)}
+pair_style gran model hertz tangential history
+pair_coeff * *
+timestep {STOCK_STEP}
+fix gravity all gravity 9.81 vector 0 0 -1
+fix cylinder all mesh/surface file DEM/meshes/hopperWall.stl type 2
+fix plate all mesh/surface file DEM/meshes/hopperPlate.stl type 3
+fix hopper all wall/gran model hertz tangential history mesh n_meshes 2 meshes cylinder plate
+fix tankFloor all wall/gran model hertz tangential history primitive type 2 zplane -{p["tankDepth"]}
+fix tankSide all wall/gran model hertz tangential history primitive type 2 zcylinder {p["tankDiameter"] / 2} 0 0
+fix motion all nve/sphere
+thermo 10000
+run {round(duration / STOCK_STEP)}
+"""

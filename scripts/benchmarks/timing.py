@@ -1,0 +1,68 @@
+"""Times programs in turn, so that a machine that grows faster or slower does so for all of them."""
+
+import os
+import statistics
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass
+class Figure:
+    """What one entry of the benchmark measured, one value a repetition."""
+
+    values: list
+    meaning: str
+    target: str = ""
+    details: dict = field(default_factory=dict)
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+
+@dataclass
+class Run:
+    """A command, the folder it runs in, and what it must find there: `prepare` is not timed."""
+
+    command: list
+    folder: Path
+    prepare: object = None
+
+
+@dataclass
+class Time:
+    wall: float
+    processor: float  # user and system, of the command and all its children
+
+
+def timed(run):
+    """Runs it once; ends the benchmark with its last lines where it fails."""
+    if run.prepare:
+        run.prepare()
+    log = run.folder / "log.timed"
+    with open(log, "w") as output:
+        before, start = os.times(), time.monotonic()
+        status = subprocess.call(run.command, cwd=run.folder, stdout=output, stderr=subprocess.STDOUT,
+                                 stdin=subprocess.DEVNULL)
+        wall, after = time.monotonic() - start, os.times()
+    if status != 0:
+        lines = log.read_text(errors="replace").splitlines()[-20:]
+        sys.exit("\n".join(lines + [f"benchmark: {' '.join(map(str, run.command))} failed in {run.folder}"]))
+    return Time(wall, after.children_user + after.children_system - before.children_user - before.children_system)
+
+
+def interleaved(runs, repetitions):
+    """Times of each run by its name: A B ... A B ..., `repetitions` of each."""
+    times = {name: [] for name in runs}
+    for _ in range(repetitions):
+        for name, run in runs.items():
+            times[name].append(timed(run))
+    return times
+
+
+def ratios(times, slow, fast, quantity):
+    """slow/fast of each repetition; `quantity` is "wall" or "processor"."""
+    return [getattr(a, quantity) / getattr(b, quantity) for a, b in zip(times[slow], times[fast])]
