@@ -134,7 +134,7 @@ class CampaignOfStandIns(CampaignTest):
         self.assertEqual(outcome.returncode, 2)
         self.assertRegex(outcome.stderr, r"test\.yaml.*fricton.*seed, friction, cellSize")
         self.sweep([0.1], stage="dry")
-        self.assertRegex(self.call("status").stderr, "unknown entry 'stage'; allowed: case")
+        self.assertRegex(self.call("status").stderr, "unknown entry 'stage'; allowed: base, case")
         self.assertFalse((self.folder / "work" / "runs").exists())
 
 
