@@ -134,7 +134,7 @@ class CampaignOfStandIns(CampaignTest):
         self.assertEqual(outcome.returncode, 2)
         self.assertRegex(outcome.stderr, r"test\.yaml.*fricton.*seed, friction, cellSize")
         self.sweep([0.1], stage="dry")
-        self.assertRegex(self.call("status").stderr, "unknown entry 'stage'; allowed: case")
+        self.assertRegex(self.call("status").stderr, "unknown entry 'stage'; allowed: base, case")
         self.assertFalse((self.folder / "work" / "runs").exists())
 
 
@@ -179,7 +179,7 @@ class CampaignOnSlurm(CampaignTest):
 class CampaignOfHoppers(CampaignTest):
     def testTheQuickHopperThroughTheRealProgram(self):
         """300 beads, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very same
-        mass and reach their end, and no row may be lost or doubled by the stop."""
+        mass, the smoother beads must leave faster, and no row may be lost or doubled by the stop."""
         self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), stages="dry", keepTimes=2, parameters={
             "beadCount": 300, "hopperDiameter": 0.015, "orificeDiameter": 0.009, "hopperHeight": 0.04,
             "tankDiameter": 0.04, "tankDepth": 0.025, "waterAboveRim": 0.01, "pourTime": 0.7, "dryTime": 1.5},
@@ -195,7 +195,8 @@ class CampaignOfHoppers(CampaignTest):
         low, high = self.rows("mu-0.1.100003.dry"), self.rows("mu-0.5.100003.dry")
         self.assertEqual(low[0], high[0])
         self.assertEqual(low[0][2], 300)
-        self.assertLess(low[-1][2], high[-1][2])
+        # 0.2 s after the start: what stays on the bottom at the end is chance
+        self.assertLess(low[100][2], high[100][2])
         for rows in (low, high):
             times = [time for time, _, _ in rows]
             steps = [later - earlier for earlier, later in zip(times, times[1:])]
