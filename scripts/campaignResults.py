@@ -41,9 +41,13 @@ def byCase(runs):
     return found
 
 
-def meanAndError(values, deviation=None):
-    """Mean of repeats and its standard error: from their own scatter, or from the deviation of one run where given."""
-    values = np.asarray(values, dtype=float)
-    if deviation is None:
-        deviation = values.std(ddof=1)
-    return values.mean(), deviation / np.sqrt(len(values))
+def pooledDeviation(groups):
+    """Standard deviation of one run, taken to be the same in all groups of repeats."""
+    groups = [np.asarray(group, dtype=float) for group in groups]
+    freedom = sum(len(group) - 1 for group in groups)
+    return np.sqrt(sum(((group - group.mean()) ** 2).sum() for group in groups) / freedom)
+
+
+def meanAndError(values, deviation):
+    """Mean of repeats and its standard error, from the deviation of one run."""
+    return np.mean(values), deviation / np.sqrt(len(values))
