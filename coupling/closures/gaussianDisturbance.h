@@ -12,8 +12,9 @@
 ///     g(a) = a ((1 + a2) atan(1/a) - a)
 ///
 /// R = B = 0: F/(3 pi^1.5 mu b), Stokes' flow; R -> inf, B = 0: F/(2 pi rho U b2), half the wake's momentum deficit.
-/// That the Oseen solution of the smeared force is what finite Re needs is Balachandar, Liu & Lakhote, J. Comput. Phys.
-/// 376, 160 (2019) and Evrard, Denner & van Wachem, J. Fluid Mech. 901, A10 (2020); steady: memory is not in it.
+/// The idea, a closed form of the velocity that a smeared force gives itself, is Balachandar, Liu & Lakhote's, J. Comput.
+/// Phys. 376, 160 (2019); with Gaussian and Wendland kernels, and an Oseen factor for finite Re: arXiv 2503.03467; with
+/// memory, which is not in here: arXiv 2405.08188. The integral above was worked out for this file.
 #pragma once
 
 #include "closures/constants.h"
