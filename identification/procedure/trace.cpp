@@ -1,0 +1,317 @@
+#include "procedure/trace.h"
+
+#include "procedure/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// A fit that ends further than this from where the simulator was run is run again there.
+constexpr double farInPriorSds = 1.0;
+constexpr int nullFits = 2;
+
+/// Effects this much less likely than the best one in the linear scores are not worth runs of the simulator.
+constexpr double hopeless = 6.0;
+
+class Tracing
+{
+public:
+    Tracing(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+        std::mt19937_64& random)
+        : simulator_(simulator),
+          study_(simulator.study()),
+          library_(library),
+          data_(data),
+          random_(random),
+          training_(study_.conditionsOf(Role::training))
+    {}
+
+    Answer run()
+    {
+        estimateNoise();
+        fitNull();
+        test();
+        scoreAll();
+        if (answer_.significance.pValue < study_.settings.level)
+        {
+            confirmBest();
+            decide();
+        }
+        return std::move(answer_);
+    }
+
+private:
+    void estimateNoise()
+    {
+        Scatter measured;
+        for (const auto condition : training_)
+        {
+            measured.add(data_[condition].features);
+        }
+        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError);
+    }
+
+    /// Linear fit on the library, simulation at the fit, fit again: the test must not see the library's curvature.
+    void fitNull()
+    {
+        std::vector<Simulation> base;
+        for (const auto condition : training_)
+        {
+            const auto& rows = library_.conditions[condition].baseFeatures;
+            for (Eigen::Index row = 0; row < rows.rows(); ++row)
+            {
+                base.push_back({condition, rows.row(row).transpose(), {}, {}, 0, false});
+            }
+        }
+        Eigen::VectorXd anchor = simulator_.plainSetting().parameters;
+        answer_.problem = assemble(study_, library_, data_, base, anchor);
+        if (answer_.problem.residual.size() <= answer_.problem.parameterColumns.cols())
+        {
+            throw std::runtime_error(study_.file.string()
+                + ": the training conditions have too few features in common with the simulation");
+        }
+        for (int fit = 0; fit < nullFits; ++fit)
+        {
+            anchor = shifted(answer_.problem, Fits(whitened(answer_.problem, answer_.noise)).parameterShift());
+            answer_.atFit = simulator_.repeats(training_, simulator_.plainSetting(anchor),
+                fit == 0 ? "null fit" : "null fit, again", study_.settings.repeatsAtFit);
+            answer_.problem = assemble(study_, library_, data_, answer_.atFit, anchor);
+            const Fits refit(whitened(answer_.problem, answer_.noise));
+            const Eigen::VectorXd shift = refit.parameterShift();
+            answer_.null.setting = simulator_.plainSetting(shifted(answer_.problem, shift));
+            answer_.null.misfit = refit.nullMisfit();
+            answer_.parameterSd = refit.parameterCovariance().diagonal().cwiseSqrt();
+            if (shift.size() == 0 || shift.cwiseAbs().maxCoeff() < farInPriorSds)
+            {
+                break;
+            }
+        }
+    }
+
+    /// Physical parameters after a shift from a problem's anchor, within their limits.
+    Eigen::VectorXd shifted(const ResidualProblem& problem, const Eigen::VectorXd& shift) const
+    {
+        return physical(study_, problem.parameterOffset + shift);
+    }
+
+    void test()
+    {
+        answer_.significance =
+            significance(answer_.problem, answer_.noise, study_.bounds(), study_.settings.draws, random_);
+        answer_.null.misfitLimit = answer_.significance.nullMisfitLimit;
+        answer_.nullLogOdds = nullEvidence(answer_.problem, answer_.noise);
+        answer_.null.logOdds = answer_.nullLogOdds;
+        answer_.otherLogOdds =
+            otherEvidence(answer_.problem, answer_.noise) + std::log(study_.settings.otherWeight);
+    }
+
+    void scoreAll()
+    {
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
+        {
+            const Effect& effect = study_.effects[e];
+            EffectFinding finding;
+            finding.linear = score(answer_.problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, 0.0,
+                effect.isSwitch);
+            finding.logOdds = finding.linear.logEvidence + std::log(effect.prior);
+            finding.misfitLimit = answer_.significance.misfitLimit[e];
+            answer_.effects.push_back(std::move(finding));
+        }
+    }
+
+    std::vector<std::size_t> byOdds() const
+    {
+        std::vector<std::size_t> order(answer_.effects.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return answer_.effects[a].logOdds > answer_.effects[b].logOdds; });
+        return order;
+    }
+
+    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there.
+    void confirmBest()
+    {
+        const auto order = byOdds();
+        const auto most = std::min(order.size(), static_cast<std::size_t>(study_.settings.confirmations));
+        const double best = order.empty() ? 0.0 : answer_.effects[order.front()].logOdds;
+        for (std::size_t rank = 0; rank < most; ++rank)
+        {
+            EffectFinding& finding = answer_.effects[order[rank]];
+            if (finding.logOdds > best - hopeless && finding.linear.amplitude != 0.0)
+            {
+                confirm(order[rank], finding);
+            }
+        }
+    }
+
+    void confirm(std::size_t e, EffectFinding& finding)
+    {
+        const Effect& effect = study_.effects[e];
+        Setting setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
+        const auto simulations = simulator_.repeats(
+            training_, setting, "confirmation of " + effect.name, study_.settings.repeatsConfirmation);
+        const auto problem = assemble(study_, library_, data_, simulations, setting.parameters);
+        if (problem.residual.size() < answer_.problem.residual.size())
+        {
+            answer_.remarks.push_back("effect " + effect.name
+                + " could not be confirmed: runs with it on have failed or lack features; its linear score is kept");
+            return;
+        }
+        finding.confirmed = score(problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds,
+            finding.linear.amplitude, effect.isSwitch);
+        finding.logOdds = finding.confirmed->logEvidence + std::log(effect.prior);
+        setting.parameters = shifted(problem, finding.confirmed->parameterShift);
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.confirmed->amplitude;
+        settings_[e] = setting;
+        simulations_[e] = simulations;
+    }
+
+    Explanation explanationOf(std::size_t e) const
+    {
+        const EffectFinding& finding = answer_.effects[e];
+        Explanation explanation;
+        explanation.effects = {e};
+        explanation.logOdds = finding.logOdds;
+        explanation.misfit = finding.score().misfit;
+        explanation.misfitLimit = finding.misfitLimit;
+        explanation.confirmed = finding.confirmed.has_value();
+        if (const auto found = settings_.find(e); found != settings_.end())
+        {
+            explanation.setting = found->second;
+        }
+        else
+        {
+            explanation.setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
+            explanation.setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
+        }
+        return explanation;
+    }
+
+    /// The most likely pair, if it beats the best single effect by more than its penalty, switched on and scored again.
+    void tryPairs(std::vector<Explanation>& explanations)
+    {
+        if (!study_.settings.pairs || study_.effects.size() < 2)
+        {
+            return;
+        }
+        const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()));
+        const auto best = pairScores(
+            answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none, 3);
+        for (const auto& pair : best)
+        {
+            const auto first = static_cast<std::size_t>(pair.first);
+            const auto second = static_cast<std::size_t>(pair.second);
+            const double prior = std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
+                - study_.settings.pairPenalty;
+            if (pair.logEvidence + prior < explanations.front().logOdds - study_.settings.setWidth)
+            {
+                continue;
+            }
+            Explanation explanation;
+            explanation.effects = {first, second};
+            explanation.setting = simulator_.plainSetting(shifted(answer_.problem, pair.parameterShift));
+            explanation.setting.amplitudes(pair.first) = pair.firstAmplitude;
+            explanation.setting.amplitudes(pair.second) = pair.secondAmplitude;
+            confirmPair(explanation, prior);
+            answer_.pairs.push_back(explanation);
+        }
+        explanations.insert(explanations.end(), answer_.pairs.begin(), answer_.pairs.end());
+    }
+
+    void confirmPair(Explanation& explanation, double prior)
+    {
+        const auto first = explanation.effects[0];
+        const auto second = explanation.effects[1];
+        const auto simulations = simulator_.repeats(training_, explanation.setting,
+            "confirmation of " + study_.effects[first].name + " with " + study_.effects[second].name,
+            study_.settings.repeatsConfirmation);
+        ResidualProblem problem = assemble(study_, library_, data_, simulations, explanation.setting.parameters);
+        // The two alone: all other columns only cost time here.
+        const std::vector<Eigen::Index> columns = {
+            static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
+        problem.effectColumns = Eigen::MatrixXd(problem.effectColumns(Eigen::all, columns));
+        const Eigen::VectorXd anchor = explanation.setting.amplitudes(columns);
+        const auto bounds = study_.bounds();
+        const auto fixed = study_.fixed();
+        const auto scored = pairScores(problem, answer_.noise, {bounds[first], bounds[second]},
+            {fixed[first], fixed[second]}, anchor, 1);
+        explanation.logOdds = scored.front().logEvidence + prior;
+        explanation.misfit = scored.front().misfit;
+        explanation.misfitLimit =
+            std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
+        explanation.confirmed = problem.residual.size() == answer_.problem.residual.size();
+        explanation.setting.parameters = shifted(problem, scored.front().parameterShift);
+        explanation.setting.amplitudes(columns[0]) = scored.front().firstAmplitude;
+        explanation.setting.amplitudes(columns[1]) = scored.front().secondAmplitude;
+    }
+
+    void decide()
+    {
+        std::vector<Explanation> explanations;
+        for (const auto e : byOdds())
+        {
+            explanations.push_back(explanationOf(e));
+        }
+        if (explanations.empty())
+        {
+            answer_.decision = Decision::unknown;
+            return;
+        }
+        tryPairs(explanations);
+        std::stable_sort(explanations.begin(), explanations.end(),
+            [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+        const Explanation& best = explanations.front();
+        if (best.misfit > best.misfitLimit || answer_.otherLogOdds > best.logOdds)
+        {
+            answer_.decision = Decision::unknown;
+            return;
+        }
+        for (const auto& explanation : explanations)
+        {
+            if (explanation.logOdds > best.logOdds - study_.settings.setWidth
+                && explanation.misfit <= explanation.misfitLimit)
+            {
+                answer_.set.push_back(explanation);
+                if (explanation.effects.size() == 1)
+                {
+                    answer_.effects[explanation.effects.front()].inSet = true;
+                }
+            }
+        }
+        answer_.otherInSet = answer_.otherLogOdds > best.logOdds - study_.settings.setWidth;
+        answer_.decision = answer_.set.size() == 1 && !answer_.otherInSet ? Decision::named : Decision::set;
+        if (const auto found = simulations_.find(best.effects.front());
+            found != simulations_.end() && best.effects.size() == 1)
+        {
+            answer_.ofBest = found->second;
+        }
+    }
+
+    Simulator& simulator_;
+    const Study& study_;
+    const EffectLibrary& library_;
+    const std::vector<MeasuredCondition>& data_;
+    std::mt19937_64& random_;
+    std::vector<std::size_t> training_;
+    std::map<std::size_t, Setting> settings_;
+    std::map<std::size_t, std::vector<Simulation>> simulations_;
+    Answer answer_;
+};
+
+} // namespace
+
+Answer trace(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+    std::mt19937_64& random)
+{
+    return Tracing(simulator, library, data, random).run();
+}
+
+} // namespace clepsydra::identification
