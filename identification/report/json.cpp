@@ -1,6 +1,7 @@
 #include "report/json.h"
 
 #include "procedure/assemble.h"
+#include "report/planReport.h"
 
 #include <clepsydra/version.h>
 
@@ -290,6 +291,7 @@ Json jsonOf(const Findings& findings)
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(nameOf(study, answer.set.front())) : Json(nullptr);
+    json["summary"] = inWords(findings);
     json["set"] = set;
     json["somethingElseInSet"] = answer.otherInSet;
     json["pValue"] = answer.significance.pValue;
