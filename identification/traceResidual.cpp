@@ -46,7 +46,8 @@ int main(int argc, char** argv)
     Arguments arguments;
     CLI::App app("From a measured residual to a named effect: what the model lacks, and the error before and after");
     app.require_subcommand(1);
-    auto* planning = app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
+    auto* planning =
+        app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
     planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
     auto* running = app.add_subcommand("run", "from study file to report; may be interrupted and started again");

@@ -31,11 +31,10 @@ std::string withoutUnit(const std::string& name)
 /// Fields of a line. Commas, semicolons and tabs can stand round empty fields; blanks cannot.
 std::vector<std::string> fields(std::string line)
 {
-    std::replace_if(line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
     std::vector<std::string> found;
-    const char separator = line.find(',') != std::string::npos ? ','
-        : line.find(';') != std::string::npos                  ? ';'
-                                                               : ' ';
+    const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
     std::istringstream words(line);
     std::string word;
     if (separator == ' ')
@@ -112,7 +111,7 @@ std::size_t Table::index(const std::string& column) const
         known += ' ' + name;
     }
     throw std::runtime_error("no column '" + column + "'; there are " + std::to_string(columns.size())
-        + " columns, named:" + (known.empty() ? " (none has a name)" : known));
+                             + " columns, named:" + (known.empty() ? " (none has a name)" : known));
 }
 
 Table readTable(const std::filesystem::path& file)
@@ -149,8 +148,8 @@ Table readTable(const std::filesystem::path& file)
         if (!numbers || (!table.columns.empty() && row.size() != table.columns.size()))
         {
             throw std::runtime_error(file.string() + ":" + std::to_string(lineNumber) + ": expected "
-                + (table.columns.empty() ? "" : std::to_string(table.columns.size()) + " ") + "numbers, found '" + line
-                + "'");
+                                     + (table.columns.empty() ? "" : std::to_string(table.columns.size()) + " ")
+                                     + "numbers, found '" + line + "'");
         }
         table.columns.resize(row.size());
         for (std::size_t i = 0; i < row.size(); ++i)

@@ -3,7 +3,6 @@
 #include "design/plackettBurman.h"
 #include "study/measurements.h"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -110,8 +109,9 @@ std::vector<SimulationOrder> oneAtATimeOrders(const Simulator& simulator, std::s
 {
     const Study& study = simulator.study();
     std::vector<SimulationOrder> orders;
-    const auto add = [&](const Setting& setting)
-    { orders.push_back({condition, setting, "design", static_cast<int>(orders.size()), false}); };
+    const auto add = [&](const Setting& setting) {
+        orders.push_back({condition, setting, "design", static_cast<int>(orders.size()), false});
+    };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         for (const double side : {-1.0, 1.0})
@@ -143,8 +143,8 @@ std::vector<SimulationOrder> designOrders(const Simulator& simulator)
     for (const auto condition : simulator.study().conditionsOf(Role::training))
     {
         const auto more = designOf(simulator.study()) == DesignKind::plackettBurman
-            ? plackettBurmanOrders(simulator, condition)
-            : oneAtATimeOrders(simulator, condition);
+                              ? plackettBurmanOrders(simulator, condition)
+                              : oneAtATimeOrders(simulator, condition);
         orders.insert(orders.end(), more.begin(), more.end());
     }
     return orders;
@@ -159,8 +159,8 @@ struct Group
 };
 
 /// Correlation of runs with one seed at two settings, pooled over conditions and features, with its standard error.
-void measureSeedCorrelation(EffectLibrary& library, const std::vector<Eigen::MatrixXd>& base,
-    const std::vector<Eigen::MatrixXd>& neighbour)
+void measureSeedCorrelation(
+    EffectLibrary& library, const std::vector<Eigen::MatrixXd>& base, const std::vector<Eigen::MatrixXd>& neighbour)
 {
     double products = 0.0;
     double squares = 0.0;
@@ -197,13 +197,13 @@ Eigen::MatrixXd rowsOf(const std::vector<Eigen::VectorXd>& rows, Eigen::Index co
 
 /// One row per run: 1, 1 if it is of the design, parameters in prior sd, amplitudes. The second keeps the curvature
 /// between the base and the middle of the design out of the columns.
-Eigen::MatrixXd regressors(const Study& study, const Group& group, const std::vector<Eigen::Index>& effects,
-    bool designHasBase)
+Eigen::MatrixXd regressors(
+    const Study& study, const Group& group, const std::vector<Eigen::Index>& effects, bool designHasBase)
 {
     const auto parameters = static_cast<Eigen::Index>(study.parameters.size());
     const Eigen::Index first = designHasBase ? 1 : 2;
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(
-        static_cast<Eigen::Index>(group.settings.size()), first + parameters + static_cast<Eigen::Index>(effects.size()));
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(group.settings.size()),
+        first + parameters + static_cast<Eigen::Index>(effects.size()));
     for (Eigen::Index row = 0; row < x.rows(); ++row)
     {
         const auto i = static_cast<std::size_t>(row);
@@ -225,50 +225,84 @@ Eigen::MatrixXd regressors(const Study& study, const Group& group, const std::ve
     return x;
 }
 
-/// Least squares over all runs of a condition, feature by feature, for runs that failed leave gaps.
-void fitColumns(const Study& study, const Group& group, const std::vector<Eigen::Index>& effects, bool designHasBase,
-    Sensitivity& sensitivity)
+/// Columns that are zero in all rows: effects whose every run has failed.
+std::vector<Eigen::Index> silentColumns(const Eigen::MatrixXd& x)
 {
-    const Eigen::MatrixXd x = regressors(study, group, effects, designHasBase);
+    std::vector<Eigen::Index> silent;
+    for (Eigen::Index column = 0; column < x.cols(); ++column)
+    {
+        if (x.col(column).isZero())
+        {
+            silent.push_back(column);
+        }
+    }
+    return silent;
+}
+
+/// Least squares over all runs of a condition, feature by feature, for runs that failed leave gaps.
+/// \param rho  correlation of the design's runs, which share a seed or not
+/// \return the effects of which no run is left
+std::vector<Eigen::Index> fitColumns(const Study& study, const Group& group, const std::vector<Eigen::Index>& effects,
+    bool designHasBase, double rho, Sensitivity& sensitivity)
+{
+    Eigen::MatrixXd x = regressors(study, group, effects, designHasBase);
     const auto parameters = static_cast<Eigen::Index>(study.parameters.size());
     const Eigen::Index first = designHasBase ? 1 : 2;
+    for (Eigen::Index row = 0; row < x.rows(); ++row)
+    {
+        if (group.simulations[static_cast<std::size_t>(row)].failed)
+        {
+            x.row(row).setZero();
+        }
+    }
+    const auto silent = silentColumns(x);
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
     {
         std::vector<Eigen::Index> rows;
+        std::vector<double> values;
         for (Eigen::Index row = 0; row < x.rows(); ++row)
         {
-            if (std::isfinite(group.simulations[static_cast<std::size_t>(row)].features(f)))
+            const double value = group.simulations[static_cast<std::size_t>(row)].features(f);
+            if (std::isfinite(value))
             {
                 rows.push_back(row);
+                values.push_back(value);
             }
         }
         if (!std::isfinite(sensitivity.base(f)))
         {
             continue;
         }
-        Eigen::VectorXd y(static_cast<Eigen::Index>(rows.size()));
-        for (Eigen::Index k = 0; k < y.size(); ++k)
-        {
-            y(k) = group.simulations[static_cast<std::size_t>(rows[static_cast<std::size_t>(k)])].features(f);
-        }
         const Eigen::MatrixXd xf = x(rows, Eigen::all);
-        const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(xf);
-        if (qr.rank() < x.cols())
+        // Of least norm: what has no run left gets no change.
+        const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(xf);
+        if (decomposition.rank() + static_cast<Eigen::Index>(silent.size()) < x.cols())
         {
             throw std::runtime_error("too many runs of the design have failed: the effects on feature '"
-                + study.features[static_cast<std::size_t>(f)].name + "' cannot be told apart any more");
+                                     + study.features[static_cast<std::size_t>(f)].name
+                                     + "' cannot be told apart any more");
         }
-        const Eigen::VectorXd solution = qr.solve(y);
-        const Eigen::MatrixXd inverse = (xf.transpose() * xf).inverse();
+        const Eigen::VectorXd solution =
+            decomposition.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), xf.rows()));
+        const Eigen::MatrixXd inverse = (xf.transpose() * xf).completeOrthogonalDecomposition().pseudoInverse();
         sensitivity.parameterColumns.row(f) = solution.segment(first, parameters).transpose();
         for (std::size_t k = 0; k < effects.size(); ++k)
         {
             const Eigen::Index place = first + parameters + static_cast<Eigen::Index>(k);
             sensitivity.effectColumns(f, effects[k]) = solution(place);
             double& share = sensitivity.columnShare(effects[k]);
-            share = std::max(share, inverse(place, place));
+            share = std::max(share, (1.0 - rho) * inverse(place, place));
         }
     }
+    std::vector<Eigen::Index> lost;
+    for (const auto column : silent)
+    {
+        if (column >= first + parameters)
+        {
+            lost.push_back(effects[static_cast<std::size_t>(column - first - parameters)]);
+        }
+    }
+    return lost;
 }
 
 /// Effects of the measuring chain: the base curves once more, through the chain.
@@ -286,11 +320,9 @@ void chainColumns(const Simulator& simulator, const std::vector<Simulation>& bas
         for (const auto& simulation : base)
         {
             Eigen::VectorXd amplitudes = simulator.plainSetting().amplitudes;
-            const auto at = [&](double amplitude)
-            {
+            const auto at = [&](double amplitude) {
                 amplitudes(static_cast<Eigen::Index>(e)) = amplitude;
-                return simulator.featuresOf(
-                    simulator.throughChain(simulation.plain, simulation.condition, amplitudes));
+                return simulator.featuresOf(simulator.throughChain(simulation.plain, simulation.condition, amplitudes));
             };
             const double lower = effect.isSwitch ? 0.0 : effect.bounds.lower;
             const double upper = effect.isSwitch ? 1.0 : effect.bounds.upper;
@@ -358,8 +390,7 @@ EffectLibrary makeLibrary(Simulator& simulator)
     if (neighbours.size() == bases.size())
     {
         measureSeedCorrelation(library, bases, neighbours);
-        library.commonSeeds =
-            library.seedCorrelation - 2.0 * library.seedCorrelationError > usefulCorrelation;
+        library.commonSeeds = library.seedCorrelation - 2.0 * library.seedCorrelationError > usefulCorrelation;
     }
 
     auto design = designOrders(simulator);
@@ -386,10 +417,17 @@ EffectLibrary makeLibrary(Simulator& simulator)
         if (!sensitivity.base.array().isFinite().any())
         {
             throw std::runtime_error("condition '" + study.conditions[condition].name
-                + "': all runs at the base setting have failed" + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
+                                     + "': all runs at the base setting have failed"
+                                     + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
         }
-        fitColumns(study, groups[condition], simulatedEffects(study, condition),
-            library.design == DesignKind::oneAtATime, sensitivity);
+        const auto lost = fitColumns(study, groups[condition], simulatedEffects(study, condition),
+            library.design == DesignKind::oneAtATime, library.commonSeeds ? library.seedCorrelation : 0.0, sensitivity);
+        for (const auto e : lost)
+        {
+            library.remarks.push_back("effect " + study.effects[static_cast<std::size_t>(e)].name
+                                      + " is not known in condition " + study.conditions[condition].name
+                                      + ": all its runs have failed");
+        }
         chainColumns(simulator, baseRuns[condition], sensitivity);
     }
     return library;

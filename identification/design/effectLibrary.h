@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <string>
 #include <vector>
 
 namespace clepsydra::identification
@@ -29,6 +30,7 @@ struct EffectLibrary
     double seedCorrelationError = 0.0;
     bool commonSeeds = false; // were used for the design
     DesignKind design = DesignKind::plackettBurman;
+    std::vector<std::string> remarks; // what failed runs have cost
 };
 
 /// Runs the repeats and the design for all training conditions; held-out conditions are not touched.

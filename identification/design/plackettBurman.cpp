@@ -46,10 +46,14 @@ Eigen::MatrixXd designOf(Eigen::Index runs)
 {
     switch (runs)
     {
-        case 12: return cyclic("++-+++---+-");
-        case 20: return cyclic("++--++++-+-+----++-");
-        case 24: return cyclic("+++++-+-++--++--+-+----");
-        default: return sylvester(runs);
+        case 12:
+            return cyclic("++-+++---+-");
+        case 20:
+            return cyclic("++--++++-+-+----++-");
+        case 24:
+            return cyclic("+++++-+-++--++--+-+----");
+        default:
+            return sylvester(runs);
     }
 }
 

@@ -51,8 +51,8 @@ Curve shifted(Curve curve, double seconds)
     {
         time -= seconds;
     }
-    const auto kept = static_cast<std::ptrdiff_t>(
-        std::upper_bound(curve.time.begin(), curve.time.end(), begin) - curve.time.begin());
+    const auto kept =
+        static_cast<std::ptrdiff_t>(std::upper_bound(curve.time.begin(), curve.time.end(), begin) - curve.time.begin());
     curve.time.erase(curve.time.begin(), curve.time.begin() + kept);
     curve.value.erase(curve.value.begin(), curve.value.begin() + kept);
     curve.time.insert(curve.time.begin(), begin);

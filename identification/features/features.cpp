@@ -121,9 +121,9 @@ std::vector<std::size_t> contacts(const Curve& curve, double level)
         {
             // Two minima without a rise between them are one contact.
             const bool same = !found.empty()
-                && *std::max_element(gap.begin() + static_cast<std::ptrdiff_t>(found.back()),
-                       gap.begin() + static_cast<std::ptrdiff_t>(i))
-                    < 2.0 * level;
+                              && *std::max_element(gap.begin() + static_cast<std::ptrdiff_t>(found.back()),
+                                     gap.begin() + static_cast<std::ptrdiff_t>(i))
+                                     < 2.0 * level;
             if (!same)
             {
                 found.push_back(i);
@@ -162,8 +162,8 @@ double logBounceHeight(const Curve& curve, const Parameters& p)
         return none;
     }
     const auto begin = curve.value.begin();
-    const auto top = std::max_element(
-        begin + static_cast<std::ptrdiff_t>(f.begin), begin + static_cast<std::ptrdiff_t>(f.end) + 1);
+    const auto top =
+        std::max_element(begin + static_cast<std::ptrdiff_t>(f.begin), begin + static_cast<std::ptrdiff_t>(f.end) + 1);
     // A rise that the record cuts off has no height.
     return !f.complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
 }

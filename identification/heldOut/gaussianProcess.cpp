@@ -28,7 +28,8 @@ GaussianProcess::GaussianProcess(
     const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& values, const Eigen::VectorXd& noiseVariance)
     : centre_(coordinates.colwise().mean()),
       spread_(((coordinates.rowwise() - coordinates.colwise().mean()).colwise().squaredNorm()
-          / std::max<double>(static_cast<double>(coordinates.rows()) - 1.0, 1.0)).cwiseSqrt())
+               / std::max<double>(static_cast<double>(coordinates.rows()) - 1.0, 1.0))
+                  .cwiseSqrt())
 {
     spread_ = (spread_.array() > 0.0).select(spread_, 1.0);
     points_ = (coordinates.rowwise() - centre_).array().rowwise() / spread_.array();
@@ -42,8 +43,7 @@ GaussianProcess::GaussianProcess(
             covariance.diagonal() += noiseVariance;
             const Eigen::LLT<Eigen::MatrixXd> root(covariance);
             const Eigen::VectorXd weights = root.solve(values);
-            const double likelihood =
-                -0.5 * values.dot(weights) - root.matrixLLT().diagonal().array().log().sum();
+            const double likelihood = -0.5 * values.dot(weights) - root.matrixLLT().diagonal().array().log().sum();
             if (likelihood > best)
             {
                 best = likelihood;

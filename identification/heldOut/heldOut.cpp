@@ -33,8 +33,7 @@ std::vector<Eigen::Index> logFeatures(const Study& study)
 
 Prediction predictionOf(const Eigen::MatrixXd& features, const Noise& noise)
 {
-    const double seeds =
-        std::max(1.0, static_cast<double>(features.array().isFinite().rowwise().any().count()));
+    const double seeds = std::max(1.0, static_cast<double>(features.array().isFinite().rowwise().any().count()));
     Prediction prediction;
     prediction.mean = meanFeatures(features);
     prediction.variance = noise.simulation.matrix.diagonal() / seeds + noise.modelError.cwiseAbs2();
@@ -112,14 +111,13 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
         for (const auto c : trained)
         {
             const Eigen::MatrixXd simulated = featureRows(answer.atFit, c, study.featureCount());
-            const double residual =
-                meanFeatures(training[c].features)(f) - meanFeatures(simulated)(f);
+            const double residual = meanFeatures(training[c].features)(f) - meanFeatures(simulated)(f);
             if (std::isfinite(residual))
             {
                 residuals.push_back(residual);
                 variances.push_back(answer.noise.data.matrix(f, f) * shareOfMean(training[c].features)(f, f)
-                    + answer.noise.simulation.matrix(f, f) / static_cast<double>(simulated.rows())
-                    + answer.noise.modelError(f) * answer.noise.modelError(f) + 1e-12);
+                                    + answer.noise.simulation.matrix(f, f) / static_cast<double>(simulated.rows())
+                                    + answer.noise.modelError(f) * answer.noise.modelError(f) + 1e-12);
                 at.push_back(c);
             }
         }
@@ -171,8 +169,7 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
         return predictions;
     };
     const auto simulate = [&](const Setting& setting, const std::string& purpose) {
-        return simulator.repeats(
-            result.conditions, setting, "held out, " + purpose, study.settings.repeatsHeldOut);
+        return simulator.repeats(result.conditions, setting, "held out, " + purpose, study.settings.repeatsHeldOut);
     };
     const auto logs = logFeatures(study);
 
@@ -180,8 +177,9 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
     result.predictedBefore = predict(before);
     result.simulations.push_back(before);
     const DataNoise noise = drawDataNoise(result.data, result.predictedBefore, draws, random);
-    const auto scoreOf = [&](const std::vector<Prediction>& predictions, std::vector<double>* samples = nullptr)
-    { return heldOutScore(result.data, predictions, logs, noise, random, samples); };
+    const auto scoreOf = [&](const std::vector<Prediction>& predictions, std::vector<double>* samples = nullptr) {
+        return heldOutScore(result.data, predictions, logs, noise, random, samples);
+    };
 
     std::vector<double> samplesBefore;
     result.before = scoreOf(result.predictedBefore, &samplesBefore);
@@ -202,7 +200,7 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
             result.predictedAfter = predicted;
             result.simulations.push_back(after);
             Eigen::ArrayXd gain = Eigen::Map<Eigen::ArrayXd>(samplesBefore.data(), draws)
-                - Eigen::Map<Eigen::ArrayXd>(samples.data(), draws);
+                                  - Eigen::Map<Eigen::ArrayXd>(samples.data(), draws);
             result.improvement.value = result.before.rmsLogError.value - result.after->rmsLogError.value;
             result.improvement.standardError = std::sqrt((gain - gain.mean()).square().mean());
             result.accepted = result.improvement.value > result.improvement.standardError;
@@ -228,11 +226,12 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
     {
         for (const auto f : logs)
         {
-            floor += answer.noise.data.matrix(f, f) * result.data[i].meanShare(f, f)
-                + result.predictedBefore[i].variance(f);
+            floor +=
+                answer.noise.data.matrix(f, f) * result.data[i].meanShare(f, f) + result.predictedBefore[i].variance(f);
         }
     }
-    result.noiseFloor = std::sqrt(floor / static_cast<double>(logs.size() * std::max<std::size_t>(result.data.size(), 1)));
+    result.noiseFloor =
+        std::sqrt(floor / static_cast<double>(logs.size() * std::max<std::size_t>(result.data.size(), 1)));
     return result;
 }
 

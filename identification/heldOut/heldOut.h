@@ -23,15 +23,15 @@ struct MemberScore
 /// Before and after on conditions that no fit has seen.
 struct HeldOutResult
 {
-    HeldOutScore before;              // the null, refitted
+    HeldOutScore before;               // the null, refitted
     std::optional<HeldOutScore> after; // the best explanation; none where there is none
-    HeldOutScore oneMoreParameter;    // control 1: the null with one more free parameter
-    HeldOutScore gaussianProcess;     // control 2: the null with a discrepancy without a name
+    HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
+    HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
     std::vector<MemberScore> members;
-    Estimate improvement;             // of the rms error, before minus after, with the noise they share
-    double noiseFloor = 0.0;          // rms error that measurement noise alone would give
-    bool accepted = false;            // the improvement exceeds its standard error
-    double oneMoreAmplitude = 0.0;    // what control 1 fitted
+    Estimate improvement;          // of the rms error, before minus after, with the noise they share
+    double noiseFloor = 0.0;       // rms error that measurement noise alone would give
+    bool accepted = false;         // the improvement exceeds its standard error
+    double oneMoreAmplitude = 0.0; // what control 1 fitted
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
     std::vector<Prediction> predictedAfter;

@@ -115,8 +115,8 @@ HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vecto
         for (std::size_t c = 0; c < data.size(); ++c)
         {
             dataShift.emplace_back(noise.draws[c].row(draw).transpose());
-            predictionShift.emplace_back(predictions[c].variance.cwiseSqrt().cwiseProduct(
-                normals(predictions[c].mean.size(), random)));
+            predictionShift.emplace_back(
+                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), random)));
         }
         const auto [error, rank] = scoresOf(data, predictions, logFeatures, dataShift, predictionShift);
         errors.push_back(error);

@@ -45,7 +45,8 @@ Identifiability identifiability(
             const double norms = std::sqrt(rest(i) * rest(j));
             const double cosine = norms > 0.0 ? std::clamp(product / norms, -1.0, 1.0) : 0.0;
             // An amplitude that cannot be negative imitates nothing of the other sign.
-            const double nearest = bounds[static_cast<std::size_t>(j)].lower < 0.0 ? std::abs(cosine) : std::max(cosine, 0.0);
+            const double nearest =
+                bounds[static_cast<std::size_t>(j)].lower < 0.0 ? std::abs(cosine) : std::max(cosine, 0.0);
             table.separability(i, j) = i == j ? 0.0 : range * std::sqrt(rest(i) * (1.0 - nearest * nearest));
             table.collinearity(i, j) = i == j ? 1.0 : 1.0 / std::sqrt(std::max(1.0 - std::abs(cosine), 1e-12));
         }

@@ -56,7 +56,8 @@ double intervalSds(const Noise& noise)
     // Cornish-Fisher expansion of Student's quantile; within .3 % from 5 degrees of freedom on.
     const double z = 1.959964;
     const double nu = effectiveDegreesOfFreedom(noise);
-    return z + (std::pow(z, 3) + z) / (4.0 * nu) + (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * nu * nu);
+    return z + (std::pow(z, 3) + z) / (4.0 * nu)
+           + (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * nu * nu);
 }
 
 double nullEvidence(const ResidualProblem& problem, const Noise& noise)
@@ -107,7 +108,7 @@ double otherEvidence(const ResidualProblem& problem, const Noise& noise)
     if (white.effects.cols() > 0)
     {
         size.head(rows) = meanSquareOfUniform * white.effects.topRows(rows).rowwise().squaredNorm()
-            / static_cast<double>(white.effects.cols());
+                          / static_cast<double>(white.effects.cols());
     }
     const Eigen::VectorXd weight = (1.0 + size.array()).inverse();
     const Eigen::LLT<Eigen::MatrixXd> before(j.transpose() * j);
@@ -115,14 +116,12 @@ double otherEvidence(const ResidualProblem& problem, const Noise& noise)
     const Eigen::VectorXd left =
         white.residual - j * after.solve(j.transpose() * (weight.asDiagonal() * white.residual));
     const double misfit = (weight.array() * left.array().square()).sum();
-    const double occam =
-        -0.5 * ((1.0 + size.array()).log().sum() + logDeterminant(after) - logDeterminant(before));
+    const double occam = -0.5 * ((1.0 + size.array()).log().sum() + logDeterminant(after) - logDeterminant(before));
     return logLikelihood(misfit, effectiveDegreesOfFreedom(noise), rows) + occam;
 }
 
-std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise,
-    const std::vector<Bounds>& bounds, const std::vector<bool>& fixed, const Eigen::VectorXd& anchor,
-    std::size_t howMany)
+std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise, const std::vector<Bounds>& bounds,
+    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor, std::size_t howMany)
 {
     const double nu = effectiveDegreesOfFreedom(noise);
     const Fits fits(whitened(problem, noise));
@@ -130,8 +129,7 @@ std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& n
     const Eigen::MatrixXd& columns = fits.effectsLeft();
     const Eigen::MatrixXd products = columns.transpose() * columns;
     const Eigen::VectorXd with = columns.transpose() * r;
-    const auto range = [&](Eigen::Index e, int point)
-    {
+    const auto range = [&](Eigen::Index e, int point) {
         const auto i = static_cast<std::size_t>(e);
         return (fixed[i] ? 1.0 : middle(point, pairPoints, bounds[i].lower, bounds[i].upper)) - anchor(e);
     };
@@ -149,8 +147,8 @@ std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& n
                 {
                     const double a = range(j, k);
                     const double b = range(i, l);
-                    const double misfit = fits.nullMisfit() - 2.0 * (a * with(j) + b * with(i))
-                        + a * a * products(j, j) + b * b * products(i, i) + 2.0 * a * b * products(i, j);
+                    const double misfit = fits.nullMisfit() - 2.0 * (a * with(j) + b * with(i)) + a * a * products(j, j)
+                                          + b * b * products(i, i) + 2.0 * a * b * products(i, j);
                     likelihoods.push_back(logLikelihood(std::max(misfit, 0.0), nu, problem.residual.size()));
                     if (misfit < pair.misfit)
                     {
@@ -171,7 +169,8 @@ std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& n
     for (auto& pair : all)
     {
         pair.parameterShift = fits.parameterShift(pair.first, pair.firstAmplitude - anchor(pair.first))
-            + fits.parameterShift(pair.second, pair.secondAmplitude - anchor(pair.second)) - fits.parameterShift();
+                              + fits.parameterShift(pair.second, pair.secondAmplitude - anchor(pair.second))
+                              - fits.parameterShift();
     }
     return all;
 }

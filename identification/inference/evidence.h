@@ -13,7 +13,7 @@ struct Score
     double amplitude = 0.0; // of the effect, not the step from the anchor
     double sd = 0.0;
     double misfit = 0.0;
-    double logEvidence = 0.0; // marginal over amplitude and parameters, without prior odds
+    double logEvidence = 0.0;       // marginal over amplitude and parameters, without prior odds
     Eigen::VectorXd parameterShift; // from the anchor, in prior sd
 };
 
@@ -54,8 +54,7 @@ struct PairScore
 };
 
 /// The pairs with the largest evidence, best first. \param anchor  amplitudes in the simulation of the residual
-std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise,
-    const std::vector<Bounds>& bounds, const std::vector<bool>& fixed, const Eigen::VectorXd& anchor,
-    std::size_t howMany);
+std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise, const std::vector<Bounds>& bounds,
+    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor, std::size_t howMany);
 
 } // namespace clepsydra::identification

@@ -28,7 +28,7 @@ Eigen::MatrixXd ResidualProblem::covariance(
         simulationShare += amplitude * amplitude * columnShare(static_cast<Eigen::Index>(block), effect);
     }
     Eigen::MatrixXd sum = noise.data.matrix(b.features, b.features).cwiseProduct(b.dataShare)
-        + simulationShare * noise.simulation.matrix(b.features, b.features);
+                          + simulationShare * noise.simulation.matrix(b.features, b.features);
     sum.diagonal() += b.knownVariance + noise.modelError(b.features).cwiseAbs2();
     return sum;
 }

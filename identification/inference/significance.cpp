@@ -71,8 +71,7 @@ Significance significance(const ResidualProblem& problem, const Noise& noise, co
         std::tie(omnibus[draw], gain[draw]) = testStatistics(fits, bounds);
         for (std::size_t e = 0; e < bounds.size(); ++e)
         {
-            misfits[e][draw] =
-                fits.effect(static_cast<Eigen::Index>(e), bounds[e].lower, bounds[e].upper).freeMisfit;
+            misfits[e][draw] = fits.effect(static_cast<Eigen::Index>(e), bounds[e].lower, bounds[e].upper).freeMisfit;
         }
     }
     auto sortedOmnibus = omnibus;

@@ -19,14 +19,14 @@ struct Bounds
 /// Whether the residual exceeds noise.
 struct Significance
 {
-    double omnibus = 0.0;         // T0: sum of squares that the parameters leave
-    double omnibusPValue = 1.0;   // share of draws without any effect that leave as much
-    double bestGain = 0.0;        // D: what the best single effect takes off T0
+    double omnibus = 0.0;       // T0: sum of squares that the parameters leave
+    double omnibusPValue = 1.0; // share of draws without any effect that leave as much
+    double bestGain = 0.0;      // D: what the best single effect takes off T0
     double bestGainPValue = 1.0;
-    double pValue = 1.0;          // of both together: share of draws in which the smaller p-value is as small
-    double bestGainCritical = 0.0;         // D above which the p-value falls below .05
-    std::vector<double> misfitLimit;       // per effect: its misfit is below this in 99 % of the cases that it explains
-    double nullMisfitLimit = 0.0;          // the same for none
+    double pValue = 1.0;             // of both together: share of draws in which the smaller p-value is as small
+    double bestGainCritical = 0.0;   // D above which the p-value falls below .05
+    std::vector<double> misfitLimit; // per effect: its misfit is below this in 99 % of the cases that it explains
+    double nullMisfitLimit = 0.0;    // the same for none
 };
 
 /// Omnibus and max-T test. Both distributions by Monte Carlo: in each draw the residual is noise, the covariance is

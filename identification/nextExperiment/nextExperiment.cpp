@@ -50,7 +50,7 @@ double separationOf(const std::vector<PredictedOutcome>& outcomes, const Eigen::
         for (std::size_t j = 0; j < i; ++j)
         {
             sum += outcomes[i].probability * outcomes[j].probability
-                * divergence(outcomes[i].features, outcomes[j].features, covariance);
+                   * divergence(outcomes[i].features, outcomes[j].features, covariance);
         }
     }
     return sum;
@@ -73,8 +73,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
     {
         sum += std::exp(explanation.logOdds - left.front().logOdds);
     }
-    const Eigen::MatrixXd covariance =
-        answer.noise.data.matrix + answer.noise.simulation.matrix / seedsPerOutcome;
+    const Eigen::MatrixXd covariance = answer.noise.data.matrix + answer.noise.simulation.matrix / seedsPerOutcome;
     std::vector<NextExperiment> all;
     for (const auto condition : study.conditionsOf(Role::candidate))
     {

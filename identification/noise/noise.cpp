@@ -92,8 +92,7 @@ Covariance pooledCovariance(const Eigen::MatrixXd& deviations, double nu)
     double variances = 0.0; // of the correlations, summed
     double squares = 0.0;   // of the correlations
     Eigen::MatrixXd& s = result.matrix;
-    const auto mean = [](const Eigen::ArrayXd& x, double& count)
-    {
+    const auto mean = [](const Eigen::ArrayXd& x, double& count) {
         count = static_cast<double>(x.isFinite().count());
         return count > 0.0 ? x.isFinite().select(x, 0.0).sum() / count : 0.0;
     };
@@ -139,7 +138,7 @@ Noise Noise::redrawn(std::mt19937_64& random) const
     return drawn;
 }
 
-Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError)
+Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike)
 {
     const auto features = static_cast<double>(modelError.size());
     const Eigen::MatrixXd simulated = simulation.deviations();
@@ -147,9 +146,9 @@ Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::Ve
     Noise noise;
     noise.modelError = modelError;
     noise.simulation = simulatorHasNoise
-        ? pooledCovariance(simulated, simulation.degreesOfFreedom())
-        : Covariance{Eigen::MatrixXd::Zero(modelError.size(), modelError.size()), 0.0, 0.0};
-    noise.pooled = simulatorHasNoise && data.degreesOfFreedom() < enoughPerFeature * features;
+                           ? pooledCovariance(simulated, simulation.degreesOfFreedom())
+                           : Covariance{Eigen::MatrixXd::Zero(modelError.size(), modelError.size()), 0.0, 0.0};
+    noise.pooled = alike && simulatorHasNoise && data.degreesOfFreedom() < enoughPerFeature * features;
     if (noise.pooled)
     {
         Scatter both = data;

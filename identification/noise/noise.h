@@ -59,6 +59,7 @@ struct Noise
 
 /// Chooses where the noise of the data comes from: their own repeats if these suffice (3 per feature) or if the
 /// simulator has no noise, else data and simulation together.
-Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError);
+/// \param alike  false: data and simulation scatter differently and must not be put together
+Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike = true);
 
 } // namespace clepsydra::identification

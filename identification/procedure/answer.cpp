@@ -7,10 +7,14 @@ std::string nameOf(Decision decision)
 {
     switch (decision)
     {
-        case Decision::noResidual: return "noResidual";
-        case Decision::named: return "named";
-        case Decision::set: return "set";
-        case Decision::unknown: break;
+        case Decision::noResidual:
+            return "noResidual";
+        case Decision::named:
+            return "named";
+        case Decision::set:
+            return "set";
+        case Decision::unknown:
+            break;
     }
     return "unknown";
 }

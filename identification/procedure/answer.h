@@ -2,6 +2,7 @@
 
 #include "inference/evidence.h"
 #include "inference/significance.h"
+#include "noise/spread.h"
 #include "runner/simulator.h"
 
 #include <optional>
@@ -60,11 +61,12 @@ struct Answer
     std::vector<Explanation> pairs;     // those looked at
 
     Noise noise;
+    Spread spread;
     Significance significance;
-    ResidualProblem problem;         // at the null fit
-    Eigen::VectorXd parameterSd;     // of the refitted parameters, in prior sd
-    std::vector<Simulation> atFit;   // the null's simulations on the training conditions
-    std::vector<Simulation> ofBest;  // those of the best explanation
+    ResidualProblem problem;          // at the null fit
+    Eigen::VectorXd parameterSd;      // of the refitted parameters, in prior sd
+    std::vector<Simulation> atFit;    // the null's simulations on the training conditions
+    std::vector<Simulation> ofBest;   // those of the best explanation
     std::vector<std::string> remarks; // what had to be left out or could not be done
 };
 

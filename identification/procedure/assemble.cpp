@@ -45,9 +45,8 @@ Rows rowsOf(const MeasuredCondition& measured, const Eigen::MatrixXd& simulated,
 
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features)
 {
-    Eigen::MatrixXd rows(
-        std::count_if(simulations.begin(), simulations.end(),
-            [&](const Simulation& simulation) { return simulation.condition == condition; }),
+    Eigen::MatrixXd rows(std::count_if(simulations.begin(), simulations.end(),
+                             [&](const Simulation& simulation) { return simulation.condition == condition; }),
         features);
     Eigen::Index row = 0;
     for (const auto& simulation : simulations)
@@ -71,8 +70,8 @@ ResidualProblem assemble(const Study& study, const EffectLibrary& library, const
         {
             continue;
         }
-        Rows rows = rowsOf(data[condition], featureRows(simulations, condition, study.featureCount()),
-            library.conditions[condition]);
+        Rows rows = rowsOf(
+            data[condition], featureRows(simulations, condition, study.featureCount()), library.conditions[condition]);
         if (rows.block.features.empty())
         {
             continue;

@@ -41,7 +41,7 @@ void requireMeasurements(const Study& study)
         if (measured.files.empty() && measured.numbers.empty())
         {
             throw std::runtime_error(study.file.string() + ": training condition '" + study.conditions[c].name
-                + "' has no 'measured': 'traceResidual plan' is for studies without data");
+                                     + "' has no 'measured': 'traceResidual plan' is for studies without data");
         }
     }
 }
@@ -60,7 +60,7 @@ int runsPerDataSet(const Study& study)
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
     const int training = count(Role::training);
     return training * (study.settings.repeatsAtFit + study.settings.confirmations * study.settings.repeatsConfirmation)
-        + count(Role::heldOut) * 3 * study.settings.repeatsHeldOut + count(Role::candidate) * 2 * 2;
+           + count(Role::heldOut) * 3 * study.settings.repeatsHeldOut + count(Role::candidate) * 2 * 2;
 }
 
 void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostream& out)
@@ -153,8 +153,8 @@ void runStudy(const std::filesystem::path& studyFile, const std::filesystem::pat
     const auto next = nextExperiments(simulator, answer);
     Findings findings{&study, &library, &answer, nullptr, &next, &simulator, &training};
     write(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
-    out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue)
-        << "; written to " << (folder / "answer.json").string() << ", held-out data are opened now" << std::endl;
+    out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue) << "; written to "
+        << (folder / "answer.json").string() << ", held-out data are opened now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);
     const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, training, heldOutData, random);

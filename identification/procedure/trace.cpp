@@ -17,6 +17,9 @@ namespace
 constexpr double farInPriorSds = 1.0;
 constexpr int nullFits = 2;
 
+/// Repeats of data and simulation whose spreads differ by as much as in fewer cases than this are not pooled.
+constexpr double otherSpread = 0.01;
+
 /// Effects this much less likely than the best one in the linear scores are not worth runs of the simulator.
 constexpr double hopeless = 6.0;
 
@@ -35,6 +38,7 @@ public:
 
     Answer run()
     {
+        answer_.remarks = library_.remarks;
         estimateNoise();
         fitNull();
         test();
@@ -55,7 +59,16 @@ private:
         {
             measured.add(data_[condition].features);
         }
-        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError);
+        answer_.spread = compareSpread(measured, library_.scatter, study_.settings.draws, random_);
+        const bool alike = answer_.spread.pValue > otherSpread;
+        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError, alike);
+        if (!alike)
+        {
+            answer_.remarks.push_back(
+                "Repeats of the measurement scatter " + textOf(answer_.spread.ratio)
+                + " times as much (in variance) as those of the simulation, p = " + textOf(answer_.spread.pValue)
+                + ": a signature of its own, as of cohesion or clogging. They are not pooled.");
+        }
     }
 
     /// Linear fit on the library, simulation at the fit, fit again: the test must not see the library's curvature.
@@ -74,8 +87,8 @@ private:
         answer_.problem = assemble(study_, library_, data_, base, anchor);
         if (answer_.problem.residual.size() <= answer_.problem.parameterColumns.cols())
         {
-            throw std::runtime_error(study_.file.string()
-                + ": the training conditions have too few features in common with the simulation");
+            throw std::runtime_error(
+                study_.file.string() + ": the training conditions have too few features in common with the simulation");
         }
         for (int fit = 0; fit < nullFits; ++fit)
         {
@@ -108,8 +121,7 @@ private:
         answer_.null.misfitLimit = answer_.significance.nullMisfitLimit;
         answer_.nullLogOdds = nullEvidence(answer_.problem, answer_.noise);
         answer_.null.logOdds = answer_.nullLogOdds;
-        answer_.otherLogOdds =
-            otherEvidence(answer_.problem, answer_.noise) + std::log(study_.settings.otherWeight);
+        answer_.otherLogOdds = otherEvidence(answer_.problem, answer_.noise) + std::log(study_.settings.otherWeight);
     }
 
     void scoreAll()
@@ -118,8 +130,8 @@ private:
         {
             const Effect& effect = study_.effects[e];
             EffectFinding finding;
-            finding.linear = score(answer_.problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, 0.0,
-                effect.isSwitch);
+            finding.linear = score(
+                answer_.problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, 0.0, effect.isSwitch);
             finding.logOdds = finding.linear.logEvidence + std::log(effect.prior);
             finding.misfitLimit = answer_.significance.misfitLimit[e];
             answer_.effects.push_back(std::move(finding));
@@ -161,7 +173,8 @@ private:
         const auto problem = assemble(study_, library_, data_, simulations, setting.parameters);
         if (problem.residual.size() < answer_.problem.residual.size())
         {
-            answer_.remarks.push_back("effect " + effect.name
+            answer_.remarks.push_back(
+                "effect " + effect.name
                 + " could not be confirmed: runs with it on have failed or lack features; its linear score is kept");
             return;
         }
@@ -203,14 +216,13 @@ private:
             return;
         }
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()));
-        const auto best = pairScores(
-            answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none, 3);
+        const auto best = pairScores(answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none, 3);
         for (const auto& pair : best)
         {
             const auto first = static_cast<std::size_t>(pair.first);
             const auto second = static_cast<std::size_t>(pair.second);
             const double prior = std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
-                - study_.settings.pairPenalty;
+                                 - study_.settings.pairPenalty;
             if (pair.logEvidence + prior < explanations.front().logOdds - study_.settings.setWidth)
             {
                 continue;
@@ -235,18 +247,16 @@ private:
             study_.settings.repeatsConfirmation);
         ResidualProblem problem = assemble(study_, library_, data_, simulations, explanation.setting.parameters);
         // The two alone: all other columns only cost time here.
-        const std::vector<Eigen::Index> columns = {
-            static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
+        const std::vector<Eigen::Index> columns = {static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
         problem.effectColumns = Eigen::MatrixXd(problem.effectColumns(Eigen::all, columns));
         const Eigen::VectorXd anchor = explanation.setting.amplitudes(columns);
         const auto bounds = study_.bounds();
         const auto fixed = study_.fixed();
-        const auto scored = pairScores(problem, answer_.noise, {bounds[first], bounds[second]},
-            {fixed[first], fixed[second]}, anchor, 1);
+        const auto scored = pairScores(
+            problem, answer_.noise, {bounds[first], bounds[second]}, {fixed[first], fixed[second]}, anchor, 1);
         explanation.logOdds = scored.front().logEvidence + prior;
         explanation.misfit = scored.front().misfit;
-        explanation.misfitLimit =
-            std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
+        explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
         explanation.confirmed = problem.residual.size() == answer_.problem.residual.size();
         explanation.setting.parameters = shifted(problem, scored.front().parameterShift);
         explanation.setting.amplitudes(columns[0]) = scored.front().firstAmplitude;

@@ -139,7 +139,8 @@ std::string curvePlots(const Findings& findings)
 std::string residualTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured - simulated</th><th class=\"n\">standard "
+    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured - simulated</th><th "
+            "class=\"n\">standard "
             "error</th><th class=\"n\">in standard errors</th></tr>\n";
     for (const auto& condition : report["residual"])
     {
@@ -159,7 +160,8 @@ std::string residualTable(const Json& report)
 std::string effectTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>effect</th><th>meaning</th><th class=\"n\">amplitude (95 %)</th><th class=\"n\">misfit (99 % "
+    html << "<table><tr><th>effect</th><th>meaning</th><th class=\"n\">amplitude (95 %)</th><th class=\"n\">misfit (99 "
+            "% "
             "limit)</th><th class=\"n\">log odds</th><th class=\"n\">probability</th><th class=\"n\">smallest "
             "detectable</th><th>simulated</th></tr>\n";
     for (const auto& effect : report["effects"])
@@ -167,7 +169,7 @@ std::string effectTable(const Json& report)
         html << (effect["inSet"].get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(shown(effect["name"]))
              << cell(shown(effect["meaning"]))
              << cell(shown(effect["amplitude"], 2) + " (" + shown(effect["interval95"][0], 2) + " to "
-                        + shown(effect["interval95"][1], 2) + ")",
+                         + shown(effect["interval95"][1], 2) + ")",
                     true)
              << cell(shown(effect["misfit"]) + " (" + shown(effect["misfitLimit"]) + ")", true)
              << cell(shown(effect["logOdds"]), true) << cell(shown(effect["probability"], 2), true)
@@ -176,8 +178,8 @@ std::string effectTable(const Json& report)
     }
     html << "</table>\n<p class=\"small\">Amplitude 1 is the end of the effect's plausible range. Highlighted: the set "
             "that the data cannot tell apart. Log odds of no effect: "
-         << shown(report["null"]["logOdds"]) << ", of something outside the library: "
-         << shown(report["somethingElse"]["logOdds"]) << ".</p>\n";
+         << shown(report["null"]["logOdds"])
+         << ", of something outside the library: " << shown(report["somethingElse"]["logOdds"]) << ".</p>\n";
     return html.str();
 }
 
@@ -225,14 +227,14 @@ std::string heldOutSection(const Json& report)
         const Json& score = heldOut[key];
         if (score.is_object())
         {
-            html += "<tr>" + cell(key)
+            html +=
+                "<tr>" + cell(key)
                 + cell(shown(score["rmsLogError"]) + " &plusmn; " + shown(score["standardError"], 2), true)
                 + cell(shown(score["crps"]["value"]) + " &plusmn; " + shown(score["crps"]["standardError"], 2), true)
                 + "</tr>\n";
         }
     }
-    html += "</table>\n<p class=\"small\">Noise alone would give " + shown(heldOut["noiseFloor"], 2)
-        + ". Conditions: ";
+    html += "</table>\n<p class=\"small\">Noise alone would give " + shown(heldOut["noiseFloor"], 2) + ". Conditions: ";
     for (const auto& name : heldOut["conditions"])
     {
         html += shown(name) + ' ';
@@ -250,17 +252,19 @@ std::string nextSection(const Json& report)
     for (const auto& next : report["nextExperiment"])
     {
         html += "<h3>" + shown(next["condition"]) + "</h3><p>Expected decision per measurement: "
-            + shown(next["separation"]) + " (per cost " + shown(next["perCost"]) + ").</p><table><tr><th>if</th><th "
-              "class=\"n\">probability</th><th>then</th></tr>\n";
+                + shown(next["separation"]) + " (per cost " + shown(next["perCost"])
+                + ").</p><table><tr><th>if</th><th "
+                  "class=\"n\">probability</th><th>then</th></tr>\n";
         for (const auto& outcome : next["predicted"])
         {
             std::string features;
             for (const auto& [name, value] : outcome["features"].items())
             {
-                features += escaped(name) + " " + shown(value["value"], 4) + " &plusmn; " + shown(value["sd"], 2) + "; ";
+                features +=
+                    escaped(name) + " " + shown(value["value"], 4) + " &plusmn; " + shown(value["sd"], 2) + "; ";
             }
             html += "<tr>" + cell(shown(outcome["if"])) + cell(shown(outcome["probability"], 2), true) + cell(features)
-                + "</tr>\n";
+                    + "</tr>\n";
         }
         html += "</table>\n";
     }
@@ -271,7 +275,7 @@ std::string runsSection(const Json& report)
 {
     const Json& runs = report["runs"];
     std::string html = "<p>" + shown(runs["used"]) + " runs, " + shown(runs["executed"]) + " of them executed now ("
-        + shown(runs["seconds"]) + " s of computing time), the others from the cache.</p>\n<table>";
+                       + shown(runs["seconds"]) + " s of computing time), the others from the cache.</p>\n<table>";
     for (const auto& [purpose, count] : runs["byPurpose"].items())
     {
         html += "<tr>" + cell(escaped(purpose)) + cell(shown(count), true) + "</tr>\n";
@@ -283,9 +287,9 @@ std::string runsSection(const Json& report)
         for (const auto& failure : runs["failures"])
         {
             html += "<li>" + shown(failure["purpose"]) + ", " + shown(failure["condition"]) + ", seed "
-                + std::to_string(failure["seed"].get<long>()) + ": "
-                + (failure["repeatedWithAnotherSeed"].get<bool>() ? "repeated with another seed" : "excluded") + "<pre>"
-                + shown(failure["reason"]) + "</pre></li>";
+                    + std::to_string(failure["seed"].get<long>()) + ": "
+                    + (failure["repeatedWithAnotherSeed"].get<bool>() ? "repeated with another seed" : "excluded")
+                    + "<pre>" + shown(failure["reason"]) + "</pre></li>";
         }
         html += "</ul>\n";
     }
@@ -322,8 +326,9 @@ std::string lookAlikesOf(const Json& report)
 std::string htmlOf(const Findings& findings, const Json& report)
 {
     std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>"
-        + escaped(findings.study->name) + "</title>\n" + style + "</head><body>\n<h1>" + escaped(findings.study->name)
-        + "</h1>\n<p class=\"answer\">" + escaped(inWords(findings)) + "</p>\n";
+                       + escaped(findings.study->name) + "</title>\n" + style + "</head><body>\n<h1>"
+                       + escaped(findings.study->name) + "</h1>\n<p class=\"answer\">" + escaped(inWords(findings))
+                       + "</p>\n";
     html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(report);
     html += "<h2>Evidence</h2>\n" + evidenceBars(report) + effectTable(report);
     html += "<h2>Measured and simulated</h2>\n" + curvePlots(findings);

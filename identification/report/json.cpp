@@ -62,8 +62,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"misfit", explanation.misfit}, {"misfitLimit", explanation.misfitLimit},
-        {"confirmed", explanation.confirmed}};
+        {"misfit", explanation.misfit}, {"misfitLimit", explanation.misfitLimit}, {"confirmed", explanation.confirmed}};
 }
 
 /// What the effect sets at its amplitude, in words that a user can check.
@@ -89,8 +88,8 @@ Json effectsJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const Identifiability table = identifiability(
-        answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
+    const Identifiability table =
+        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
     // Probabilities among single effects and "something else", given that there is a residual.
     double largest = answer.otherLogOdds;
     for (const auto& finding : answer.effects)
@@ -243,15 +242,16 @@ Json noiseJson(const Findings& findings)
         {"simulationDegreesOfFreedom", noise.simulation.nu}, {"simulationShrinkage", noise.simulation.shrinkage},
         {"modelError", numbers(noise.modelError)}, {"seedCorrelation", findings.library->seedCorrelation},
         {"seedCorrelationError", findings.library->seedCorrelationError},
-        {"commonSeeds", findings.library->commonSeeds}};
+        {"commonSeeds", findings.library->commonSeeds}, {"spreadRatio", number(findings.answer->spread.ratio)},
+        {"spreadPValue", findings.answer->spread.pValue}};
 }
 
 Json identifiabilityJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const Identifiability table = identifiability(
-        answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
+    const Identifiability table =
+        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
     Json pairs = Json::array();
     for (const auto& [i, j] : lookAlikes(table, 2.0))
     {
@@ -322,24 +322,30 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
     std::vector<std::string> all = study.assumptions;
     for (const auto& parameter : study.parameters)
     {
-        all.push_back("Parameter " + parameter.name + " has one value in all conditions; an independent measurement gave "
-            + textOf(parameter.mean) + " with a standard deviation of " + textOf(parameter.sd) + ".");
+        all.push_back("Parameter " + parameter.name
+                      + " has one value in all conditions; an independent measurement gave " + textOf(parameter.mean)
+                      + " with a standard deviation of " + textOf(parameter.sd) + ".");
     }
     all.push_back("Only the " + std::to_string(study.effects.size())
-        + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in a range are "
-          "equally likely beforehand.");
+                  + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
+                    "a range are "
+                    "equally likely beforehand.");
     all.push_back(answer.noise.pooled
-            ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
-            : "The scatter of measurements is that of their own repeats.");
+                      ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
+                      : "The scatter of measurements is that of their own repeats.");
     all.emplace_back("The scatter of a feature is the same in all conditions and close to normal.");
     if (answer.noise.data.shrinkage > 0.0)
     {
         all.push_back("There are fewer than three repeats per feature: correlations between features were shrunk by "
-            + textOf(std::round(100.0 * answer.noise.data.shrinkage)) + " %.");
+                      + textOf(std::round(100.0 * answer.noise.data.shrinkage)) + " %.");
     }
     if (study.modelError.maxCoeff() > 0.0)
     {
         all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");
+    }
+    for (const auto& effect : study.leftOut)
+    {
+        all.push_back("Left out, and so never named: " + effect + ".");
     }
     if (study.rig.seedEntry.empty())
     {

@@ -23,8 +23,8 @@ std::string percent(double share)
 std::string withError(const Estimate& estimate)
 {
     std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << 100.0 * estimate.value << " +- "
-         << 100.0 * estimate.standardError << " %";
+    text << std::fixed << std::setprecision(2) << 100.0 * estimate.value << " +- " << 100.0 * estimate.standardError
+         << " %";
     return text.str();
 }
 
@@ -62,10 +62,12 @@ void writePlan(const Study& study, const EffectLibrary& library, const Noise& no
             << fixed(table.signal(i)) << std::setw(12) << percent(table.masked(i)) << std::setw(13)
             << (smallest > 1.0 ? "not in range" : fixed(smallest)) << '\n';
     }
-    out << "(signal: what the parameters cannot imitate, at amplitude 1; smallest detectable: amplitude seen in 80 % of "
+    out << "(signal: what the parameters cannot imitate, at amplitude 1; smallest detectable: amplitude seen in 80 % "
+           "of "
            "the cases)\n\n";
     const auto pairs = lookAlikes(table, apart);
-    out << (pairs.empty() ? "all effects that show can be told apart\n" : "cannot be told apart by these conditions:\n");
+    out << (pairs.empty() ? "all effects that show can be told apart\n"
+                          : "cannot be told apart by these conditions:\n");
     for (const auto& [i, j] : pairs)
     {
         out << "  " << study.effects[i].name << " and " << study.effects[j].name << '\n';
@@ -113,8 +115,9 @@ std::string inWords(const Findings& findings)
     {
         text << " On the held-out conditions the error went from " << withError(findings.heldOut->before.rmsLogError)
              << " to " << withError(findings.heldOut->after->rmsLogError)
-             << (findings.heldOut->accepted ? ": more than its standard error, so the effect may enter the model."
-                                            : ": not more than its standard error, so the effect does not enter the model.");
+             << (findings.heldOut->accepted
+                        ? ": more than its standard error, so the effect may enter the model."
+                        : ": not more than its standard error, so the effect does not enter the model.");
     }
     return text.str();
 }

@@ -84,8 +84,8 @@ Plot::Plot(std::string title, std::string xLabel, std::string yLabel)
       yLabel_(std::move(yLabel))
 {}
 
-void Plot::line(const std::vector<double>& x, const std::vector<double>& y, const std::string& style,
-    const std::string& label)
+void Plot::line(
+    const std::vector<double>& x, const std::vector<double>& y, const std::string& style, const std::string& label)
 {
     shapes_.push_back({x, y, style, label, false});
 }
@@ -114,7 +114,9 @@ std::string Plot::svg() const
     xs.widen();
     ys.widen();
     const auto px = [&](double x) { return left + (x - xs.low) / (xs.high - xs.low) * (width - left - right); };
-    const auto py = [&](double y) { return height - bottom - (y - ys.low) / (ys.high - ys.low) * (height - top - bottom); };
+    const auto py = [&](double y) {
+        return height - bottom - (y - ys.low) / (ys.high - ys.low) * (height - top - bottom);
+    };
 
     std::ostringstream text;
     text << std::fixed << std::setprecision(1) << "<svg viewBox=\"0 0 " << width << ' ' << height
@@ -156,7 +158,8 @@ std::string Plot::svg() const
         }
     }
     text << "<text class=\"label\" text-anchor=\"middle\" x=\"" << (left + width - right) / 2 << "\" y=\"" << height - 8
-         << "\">" << escaped(xLabel_) << "</text>\n<text class=\"label\" text-anchor=\"middle\" transform=\"translate(13 "
+         << "\">" << escaped(xLabel_)
+         << "</text>\n<text class=\"label\" text-anchor=\"middle\" transform=\"translate(13 "
          << (top + height - bottom) / 2 << ") rotate(-90)\">" << escaped(yLabel_) << "</text>\n</svg>\n";
     return text.str();
 }
@@ -178,8 +181,8 @@ std::string barChart(const std::string& title, const std::vector<Bar>& bars, con
     const double tall = top + row * static_cast<double>(bars.size()) + 8;
     std::ostringstream text;
     text << std::fixed << std::setprecision(1) << "<svg viewBox=\"0 0 " << all << ' ' << tall
-         << "\" class=\"bars\" role=\"img\" aria-label=\"" << escaped(title) << "\">\n<text x=\"4\" y=\"16\" class=\"title\">"
-         << escaped(title) << "</text>\n";
+         << "\" class=\"bars\" role=\"img\" aria-label=\"" << escaped(title)
+         << "\">\n<text x=\"4\" y=\"16\" class=\"title\">" << escaped(title) << "</text>\n";
     double y = top;
     for (const auto& bar : bars)
     {
@@ -188,15 +191,15 @@ std::string barChart(const std::string& title, const std::vector<Bar>& bars, con
              << escaped(bar.label) << "</text>";
         if (std::isfinite(bar.value))
         {
-            text << "<rect style=\"" << bar.style << "\" x=\"" << from << "\" y=\"" << y + 3 << "\" height=\"" << row - 7
-                 << "\" width=\"" << std::abs(px(bar.value) - px(0.0)) << "\"/>";
+            text << "<rect style=\"" << bar.style << "\" x=\"" << from << "\" y=\"" << y + 3 << "\" height=\""
+                 << row - 7 << "\" width=\"" << std::abs(px(bar.value) - px(0.0)) << "\"/>";
             if (bar.error > 0.0)
             {
                 text << "<line class=\"error\" x1=\"" << px(bar.value - bar.error) << "\" x2=\""
                      << px(bar.value + bar.error) << "\" y1=\"" << y + 10.5 << "\" y2=\"" << y + 10.5 << "\"/>";
             }
-            text << "<text class=\"tick\" x=\"" << std::max(px(bar.value + bar.error), px(0.0)) + 6 << "\" y=\"" << y + 14
-                 << "\">" << shown(bar.value) << ' ' << unit << "</text>\n";
+            text << "<text class=\"tick\" x=\"" << std::max(px(bar.value + bar.error), px(0.0)) + 6 << "\" y=\""
+                 << y + 14 << "\">" << shown(bar.value) << ' ' << unit << "</text>\n";
         }
         y += row;
     }

@@ -49,7 +49,7 @@ bool isOutput(const std::string& name)
 {
     static const std::vector<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "processor0"};
     return std::find(outputs.begin(), outputs.end(), name) != outputs.end() || name.rfind("log.", 0) == 0
-        || name.rfind("processor", 0) == 0 || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
+           || name.rfind("processor", 0) == 0 || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
 }
 
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
@@ -226,8 +226,8 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
     std::vector<Job> jobs;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
     // In the order in which they were asked for, for people who watch.
-    std::sort(wanted.begin(), wanted.end(),
-        [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
+    std::sort(
+        wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
     for (const auto& [key, places] : wanted)
     {
         prepare(orders[places.front()], copyOf(key));
@@ -246,7 +246,7 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         if (end.status != 0)
         {
             result.failure = "'" + order.command + "' ended with status " + std::to_string(end.status) + " in "
-                + folder.string() + endOfLog(folder / jobLog);
+                             + folder.string() + endOfLog(folder / jobLog);
         }
         else if (filesMatching(folder / order.file).empty())
         {

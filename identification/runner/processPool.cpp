@@ -131,9 +131,9 @@ void ProcessPool::run(const std::vector<Job>& jobs, const std::function<void(con
                 ++each;
                 continue;
             }
-            const int code = state.overTime ? statusOfTimeLimit
-                : WIFEXITED(status)         ? WEXITSTATUS(status)
-                                            : 128 + WTERMSIG(status);
+            const int code = state.overTime      ? statusOfTimeLimit
+                             : WIFEXITED(status) ? WEXITSTATUS(status)
+                                                 : 128 + WTERMSIG(status);
             const JobEnd end{state.job, code, secondsSince(state.since)};
             each = running.erase(each);
             if (stopSignal == 0)

@@ -40,7 +40,7 @@ void digest(std::array<Word, 8>& state, const unsigned char* block)
     for (std::size_t i = 0; i < 16; ++i)
     {
         w[i] = (Word{block[4 * i]} << 24U) | (Word{block[4 * i + 1]} << 16U) | (Word{block[4 * i + 2]} << 8U)
-            | Word{block[4 * i + 3]};
+               | Word{block[4 * i + 3]};
     }
     for (std::size_t i = 16; i < 64; ++i)
     {

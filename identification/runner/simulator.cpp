@@ -37,7 +37,7 @@ void assign(Entries& entries, const Entries& defaults, const std::map<std::strin
         if (!std::isfinite(number))
         {
             throw std::runtime_error("the formula '" + formula.text() + "' of entry '" + name + "' gives no number at "
-                + variable + " = " + textOf(value));
+                                     + variable + " = " + textOf(value));
         }
         entries[name] = textOf(number);
     }
@@ -87,7 +87,8 @@ Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) cons
     {
         const Parameter& parameter = study_.parameters[i];
         const double value = setting.parameters(static_cast<Eigen::Index>(i));
-        assign(entries, defaults_, parameter.entries, parameter.name, std::clamp(value, parameter.lower, parameter.upper));
+        assign(
+            entries, defaults_, parameter.entries, parameter.name, std::clamp(value, parameter.lower, parameter.upper));
     }
     for (std::size_t i = 0; i < study_.effects.size(); ++i)
     {
@@ -118,7 +119,9 @@ Curve Simulator::throughChain(Curve curve, std::size_t condition, const Eigen::V
         const double amplitude = amplitudes(static_cast<Eigen::Index>(i));
         if (effect.isOfChain() && amplitude != 0.0 && acts(effect, study_.conditions[condition]))
         {
-            curve = chainOperations().at(effect.chainOperation).apply(std::move(curve), (*effect.chainSize)({{"a", amplitude}}));
+            curve = chainOperations()
+                        .at(effect.chainOperation)
+                        .apply(std::move(curve), (*effect.chainSize)({{"a", amplitude}}));
         }
     }
     return curve;
@@ -182,8 +185,8 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
         if (executed_ + toExecute > study_.settings.budget)
         {
             throw std::runtime_error(study_.file.string() + ": budget.runs is " + std::to_string(study_.settings.budget)
-                + "; " + std::to_string(executed_) + " have been made, and '" + orders[open.front()].purpose
-                + "' needs " + std::to_string(toExecute) + " more");
+                                     + "; " + std::to_string(executed_) + " have been made, and '"
+                                     + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more");
         }
         const auto results = rig_.run(runs);
         std::vector<std::size_t> failed;
@@ -195,8 +198,8 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             simulation.seed = runs[k].seed;
             simulation.plain = results[k].curve;
             simulation.curve = results[k].curve.time.size() < 2
-                ? results[k].curve
-                : throughChain(results[k].curve, order.condition, order.setting.amplitudes);
+                                   ? results[k].curve
+                                   : throughChain(results[k].curve, order.condition, order.setting.amplitudes);
             simulation.features = featuresOf(simulation.curve);
             ++runs_[order.purpose];
             seeds_[order.purpose].push_back(runs[k].seed);
@@ -207,15 +210,15 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             if (simulation.failed)
             {
                 simulation.features.setConstant(std::numeric_limits<double>::quiet_NaN());
-                failures_.push_back({order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
+                failures_.push_back(
+                    {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
                 failed.push_back(open[k]);
             }
             else if (attempt > 0)
             {
                 for (auto& failure : failures_)
                 {
-                    failure.repeated = failure.repeated
-                        || failure.seed == runOrder(order, attempt - 1).seed;
+                    failure.repeated = failure.repeated || failure.seed == runOrder(order, attempt - 1).seed;
                 }
             }
         }
@@ -224,7 +227,7 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
     if (!open.empty() && study_.settings.onFailure == "stop")
     {
         throw std::runtime_error("a run failed and the study says onFailure: stop; " + failures_.back().purpose
-            + ", condition " + failures_.back().condition + ": " + failures_.back().reason);
+                                 + ", condition " + failures_.back().condition + ": " + failures_.back().reason);
     }
     return done;
 }

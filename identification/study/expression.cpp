@@ -43,8 +43,8 @@ public:
 private:
     [[noreturn]] void fail(const std::string& expected) const
     {
-        throw std::invalid_argument("in the formula '" + text_ + "', at character " + std::to_string(at_ + 1)
-            + ": expected " + expected);
+        throw std::invalid_argument(
+            "in the formula '" + text_ + "', at character " + std::to_string(at_ + 1) + ": expected " + expected);
     }
 
     void skipBlanks()
@@ -169,8 +169,7 @@ private:
 
     Value variable(const std::string& name)
     {
-        return [name, text = text_](const Expression::Variables& v)
-        {
+        return [name, text = text_](const Expression::Variables& v) {
             const auto found = v.find(name);
             if (found == v.end())
             {
@@ -179,7 +178,8 @@ private:
                 {
                     known += ' ' + each;
                 }
-                throw std::invalid_argument("in the formula '" + text + "': unknown name '" + name + "'; known:" + known);
+                throw std::invalid_argument(
+                    "in the formula '" + text + "': unknown name '" + name + "'; known:" + known);
             }
             return found->second;
         };
@@ -189,6 +189,7 @@ private:
     {
         static const std::map<std::string, double (*)(double)> functions = {
             {"exp", [](double x) { return std::exp(x); }},
+            {"round", [](double x) { return std::round(x); }},
             {"log", [](double x) { return std::log(x); }},
             {"sqrt", [](double x) { return std::sqrt(x); }},
             {"abs", [](double x) { return std::abs(x); }},
@@ -202,8 +203,9 @@ private:
             {
                 fail("','");
             }
-            first = [first, second = sum(), smaller = name == "min"](const auto& v)
-            { return smaller ? std::min(first(v), second(v)) : std::max(first(v), second(v)); };
+            first = [first, second = sum(), smaller = name == "min"](const auto& v) {
+                return smaller ? std::min(first(v), second(v)) : std::max(first(v), second(v));
+            };
         }
         else if (const auto found = functions.find(name); found != functions.end())
         {
@@ -211,7 +213,7 @@ private:
         }
         else
         {
-            fail("one of exp log sqrt abs sin cos min max, found '" + name + "'");
+            fail("one of exp log sqrt abs round sin cos min max, found '" + name + "'");
         }
         if (!take(')'))
         {

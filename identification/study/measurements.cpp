@@ -58,8 +58,7 @@ MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
         repeats = std::max(repeats, number.values.size());
     }
     MeasuredCondition result;
-    result.features =
-        Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(repeats), study.featureCount(), missing);
+    result.features = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(repeats), study.featureCount(), missing);
     result.declaredError = Eigen::VectorXd::Zero(study.featureCount());
     for (std::size_t repeat = 0; repeat < measured.files.size(); ++repeat)
     {
@@ -89,8 +88,8 @@ Eigen::VectorXd meanFeatures(const Eigen::MatrixXd& repeats)
     for (Eigen::Index f = 0; f < repeats.cols(); ++f)
     {
         const auto finite = repeats.col(f).array().isFinite();
-        mean(f) =
-            finite.any() ? finite.select(repeats.col(f).array(), 0.0).sum() / static_cast<double>(finite.count()) : missing;
+        mean(f) = finite.any() ? finite.select(repeats.col(f).array(), 0.0).sum() / static_cast<double>(finite.count())
+                               : missing;
     }
     return mean;
 }

@@ -12,9 +12,9 @@ namespace clepsydra::identification
 /// The measured repeats of one condition.
 struct MeasuredCondition
 {
-    Eigen::MatrixXd features;        // one repeat per row; NaN: missing
-    Eigen::VectorXd declaredError;   // standard error of the mean beyond the scatter of repeats, by feature
-    std::vector<Curve> curves;       // as measured, SI
+    Eigen::MatrixXd features;      // one repeat per row; NaN: missing
+    Eigen::VectorXd declaredError; // standard error of the mean beyond the scatter of repeats, by feature
+    std::vector<Curve> curves;     // as measured, SI
 };
 
 /// Reads the measurements of one condition.

@@ -96,7 +96,8 @@ void readObservable(const YamlPlace& place, Study& study, std::string& file)
         errors.push_back(place.numberOr("modelError", 0.0));
         study.features.push_back(readFeature(each, errors.back()));
         const auto& name = study.features.back().name;
-        if (std::count_if(study.features.begin(), study.features.end(), [&](const auto& f) { return f.name == name; }) > 1)
+        if (std::count_if(study.features.begin(), study.features.end(), [&](const auto& f) { return f.name == name; })
+            > 1)
         {
             each.fail("there are two features named '" + name + "': give them a 'name'");
         }
@@ -157,8 +158,7 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     {
         number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
     }
-    number.standardError =
-        isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0);
+    number.standardError = isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0);
     if (place.has(isLog ? "standardError" : "relativeError"))
     {
         place.fail(isLog ? "the feature is a logarithm: state a relativeError" : "state a standardError");
@@ -180,8 +180,7 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
                 file.fail("no such file: " + measured.files.back().string());
             }
         }
-        const auto column = [&](const std::string& key)
-        {
+        const auto column = [&](const std::string& key) {
             if (!place.has(key) && root.has("measured") && root.at("measured").has(key))
             {
                 return readColumn(root.at("measured").at(key));
@@ -211,8 +210,7 @@ Role roleOf(const YamlPlace& place)
     return word == "training" ? Role::training : word == "heldOut" ? Role::heldOut : Role::candidate;
 }
 
-Condition readCondition(
-    const YamlPlace& place, const Study& study, const std::string& file, const YamlPlace& root)
+Condition readCondition(const YamlPlace& place, const Study& study, const std::string& file, const YamlPlace& root)
 {
     place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "measured", "cost"});
     Condition condition;
@@ -295,12 +293,52 @@ Parameter readParameter(const YamlPlace& place)
     return parameter;
 }
 
+/// Entries that an effect needs and the case does not have.
+std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
+{
+    std::vector<std::string> missing;
+    for (const auto& [entry, value] : effect.entries)
+    {
+        if (known.count(entry) == 0)
+        {
+            missing.push_back(entry);
+        }
+    }
+    for (const auto& [entry, value] : effect.words)
+    {
+        if (known.count(entry) == 0)
+        {
+            missing.push_back(entry);
+        }
+    }
+    return missing;
+}
+
+/// A library is for many cases: what this one cannot switch on is left out, and said.
+std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
+{
+    const Entries known = readEntries(study.rig.caseFolder / study.rig.entriesFile);
+    std::vector<Effect> kept;
+    for (const auto& effect : library)
+    {
+        const auto missing = missingEntries(effect, known);
+        if (missing.empty())
+        {
+            kept.push_back(effect);
+        }
+        else
+        {
+            study.leftOut.push_back(effect.name + " (the case has no entry " + listed(missing) + ")");
+        }
+    }
+    return kept;
+}
+
 /// The study's own effects come last and replace those of a library that have the same name.
 void readAllEffects(const YamlPlace& root, Study& study)
 {
     std::vector<Effect> all;
-    const auto add = [&](const std::vector<Effect>& more)
-    {
+    const auto add = [&](const std::vector<Effect>& more) {
         for (const auto& effect : more)
         {
             const auto same =
@@ -321,15 +359,14 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             const auto library = YamlPlace::fileAt(file.path());
             library.allow({"about", "effects"});
-            add(readEffects(library.at("effects")));
+            add(possible(readEffects(library.at("effects")), study));
         }
     }
     if (root.has("effects"))
     {
         add(readEffects(root.at("effects")));
     }
-    const auto chosen = [&](const std::string& key, bool keepListed)
-    {
+    const auto chosen = [&](const std::string& key, bool keepListed) {
         if (!root.has(key))
         {
             return;
@@ -358,9 +395,9 @@ void readAllEffects(const YamlPlace& root, Study& study)
 DesignKind designKind(const YamlPlace& place)
 {
     const std::string word = place.oneOf({"automatic", "plackettBurman", "oneAtATime"});
-    return word == "automatic" ? DesignKind::automatic
-        : word == "oneAtATime" ? DesignKind::oneAtATime
-                               : DesignKind::plackettBurman;
+    return word == "automatic"    ? DesignKind::automatic
+           : word == "oneAtATime" ? DesignKind::oneAtATime
+                                  : DesignKind::plackettBurman;
 }
 
 void readSettings(const YamlPlace& root, Settings& settings)
@@ -394,8 +431,8 @@ void readSettings(const YamlPlace& root, Settings& settings)
     if (root.has("inference"))
     {
         const auto place = root.at("inference");
-        place.allow({"level", "draws", "setWidth", "confirmations", "pairs", "pairPenalty", "otherWeight",
-            "oneMoreParameter"});
+        place.allow(
+            {"level", "draws", "setWidth", "confirmations", "pairs", "pairPenalty", "otherWeight", "oneMoreParameter"});
         settings.level = place.has("level") ? place.at("level").positive() : settings.level;
         settings.draws = place.countOr("draws", settings.draws, 100);
         settings.setWidth = place.has("setWidth") ? place.at("setWidth").positive() : settings.setWidth;
@@ -430,8 +467,7 @@ void checkEntries(const YamlPlace& root, const Study& study)
 {
     const auto file = study.rig.caseFolder / study.rig.entriesFile;
     const Entries known = readEntries(file);
-    const auto check = [&](const std::string& entry, const std::string& where)
-    {
+    const auto check = [&](const std::string& entry, const std::string& where) {
         if (known.count(entry) == 0)
         {
             root.fail(where + " sets '" + entry + "', but " + file.string() + " has no such entry");
@@ -461,14 +497,9 @@ void checkEntries(const YamlPlace& root, const Study& study)
     }
     for (const auto& effect : study.effects)
     {
-        const std::string where = "effect '" + effect.name + "'";
-        for (const auto& [entry, value] : effect.entries)
+        for (const auto& entry : missingEntries(effect, known))
         {
-            check(entry, where);
-        }
-        for (const auto& [entry, value] : effect.words)
-        {
-            check(entry, where);
+            check(entry, "effect '" + effect.name + "'");
         }
     }
 }

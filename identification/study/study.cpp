@@ -7,13 +7,11 @@ namespace clepsydra::identification
 
 bool acts(const Effect& effect, const Condition& condition)
 {
-    return std::all_of(effect.actsIn.begin(), effect.actsIn.end(),
-        [&](const auto& rule)
-        {
-            const auto tag = condition.tags.find(rule.first);
-            return tag != condition.tags.end()
-                && std::find(rule.second.begin(), rule.second.end(), tag->second) != rule.second.end();
-        });
+    return std::all_of(effect.actsIn.begin(), effect.actsIn.end(), [&](const auto& rule) {
+        const auto tag = condition.tags.find(rule.first);
+        return tag != condition.tags.end()
+               && std::find(rule.second.begin(), rule.second.end(), tag->second) != rule.second.end();
+    });
 }
 
 std::vector<std::size_t> Study::conditionsOf(Role role) const

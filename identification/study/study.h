@@ -21,12 +21,12 @@ struct RigSpecification
     std::filesystem::path caseFolder;
     std::string command = "./Allrun";
     std::string entriesFile = "parameters";
-    Entries entries;                                // set in every run
-    std::string seedEntry;                          // empty: runs do not scatter
-    std::vector<std::filesystem::path> dependsOn;   // files beside the case whose content enters the key of a run
-    std::string version;                            // text that enters it as well
-    double costPerRun = 60.0;                       // [s], until runs have been timed
-    double timeLimit = 0.0;                         // [s]; 0: none
+    Entries entries;                              // set in every run
+    std::string seedEntry;                        // empty: runs do not scatter
+    std::vector<std::filesystem::path> dependsOn; // files beside the case whose content enters the key of a run
+    std::string version;                          // text that enters it as well
+    double costPerRun = 60.0;                     // [s], until runs have been timed
+    double timeLimit = 0.0;                       // [s]; 0: none
     bool keepRuns = false;
 };
 
@@ -46,14 +46,14 @@ struct Effect
 {
     std::string name;
     std::string meaning;
-    std::string hint;                               // how to measure it by itself
-    std::map<std::string, Expression> entries;      // formulas in the entries and the amplitude a
-    std::map<std::string, std::string> words;       // of a switch: entries as text
-    std::string chainOperation;                     // empty: an effect of the simulator
-    std::optional<Expression> chainSize;            // formula in a
-    Bounds bounds;                                  // of the amplitude
-    bool isSwitch = false;                          // on or off
-    double prior = 1.0;                             // relative weight
+    std::string hint;                                       // how to measure it by itself
+    std::map<std::string, Expression> entries;              // formulas in the entries and the amplitude a
+    std::map<std::string, std::string> words;               // of a switch: entries as text
+    std::string chainOperation;                             // empty: an effect of the simulator
+    std::optional<Expression> chainSize;                    // formula in a
+    Bounds bounds;                                          // of the amplitude
+    bool isSwitch = false;                                  // on or off
+    double prior = 1.0;                                     // relative weight
     std::map<std::string, std::vector<std::string>> actsIn; // tag -> values; empty: everywhere
 
     bool isOfChain() const
@@ -83,8 +83,8 @@ struct ColumnSpecification
 struct MeasuredNumber
 {
     std::size_t feature;
-    std::vector<double> values;   // on the feature's own scale (logs already taken)
-    double standardError = 0.0;   // of each value, beyond the scatter of repeats
+    std::vector<double> values; // on the feature's own scale (logs already taken)
+    double standardError = 0.0; // of each value, beyond the scatter of repeats
 };
 
 struct Measurement
@@ -136,8 +136,8 @@ struct Settings
     DesignKind design = DesignKind::automatic;
     double level = 0.05;
     int draws = 2000;
-    double setWidth = 3.0;    // log evidence within which effects cannot be told apart
-    int confirmations = 3;    // effects that are switched on, at most
+    double setWidth = 3.0; // log evidence within which effects cannot be told apart
+    int confirmations = 3; // effects that are switched on, at most
     bool pairs = true;
     double pairPenalty = 3.0; // log prior odds of two effects at once
     double otherWeight = 1.0; // prior weight of an effect outside the library, beside 1 for a usual one
@@ -161,6 +161,7 @@ struct Study
     ExecutorSpecification executor;
     Settings settings;
     std::vector<std::string> assumptions; // the user's own words, repeated in the report
+    std::vector<std::string> leftOut;     // effects of a library that the case has no entries for
 
     std::vector<std::size_t> conditionsOf(Role role) const;
     std::vector<Bounds> bounds() const;

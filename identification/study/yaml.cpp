@@ -43,7 +43,7 @@ void YamlPlace::fail(const std::string& what) const
 {
     const int line = node_.Mark().line;
     throw StudyError(file_->string() + ":" + (line >= 0 ? std::to_string(line + 1) + ":" : "") + " "
-        + (name_.empty() ? "" : name_ + ": ") + what);
+                     + (name_.empty() ? "" : name_ + ": ") + what);
 }
 
 void YamlPlace::allow(const std::vector<std::string>& allowed) const

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
 #include <utility>
 
@@ -55,6 +56,20 @@ double steadyRate(const Numbers& p)
     return rate * 0.5 * density * terminalVelocity(p) * d * d * openings * openings;
 }
 
+/// With chaos, as grains have it, the slightest change of any entry makes another run of the same seed.
+std::size_t startOfNoise(const Numbers& p)
+{
+    auto start = static_cast<std::size_t>(p.at("seed"));
+    if (p.at("chaos") > 0.5)
+    {
+        for (const auto& [name, value] : p)
+        {
+            start = start * 31 + std::hash<double>{}(value);
+        }
+    }
+    return start;
+}
+
 } // namespace
 
 Curve discharge(const Entries& entries)
@@ -66,7 +81,7 @@ Curve discharge(const Entries& entries)
     const double startTime = 0.05 + 0.4 * p.at("addedMass") * (p.at("submerged") > 0.5 ? 1.0 : 0.0);
     const double spread = p.at("scatter") * (1.0 + 2.0 * p.at("cohesion"));
 
-    std::mt19937_64 random(static_cast<unsigned long>(p.at("seed")));
+    std::mt19937_64 random(startOfNoise(p));
     std::normal_distribution<double> normal;
     double wander = spread * normal(random);
     const double restFraction = 1.0 + 0.05 * normal(random);
