@@ -49,6 +49,10 @@ std::vector<std::string> fields(std::string line)
     {
         found.push_back(trimmed(word));
     }
+    if (line.back() == separator)
+    {
+        found.emplace_back();
+    }
     return found;
 }
 

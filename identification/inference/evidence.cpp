@@ -103,20 +103,23 @@ double otherEvidence(const ResidualProblem& problem, const Noise& noise)
     const Eigen::Index rows = problem.residual.size();
     const Eigen::MatrixXd& j = white.parameters;
 
-    // Size of a pattern: mean square of the library's columns, by row, in units of the noise.
-    Eigen::VectorXd size = Eigen::VectorXd::Zero(white.residual.size());
+    // Covariance of the residual in units of the noise: noise, and a pattern. Half of a pattern's variance goes together
+    // over features and conditions as that of the library's effects does, the other half is independent in each.
+    Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(white.residual.size(), white.residual.size());
     if (white.effects.cols() > 0)
     {
-        size.head(rows) = meanSquareOfUniform * white.effects.topRows(rows).rowwise().squaredNorm()
-                          / static_cast<double>(white.effects.cols());
+        const Eigen::MatrixXd together =
+            meanSquareOfUniform / static_cast<double>(white.effects.cols()) * white.effects * white.effects.transpose();
+        covariance += 0.5 * together;
+        covariance.diagonal() += 0.5 * together.diagonal();
     }
-    const Eigen::VectorXd weight = (1.0 + size.array()).inverse();
+    const Eigen::LLT<Eigen::MatrixXd> root(covariance);
+    const Eigen::VectorXd residual = root.matrixL().solve(white.residual);
+    const Eigen::MatrixXd parameters = root.matrixL().solve(j);
     const Eigen::LLT<Eigen::MatrixXd> before(j.transpose() * j);
-    const Eigen::LLT<Eigen::MatrixXd> after(j.transpose() * weight.asDiagonal() * j);
-    const Eigen::VectorXd left =
-        white.residual - j * after.solve(j.transpose() * (weight.asDiagonal() * white.residual));
-    const double misfit = (weight.array() * left.array().square()).sum();
-    const double occam = -0.5 * ((1.0 + size.array()).log().sum() + logDeterminant(after) - logDeterminant(before));
+    const Eigen::LLT<Eigen::MatrixXd> after(parameters.transpose() * parameters);
+    const double misfit = (residual - parameters * after.solve(parameters.transpose() * residual)).squaredNorm();
+    const double occam = -0.5 * (logDeterminant(root) + logDeterminant(after) - logDeterminant(before));
     return logLikelihood(misfit, effectiveDegreesOfFreedom(noise), rows) + occam;
 }
 

@@ -18,6 +18,7 @@ struct ResidualProblem
     /// The rows of one condition.
     struct Block
     {
+        std::size_t condition = 0; // of the study
         Eigen::Index firstRow = 0;
         std::vector<Eigen::Index> features; // those that this condition has
         Eigen::MatrixXd dataShare;          // covariance of the data's mean over that of one measurement, by element

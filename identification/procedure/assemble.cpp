@@ -11,7 +11,6 @@ namespace
 
 struct Rows
 {
-    std::size_t condition;
     Eigen::VectorXd difference;
     ResidualProblem::Block block;
 };
@@ -76,7 +75,7 @@ ResidualProblem assemble(const Study& study, const EffectLibrary& library, const
         {
             continue;
         }
-        rows.condition = condition;
+        rows.block.condition = condition;
         rows.block.firstRow = count;
         count += rows.difference.size();
         parts.push_back(std::move(rows));
@@ -91,7 +90,7 @@ ResidualProblem assemble(const Study& study, const EffectLibrary& library, const
     problem.parameterOffset = inPriorSds(study, anchorParameters);
     for (std::size_t i = 0; i < parts.size(); ++i)
     {
-        const Sensitivity& sensitivity = library.conditions[parts[i].condition];
+        const Sensitivity& sensitivity = library.conditions[parts[i].block.condition];
         const auto& kept = parts[i].block.features;
         const auto first = parts[i].block.firstRow;
         const auto size = static_cast<Eigen::Index>(kept.size());

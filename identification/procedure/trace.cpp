@@ -23,6 +23,14 @@ constexpr double otherSpread = 0.01;
 /// Effects this much less likely than the best one in the linear scores are not worth runs of the simulator.
 constexpr double hopeless = 6.0;
 
+/// Of an effect of the measuring chain: steps towards its fit, which cost no runs, and how near is near enough.
+constexpr int chainSteps = 8;
+constexpr double nearInAmplitude = 0.01;
+constexpr double smallAmplitude = 0.02; // for derivatives
+
+/// A confirmation is near enough to its fit if the fit is this many standard errors away.
+constexpr double nearInErrors = 1.0;
+
 class Tracing
 {
 public:
@@ -130,12 +138,77 @@ private:
         {
             const Effect& effect = study_.effects[e];
             EffectFinding finding;
-            finding.linear = score(
-                answer_.problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, 0.0, effect.isSwitch);
+            finding.linear = effect.isOfChain() ? scoreChain(e)
+                                                : score(answer_.problem, answer_.noise, static_cast<Eigen::Index>(e),
+                                                    effect.bounds, 0.0, effect.isSwitch);
             finding.logOdds = finding.linear.logEvidence + std::log(effect.prior);
             finding.misfitLimit = answer_.significance.misfitLimit[e];
             answer_.effects.push_back(std::move(finding));
         }
+    }
+
+    /// The simulations with an effect of the measuring chain at another amplitude; nothing is run.
+    std::vector<Simulation> throughChain(std::vector<Simulation> simulations, std::size_t e, double amplitude) const
+    {
+        Eigen::VectorXd amplitudes = simulator_.plainSetting().amplitudes;
+        amplitudes(static_cast<Eigen::Index>(e)) = amplitude;
+        for (auto& simulation : simulations)
+        {
+            if (!simulation.failed)
+            {
+                simulation.curve = simulator_.throughChain(simulation.plain, simulation.condition, amplitudes);
+                simulation.features = simulator_.featuresOf(simulation.curve);
+            }
+        }
+        return simulations;
+    }
+
+    /// The problem at simulations that have the effect at an amplitude. The column of an effect of the measuring chain
+    /// is taken at that amplitude, from these very curves.
+    ResidualProblem problemAt(const std::vector<Simulation>& simulations, const Eigen::VectorXd& parameters,
+        std::size_t e, double amplitude) const
+    {
+        ResidualProblem problem = assemble(study_, library_, data_, simulations, parameters);
+        if (study_.effects[e].isOfChain())
+        {
+            const Bounds& bounds = study_.effects[e].bounds;
+            const double low = std::max(amplitude - smallAmplitude, bounds.lower);
+            const double high = std::min(amplitude + smallAmplitude, bounds.upper);
+            const auto below = assemble(study_, library_, data_, throughChain(simulations, e, low), parameters);
+            const auto above = assemble(study_, library_, data_, throughChain(simulations, e, high), parameters);
+            if (below.residual.size() == problem.residual.size() && above.residual.size() == problem.residual.size())
+            {
+                problem.effectColumns.col(static_cast<Eigen::Index>(e)) =
+                    (below.residual - above.residual) / (high - low);
+            }
+        }
+        return problem;
+    }
+
+    /// Gauss-Newton for an effect of the measuring chain, on the curves of the null fit.
+    Score scoreChain(std::size_t e) const
+    {
+        const Effect& effect = study_.effects[e];
+        const auto index = static_cast<Eigen::Index>(e);
+        const Eigen::VectorXd anchor = physical(study_, answer_.problem.parameterOffset);
+        double amplitude = effect.isSwitch ? 1.0 : 0.0;
+        Score best = score(answer_.problem, answer_.noise, index, effect.bounds, 0.0, effect.isSwitch);
+        for (int step = 0; step < chainSteps; ++step)
+        {
+            const auto problem = problemAt(throughChain(answer_.atFit, e, amplitude), anchor, e, amplitude);
+            if (problem.residual.size() != answer_.problem.residual.size())
+            {
+                break;
+            }
+            best = score(problem, answer_.noise, index, effect.bounds, amplitude, effect.isSwitch);
+            if (std::abs(best.amplitude - amplitude) < nearInAmplitude)
+            {
+                break;
+            }
+            // Half a step where the first ones did not settle: features are kinked at the ends of windows.
+            amplitude = step < chainSteps / 2 ? best.amplitude : (best.amplitude + amplitude) / 2;
+        }
+        return best;
     }
 
     std::vector<std::size_t> byOdds() const
@@ -147,30 +220,49 @@ private:
         return order;
     }
 
-    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there.
+    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there; once
+    /// more where that step was a long one.
     void confirmBest()
     {
-        const auto order = byOdds();
-        const auto most = std::min(order.size(), static_cast<std::size_t>(study_.settings.confirmations));
-        const double best = order.empty() ? 0.0 : answer_.effects[order.front()].logOdds;
-        for (std::size_t rank = 0; rank < most; ++rank)
+        for (int round = 0; round < study_.settings.rounds; ++round)
         {
-            EffectFinding& finding = answer_.effects[order[rank]];
-            if (finding.logOdds > best - hopeless && finding.linear.amplitude != 0.0)
+            const auto order = byOdds();
+            const auto most = std::min(order.size(), static_cast<std::size_t>(study_.settings.confirmations));
+            const double best = order.empty() ? 0.0 : answer_.effects[order.front()].logOdds;
+            for (std::size_t rank = 0; rank < most; ++rank)
             {
-                confirm(order[rank], finding);
+                const EffectFinding& finding = answer_.effects[order[rank]];
+                if (finding.logOdds > best - hopeless && finding.score().amplitude != 0.0 && !isNear(order[rank]))
+                {
+                    confirm(order[rank], round);
+                }
             }
         }
     }
 
-    void confirm(std::size_t e, EffectFinding& finding)
+    /// Whether the effect has been simulated close to where its fit ended.
+    bool isNear(std::size_t e) const
+    {
+        const auto simulated = simulatedAt_.find(e);
+        if (simulated == simulatedAt_.end())
+        {
+            return false;
+        }
+        const Score& score = *answer_.effects[e].confirmed;
+        const double away = std::abs(score.amplitude - simulated->second);
+        return away <= nearInErrors * score.sd
+               && (score.parameterShift.size() == 0 || score.parameterShift.cwiseAbs().maxCoeff() < farInPriorSds);
+    }
+
+    void confirm(std::size_t e, int round)
     {
         const Effect& effect = study_.effects[e];
-        Setting setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
-        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
-        const auto simulations = simulator_.repeats(
-            training_, setting, "confirmation of " + effect.name, study_.settings.repeatsConfirmation);
-        const auto problem = assemble(study_, library_, data_, simulations, setting.parameters);
+        EffectFinding& finding = answer_.effects[e];
+        Setting setting = settingOf(e);
+        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(e));
+        const auto simulations = simulator_.repeats(training_, setting,
+            "confirmation of " + effect.name + (round > 0 ? ", again" : ""), study_.settings.repeatsConfirmation);
+        const auto problem = problemAt(simulations, setting.parameters, e, amplitude);
         if (problem.residual.size() < answer_.problem.residual.size())
         {
             answer_.remarks.push_back(
@@ -178,13 +270,27 @@ private:
                 + " could not be confirmed: runs with it on have failed or lack features; its linear score is kept");
             return;
         }
-        finding.confirmed = score(problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds,
-            finding.linear.amplitude, effect.isSwitch);
+        finding.confirmed =
+            score(problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, amplitude, effect.isSwitch);
         finding.logOdds = finding.confirmed->logEvidence + std::log(effect.prior);
+        simulatedAt_[e] = amplitude;
         setting.parameters = shifted(problem, finding.confirmed->parameterShift);
         setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.confirmed->amplitude;
         settings_[e] = setting;
         simulations_[e] = simulations;
+    }
+
+    /// Where an effect's last fit ended.
+    Setting settingOf(std::size_t e) const
+    {
+        if (const auto found = settings_.find(e); found != settings_.end())
+        {
+            return found->second;
+        }
+        const EffectFinding& finding = answer_.effects[e];
+        Setting setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
+        return setting;
     }
 
     Explanation explanationOf(std::size_t e) const
@@ -196,15 +302,7 @@ private:
         explanation.misfit = finding.score().misfit;
         explanation.misfitLimit = finding.misfitLimit;
         explanation.confirmed = finding.confirmed.has_value();
-        if (const auto found = settings_.find(e); found != settings_.end())
-        {
-            explanation.setting = found->second;
-        }
-        else
-        {
-            explanation.setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
-            explanation.setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
-        }
+        explanation.setting = settingOf(e);
         return explanation;
     }
 
@@ -312,6 +410,7 @@ private:
     std::mt19937_64& random_;
     std::vector<std::size_t> training_;
     std::map<std::size_t, Setting> settings_;
+    std::map<std::size_t, double> simulatedAt_; // amplitude
     std::map<std::size_t, std::vector<Simulation>> simulations_;
     Answer answer_;
 };

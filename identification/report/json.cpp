@@ -133,13 +133,8 @@ Json residualJson(const Findings& findings)
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
     Json list = Json::array();
-    std::size_t block = 0;
-    for (const auto c : study.conditionsOf(Role::training))
+    for (std::size_t block = 0; block < answer.problem.blocks.size(); ++block)
     {
-        if (block >= answer.problem.blocks.size() || (*findings.data)[c].features.rows() == 0)
-        {
-            continue;
-        }
         const auto& b = answer.problem.blocks[block];
         const Eigen::VectorXd sd = answer.problem.covariance(block, answer.noise).diagonal().cwiseSqrt();
         Json features = Json::object();
@@ -149,8 +144,7 @@ Json residualJson(const Findings& findings)
             features[study.features[static_cast<std::size_t>(b.features[k])].name] = {
                 {"value", answer.problem.residual(row)}, {"standardError", sd(static_cast<Eigen::Index>(k))}};
         }
-        list.push_back({{"condition", study.conditions[c].name}, {"measuredMinusSimulated", features}});
-        ++block;
+        list.push_back({{"condition", study.conditions[b.condition].name}, {"measuredMinusSimulated", features}});
     }
     return list;
 }

@@ -431,12 +431,13 @@ void readSettings(const YamlPlace& root, Settings& settings)
     if (root.has("inference"))
     {
         const auto place = root.at("inference");
-        place.allow(
-            {"level", "draws", "setWidth", "confirmations", "pairs", "pairPenalty", "otherWeight", "oneMoreParameter"});
+        place.allow({"level", "draws", "setWidth", "confirmations", "rounds", "pairs", "pairPenalty", "otherWeight",
+            "oneMoreParameter"});
         settings.level = place.has("level") ? place.at("level").positive() : settings.level;
         settings.draws = place.countOr("draws", settings.draws, 100);
         settings.setWidth = place.has("setWidth") ? place.at("setWidth").positive() : settings.setWidth;
         settings.confirmations = place.countOr("confirmations", settings.confirmations, 1);
+        settings.rounds = place.countOr("rounds", settings.rounds, 1);
         settings.pairs = place.flagOr("pairs", settings.pairs);
         settings.pairPenalty = place.numberOr("pairPenalty", settings.pairPenalty);
         settings.otherWeight = place.has("otherWeight") ? place.at("otherWeight").positive() : settings.otherWeight;

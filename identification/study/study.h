@@ -138,6 +138,7 @@ struct Settings
     int draws = 2000;
     double setWidth = 3.0; // log evidence within which effects cannot be told apart
     int confirmations = 3; // effects that are switched on, at most
+    int rounds = 2;        // simulations of each, where the first is not near enough to its fit
     bool pairs = true;
     double pairPenalty = 3.0; // log prior odds of two effects at once
     double otherWeight = 1.0; // prior weight of an effect outside the library, beside 1 for a usual one

@@ -45,7 +45,8 @@ struct Example
         for (Eigen::Index c = 0; c < 2; ++c)
         {
             // Half the variance from the data's mean, half from the simulation's: together that of one run.
-            problem.blocks.push_back({2 * c, {0, 1}, 0.5 * Eigen::MatrixXd::Ones(2, 2), 0.5, Eigen::VectorXd::Zero(2)});
+            problem.blocks.push_back({static_cast<std::size_t>(c), 2 * c, {0, 1}, 0.5 * Eigen::MatrixXd::Ones(2, 2),
+                0.5, Eigen::VectorXd::Zero(2)});
         }
         problem.residual = Eigen::Vector4d(3, 1, 0, -1);
         problem.parameterColumns = Eigen::Vector4d(1, 1, 1, 1);

@@ -98,7 +98,7 @@ TEST(PlackettBurman, IsOrthogonalAndBalanced)
 
 //--- The study file ---------------------------------------------------------------------------------------------------
 
-const std::string goodStudy = R"(study: s
+const std::string goodStudy = R"yaml(study: s
 rig: { case: case, seed: seed }
 observable:
   file: post/m.dat
@@ -110,11 +110,8 @@ conditions:
 parameters:
   - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
 effects:
-  - { name: size, set: { beadDiameter: "beadDiameter*(1 + a)"
-}
-, amplitude : [ -1, 1 ]
-}
-)";
+  - { name: size, set: { beadDiameter: "beadDiameter*(1 + a)" }, amplitude: [-1, 1] }
+)yaml";
 
 Study studyOf(const TemporaryFolder& folder, const std::string& text)
 {

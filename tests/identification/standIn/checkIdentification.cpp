@@ -339,6 +339,7 @@ int main(int argc, char** argv)
 {
     clepsydra::identification::tests::Options options;
     CLI::App app("Checks the statistics of traceResidual from end to end on a stand-in for the solver");
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("study", options.study, "study file of the stand-in")->required();
     app.add_option("--nulls", options.nulls, "studies without any effect");
     app.add_option("--effects", options.effects, "studies with one effect of the library");
