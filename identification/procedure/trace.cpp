@@ -220,8 +220,8 @@ private:
         return order;
     }
 
-    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there; once
-    /// more where that step was a long one.
+    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there. Once
+    /// more where that step was a long one, or where several effects are so close that seeds decide between them.
     void confirmBest()
     {
         for (int round = 0; round < study_.settings.rounds; ++round)
@@ -229,10 +229,14 @@ private:
             const auto order = byOdds();
             const auto most = std::min(order.size(), static_cast<std::size_t>(study_.settings.confirmations));
             const double best = order.empty() ? 0.0 : answer_.effects[order.front()].logOdds;
+            const auto contenders = std::count_if(answer_.effects.begin(), answer_.effects.end(),
+                [&](const EffectFinding& finding) { return finding.logOdds > best - study_.settings.setWidth; });
             for (std::size_t rank = 0; rank < most; ++rank)
             {
                 const EffectFinding& finding = answer_.effects[order[rank]];
-                if (finding.logOdds > best - hopeless && finding.score().amplitude != 0.0 && !isNear(order[rank]))
+                const bool contends = contenders > 1 && finding.logOdds > best - study_.settings.setWidth;
+                if (finding.logOdds > best - hopeless && finding.score().amplitude != 0.0
+                    && (contends || !isNear(order[rank])))
                 {
                     confirm(order[rank], round);
                 }
@@ -262,13 +266,17 @@ private:
         const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(e));
         const auto simulations = simulator_.repeats(training_, setting,
             "confirmation of " + effect.name + (round > 0 ? ", again" : ""), study_.settings.repeatsConfirmation);
-        const auto problem = problemAt(simulations, setting.parameters, e, amplitude);
+        auto problem = problemAt(simulations, setting.parameters, e, amplitude);
         if (problem.residual.size() < answer_.problem.residual.size())
         {
             answer_.remarks.push_back(
                 "effect " + effect.name
                 + " could not be confirmed: runs with it on have failed or lack features; its linear score is kept");
             return;
+        }
+        if (isNear(e) && problems_.at(e).residual.size() == problem.residual.size())
+        {
+            averageWithEarlier(problem, problems_.at(e), static_cast<Eigen::Index>(e), amplitude - simulatedAt_.at(e));
         }
         finding.confirmed =
             score(problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, amplitude, effect.isSwitch);
@@ -278,6 +286,23 @@ private:
         setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.confirmed->amplitude;
         settings_[e] = setting;
         simulations_[e] = simulations;
+        problems_[e] = problem;
+    }
+
+    /// Earlier simulations of the same effect close by count as well, carried over the short way by the columns: the
+    /// more seeds, the fairer the comparison of effects, each of which has simulations of its own.
+    static void averageWithEarlier(
+        ResidualProblem& problem, const ResidualProblem& earlier, Eigen::Index effect, double step)
+    {
+        const Eigen::VectorXd carried = earlier.residual
+                                        - problem.parameterColumns * (problem.parameterOffset - earlier.parameterOffset)
+                                        - step * problem.effectColumns.col(effect);
+        problem.residual = 0.5 * (problem.residual + carried);
+        for (std::size_t block = 0; block < problem.blocks.size(); ++block)
+        {
+            double& share = problem.blocks[block].simulationShare;
+            share = 0.25 * (share + earlier.blocks[block].simulationShare);
+        }
     }
 
     /// Where an effect's last fit ended.
@@ -320,7 +345,8 @@ private:
             const auto first = static_cast<std::size_t>(pair.first);
             const auto second = static_cast<std::size_t>(pair.second);
             const double prior = std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
-                                 - study_.settings.pairPenalty;
+                                 - study_.settings.pairPenalty
+                                 - std::log((static_cast<double>(study_.effects.size()) - 1.0) / 2.0);
             if (pair.logEvidence + prior < explanations.front().logOdds - study_.settings.setWidth)
             {
                 continue;
@@ -411,6 +437,7 @@ private:
     std::vector<std::size_t> training_;
     std::map<std::size_t, Setting> settings_;
     std::map<std::size_t, double> simulatedAt_; // amplitude
+    std::map<std::size_t, ResidualProblem> problems_;
     std::map<std::size_t, std::vector<Simulation>> simulations_;
     Answer answer_;
 };

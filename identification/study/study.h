@@ -140,7 +140,7 @@ struct Settings
     int confirmations = 3; // effects that are switched on, at most
     int rounds = 2;        // simulations of each, where the first is not near enough to its fit
     bool pairs = true;
-    double pairPenalty = 3.0; // log prior odds of two effects at once
+    double pairPenalty = 3.0; // log prior odds of any two effects at once against any one
     double otherWeight = 1.0; // prior weight of an effect outside the library, beside 1 for a usual one
     std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve, or an effect's name
     std::string onFailure = "exclude";           // or stop
