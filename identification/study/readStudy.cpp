@@ -371,11 +371,8 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             return;
         }
-        std::vector<std::string> known;
-        for (const auto& effect : all)
-        {
-            known.push_back(effect.name);
-        }
+        std::vector<std::string> known(all.size());
+        std::transform(all.begin(), all.end(), known.begin(), [](const Effect& effect) { return effect.name; });
         std::vector<std::string> names;
         for (const auto& name : root.at(key).oneOrMore())
         {

@@ -110,11 +110,11 @@ private:
 TEST(Program, FindsTheEffectThatWasPutIn)
 {
     Workshop workshop;
-    workshop.measure({{"rollingFriction", "0.07"}});
+    workshop.measure({{"addedMass", "0.7"}});
     ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
     const auto report = workshop.json("report.json");
     EXPECT_THAT(report["decision"].get<std::string>(), testing::AnyOf("named", "set"));
-    EXPECT_EQ(report["set"][0]["name"], "rollingFriction");
+    EXPECT_EQ(report["set"][0]["name"], "addedMass");
     EXPECT_LT(report["pValue"].get<double>(), .01);
     EXPECT_LT(report["heldOut"]["after"]["rmsLogError"].get<double>(),
         .6 * report["heldOut"]["before"]["rmsLogError"].get<double>());
@@ -137,7 +137,7 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_EQ(again["set"], report["set"]);
 
     ASSERT_EQ(workshop.run("report"), 0);
-    EXPECT_THAT(workshop.output, HasSubstr("rollingFriction"));
+    EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
 /// Nothing put in: nothing found, at this seed; the rate of false alarms is what checkIdentification measures.
@@ -154,10 +154,10 @@ TEST(Program, FindsNothingWhereNothingIs)
 TEST(Program, DoesNotLookAtHeldOutDataFirst)
 {
     Workshop workshop;
-    workshop.measure({{"rollingFriction", "0.07"}}, {"dryBetween", "wetBeyond"});
+    workshop.measure({{"addedMass", "0.7"}}, {"dryBetween", "wetBeyond"});
     EXPECT_NE(workshop.run("run"), 0);
     EXPECT_THAT(workshop.output, HasSubstr("dryBetween0.csv"));
-    EXPECT_EQ(workshop.json("answer.json")["set"][0]["name"], "rollingFriction");
+    EXPECT_EQ(workshop.json("answer.json")["set"][0]["name"], "addedMass");
     EXPECT_TRUE(workshop.json("answer.json")["heldOut"].is_null());
     EXPECT_FALSE(fs::exists(workshop.path() / "results/report.json"));
 }
@@ -171,7 +171,7 @@ TEST(Program, PlansBeforeItRuns)
     EXPECT_THAT(workshop.output, HasSubstr("108 of them not made yet"));
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("hidden by"));
-    EXPECT_THAT(workshop.output, HasSubstr("rollingFriction"));
+    EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
 TEST(Program, SaysWhatIsWrongAndWritesNothing)
