@@ -1,0 +1,249 @@
+#include "curves/table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <numeric>
+#include <sstream>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+std::string trimmed(const std::string& text)
+{
+    const auto first = text.find_first_not_of(" \t\r\"");
+    return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
+}
+
+/// "mass [kg]" -> "mass"
+std::string withoutUnit(const std::string& name)
+{
+    return trimmed(name.substr(0, name.find('[')));
+}
+
+/// Fields of a line. Commas, semicolons and tabs can stand round empty fields; blanks cannot.
+std::vector<std::string> fields(std::string line)
+{
+    std::replace_if(
+        line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+    std::vector<std::string> found;
+    const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
+    std::istringstream words(line);
+    std::string word;
+    if (separator == ' ')
+    {
+        while (words >> word)
+        {
+            found.push_back(word);
+        }
+        return found;
+    }
+    while (std::getline(words, word, separator))
+    {
+        found.push_back(trimmed(word));
+    }
+    if (line.back() == separator)
+    {
+        found.emplace_back();
+    }
+    return found;
+}
+
+std::vector<std::string> columnNames(const std::string& line)
+{
+    const char separator = line.find('\t') != std::string::npos ? '\t' : ',';
+    std::vector<std::string> names;
+    if (line.find(separator) == std::string::npos)
+    {
+        names = fields(line);
+    }
+    else
+    {
+        std::istringstream words(line);
+        std::string word;
+        while (std::getline(words, word, separator))
+        {
+            names.push_back(withoutUnit(word));
+        }
+    }
+    return names;
+}
+
+bool isNumber(const std::string& text, double& number)
+{
+    if (text.empty() || text == "NA" || text == "na" || text == "-")
+    {
+        number = missing;
+        return true;
+    }
+    char* end = nullptr;
+    number = std::strtod(text.c_str(), &end);
+    return end == text.c_str() + text.size();
+}
+
+double number(const std::filesystem::path& path)
+{
+    double value = 0.0;
+    return isNumber(path.filename().string(), value) ? value : 0.0;
+}
+
+} // namespace
+
+std::size_t Table::index(const std::string& column) const
+{
+    const auto found = std::find(names.begin(), names.end(), column);
+    if (found != names.end())
+    {
+        return static_cast<std::size_t>(found - names.begin());
+    }
+    double position = 0.0;
+    if (!column.empty() && isNumber(column, position) && position >= 1.0
+        && position <= static_cast<double>(columns.size()))
+    {
+        return static_cast<std::size_t>(position) - 1;
+    }
+    std::string known;
+    for (const auto& name : names)
+    {
+        known += ' ' + name;
+    }
+    throw std::runtime_error("no column '" + column + "'; there are " + std::to_string(columns.size())
+                             + " columns, named:" + (known.empty() ? " (none has a name)" : known));
+}
+
+Table readTable(const std::filesystem::path& file)
+{
+    std::ifstream lines(file);
+    if (!lines)
+    {
+        throw std::runtime_error(file.string() + ": cannot be read");
+    }
+    Table table;
+    std::string line;
+    std::string header;
+    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
+    {
+        line = trimmed(line);
+        if (line.empty())
+        {
+            continue;
+        }
+        if (line.front() == '#')
+        {
+            header = table.columns.empty() ? trimmed(line.substr(1)) : header;
+            continue;
+        }
+        const auto words = fields(line);
+        std::vector<double> row(words.size());
+        const bool numbers =
+            std::equal(words.begin(), words.end(), row.begin(), [](auto& w, double& r) { return isNumber(w, r); });
+        if (!numbers && table.columns.empty())
+        {
+            header = line;
+            continue;
+        }
+        if (!numbers || (!table.columns.empty() && row.size() != table.columns.size()))
+        {
+            throw std::runtime_error(file.string() + ":" + std::to_string(lineNumber) + ": expected "
+                                     + (table.columns.empty() ? "" : std::to_string(table.columns.size()) + " ")
+                                     + "numbers, found '" + line + "'");
+        }
+        table.columns.resize(row.size());
+        for (std::size_t i = 0; i < row.size(); ++i)
+        {
+            table.columns[i].push_back(row[i]);
+        }
+    }
+    if (table.columns.empty())
+    {
+        throw std::runtime_error(file.string() + ": holds no numbers");
+    }
+    table.names = columnNames(header);
+    if (table.names.size() != table.columns.size())
+    {
+        table.names.clear();
+    }
+    return table;
+}
+
+std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pattern)
+{
+    std::vector<std::filesystem::path> found{std::filesystem::path()};
+    for (const auto& part : pattern)
+    {
+        std::vector<std::filesystem::path> next;
+        for (const auto& path : found)
+        {
+            if (part != "*")
+            {
+                next.push_back(path / part);
+            }
+            else if (std::filesystem::is_directory(path))
+            {
+                for (const auto& entry : std::filesystem::directory_iterator(path))
+                {
+                    next.push_back(entry.path());
+                }
+            }
+        }
+        std::sort(next.begin(), next.end(), [](const auto& a, const auto& b) { return number(a) < number(b); });
+        found = std::move(next);
+    }
+    found.erase(std::remove_if(found.begin(), found.end(),
+                    [](const auto& path) { return !std::filesystem::is_regular_file(path); }),
+        found.end());
+    return found;
+}
+
+Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn)
+{
+    const auto files = filesMatching(pattern);
+    if (files.empty())
+    {
+        throw std::runtime_error(pattern.string() + ": no such file");
+    }
+    Curve curve;
+    for (const auto& file : files)
+    {
+        const Table table = readTable(file);
+        const auto& time = table.columns[table.index(timeColumn)];
+        const auto& value = table.columns[table.index(valueColumn)];
+        while (!curve.time.empty() && curve.time.back() >= time.front())
+        {
+            curve.time.pop_back();
+            curve.value.pop_back();
+        }
+        curve.time.insert(curve.time.end(), time.begin(), time.end());
+        curve.value.insert(curve.value.end(), value.begin(), value.end());
+    }
+    return tidied(std::move(curve));
+}
+
+Curve tidied(Curve curve)
+{
+    std::vector<std::size_t> order;
+    for (std::size_t i = 0; i < curve.time.size(); ++i)
+    {
+        if (std::isfinite(curve.time[i]) && std::isfinite(curve.value[i]))
+        {
+            order.push_back(i);
+        }
+    }
+    std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return curve.time[a] < curve.time[b]; });
+    Curve tidy;
+    for (const auto i : order)
+    {
+        tidy.time.push_back(curve.time[i]);
+        tidy.value.push_back(curve.value[i]);
+    }
+    return tidy;
+}
+
+} // namespace clepsydra::identification

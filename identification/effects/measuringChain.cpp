@@ -1,0 +1,116 @@
+#include "effects/measuringChain.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// y' = (v - y)/tau, exact for a curve of straight pieces.
+Curve lagged(Curve curve, double tau)
+{
+    if (tau <= 0.0)
+    {
+        return curve;
+    }
+    const auto original = curve.value;
+    for (std::size_t i = 1; i < original.size(); ++i)
+    {
+        const double step = curve.time[i] - curve.time[i - 1];
+        const double slope = (original[i] - original[i - 1]) / step;
+        const double fade = std::exp(-step / tau);
+        curve.value[i] = original[i] - slope * tau + (curve.value[i - 1] - original[i - 1] + slope * tau) * fade;
+    }
+    return curve;
+}
+
+/// The derivative over the neighbours: noise of single points would count twice otherwise.
+Curve led(Curve curve, double seconds)
+{
+    const auto original = curve.value;
+    const std::size_t last = original.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i)
+    {
+        const std::size_t before = i == 0 ? 0 : i - 1;
+        const std::size_t after = std::min(i + 1, last);
+        curve.value[i] += seconds * (original[after] - original[before]) / (curve.time[after] - curve.time[before]);
+    }
+    return curve;
+}
+
+/// The record's zero of time is `seconds` after the true one. What happened before a positive shift is lost; before a
+/// negative one the first value holds.
+Curve shifted(Curve curve, double seconds)
+{
+    const double begin = curve.time.front();
+    const double first = valueAt(curve, begin + seconds);
+    for (double& time : curve.time)
+    {
+        time -= seconds;
+    }
+    const auto kept =
+        static_cast<std::ptrdiff_t>(std::upper_bound(curve.time.begin(), curve.time.end(), begin) - curve.time.begin());
+    curve.time.erase(curve.time.begin(), curve.time.begin() + kept);
+    curve.value.erase(curve.value.begin(), curve.value.begin() + kept);
+    curve.time.insert(curve.time.begin(), begin);
+    curve.value.insert(curve.value.begin(), first);
+    return curve;
+}
+
+Curve gained(Curve curve, double gain)
+{
+    for (double& value : curve.value)
+    {
+        value *= 1.0 + gain;
+    }
+    return curve;
+}
+
+Curve offsetBy(Curve curve, double offset)
+{
+    for (double& value : curve.value)
+    {
+        value += offset;
+    }
+    return curve;
+}
+
+Curve drifting(Curve curve, double perSecond)
+{
+    for (std::size_t i = 0; i < curve.time.size(); ++i)
+    {
+        curve.value[i] += perSecond * (curve.time[i] - curve.time.front());
+    }
+    return curve;
+}
+
+Curve stretched(Curve curve, double factor)
+{
+    const double begin = curve.time.front();
+    for (double& time : curve.time)
+    {
+        time = begin + (time - begin) * (1.0 + factor);
+    }
+    return curve;
+}
+
+} // namespace
+
+const std::map<std::string, ChainOperation>& chainOperations()
+{
+    static const std::map<std::string, ChainOperation> operations = {
+        {"lag", {"first-order filter [s]", lagged}},
+        {"lead", {"momentum of what leaves, as a time [s]", led}},
+        {"shift", {"the record begins late [s]", shifted}},
+        {"gain", {"relative error of the scale", gained}},
+        {"offset", {"error of the zero, SI units", offsetBy}},
+        {"drift", {"error of the zero per second", drifting}},
+        {"timeFactor", {"relative error of the clock", stretched}},
+    };
+    return operations;
+}
+
+} // namespace clepsydra::identification

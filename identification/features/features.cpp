@@ -1,0 +1,299 @@
+#include "features/features.h"
+
+#include "features/lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+using Parameters = FeatureKind::Parameters;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+double logOfPositive(double value)
+{
+    return value > 0.0 ? std::log(value) : none;
+}
+
+//--- Masses that leave ----------------------------------------------------------------------------------------------
+
+double meanRate(const Curve& curve, double from, double to)
+{
+    const double fill = curve.value.front();
+    const double start = timeAtLevel(curve, from * fill);
+    const double end = timeAtLevel(curve, to * fill);
+    return (from - to) * fill / (end - start);
+}
+
+double logMeanRate(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
+}
+
+/// A parabola through m(t) gives the rate and its change at the window's middle; by the chain rule
+/// d(ln W)/d(m/m0) = m0 W'/(W m') = 2 c2 m0/c1^2.
+double rateSlope(const Curve& curve, const Parameters& p)
+{
+    const double fill = curve.value.front();
+    const double start = timeAtLevel(curve, p.at("from") * fill);
+    const double end = timeAtLevel(curve, p.at("to") * fill);
+    if (!(end > start))
+    {
+        return none;
+    }
+    const Parabola fit = parabolaBetween(curve, start, end);
+    return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
+}
+
+double logTimeToDischarge(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeAtLevel(curve, (1.0 - p.at("share")) * curve.value.front()) - curve.time.front());
+}
+
+double logTimeBetween(const Curve& curve, const Parameters& p)
+{
+    const double fill = curve.value.front();
+    return logOfPositive(timeAtLevel(curve, p.at("to") * fill) - timeAtLevel(curve, p.at("from") * fill));
+}
+
+double residue(const Curve& curve, const Parameters& /*unused*/)
+{
+    return curve.value.back() / curve.value.front();
+}
+
+/// What a scale goes on showing after the flow has ended, as a share of the fill per second.
+double tailSlope(const Curve& curve, const Parameters& p)
+{
+    const double end = curve.time.back();
+    return slopeBetween(curve, end - p.at("duration"), end) / curve.value.front();
+}
+
+//--- Positions of a bead --------------------------------------------------------------------------------------------
+
+double speedBetweenLevels(const Curve& curve, double from, double to)
+{
+    const double start = timeAtLevel(curve, from);
+    const double end = timeAtLevel(curve, to);
+    return start < end ? std::abs(slopeBetween(curve, start, end)) : none;
+}
+
+double logSpeed(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
+}
+
+/// Change of speed from the first half of the way to the second, as a logarithm: zero for a bead at terminal velocity.
+double logSpeedRatio(const Curve& curve, const Parameters& p)
+{
+    const double middle = (p.at("from") + p.at("to")) / 2;
+    return logOfPositive(
+        speedBetweenLevels(curve, middle, p.at("to")) / speedBetweenLevels(curve, p.at("from"), middle));
+}
+
+double logTimeToLevel(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeAtLevel(curve, p.at("level")) - curve.time.front());
+}
+
+/// Rows of the n-th contact: a minimum of the gap between two maxima. Found on the curve itself, without smoothing.
+std::vector<std::size_t> contacts(const Curve& curve, double level)
+{
+    std::vector<std::size_t> found;
+    const auto& gap = curve.value;
+    for (std::size_t i = 1; i + 1 < gap.size(); ++i)
+    {
+        if (gap[i] > level || gap[i] > gap[i - 1])
+        {
+            continue;
+        }
+        std::size_t after = i;
+        while (after + 1 < gap.size() && gap[after + 1] == gap[i])
+        {
+            ++after;
+        }
+        if (after + 1 < gap.size() && gap[after + 1] > gap[i])
+        {
+            // Two minima without a rise between them are one contact.
+            const bool same = !found.empty()
+                              && *std::max_element(gap.begin() + static_cast<std::ptrdiff_t>(found.back()),
+                                     gap.begin() + static_cast<std::ptrdiff_t>(i))
+                                     < 2.0 * level;
+            if (!same)
+            {
+                found.push_back(i);
+            }
+        }
+        i = after;
+    }
+    return found;
+}
+
+/// The flight between contact n and the next one, or the end of the curve.
+struct Flight
+{
+    std::size_t begin;
+    std::size_t end;
+    bool complete;
+};
+
+bool flight(const Curve& curve, const Parameters& p, Flight& found)
+{
+    const auto hits = contacts(curve, p.at("level"));
+    const auto n = static_cast<std::size_t>(p.at("bounce"));
+    if (n < 1 || hits.size() < n)
+    {
+        return false;
+    }
+    found = {hits[n - 1], hits.size() > n ? hits[n] : curve.value.size() - 1, hits.size() > n};
+    return true;
+}
+
+double logBounceHeight(const Curve& curve, const Parameters& p)
+{
+    Flight f{};
+    if (!flight(curve, p, f))
+    {
+        return none;
+    }
+    const auto begin = curve.value.begin();
+    const auto top =
+        std::max_element(begin + static_cast<std::ptrdiff_t>(f.begin), begin + static_cast<std::ptrdiff_t>(f.end) + 1);
+    // A rise that the record cuts off has no height.
+    return !f.complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
+}
+
+double logBounceDuration(const Curve& curve, const Parameters& p)
+{
+    Flight f{};
+    return flight(curve, p, f) && f.complete ? logOfPositive(curve.time[f.end] - curve.time[f.begin]) : none;
+}
+
+double logImpactSpeed(const Curve& curve, const Parameters& p)
+{
+    const auto hits = contacts(curve, p.at("level"));
+    if (hits.empty())
+    {
+        return none;
+    }
+    const double hit = curve.time[hits.front()];
+    return logOfPositive(-slopeBetween(curve, hit - p.at("before"), hit - p.at("until")));
+}
+
+double logReboundSpeed(const Curve& curve, const Parameters& p)
+{
+    const auto hits = contacts(curve, p.at("level"));
+    if (hits.empty())
+    {
+        return none;
+    }
+    const double hit = curve.time[hits.front()];
+    return logOfPositive(slopeBetween(curve, hit + p.at("from"), hit + p.at("after")));
+}
+
+//--- Any curve ------------------------------------------------------------------------------------------------------
+
+double valueAtTime(const Curve& curve, const Parameters& p)
+{
+    return valueAt(curve, p.at("time")) / p.at("scale");
+}
+
+double logValueAtTime(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(valueAt(curve, p.at("time")));
+}
+
+double meanBetween(const Curve& curve, const Parameters& p)
+{
+    double area = 0.0;
+    double before = p.at("from");
+    double last = valueAt(curve, before);
+    for (std::size_t i = 0; i < curve.time.size(); ++i)
+    {
+        const double t = curve.time[i];
+        if (t > before && t < p.at("to"))
+        {
+            area += (t - before) * (last + curve.value[i]) / 2;
+            before = t;
+            last = curve.value[i];
+        }
+    }
+    area += (p.at("to") - before) * (last + valueAt(curve, p.at("to"))) / 2;
+    return area / (p.at("to") - p.at("from"));
+}
+
+double logMeanBetween(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(meanBetween(curve, p));
+}
+
+double logFinalValue(const Curve& curve, const Parameters& /*unused*/)
+{
+    return logOfPositive(curve.value.back());
+}
+
+double logMaximum(const Curve& curve, const Parameters& /*unused*/)
+{
+    return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
+}
+
+std::map<std::string, FeatureKind> makeKinds()
+{
+    const FeatureKind::Parameter from{"from", none, "larger share of the first value"};
+    const FeatureKind::Parameter to{"to", none, "smaller share of the first value"};
+    const FeatureKind::Parameter start{"from", none, "position where the part begins, SI units"};
+    const FeatureKind::Parameter end{"to", none, "position where it ends"};
+    const FeatureKind::Parameter level{"level", 5e-4, "gap below which a minimum is a contact, SI units"};
+    const FeatureKind::Parameter bounce{"bounce", 1, "number of the contact, from 1"};
+    const std::vector<FeatureKind> all = {
+        {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to}, logMeanRate},
+        {"rateSlope", "d(log rate)/d(share of the first value), from a parabola between two shares", {from, to},
+            rateSlope},
+        {"logTimeToDischarge", "log of the time until a share has left", {{"share", 0.95, "of the first value"}},
+            logTimeToDischarge},
+        {"logTimeBetween", "log of the time between two shares of the first value", {from, to}, logTimeBetween},
+        {"residue", "last value over first value (not a log)", {}, residue},
+        {"tailSlope", "slope at the end over the first value [1/s] (not a log)",
+            {{"duration", none, "of the part at the end [s]"}}, tailSlope},
+        {"logSpeed", "log of the speed between two positions, by least squares", {start, end}, logSpeed},
+        {"logSpeedRatio", "log of speed in the second half of the way over the first", {start, end}, logSpeedRatio},
+        {"logTimeToLevel", "log of the time until a position is reached", {{"level", none, "position, SI units"}},
+            logTimeToLevel},
+        {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight},
+        {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration},
+        {"logImpactSpeed", "log of the speed before the first contact",
+            {level, {"before", none, "begin of the part, before contact [s]"}, {"until", none, "its end [s]"}},
+            logImpactSpeed},
+        {"logReboundSpeed", "log of the speed after the first contact",
+            {level, {"from", none, "begin of the part, after contact [s]"}, {"after", none, "its end [s]"}},
+            logReboundSpeed},
+        {"valueAtTime", "value at a time over a scale (not a log)",
+            {{"time", none, "[s]"}, {"scale", none, "a typical value, SI units"}}, valueAtTime},
+        {"logValueAtTime", "log of the value at a time", {{"time", none, "[s]"}}, logValueAtTime},
+        {"logMeanBetween", "log of the mean between two times", {{"from", none, "[s]"}, {"to", none, "[s]"}},
+            logMeanBetween},
+        {"logFinalValue", "log of the last value", {}, logFinalValue},
+        {"logMaximum", "log of the largest value", {}, logMaximum},
+    };
+    std::map<std::string, FeatureKind> byName;
+    for (const auto& kind : all)
+    {
+        byName.emplace(kind.name, kind);
+    }
+    return byName;
+}
+
+} // namespace
+
+const std::map<std::string, FeatureKind>& featureKinds()
+{
+    static const auto kinds = makeKinds();
+    return kinds;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,48 @@
+#pragma once
+
+#include "design/effectLibrary.h"
+#include "heldOut/scores.h"
+#include "procedure/answer.h"
+#include "study/measurements.h"
+
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// One member of the set, on the held-out conditions.
+struct MemberScore
+{
+    std::size_t member; // of Answer::set
+    HeldOutScore score;
+};
+
+/// Before and after on conditions that no fit has seen.
+struct HeldOutResult
+{
+    HeldOutScore before;               // the null, refitted
+    std::optional<HeldOutScore> after; // the best explanation; none where there is none
+    HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
+    HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
+    std::vector<MemberScore> members;
+    Estimate improvement;          // of the rms error, before minus after, with the noise they share
+    double noiseFloor = 0.0;       // rms error that measurement noise alone would give
+    bool accepted = false;         // the improvement exceeds its standard error
+    double oneMoreAmplitude = 0.0; // what control 1 fitted
+    std::vector<std::size_t> conditions;
+    std::vector<Prediction> predictedBefore;
+    std::vector<Prediction> predictedAfter;
+    std::vector<std::vector<Simulation>> simulations; // before, after
+    std::vector<HeldOutData> data;
+};
+
+/// Simulates the held-out conditions with fresh seeds, then reads their measurements.
+/// \param data  of training conditions, by condition of the study
+HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+    const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
+    std::mt19937_64& random);
+
+} // namespace clepsydra::identification

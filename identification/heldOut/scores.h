@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <random>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// One held-out condition under one prediction.
+struct Prediction
+{
+    Eigen::VectorXd mean;           // of the features
+    Eigen::VectorXd variance;       // of the mean: seeds, and what the prediction itself is unsure of
+    Eigen::MatrixXd dataCovariance; // of one measurement
+};
+
+/// A number with its standard error.
+struct Estimate
+{
+    double value = 0.0;
+    double standardError = 0.0;
+};
+
+struct HeldOutScore
+{
+    Estimate rmsLogError; // root mean square, over conditions and log features, of measured minus predicted means
+    Estimate crps;        // continuous ranked probability score, mean over measurements; smaller is better
+};
+
+/// What was measured there.
+struct HeldOutData
+{
+    Eigen::MatrixXd features;  // repeats by rows
+    Eigen::MatrixXd meanShare; // see shareOfMean
+};
+
+/// Draws of measurement noise, common to all predictions that are compared.
+struct DataNoise
+{
+    std::vector<Eigen::MatrixXd> draws; // by condition: one draw of the mean's error per row
+};
+
+/// CRPS of a normal prediction: Gneiting & Raftery, J. Am. Stat. Assoc. 102, 359 (2007), eq. 21.
+double crpsOfNormal(double mean, double sd, double observed);
+
+DataNoise drawDataNoise(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions, int draws,
+    std::mt19937_64& random);
+
+/// Score of a prediction with standard errors by redrawing what is uncertain: the measured means and the simulated ones.
+/// \param logFeatures  features that enter the error
+/// \param samples  if given, the draws of the rms error, to compare predictions draw by draw
+HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
+    const std::vector<Eigen::Index>& logFeatures, const DataNoise& noise, std::mt19937_64& random,
+    std::vector<double>* samples = nullptr);
+
+} // namespace clepsydra::identification

@@ -1,0 +1,99 @@
+#include "nextExperiment/nextExperiment.h"
+
+#include "procedure/assemble.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+constexpr int seedsPerOutcome = 2;
+
+std::string nameOfExplanation(const Study& study, const Explanation& explanation)
+{
+    std::string name;
+    for (const auto e : explanation.effects)
+    {
+        name += (name.empty() ? "" : " with ") + study.effects[e].name;
+    }
+    return name.empty() ? "no effect" : name;
+}
+
+} // namespace
+
+double divergence(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::MatrixXd& covariance)
+{
+    std::vector<Eigen::Index> both;
+    for (Eigen::Index f = 0; f < a.size(); ++f)
+    {
+        if (std::isfinite(a(f)) && std::isfinite(b(f)))
+        {
+            both.push_back(f);
+        }
+    }
+    const Eigen::VectorXd difference = a(both) - b(both);
+    const Eigen::MatrixXd kept = covariance(both, both);
+    return 0.5 * difference.dot(kept.llt().solve(difference));
+}
+
+double separationOf(const std::vector<PredictedOutcome>& outcomes, const Eigen::MatrixXd& covariance)
+{
+    double sum = 0.0;
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+    {
+        for (std::size_t j = 0; j < i; ++j)
+        {
+            sum += outcomes[i].probability * outcomes[j].probability
+                   * divergence(outcomes[i].features, outcomes[j].features, covariance);
+        }
+    }
+    return sum;
+}
+
+std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer)
+{
+    const Study& study = simulator.study();
+    std::vector<Explanation> left = answer.set;
+    if (left.size() < 2)
+    {
+        left.push_back(answer.null);
+    }
+    if (left.size() < 2)
+    {
+        return {};
+    }
+    double sum = 0.0;
+    for (const auto& explanation : left)
+    {
+        sum += std::exp(explanation.logOdds - left.front().logOdds);
+    }
+    const Eigen::MatrixXd covariance = answer.noise.data.matrix + answer.noise.simulation.matrix / seedsPerOutcome;
+    std::vector<NextExperiment> all;
+    for (const auto condition : study.conditionsOf(Role::candidate))
+    {
+        NextExperiment next;
+        next.condition = condition;
+        for (const auto& explanation : left)
+        {
+            const std::string name = nameOfExplanation(study, explanation);
+            const auto simulations =
+                simulator.repeats({condition}, explanation.setting, "next experiment, " + name, seedsPerOutcome);
+            next.outcomes.push_back({name, std::exp(explanation.logOdds - left.front().logOdds) / sum,
+                meanFeatures(featureRows(simulations, condition, study.featureCount())),
+                covariance.diagonal().cwiseSqrt()});
+        }
+        next.separation = separationOf(next.outcomes, covariance);
+        next.perCost = next.separation / study.conditions[condition].cost;
+        all.push_back(std::move(next));
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.perCost > b.perCost; });
+    return all;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "procedure/trace.h"
+#include "heldOut/heldOut.h"
+
+#include <filesystem>
+#include <ostream>
+
+namespace clepsydra::identification
+{
+
+/// Says what can be told from data of this study before there are any, and what it costs.
+/// \param execute  make the runs of the effect library; otherwise only those that are stored are used, and where some are
+///     missing the plan ends with their number and time
+void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& out);
+
+/// From a study file to report.json and report.html in `folder`. The order of the steps is what keeps it honest: the
+/// answer is on disk before the held-out measurements are opened.
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out);
+
+} // namespace clepsydra::identification

@@ -1,0 +1,453 @@
+#include "procedure/trace.h"
+
+#include "procedure/assemble.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// A fit that ends further than this from where the simulator was run is run again there.
+constexpr double farInPriorSds = 1.0;
+constexpr int nullFits = 2;
+
+/// Repeats of data and simulation whose spreads differ by as much as in fewer cases than this are not pooled.
+constexpr double otherSpread = 0.01;
+
+/// Effects this much less likely than the best one in the linear scores are not worth runs of the simulator.
+constexpr double hopeless = 6.0;
+
+/// Of an effect of the measuring chain: steps towards its fit, which cost no runs, and how near is near enough.
+constexpr int chainSteps = 8;
+constexpr double nearInAmplitude = 0.01;
+constexpr double smallAmplitude = 0.02; // for derivatives
+
+/// A confirmation is near enough to its fit if the fit is this many standard errors away.
+constexpr double nearInErrors = 1.0;
+
+class Tracing
+{
+public:
+    Tracing(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+        std::mt19937_64& random)
+        : simulator_(simulator),
+          study_(simulator.study()),
+          library_(library),
+          data_(data),
+          random_(random),
+          training_(study_.conditionsOf(Role::training))
+    {}
+
+    Answer run()
+    {
+        answer_.remarks = library_.remarks;
+        estimateNoise();
+        fitNull();
+        test();
+        scoreAll();
+        if (answer_.significance.pValue < study_.settings.level)
+        {
+            confirmBest();
+            decide();
+        }
+        return std::move(answer_);
+    }
+
+private:
+    void estimateNoise()
+    {
+        Scatter measured;
+        for (const auto condition : training_)
+        {
+            measured.add(data_[condition].features);
+        }
+        answer_.spread = compareSpread(measured, library_.scatter, study_.settings.draws, random_);
+        const bool alike = answer_.spread.pValue > otherSpread;
+        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError, alike);
+        if (!alike)
+        {
+            answer_.remarks.push_back(
+                "Repeats of the measurement scatter " + textOf(answer_.spread.ratio)
+                + " times as much (in variance) as those of the simulation, p = " + textOf(answer_.spread.pValue)
+                + ": a signature of its own, as of cohesion or clogging. They are not pooled.");
+        }
+    }
+
+    /// Linear fit on the library, simulation at the fit, fit again: the test must not see the library's curvature.
+    void fitNull()
+    {
+        std::vector<Simulation> base;
+        for (const auto condition : training_)
+        {
+            const auto& rows = library_.conditions[condition].baseFeatures;
+            for (Eigen::Index row = 0; row < rows.rows(); ++row)
+            {
+                base.push_back({condition, rows.row(row).transpose(), {}, {}, 0, false});
+            }
+        }
+        Eigen::VectorXd anchor = simulator_.plainSetting().parameters;
+        answer_.problem = assemble(study_, library_, data_, base, anchor);
+        if (answer_.problem.residual.size() <= answer_.problem.parameterColumns.cols())
+        {
+            throw std::runtime_error(
+                study_.file.string() + ": the training conditions have too few features in common with the simulation");
+        }
+        for (int fit = 0; fit < nullFits; ++fit)
+        {
+            anchor = shifted(answer_.problem, Fits(whitened(answer_.problem, answer_.noise)).parameterShift());
+            answer_.atFit = simulator_.repeats(training_, simulator_.plainSetting(anchor),
+                fit == 0 ? "null fit" : "null fit, again", study_.settings.repeatsAtFit);
+            answer_.problem = assemble(study_, library_, data_, answer_.atFit, anchor);
+            const Fits refit(whitened(answer_.problem, answer_.noise));
+            const Eigen::VectorXd shift = refit.parameterShift();
+            answer_.null.setting = simulator_.plainSetting(shifted(answer_.problem, shift));
+            answer_.null.misfit = refit.nullMisfit();
+            answer_.parameterSd = refit.parameterCovariance().diagonal().cwiseSqrt();
+            if (shift.size() == 0 || shift.cwiseAbs().maxCoeff() < farInPriorSds)
+            {
+                break;
+            }
+        }
+    }
+
+    /// Physical parameters after a shift from a problem's anchor, within their limits.
+    Eigen::VectorXd shifted(const ResidualProblem& problem, const Eigen::VectorXd& shift) const
+    {
+        return physical(study_, problem.parameterOffset + shift);
+    }
+
+    void test()
+    {
+        answer_.significance =
+            significance(answer_.problem, answer_.noise, study_.bounds(), study_.settings.draws, random_);
+        answer_.null.misfitLimit = answer_.significance.nullMisfitLimit;
+        answer_.nullLogOdds = nullEvidence(answer_.problem, answer_.noise);
+        answer_.null.logOdds = answer_.nullLogOdds;
+        answer_.otherLogOdds = otherEvidence(answer_.problem, answer_.noise) + std::log(study_.settings.otherWeight);
+    }
+
+    void scoreAll()
+    {
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
+        {
+            const Effect& effect = study_.effects[e];
+            EffectFinding finding;
+            finding.linear = effect.isOfChain() ? scoreChain(e)
+                                                : score(answer_.problem, answer_.noise, static_cast<Eigen::Index>(e),
+                                                    effect.bounds, 0.0, effect.isSwitch);
+            finding.logOdds = finding.linear.logEvidence + std::log(effect.prior);
+            finding.misfitLimit = answer_.significance.misfitLimit[e];
+            answer_.effects.push_back(std::move(finding));
+        }
+    }
+
+    /// The simulations with an effect of the measuring chain at another amplitude; nothing is run.
+    std::vector<Simulation> throughChain(std::vector<Simulation> simulations, std::size_t e, double amplitude) const
+    {
+        Eigen::VectorXd amplitudes = simulator_.plainSetting().amplitudes;
+        amplitudes(static_cast<Eigen::Index>(e)) = amplitude;
+        for (auto& simulation : simulations)
+        {
+            if (!simulation.failed)
+            {
+                simulation.curve = simulator_.throughChain(simulation.plain, simulation.condition, amplitudes);
+                simulation.features = simulator_.featuresOf(simulation.curve);
+            }
+        }
+        return simulations;
+    }
+
+    /// The problem at simulations that have the effect at an amplitude. The column of an effect of the measuring chain
+    /// is taken at that amplitude, from these very curves.
+    ResidualProblem problemAt(const std::vector<Simulation>& simulations, const Eigen::VectorXd& parameters,
+        std::size_t e, double amplitude) const
+    {
+        ResidualProblem problem = assemble(study_, library_, data_, simulations, parameters);
+        if (study_.effects[e].isOfChain())
+        {
+            const Bounds& bounds = study_.effects[e].bounds;
+            const double low = std::max(amplitude - smallAmplitude, bounds.lower);
+            const double high = std::min(amplitude + smallAmplitude, bounds.upper);
+            const auto below = assemble(study_, library_, data_, throughChain(simulations, e, low), parameters);
+            const auto above = assemble(study_, library_, data_, throughChain(simulations, e, high), parameters);
+            if (below.residual.size() == problem.residual.size() && above.residual.size() == problem.residual.size())
+            {
+                problem.effectColumns.col(static_cast<Eigen::Index>(e)) =
+                    (below.residual - above.residual) / (high - low);
+            }
+        }
+        return problem;
+    }
+
+    /// Gauss-Newton for an effect of the measuring chain, on the curves of the null fit.
+    Score scoreChain(std::size_t e) const
+    {
+        const Effect& effect = study_.effects[e];
+        const auto index = static_cast<Eigen::Index>(e);
+        const Eigen::VectorXd anchor = physical(study_, answer_.problem.parameterOffset);
+        double amplitude = effect.isSwitch ? 1.0 : 0.0;
+        Score best = score(answer_.problem, answer_.noise, index, effect.bounds, 0.0, effect.isSwitch);
+        for (int step = 0; step < chainSteps; ++step)
+        {
+            const auto problem = problemAt(throughChain(answer_.atFit, e, amplitude), anchor, e, amplitude);
+            if (problem.residual.size() != answer_.problem.residual.size())
+            {
+                break;
+            }
+            best = score(problem, answer_.noise, index, effect.bounds, amplitude, effect.isSwitch);
+            if (std::abs(best.amplitude - amplitude) < nearInAmplitude)
+            {
+                break;
+            }
+            // Half a step where the first ones did not settle: features are kinked at the ends of windows.
+            amplitude = step < chainSteps / 2 ? best.amplitude : (best.amplitude + amplitude) / 2;
+        }
+        return best;
+    }
+
+    std::vector<std::size_t> byOdds() const
+    {
+        std::vector<std::size_t> order(answer_.effects.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+            [&](auto a, auto b) { return answer_.effects[a].logOdds > answer_.effects[b].logOdds; });
+        return order;
+    }
+
+    /// The few best effects, switched on in the simulator with fresh seeds, and one Gauss-Newton step from there. Once
+    /// more where that step was a long one, or where several effects are so close that seeds decide between them.
+    void confirmBest()
+    {
+        for (int round = 0; round < study_.settings.rounds; ++round)
+        {
+            const auto order = byOdds();
+            const auto most = std::min(order.size(), static_cast<std::size_t>(study_.settings.confirmations));
+            const double best = order.empty() ? 0.0 : answer_.effects[order.front()].logOdds;
+            const auto contenders = std::count_if(answer_.effects.begin(), answer_.effects.end(),
+                [&](const EffectFinding& finding) { return finding.logOdds > best - study_.settings.setWidth; });
+            for (std::size_t rank = 0; rank < most; ++rank)
+            {
+                const EffectFinding& finding = answer_.effects[order[rank]];
+                const bool contends = contenders > 1 && finding.logOdds > best - study_.settings.setWidth;
+                if (finding.logOdds > best - hopeless && finding.score().amplitude != 0.0
+                    && (contends || !isNear(order[rank])))
+                {
+                    confirm(order[rank], round);
+                }
+            }
+        }
+    }
+
+    /// Whether the effect has been simulated close to where its fit ended.
+    bool isNear(std::size_t e) const
+    {
+        const auto simulated = simulatedAt_.find(e);
+        if (simulated == simulatedAt_.end())
+        {
+            return false;
+        }
+        const Score& score = *answer_.effects[e].confirmed;
+        const double away = std::abs(score.amplitude - simulated->second);
+        return away <= nearInErrors * score.sd
+               && (score.parameterShift.size() == 0 || score.parameterShift.cwiseAbs().maxCoeff() < farInPriorSds);
+    }
+
+    void confirm(std::size_t e, int round)
+    {
+        const Effect& effect = study_.effects[e];
+        EffectFinding& finding = answer_.effects[e];
+        Setting setting = settingOf(e);
+        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(e));
+        const auto simulations = simulator_.repeats(training_, setting,
+            "confirmation of " + effect.name + (round > 0 ? ", again" : ""), study_.settings.repeatsConfirmation);
+        auto problem = problemAt(simulations, setting.parameters, e, amplitude);
+        if (problem.residual.size() < answer_.problem.residual.size())
+        {
+            answer_.remarks.push_back(
+                "effect " + effect.name
+                + " could not be confirmed: runs with it on have failed or lack features; its linear score is kept");
+            return;
+        }
+        if (isNear(e) && problems_.at(e).residual.size() == problem.residual.size())
+        {
+            averageWithEarlier(problem, problems_.at(e), static_cast<Eigen::Index>(e), amplitude - simulatedAt_.at(e));
+        }
+        finding.confirmed =
+            score(problem, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, amplitude, effect.isSwitch);
+        finding.logOdds = finding.confirmed->logEvidence + std::log(effect.prior);
+        simulatedAt_[e] = amplitude;
+        setting.parameters = shifted(problem, finding.confirmed->parameterShift);
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.confirmed->amplitude;
+        settings_[e] = setting;
+        simulations_[e] = simulations;
+        problems_[e] = problem;
+    }
+
+    /// Earlier simulations of the same effect close by count as well, carried over the short way by the columns: the
+    /// more seeds, the fairer the comparison of effects, each of which has simulations of its own.
+    static void averageWithEarlier(
+        ResidualProblem& problem, const ResidualProblem& earlier, Eigen::Index effect, double step)
+    {
+        const Eigen::VectorXd carried = earlier.residual
+                                        - problem.parameterColumns * (problem.parameterOffset - earlier.parameterOffset)
+                                        - step * problem.effectColumns.col(effect);
+        problem.residual = 0.5 * (problem.residual + carried);
+        for (std::size_t block = 0; block < problem.blocks.size(); ++block)
+        {
+            double& share = problem.blocks[block].simulationShare;
+            share = 0.25 * (share + earlier.blocks[block].simulationShare);
+        }
+    }
+
+    /// Where an effect's last fit ended.
+    Setting settingOf(std::size_t e) const
+    {
+        if (const auto found = settings_.find(e); found != settings_.end())
+        {
+            return found->second;
+        }
+        const EffectFinding& finding = answer_.effects[e];
+        Setting setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
+        return setting;
+    }
+
+    Explanation explanationOf(std::size_t e) const
+    {
+        const EffectFinding& finding = answer_.effects[e];
+        Explanation explanation;
+        explanation.effects = {e};
+        explanation.logOdds = finding.logOdds;
+        explanation.misfit = finding.score().misfit;
+        explanation.misfitLimit = finding.misfitLimit;
+        explanation.confirmed = finding.confirmed.has_value();
+        explanation.setting = settingOf(e);
+        return explanation;
+    }
+
+    /// The most likely pair, if it beats the best single effect by more than its penalty, switched on and scored again.
+    void tryPairs(std::vector<Explanation>& explanations)
+    {
+        if (!study_.settings.pairs || study_.effects.size() < 2)
+        {
+            return;
+        }
+        const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()));
+        const auto best = pairScores(answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none, 3);
+        for (const auto& pair : best)
+        {
+            const auto first = static_cast<std::size_t>(pair.first);
+            const auto second = static_cast<std::size_t>(pair.second);
+            const double prior = std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
+                                 - study_.settings.pairPenalty
+                                 - std::log((static_cast<double>(study_.effects.size()) - 1.0) / 2.0);
+            if (pair.logEvidence + prior < explanations.front().logOdds - study_.settings.setWidth)
+            {
+                continue;
+            }
+            Explanation explanation;
+            explanation.effects = {first, second};
+            explanation.setting = simulator_.plainSetting(shifted(answer_.problem, pair.parameterShift));
+            explanation.setting.amplitudes(pair.first) = pair.firstAmplitude;
+            explanation.setting.amplitudes(pair.second) = pair.secondAmplitude;
+            confirmPair(explanation, prior);
+            answer_.pairs.push_back(explanation);
+        }
+        explanations.insert(explanations.end(), answer_.pairs.begin(), answer_.pairs.end());
+    }
+
+    void confirmPair(Explanation& explanation, double prior)
+    {
+        const auto first = explanation.effects[0];
+        const auto second = explanation.effects[1];
+        const auto simulations = simulator_.repeats(training_, explanation.setting,
+            "confirmation of " + study_.effects[first].name + " with " + study_.effects[second].name,
+            study_.settings.repeatsConfirmation);
+        ResidualProblem problem = assemble(study_, library_, data_, simulations, explanation.setting.parameters);
+        // The two alone: all other columns only cost time here.
+        const std::vector<Eigen::Index> columns = {static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
+        problem.effectColumns = Eigen::MatrixXd(problem.effectColumns(Eigen::all, columns));
+        const Eigen::VectorXd anchor = explanation.setting.amplitudes(columns);
+        const auto bounds = study_.bounds();
+        const auto fixed = study_.fixed();
+        const auto scored = pairScores(
+            problem, answer_.noise, {bounds[first], bounds[second]}, {fixed[first], fixed[second]}, anchor, 1);
+        explanation.logOdds = scored.front().logEvidence + prior;
+        explanation.misfit = scored.front().misfit;
+        explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
+        explanation.confirmed = problem.residual.size() == answer_.problem.residual.size();
+        explanation.setting.parameters = shifted(problem, scored.front().parameterShift);
+        explanation.setting.amplitudes(columns[0]) = scored.front().firstAmplitude;
+        explanation.setting.amplitudes(columns[1]) = scored.front().secondAmplitude;
+    }
+
+    void decide()
+    {
+        std::vector<Explanation> explanations;
+        for (const auto e : byOdds())
+        {
+            explanations.push_back(explanationOf(e));
+        }
+        if (explanations.empty())
+        {
+            answer_.decision = Decision::unknown;
+            return;
+        }
+        tryPairs(explanations);
+        std::stable_sort(explanations.begin(), explanations.end(),
+            [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+        const Explanation& best = explanations.front();
+        if (best.misfit > best.misfitLimit || answer_.otherLogOdds > best.logOdds)
+        {
+            answer_.decision = Decision::unknown;
+            return;
+        }
+        for (const auto& explanation : explanations)
+        {
+            if (explanation.logOdds > best.logOdds - study_.settings.setWidth
+                && explanation.misfit <= explanation.misfitLimit)
+            {
+                answer_.set.push_back(explanation);
+                if (explanation.effects.size() == 1)
+                {
+                    answer_.effects[explanation.effects.front()].inSet = true;
+                }
+            }
+        }
+        answer_.otherInSet = answer_.otherLogOdds > best.logOdds - study_.settings.setWidth;
+        answer_.decision = answer_.set.size() == 1 && !answer_.otherInSet ? Decision::named : Decision::set;
+        if (const auto found = simulations_.find(best.effects.front());
+            found != simulations_.end() && best.effects.size() == 1)
+        {
+            answer_.ofBest = found->second;
+        }
+    }
+
+    Simulator& simulator_;
+    const Study& study_;
+    const EffectLibrary& library_;
+    const std::vector<MeasuredCondition>& data_;
+    std::mt19937_64& random_;
+    std::vector<std::size_t> training_;
+    std::map<std::size_t, Setting> settings_;
+    std::map<std::size_t, double> simulatedAt_; // amplitude
+    std::map<std::size_t, ResidualProblem> problems_;
+    std::map<std::size_t, std::vector<Simulation>> simulations_;
+    Answer answer_;
+};
+
+} // namespace
+
+Answer trace(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+    std::mt19937_64& random)
+{
+    return Tracing(simulator, library, data, random).run();
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,351 @@
+#include "report/json.h"
+
+#include "procedure/assemble.h"
+#include "report/planReport.h"
+
+#include <clepsydra/version.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+/// NaN and infinity do not exist in JSON.
+Json number(double value)
+{
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json numbers(const Eigen::VectorXd& values)
+{
+    Json list = Json::array();
+    for (const double value : values)
+    {
+        list.push_back(number(value));
+    }
+    return list;
+}
+
+Json estimate(const Estimate& value)
+{
+    return {{"value", number(value.value)}, {"standardError", number(value.standardError)}};
+}
+
+Json heldOutScore(const HeldOutScore& score)
+{
+    return {{"rmsLogError", number(score.rmsLogError.value)},
+        {"standardError", number(score.rmsLogError.standardError)}, {"crps", estimate(score.crps)}};
+}
+
+Json parametersOf(const Study& study, const Eigen::VectorXd& values)
+{
+    Json json = Json::object();
+    for (std::size_t i = 0; i < study.parameters.size(); ++i)
+    {
+        json[study.parameters[i].name] = values(static_cast<Eigen::Index>(i));
+    }
+    return json;
+}
+
+Json explanationJson(const Study& study, const Explanation& explanation)
+{
+    Json amplitudes = Json::object();
+    for (const auto e : explanation.effects)
+    {
+        amplitudes[study.effects[e].name] = explanation.setting.amplitudes(static_cast<Eigen::Index>(e));
+    }
+    return {{"name", nameOf(study, explanation)}, {"amplitudes", amplitudes},
+        {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
+        {"misfit", explanation.misfit}, {"misfitLimit", explanation.misfitLimit}, {"confirmed", explanation.confirmed}};
+}
+
+/// What the effect sets at its amplitude, in words that a user can check.
+Json entriesAt(const Effect& effect, double amplitude)
+{
+    Json json = Json::object();
+    if (effect.isOfChain())
+    {
+        json[effect.chainOperation] = (*effect.chainSize)({{"a", amplitude}});
+    }
+    for (const auto& [entry, formula] : effect.entries)
+    {
+        json[entry] = formula.text();
+    }
+    for (const auto& [entry, word] : effect.words)
+    {
+        json[entry] = word;
+    }
+    return json;
+}
+
+Json effectsJson(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    const Identifiability table =
+        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
+    // Probabilities among single effects and "something else", given that there is a residual.
+    double largest = answer.otherLogOdds;
+    for (const auto& finding : answer.effects)
+    {
+        largest = std::max(largest, finding.logOdds);
+    }
+    double sum = std::exp(answer.otherLogOdds - largest);
+    for (const auto& finding : answer.effects)
+    {
+        sum += std::exp(finding.logOdds - largest);
+    }
+    Json list = Json::array();
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        const Effect& effect = study.effects[e];
+        const EffectFinding& finding = answer.effects[e];
+        const Score& score = finding.score();
+        const auto i = static_cast<Eigen::Index>(e);
+        const double reach = intervalSds(answer.noise) * score.sd;
+        list.push_back({{"name", effect.name}, {"meaning", effect.meaning},
+            {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
+            {"amplitude", number(score.amplitude)}, {"standardError", number(score.sd)},
+            {"interval95", {number(score.amplitude - reach), number(score.amplitude + reach)}},
+            {"range", {effect.isSwitch ? 0.0 : effect.bounds.lower, effect.isSwitch ? 1.0 : effect.bounds.upper}},
+            {"sets", entriesAt(effect, score.amplitude)}, {"misfit", number(score.misfit)},
+            {"misfitLimit", finding.misfitLimit}, {"logEvidence", number(score.logEvidence)},
+            {"logOdds", number(finding.logOdds)}, {"probability", number(std::exp(finding.logOdds - largest) / sum)},
+            {"confirmed", finding.confirmed.has_value()},
+            {"parameters",
+                parametersOf(study, physical(study, answer.problem.parameterOffset + finding.linear.parameterShift))},
+            {"maskedByParameters", number(table.masked(i))},
+            {"smallestDetectable", number(table.smallestDetectable(i))}, {"howToMeasure", effect.hint}});
+    }
+    std::stable_sort(list.begin(), list.end(),
+        [](const Json& a, const Json& b) { return a["logOdds"].get<double>() > b["logOdds"].get<double>(); });
+    return list;
+}
+
+Json residualJson(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    Json list = Json::array();
+    for (std::size_t block = 0; block < answer.problem.blocks.size(); ++block)
+    {
+        const auto& b = answer.problem.blocks[block];
+        const Eigen::VectorXd sd = answer.problem.covariance(block, answer.noise).diagonal().cwiseSqrt();
+        Json features = Json::object();
+        for (std::size_t k = 0; k < b.features.size(); ++k)
+        {
+            const auto row = b.firstRow + static_cast<Eigen::Index>(k);
+            features[study.features[static_cast<std::size_t>(b.features[k])].name] = {
+                {"value", answer.problem.residual(row)}, {"standardError", sd(static_cast<Eigen::Index>(k))}};
+        }
+        list.push_back({{"condition", study.conditions[b.condition].name}, {"measuredMinusSimulated", features}});
+    }
+    return list;
+}
+
+Json heldOutJson(const Findings& findings)
+{
+    if (findings.heldOut == nullptr)
+    {
+        return nullptr;
+    }
+    const Study& study = *findings.study;
+    const HeldOutResult& result = *findings.heldOut;
+    Json names = Json::array();
+    for (const auto c : result.conditions)
+    {
+        names.push_back(study.conditions[c].name);
+    }
+    Json members = Json::array();
+    for (const auto& member : result.members)
+    {
+        Json json = heldOutScore(member.score);
+        json["name"] = nameOf(study, findings.answer->set[member.member]);
+        members.push_back(json);
+    }
+    if (result.conditions.empty())
+    {
+        return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
+            {"gaussianProcess", nullptr}, {"accepted", false}};
+    }
+    Json oneMore = heldOutScore(result.oneMoreParameter);
+    oneMore["operation"] = study.settings.oneMoreParameter;
+    oneMore["size"] = result.oneMoreAmplitude;
+    return {{"conditions", names}, {"before", heldOutScore(result.before)},
+        {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
+        {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
+        {"noiseFloor", result.noiseFloor}, {"accepted", result.accepted}, {"members", members}};
+}
+
+Json runsJson(const Simulator& simulator)
+{
+    Json failures = Json::array();
+    for (const auto& failure : simulator.failures())
+    {
+        failures.push_back({{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
+            {"reason", failure.reason}, {"repeatedWithAnotherSeed", failure.repeated}});
+    }
+    int all = 0;
+    for (const auto& [purpose, count] : simulator.runsByPurpose())
+    {
+        all += count;
+    }
+    return {{"used", all}, {"executed", simulator.executed()}, {"fromCache", all - simulator.executed()},
+        {"seconds", simulator.seconds()}, {"byPurpose", simulator.runsByPurpose()}, {"failures", failures}};
+}
+
+Json nextJson(const Findings& findings)
+{
+    Json list = Json::array();
+    if (findings.next == nullptr)
+    {
+        return list;
+    }
+    for (const auto& next : *findings.next)
+    {
+        Json outcomes = Json::array();
+        for (const auto& outcome : next.outcomes)
+        {
+            Json features = Json::object();
+            for (std::size_t f = 0; f < findings.study->features.size(); ++f)
+            {
+                const auto i = static_cast<Eigen::Index>(f);
+                features[findings.study->features[f].name] = {
+                    {"value", number(outcome.features(i))}, {"sd", number(outcome.sd(i))}};
+            }
+            outcomes.push_back({{"if", outcome.name}, {"probability", outcome.probability}, {"features", features}});
+        }
+        list.push_back({{"condition", findings.study->conditions[next.condition].name}, {"separation", next.separation},
+            {"perCost", next.perCost}, {"predicted", outcomes}});
+    }
+    return list;
+}
+
+Json noiseJson(const Findings& findings)
+{
+    const Noise& noise = findings.answer->noise;
+    return {{"pooled", noise.pooled}, {"dataSd", numbers(noise.data.matrix.diagonal().cwiseSqrt())},
+        {"dataDegreesOfFreedom", noise.data.nu}, {"dataShrinkage", noise.data.shrinkage},
+        {"simulationSd", numbers(noise.simulation.matrix.diagonal().cwiseSqrt())},
+        {"simulationDegreesOfFreedom", noise.simulation.nu}, {"simulationShrinkage", noise.simulation.shrinkage},
+        {"modelError", numbers(noise.modelError)}, {"seedCorrelation", findings.library->seedCorrelation},
+        {"seedCorrelationError", findings.library->seedCorrelationError},
+        {"commonSeeds", findings.library->commonSeeds}, {"spreadRatio", number(findings.answer->spread.ratio)},
+        {"spreadPValue", findings.answer->spread.pValue}};
+}
+
+Json identifiabilityJson(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    const Identifiability table =
+        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
+    Json pairs = Json::array();
+    for (const auto& [i, j] : lookAlikes(table, 2.0))
+    {
+        pairs.push_back({study.effects[i].name, study.effects[j].name});
+    }
+    return {{"lookAlikes", pairs}, {"collinearityOfAll", table.collinearityOfAll}};
+}
+
+} // namespace
+
+std::string nameOf(const Study& study, const Explanation& explanation)
+{
+    std::string name;
+    for (const auto e : explanation.effects)
+    {
+        name += (name.empty() ? "" : " with ") + study.effects[e].name;
+    }
+    return name.empty() ? "no effect" : name;
+}
+
+Json jsonOf(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    Json set = Json::array();
+    for (const auto& explanation : answer.set)
+    {
+        set.push_back(explanationJson(study, explanation));
+    }
+    Json pairs = Json::array();
+    for (const auto& pair : answer.pairs)
+    {
+        pairs.push_back(explanationJson(study, pair));
+    }
+    Json json;
+    json["study"] = study.name;
+    json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
+    json["decision"] = nameOf(answer.decision);
+    json["name"] = answer.decision == Decision::named ? Json(nameOf(study, answer.set.front())) : Json(nullptr);
+    json["summary"] = inWords(findings);
+    json["set"] = set;
+    json["somethingElseInSet"] = answer.otherInSet;
+    json["pValue"] = answer.significance.pValue;
+    json["test"] = {{"omnibus", answer.significance.omnibus}, {"omnibusPValue", answer.significance.omnibusPValue},
+        {"bestGain", answer.significance.bestGain}, {"bestGainPValue", answer.significance.bestGainPValue},
+        {"level", study.settings.level}, {"draws", study.settings.draws}};
+    json["null"] = explanationJson(study, answer.null);
+    json["null"]["parameterSds"] = numbers(answer.parameterSd);
+    json["somethingElse"] = {{"logOdds", answer.otherLogOdds}};
+    json["effects"] = effectsJson(findings);
+    json["pairs"] = pairs;
+    json["residual"] = residualJson(findings);
+    json["heldOut"] = heldOutJson(findings);
+    json["identifiability"] = identifiabilityJson(findings);
+    json["nextExperiment"] = nextJson(findings);
+    json["noise"] = noiseJson(findings);
+    json["runs"] = runsJson(*findings.simulator);
+    json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.simulator->seedsByPurpose()}};
+    json["assumptions"] = assumptionsOf(findings);
+    json["remarks"] = answer.remarks;
+    return json;
+}
+
+std::vector<std::string> assumptionsOf(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    std::vector<std::string> all = study.assumptions;
+    for (const auto& parameter : study.parameters)
+    {
+        all.push_back("Parameter " + parameter.name
+                      + " has one value in all conditions; an independent measurement gave " + textOf(parameter.mean)
+                      + " with a standard deviation of " + textOf(parameter.sd) + ".");
+    }
+    all.push_back("Only the " + std::to_string(study.effects.size())
+                  + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
+                    "a range are "
+                    "equally likely beforehand.");
+    all.push_back(answer.noise.pooled
+                      ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
+                      : "The scatter of measurements is that of their own repeats.");
+    all.emplace_back("The scatter of a feature is the same in all conditions and close to normal.");
+    if (answer.noise.data.shrinkage > 0.0)
+    {
+        all.push_back("There are fewer than three repeats per feature: correlations between features were shrunk by "
+                      + textOf(std::round(100.0 * answer.noise.data.shrinkage)) + " %.");
+    }
+    if (study.modelError.maxCoeff() > 0.0)
+    {
+        all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");
+    }
+    for (const auto& effect : study.leftOut)
+    {
+        all.push_back("Left out, and so never named: " + effect + ".");
+    }
+    if (study.rig.seedEntry.empty())
+    {
+        all.emplace_back("Runs of the simulator do not scatter.");
+    }
+    return all;
+}
+
+} // namespace clepsydra::identification

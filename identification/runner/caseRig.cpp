@@ -1,0 +1,292 @@
+#include "runner/caseRig.h"
+
+#include "curves/table.h"
+#include "runner/runProgress.h"
+#include "runner/sha256.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <utility>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* recordFile = "record.json";
+constexpr std::size_t keyDigits = 20;
+constexpr std::size_t linesOfLog = 12;
+
+std::string endOfLog(const fs::path& file)
+{
+    std::ifstream lines(file);
+    std::vector<std::string> last;
+    for (std::string line; std::getline(lines, line);)
+    {
+        last.push_back(line);
+        if (last.size() > linesOfLog)
+        {
+            last.erase(last.begin());
+        }
+    }
+    std::string text;
+    for (const auto& line : last)
+    {
+        text += "\n    " + line;
+    }
+    return text;
+}
+
+/// What git would not carry: results of earlier runs in the case are no part of it.
+bool isOutput(const std::string& name)
+{
+    static const std::vector<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "processor0"};
+    return std::find(outputs.begin(), outputs.end(), name) != outputs.end() || name.rfind("log.", 0) == 0
+           || name.rfind("processor", 0) == 0 || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
+}
+
+std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
+{
+    std::string all = study.rig.version + '\n';
+    std::vector<fs::path> names;
+    for (const auto& entry : fs::directory_iterator(caseFolder))
+    {
+        if (!isOutput(entry.path().filename().string()) && entry.path() != fs::absolute(study.file))
+        {
+            names.push_back(entry.path());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    for (const auto& path : names)
+    {
+        all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';
+    }
+    for (const auto& path : study.rig.dependsOn)
+    {
+        all += sha256OfPath(path) + '\n';
+    }
+    return sha256(all);
+}
+
+void link(const fs::path& target, const fs::path& place)
+{
+    std::error_code error;
+    if (!fs::exists(fs::symlink_status(place)))
+    {
+        fs::create_symlink(target, place, error);
+    }
+}
+
+/// Links to all entries of a folder but one.
+void linkEntries(const fs::path& from, const fs::path& to, const fs::path& butNot)
+{
+    fs::create_directories(to);
+    for (const auto& entry : fs::directory_iterator(from, fs::directory_options::skip_permission_denied))
+    {
+        if (entry.path().filename() != butNot)
+        {
+            link(entry.path(), to / entry.path().filename());
+        }
+    }
+}
+
+} // namespace
+
+CaseRig::CaseRig(const Study& study, std::ostream& progress)
+    : study_(study),
+      caseFolder_(fs::canonical(study.rig.caseFolder)),
+      cache_(study.work / "cache"),
+      tree_(study.work / "tree"),
+      fingerprint_(fingerprintOf(study, caseFolder_)),
+      executor_(makeExecutor(study.executor, study.work, study.rig.timeLimit)),
+      progress_(progress)
+{
+    fs::create_directories(cache_);
+    // The folder ignores itself, wherever it is.
+    std::ofstream(study.work / ".gitignore") << "*\n";
+    mirrorSurroundings();
+}
+
+void CaseRig::mirrorSurroundings() const
+{
+    const fs::path above = caseFolder_.parent_path();
+    linkEntries(above.parent_path(), tree_, above.filename());
+    linkEntries(above, tree_ / above.filename(), caseFolder_.filename());
+}
+
+fs::path CaseRig::copyOf(const std::string& key) const
+{
+    return tree_ / caseFolder_.parent_path().filename() / (caseFolder_.filename().string() + '.' + key);
+}
+
+Entries CaseRig::defaults() const
+{
+    return readEntries(caseFolder_ / study_.rig.entriesFile);
+}
+
+std::string CaseRig::keyOf(const RunOrder& order) const
+{
+    std::string all = fingerprint_ + '\n' + order.command + '\n';
+    for (const auto& [name, value] : order.entries)
+    {
+        all += name + ' ' + value + '\n';
+    }
+    return sha256(all).substr(0, keyDigits);
+}
+
+bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& result) const
+{
+    std::ifstream file(stored / recordFile);
+    const auto record = nlohmann::json::parse(file, nullptr, false);
+    if (record.is_discarded() || filesMatching(stored / order.file).empty())
+    {
+        return false;
+    }
+    try
+    {
+        result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
+    }
+    catch (const std::exception& error)
+    {
+        result.failure = error.what();
+    }
+    result.seconds = record.value("seconds", 0.0);
+    result.cached = true;
+    return true;
+}
+
+void CaseRig::prepare(const RunOrder& order, const fs::path& folder) const
+{
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (const auto& entry : fs::directory_iterator(caseFolder_))
+    {
+        if (!isOutput(entry.path().filename().string()))
+        {
+            fs::copy(entry.path(), folder / entry.path().filename(),
+                fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+        }
+    }
+    replaceEntries(folder / study_.rig.entriesFile, order.entries);
+}
+
+/// Into a folder of another name first: a record is there wholly or not at all.
+void CaseRig::store(const RunOrder& order, const fs::path& folder, const fs::path& stored, double seconds) const
+{
+    const fs::path unfinished = stored.string() + ".unfinished";
+    fs::remove_all(unfinished);
+    for (const auto& file : filesMatching(folder / order.file))
+    {
+        const fs::path place = unfinished / fs::relative(file, folder);
+        fs::create_directories(place.parent_path());
+        fs::copy_file(file, place);
+    }
+    nlohmann::json record = {{"purpose", order.purpose}, {"command", order.command}, {"seed", order.seed},
+        {"entries", order.entries}, {"case", caseFolder_.string()}, {"fingerprint", fingerprint_},
+        {"seconds", seconds}};
+    std::ofstream(unfinished / recordFile) << record.dump(1) << '\n';
+    fs::remove_all(stored);
+    fs::rename(unfinished, stored);
+}
+
+int CaseRig::missing(const std::vector<RunOrder>& orders)
+{
+    std::vector<std::string> keys;
+    for (const auto& order : orders)
+    {
+        RunResult result;
+        const std::string key = keyOf(order);
+        if (std::find(keys.begin(), keys.end(), key) == keys.end() && !load(order, cache_ / key, result))
+        {
+            keys.push_back(key);
+        }
+    }
+    return static_cast<int>(keys.size());
+}
+
+std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
+{
+    std::vector<RunResult> results(orders.size());
+    std::map<std::string, std::vector<std::size_t>> toDo;
+    for (std::size_t i = 0; i < orders.size(); ++i)
+    {
+        const std::string key = keyOf(orders[i]);
+        if (!load(orders[i], cache_ / key, results[i]))
+        {
+            toDo[key].push_back(i);
+        }
+    }
+    std::vector<Job> jobs;
+    std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
+    // In the order in which they were asked for, for people who watch.
+    std::sort(
+        wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
+    for (const auto& [key, places] : wanted)
+    {
+        prepare(orders[places.front()], copyOf(key));
+        jobs.push_back({copyOf(key), orders[places.front()].command});
+    }
+    if (jobs.empty())
+    {
+        return results;
+    }
+    RunProgress progress(progress_, jobs.size(), executor_->atOnce(), secondsPerRun());
+    executor_->run(jobs, [&](const JobEnd& end) {
+        const auto& [key, places] = wanted[end.job];
+        const RunOrder& order = orders[places.front()];
+        const fs::path folder = copyOf(key);
+        RunResult result;
+        if (end.status != 0)
+        {
+            result.failure = "'" + order.command + "' ended with status " + std::to_string(end.status) + " in "
+                             + folder.string() + endOfLog(folder / jobLog);
+        }
+        else if (filesMatching(folder / order.file).empty())
+        {
+            result.failure = "the run has not written " + (folder / order.file).string();
+        }
+        else
+        {
+            store(order, folder, cache_ / key, end.seconds);
+            load(order, cache_ / key, result);
+            result.cached = false;
+            if (!study_.rig.keepRuns)
+            {
+                fs::remove_all(folder);
+            }
+        }
+        result.seconds = end.seconds;
+        progress.ended(order.purpose, result.failure);
+        for (const auto place : places)
+        {
+            results[place] = result;
+        }
+    });
+    return results;
+}
+
+double CaseRig::secondsPerRun() const
+{
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto& entry : fs::directory_iterator(cache_))
+    {
+        std::ifstream file(entry.path() / recordFile);
+        const auto record = nlohmann::json::parse(file, nullptr, false);
+        if (!record.is_discarded() && record.value("fingerprint", "") == fingerprint_)
+        {
+            sum += record.value("seconds", 0.0);
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? sum / count : study_.rig.costPerRun;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "runner/executor.h"
+#include "runner/rig.h"
+#include "study/study.h"
+
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string>
+
+namespace clepsydra::identification
+{
+
+/// A case directory and its command. A run is a copy of the directory with other entries; what it has written is kept
+/// under a key of everything that entered it, and never computed twice:
+///
+///     work/cache/<key>/    entries, observable, and how it went
+///     work/tree/<...>      copies while they run; those that failed stay for people to look at
+///
+/// Relative paths that lead out of the case (../../scripts) work in a copy as well: the folders round it are mirrored
+/// with links.
+class CaseRig final : public Rig
+{
+public:
+    /// \param progress  is told how far the runs are
+    CaseRig(const Study& study, std::ostream& progress);
+
+    Entries defaults() const override;
+    std::vector<RunResult> run(const std::vector<RunOrder>& orders) override;
+    int missing(const std::vector<RunOrder>& orders) override;
+
+    /// Hash of all that enters a run.
+    std::string keyOf(const RunOrder& order) const;
+
+    /// Mean wall-clock seconds of the stored runs; the study's own estimate where there are none.
+    double secondsPerRun() const;
+
+private:
+    std::filesystem::path copyOf(const std::string& key) const;
+    void prepare(const RunOrder& order, const std::filesystem::path& folder) const;
+    bool load(const RunOrder& order, const std::filesystem::path& stored, RunResult& result) const;
+    void store(const RunOrder& order, const std::filesystem::path& folder, const std::filesystem::path& stored,
+        double seconds) const;
+    void mirrorSurroundings() const;
+
+    const Study& study_;
+    std::filesystem::path caseFolder_;
+    std::filesystem::path cache_;
+    std::filesystem::path tree_;
+    std::string fingerprint_; // of the case's files, what it depends on, and the version
+    std::unique_ptr<Executor> executor_;
+    std::ostream& progress_;
+};
+
+} // namespace clepsydra::identification

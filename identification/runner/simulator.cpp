@@ -1,0 +1,249 @@
+#include "runner/simulator.h"
+
+#include "design/seeds.h"
+#include "effects/measuringChain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+void assign(Entries& entries, const std::map<std::string, std::string>& changes)
+{
+    for (const auto& [name, value] : changes)
+    {
+        entries[name] = value;
+    }
+}
+
+/// All formulas see the entries as they were before any of them.
+void assign(Entries& entries, const Entries& defaults, const std::map<std::string, Expression>& formulas,
+    const std::string& variable, double value)
+{
+    Entries all = entries;
+    all.insert(defaults.begin(), defaults.end());
+    auto variables = numbersOf(all);
+    variables[variable] = value;
+    for (const auto& [name, formula] : formulas)
+    {
+        const double number = formula(variables);
+        if (!std::isfinite(number))
+        {
+            throw std::runtime_error("the formula '" + formula.text() + "' of entry '" + name + "' gives no number at "
+                                     + variable + " = " + textOf(value));
+        }
+        entries[name] = textOf(number);
+    }
+}
+
+std::string failureOf(const Simulation& simulation, const RunResult& result)
+{
+    if (!result.failure.empty())
+    {
+        return result.failure;
+    }
+    if (result.curve.time.size() < 2)
+    {
+        return "the observable has fewer than two rows";
+    }
+    return simulation.features.array().isFinite().any() ? "" : "the curve has none of the features";
+}
+
+} // namespace
+
+Simulator::Simulator(const Study& study, Rig& rig)
+    : study_(study),
+      rig_(rig),
+      defaults_(rig.defaults())
+{}
+
+Setting Simulator::plainSetting(const Eigen::VectorXd& parameters) const
+{
+    Setting setting{parameters, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()))};
+    if (parameters.size() == 0)
+    {
+        setting.parameters.resize(static_cast<Eigen::Index>(study_.parameters.size()));
+        for (Eigen::Index i = 0; i < setting.parameters.size(); ++i)
+        {
+            setting.parameters(i) = study_.parameters[static_cast<std::size_t>(i)].mean;
+        }
+    }
+    return setting;
+}
+
+Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) const
+{
+    const Condition& c = study_.conditions[condition];
+    Entries entries = study_.rig.entries;
+    assign(entries, c.entries);
+    for (std::size_t i = 0; i < study_.parameters.size(); ++i)
+    {
+        const Parameter& parameter = study_.parameters[i];
+        const double value = setting.parameters(static_cast<Eigen::Index>(i));
+        assign(
+            entries, defaults_, parameter.entries, parameter.name, std::clamp(value, parameter.lower, parameter.upper));
+    }
+    for (std::size_t i = 0; i < study_.effects.size(); ++i)
+    {
+        const Effect& effect = study_.effects[i];
+        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(i));
+        if (amplitude == 0.0 || effect.isOfChain() || !acts(effect, c))
+        {
+            continue;
+        }
+        try
+        {
+            assign(entries, defaults_, effect.entries, "a", amplitude);
+        }
+        catch (const std::exception& error)
+        {
+            throw std::runtime_error("effect '" + effect.name + "': " + error.what());
+        }
+        assign(entries, effect.words);
+    }
+    return entries;
+}
+
+Curve Simulator::throughChain(Curve curve, std::size_t condition, const Eigen::VectorXd& amplitudes) const
+{
+    for (std::size_t i = 0; i < study_.effects.size(); ++i)
+    {
+        const Effect& effect = study_.effects[i];
+        const double amplitude = amplitudes(static_cast<Eigen::Index>(i));
+        if (effect.isOfChain() && amplitude != 0.0 && acts(effect, study_.conditions[condition]))
+        {
+            curve = chainOperations()
+                        .at(effect.chainOperation)
+                        .apply(std::move(curve), (*effect.chainSize)({{"a", amplitude}}));
+        }
+    }
+    return curve;
+}
+
+Eigen::VectorXd Simulator::featuresOf(const Curve& curve) const
+{
+    Eigen::VectorXd features =
+        Eigen::VectorXd::Constant(study_.featureCount(), std::numeric_limits<double>::quiet_NaN());
+    for (Eigen::Index i = 0; i < features.size() && curve.time.size() >= 2; ++i)
+    {
+        const double value = study_.features[static_cast<std::size_t>(i)](curve);
+        features(i) = std::isfinite(value) ? value : features(i);
+    }
+    return features;
+}
+
+RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
+{
+    const Condition& condition = study_.conditions[order.condition];
+    RunOrder run;
+    run.command = condition.command.empty() ? study_.rig.command : condition.command;
+    run.file = condition.file;
+    run.entries = entriesOf(order.condition, order.setting);
+    run.purpose = order.purpose + ", " + condition.name;
+    if (!study_.rig.seedEntry.empty())
+    {
+        const std::string purpose = order.commonSeed ? "common" : order.purpose;
+        run.seed = seedOf(study_.settings.seed, purpose + (attempt > 0 ? "/" + std::to_string(attempt) : ""),
+            condition.name, order.commonSeed ? 0 : order.number);
+        run.entries[study_.rig.seedEntry] = std::to_string(run.seed);
+    }
+    return run;
+}
+
+int Simulator::missing(const std::vector<SimulationOrder>& orders)
+{
+    std::vector<RunOrder> runs;
+    for (const auto& order : orders)
+    {
+        runs.push_back(runOrder(order, 0));
+    }
+    return rig_.missing(runs);
+}
+
+std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& orders)
+{
+    std::vector<Simulation> done(orders.size());
+    std::vector<std::size_t> open(orders.size());
+    std::iota(open.begin(), open.end(), std::size_t{0});
+    // Without a seed a second attempt would fail in the same way.
+    const int attempts = study_.rig.seedEntry.empty() ? 1 : study_.settings.attempts;
+    for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
+    {
+        std::vector<RunOrder> runs;
+        for (const auto i : open)
+        {
+            runs.push_back(runOrder(orders[i], attempt));
+        }
+        const int toExecute = rig_.missing(runs);
+        if (executed_ + toExecute > study_.settings.budget)
+        {
+            throw std::runtime_error(study_.file.string() + ": budget.runs is " + std::to_string(study_.settings.budget)
+                                     + "; " + std::to_string(executed_) + " have been made, and '"
+                                     + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more");
+        }
+        const auto results = rig_.run(runs);
+        std::vector<std::size_t> failed;
+        for (std::size_t k = 0; k < open.size(); ++k)
+        {
+            const SimulationOrder& order = orders[open[k]];
+            Simulation& simulation = done[open[k]];
+            simulation.condition = order.condition;
+            simulation.seed = runs[k].seed;
+            simulation.plain = results[k].curve;
+            simulation.curve = results[k].curve.time.size() < 2
+                                   ? results[k].curve
+                                   : throughChain(results[k].curve, order.condition, order.setting.amplitudes);
+            simulation.features = featuresOf(simulation.curve);
+            ++runs_[order.purpose];
+            seeds_[order.purpose].push_back(runs[k].seed);
+            executed_ += results[k].cached ? 0 : 1;
+            seconds_ += results[k].cached ? 0.0 : results[k].seconds;
+            const std::string reason = failureOf(simulation, results[k]);
+            simulation.failed = !reason.empty();
+            if (simulation.failed)
+            {
+                simulation.features.setConstant(std::numeric_limits<double>::quiet_NaN());
+                failures_.push_back(
+                    {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
+                failed.push_back(open[k]);
+            }
+            else if (attempt > 0)
+            {
+                for (auto& failure : failures_)
+                {
+                    failure.repeated = failure.repeated || failure.seed == runOrder(order, attempt - 1).seed;
+                }
+            }
+        }
+        open = failed;
+    }
+    if (!open.empty() && study_.settings.onFailure == "stop")
+    {
+        throw std::runtime_error("a run failed and the study says onFailure: stop; " + failures_.back().purpose
+                                 + ", condition " + failures_.back().condition + ": " + failures_.back().reason);
+    }
+    return done;
+}
+
+std::vector<Simulation> Simulator::repeats(
+    const std::vector<std::size_t>& conditions, const Setting& setting, const std::string& purpose, int repeats)
+{
+    std::vector<SimulationOrder> orders;
+    for (const auto condition : conditions)
+    {
+        for (int number = 0; number < repeats; ++number)
+        {
+            orders.push_back({condition, setting, purpose, number, false});
+        }
+    }
+    return run(orders);
+}
+
+} // namespace clepsydra::identification

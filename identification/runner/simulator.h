@@ -1,0 +1,118 @@
+#pragma once
+
+#include "runner/rig.h"
+#include "study/study.h"
+
+#include <Eigen/Core>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Where in the space of parameters and effects a simulation stands.
+struct Setting
+{
+    Eigen::VectorXd parameters; // physical values
+    Eigen::VectorXd amplitudes; // of all effects, those of the measuring chain too
+};
+
+/// A simulation that is wanted; its seed follows from purpose, condition and number.
+struct SimulationOrder
+{
+    std::size_t condition = 0;
+    Setting setting;
+    std::string purpose;
+    int number = 0;
+    bool commonSeed = false; // the same seed for all numbers
+};
+
+struct Simulation
+{
+    std::size_t condition = 0;
+    Eigen::VectorXd features; // NaN where the curve does not have it, all of them where the run has failed
+    Curve curve;              // as the measuring chain shows it
+    Curve plain;              // as simulated
+    long seed = 0;
+    bool failed = false;
+};
+
+/// A run that failed, with all that was tried.
+struct Failure
+{
+    std::string purpose;
+    std::string condition;
+    long seed = 0;
+    std::string reason;
+    bool repeated = false; // a later attempt with another seed succeeded
+};
+
+/// Turns settings into entries of the case, lets the rig run them, applies the measuring chain and takes the features.
+class Simulator
+{
+public:
+    Simulator(const Study& study, Rig& rig);
+
+    /// A setting without any effect. \param parameters  physical values; empty: the priors' means
+    Setting plainSetting(const Eigen::VectorXd& parameters = {}) const;
+
+    /// All orders, in their order. Failed runs are repeated with other seeds as the study's settings say.
+    /// \throws std::runtime_error above the budget, or on a failed run where the study says `onFailure: stop`
+    std::vector<Simulation> run(const std::vector<SimulationOrder>& orders);
+
+    /// `repeats` runs of one setting in each of the conditions.
+    std::vector<Simulation> repeats(
+        const std::vector<std::size_t>& conditions, const Setting& setting, const std::string& purpose, int repeats);
+
+    /// Entries of a run. \throws std::runtime_error that names the effect whose formula fails
+    Entries entriesOf(std::size_t condition, const Setting& setting) const;
+
+    Curve throughChain(Curve curve, std::size_t condition, const Eigen::VectorXd& amplitudes) const;
+    Eigen::VectorXd featuresOf(const Curve& curve) const;
+
+    /// How many of the orders are not stored yet.
+    int missing(const std::vector<SimulationOrder>& orders);
+
+    const Study& study() const
+    {
+        return study_;
+    }
+
+    //--- What it took ---
+    const std::map<std::string, int>& runsByPurpose() const
+    {
+        return runs_;
+    }
+    const std::map<std::string, std::vector<long>>& seedsByPurpose() const
+    {
+        return seeds_;
+    }
+    const std::vector<Failure>& failures() const
+    {
+        return failures_;
+    }
+    int executed() const
+    {
+        return executed_;
+    }
+    double seconds() const
+    {
+        return seconds_;
+    }
+
+private:
+    RunOrder runOrder(const SimulationOrder& order, int attempt) const;
+
+    const Study& study_;
+    Rig& rig_;
+    Entries defaults_;
+    std::map<std::string, int> runs_;
+    std::map<std::string, std::vector<long>> seeds_;
+    std::vector<Failure> failures_;
+    int executed_ = 0;
+    double seconds_ = 0.0;
+};
+
+} // namespace clepsydra::identification

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace clepsydra::identification
+{
+
+/// A formula as users write it in a study file: "beadDiameter*(1 + 0.05*a)". Knows + - * / ^, brackets, numbers,
+/// names, and exp, log, sqrt, abs, round, min, max, sin, cos (angles in radians).
+class Expression
+{
+public:
+    using Variables = std::map<std::string, double>;
+
+    /// \throws std::invalid_argument that shows where the text cannot be understood
+    explicit Expression(std::string text);
+
+    /// \throws std::invalid_argument if a name is not among the variables
+    double operator()(const Variables& variables) const;
+
+    const std::string& text() const
+    {
+        return text_;
+    }
+
+    struct Node;
+
+private:
+    std::string text_;
+    std::shared_ptr<const Node> root_;
+};
+
+} // namespace clepsydra::identification

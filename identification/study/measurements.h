@@ -1,0 +1,31 @@
+#pragma once
+
+#include "study/study.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// The measured repeats of one condition.
+struct MeasuredCondition
+{
+    Eigen::MatrixXd features;      // one repeat per row; NaN: missing
+    Eigen::VectorXd declaredError; // standard error of the mean beyond the scatter of repeats, by feature
+    std::vector<Curve> curves;     // as measured, SI
+};
+
+/// Reads the measurements of one condition.
+/// \throws std::runtime_error that names file, and column or row
+MeasuredCondition readMeasurements(const Study& study, std::size_t condition);
+
+/// Mean over repeats, feature by feature; NaN where no repeat has it.
+Eigen::VectorXd meanFeatures(const Eigen::MatrixXd& repeats);
+
+/// Covariance of the means of the repeats over the covariance of one repeat, element by element: n_ij/(n_i n_j) with
+/// n_ij repeats that have both features; 1/n for complete ones.
+Eigen::MatrixXd shareOfMean(const Eigen::MatrixXd& repeats);
+
+} // namespace clepsydra::identification

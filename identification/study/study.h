@@ -1,0 +1,176 @@
+#pragma once
+
+#include "curves/curve.h"
+#include "features/features.h"
+#include "inference/significance.h"
+#include "runner/entries.h"
+#include "study/expression.h"
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// A case that can be run.
+struct RigSpecification
+{
+    std::filesystem::path caseFolder;
+    std::string command = "./Allrun";
+    std::string entriesFile = "parameters";
+    Entries entries;                              // set in every run
+    std::string seedEntry;                        // empty: runs do not scatter
+    std::vector<std::filesystem::path> dependsOn; // files beside the case whose content enters the key of a run
+    std::string version;                          // text that enters it as well
+    double costPerRun = 60.0;                     // [s], until runs have been timed
+    double timeLimit = 0.0;                       // [s]; 0: none
+    bool keepRuns = false;
+};
+
+/// A parameter that all conditions share and that is fitted.
+struct Parameter
+{
+    std::string name;
+    std::map<std::string, Expression> entries; // formulas in the parameter's name
+    double mean = 0.0;                         // of its prior, an independent measurement
+    double sd = 0.0;
+    double lower = 0.0; // limits of what is physical; simulations stay within
+    double upper = 0.0;
+};
+
+/// What the model may lack, or the measuring chain may add. Data, not code.
+struct Effect
+{
+    std::string name;
+    std::string meaning;
+    std::string hint;                                       // how to measure it by itself
+    std::map<std::string, Expression> entries;              // formulas in the entries and the amplitude a
+    std::map<std::string, std::string> words;               // of a switch: entries as text
+    std::string chainOperation;                             // empty: an effect of the simulator
+    std::optional<Expression> chainSize;                    // formula in a
+    Bounds bounds;                                          // of the amplitude
+    bool isSwitch = false;                                  // on or off
+    double prior = 1.0;                                     // relative weight
+    std::map<std::string, std::vector<std::string>> actsIn; // tag -> values; empty: everywhere
+
+    bool isOfChain() const
+    {
+        return !chainOperation.empty();
+    }
+};
+
+enum class Role
+{
+    training,
+    heldOut,
+    candidate
+};
+
+/// A column of a measured file, and how it becomes SI.
+struct ColumnSpecification
+{
+    std::string column;
+    double factor = 1.0;
+    double offset = 0.0;
+    double lowest = 0.0; // rows outside are missing; equal limits: none
+    double highest = 0.0;
+};
+
+/// Repeats of one feature that was measured as a number, not as a curve.
+struct MeasuredNumber
+{
+    std::size_t feature;
+    std::vector<double> values; // on the feature's own scale (logs already taken)
+    double standardError = 0.0; // of each value, beyond the scatter of repeats
+};
+
+struct Measurement
+{
+    std::vector<std::filesystem::path> files; // a repeat each
+    ColumnSpecification time;
+    ColumnSpecification value;
+    std::vector<MeasuredNumber> numbers;
+};
+
+struct Condition
+{
+    std::string name;
+    Role role = Role::training;
+    Entries entries;
+    std::map<std::string, std::string> tags;
+    std::map<std::string, double> coordinates; // for the Gaussian process of control 2
+    std::string command;                       // empty: the rig's
+    std::string file;                          // of the observable
+    Measurement measured;
+    double cost = 1.0; // of a measurement, for the next experiment
+};
+
+bool acts(const Effect& effect, const Condition& condition);
+
+enum class DesignKind
+{
+    automatic,
+    plackettBurman,
+    oneAtATime
+};
+
+struct ExecutorSpecification
+{
+    std::string kind = "pool"; // or slurm
+    int processes = 0;         // 0: one per core
+    std::string options;       // of sbatch
+};
+
+struct Settings
+{
+    int budget = 1000; // runs
+    unsigned seed = 1;
+    int repeatsBase = 4;         // runs at the base setting of a condition
+    int repeatsAtFit = 3;        // and at the null fit
+    int repeatsConfirmation = 3; // and with an effect switched on
+    int repeatsHeldOut = 3;
+    int attempts = 3; // of a run that fails, each with another seed
+    DesignKind design = DesignKind::automatic;
+    double level = 0.05;
+    int draws = 2000;
+    double setWidth = 3.0; // log evidence within which effects cannot be told apart
+    int confirmations = 3; // effects that are switched on, at most
+    int rounds = 2;        // simulations of each, where the first is not near enough to its fit
+    bool pairs = true;
+    double pairPenalty = 3.0; // log prior odds of any two effects at once against any one
+    double otherWeight = 1.0; // prior weight of an effect outside the library, beside 1 for a usual one
+    std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve, or an effect's name
+    std::string onFailure = "exclude";           // or stop
+};
+
+struct Study
+{
+    std::string name;
+    std::filesystem::path file;
+    std::filesystem::path work; // cache and runs
+    RigSpecification rig;
+    std::string timeColumn;
+    std::string valueColumn;
+    std::vector<Feature> features;
+    Eigen::VectorXd modelError; // by feature
+    std::vector<Condition> conditions;
+    std::vector<Parameter> parameters;
+    std::vector<Effect> effects;
+    ExecutorSpecification executor;
+    Settings settings;
+    std::vector<std::string> assumptions; // the user's own words, repeated in the report
+    std::vector<std::string> leftOut;     // effects of a library that the case has no entries for
+
+    std::vector<std::size_t> conditionsOf(Role role) const;
+    std::vector<Bounds> bounds() const;
+    std::vector<bool> fixed() const;
+    Eigen::Index featureCount() const
+    {
+        return static_cast<Eigen::Index>(features.size());
+    }
+};
+
+} // namespace clepsydra::identification

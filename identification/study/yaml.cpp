@@ -1,0 +1,192 @@
+#include "study/yaml.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace clepsydra::identification
+{
+
+std::string listed(const std::vector<std::string>& words)
+{
+    std::string text;
+    for (std::size_t i = 0; i < words.size(); ++i)
+    {
+        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
+    }
+    return text;
+}
+
+YamlPlace::YamlPlace(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string name)
+    : node_(std::move(node)),
+      file_(std::move(file)),
+      name_(std::move(name))
+{}
+
+YamlPlace YamlPlace::fileAt(const std::filesystem::path& file)
+{
+    try
+    {
+        return {YAML::LoadFile(file.string()), std::make_shared<const std::filesystem::path>(file), ""};
+    }
+    catch (const YAML::BadFile&)
+    {
+        throw StudyError(file.string() + ": cannot be read");
+    }
+    catch (const YAML::ParserException& error)
+    {
+        throw StudyError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": no valid YAML: " + error.msg);
+    }
+}
+
+void YamlPlace::fail(const std::string& what) const
+{
+    const int line = node_.Mark().line;
+    throw StudyError(file_->string() + ":" + (line >= 0 ? std::to_string(line + 1) + ":" : "") + " "
+                     + (name_.empty() ? "" : name_ + ": ") + what);
+}
+
+void YamlPlace::allow(const std::vector<std::string>& allowed) const
+{
+    for (const auto& [key, value] : map())
+    {
+        if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+        {
+            value.fail("unknown key; allowed here: " + listed(allowed));
+        }
+    }
+}
+
+bool YamlPlace::has(const std::string& key) const
+{
+    return node_.IsMap() && node_[key].IsDefined() && !node_[key].IsNull();
+}
+
+YamlPlace YamlPlace::at(const std::string& key) const
+{
+    if (!has(key))
+    {
+        fail("needs the key '" + key + "'");
+    }
+    return {node_[key], file_, name_.empty() ? key : name_ + '.' + key};
+}
+
+std::vector<YamlPlace> YamlPlace::list() const
+{
+    if (!node_.IsSequence())
+    {
+        fail("must be a list");
+    }
+    std::vector<YamlPlace> places;
+    for (std::size_t i = 0; i < node_.size(); ++i)
+    {
+        places.push_back({node_[i], file_, name_ + '[' + std::to_string(i + 1) + ']'});
+    }
+    return places;
+}
+
+std::vector<YamlPlace> YamlPlace::oneOrMore() const
+{
+    return node_.IsSequence() ? list() : std::vector<YamlPlace>{*this};
+}
+
+std::vector<std::pair<std::string, YamlPlace>> YamlPlace::map() const
+{
+    if (!node_.IsMap())
+    {
+        fail("must be a map of 'key: value'");
+    }
+    std::vector<std::pair<std::string, YamlPlace>> places;
+    for (const auto& entry : node_)
+    {
+        const auto key = entry.first.as<std::string>();
+        places.emplace_back(key, YamlPlace(entry.second, file_, name_.empty() ? key : name_ + '.' + key));
+    }
+    return places;
+}
+
+std::string YamlPlace::text() const
+{
+    if (!node_.IsScalar())
+    {
+        fail("must be a single value");
+    }
+    return node_.Scalar();
+}
+
+double YamlPlace::number() const
+{
+    double value = 0.0;
+    if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value) || !std::isfinite(value))
+    {
+        fail("must be a number" + (node_.IsScalar() ? ", not '" + node_.Scalar() + "'" : ""));
+    }
+    return value;
+}
+
+double YamlPlace::positive() const
+{
+    const double value = number();
+    if (value <= 0.0)
+    {
+        fail("must be above 0, not " + text());
+    }
+    return value;
+}
+
+int YamlPlace::count(int smallest) const
+{
+    const double value = number();
+    if (value != std::floor(value) || value < smallest || value > 1e9)
+    {
+        fail("must be a whole number of at least " + std::to_string(smallest) + ", not " + text());
+    }
+    return static_cast<int>(value);
+}
+
+bool YamlPlace::flag() const
+{
+    bool value = false;
+    if (!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value))
+    {
+        fail("must be true or false");
+    }
+    return value;
+}
+
+std::string YamlPlace::oneOf(const std::vector<std::string>& words) const
+{
+    const std::string word = text();
+    if (std::find(words.begin(), words.end(), word) == words.end())
+    {
+        fail("must be " + listed(words) + ", not '" + word + "'");
+    }
+    return word;
+}
+
+std::filesystem::path YamlPlace::path() const
+{
+    return (std::filesystem::absolute(*file_).parent_path() / text()).lexically_normal();
+}
+
+std::string YamlPlace::textOr(const std::string& key, const std::string& byDefault) const
+{
+    return has(key) ? at(key).text() : byDefault;
+}
+
+double YamlPlace::numberOr(const std::string& key, double byDefault) const
+{
+    return has(key) ? at(key).number() : byDefault;
+}
+
+int YamlPlace::countOr(const std::string& key, int byDefault, int smallest) const
+{
+    return has(key) ? at(key).count(smallest) : byDefault;
+}
+
+bool YamlPlace::flagOr(const std::string& key, bool byDefault) const
+{
+    return has(key) ? at(key).flag() : byDefault;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,75 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Bad input. The text begins with "file:line: ".
+class StudyError : public std::runtime_error
+{
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A place in a YAML file. Every look at it is checked; errors name file, line, key and what is allowed.
+class YamlPlace
+{
+public:
+    /// \throws StudyError if the file cannot be read or is no YAML
+    static YamlPlace fileAt(const std::filesystem::path& file);
+
+    /// \throws StudyError naming the line of the first key that is not among `allowed`, or if this is no map
+    void allow(const std::vector<std::string>& allowed) const;
+
+    bool has(const std::string& key) const;
+    /// \throws StudyError if there is no such key
+    YamlPlace at(const std::string& key) const;
+
+    std::vector<YamlPlace> list() const;
+    /// A list, or a lone value as a list of one.
+    std::vector<YamlPlace> oneOrMore() const;
+    std::vector<std::pair<std::string, YamlPlace>> map() const;
+
+    std::string text() const;
+    double number() const;
+    double positive() const;
+    int count(int smallest) const;
+    bool flag() const;
+    /// One of a few words.
+    std::string oneOf(const std::vector<std::string>& words) const;
+    /// Relative to the file's folder.
+    std::filesystem::path path() const;
+
+    std::string textOr(const std::string& key, const std::string& byDefault) const;
+    double numberOr(const std::string& key, double byDefault) const;
+    int countOr(const std::string& key, int byDefault, int smallest) const;
+    bool flagOr(const std::string& key, bool byDefault) const;
+
+    [[noreturn]] void fail(const std::string& what) const;
+
+    const std::filesystem::path& file() const
+    {
+        return *file_;
+    }
+
+private:
+    YamlPlace(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string name);
+
+    YAML::Node node_;
+    std::shared_ptr<const std::filesystem::path> file_;
+    std::string name_;
+};
+
+/// Words as they are listed in an error: "a, b or c".
+std::string listed(const std::vector<std::string>& words);
+
+} // namespace clepsydra::identification

@@ -1,0 +1,82 @@
+/// From a measured residual to a named effect. See README.md beside this file.
+#include "procedure/loop.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+struct Arguments
+{
+    fs::path study;
+    fs::path folder;
+    bool execute = false;
+};
+
+fs::path reportFolder(const Arguments& arguments)
+{
+    return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
+}
+
+/// The stored report again, in words.
+void showReport(const fs::path& folder)
+{
+    std::ifstream file(folder / "report.json");
+    if (!file)
+    {
+        throw std::runtime_error((folder / "report.json").string() + ": not there; 'traceResidual run' makes it");
+    }
+    std::cout << nlohmann::json::parse(file).at("summary").get<std::string>() << '\n'
+              << "for people: " << (folder / "report.html").string() << '\n';
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    using namespace clepsydra::identification;
+    Arguments arguments;
+    CLI::App app("From a measured residual to a named effect: what the model lacks, and the error before and after");
+    app.require_subcommand(1);
+    auto* planning =
+        app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
+    planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+    planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
+    auto* running = app.add_subcommand("run", "from study file to report; may be interrupted and started again");
+    running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+    running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
+    auto* reporting = app.add_subcommand("report", "the report of a study that has been run");
+    reporting->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+    reporting->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
+    CLI11_PARSE(app, argc, argv);
+
+    try
+    {
+        if (*planning)
+        {
+            plan(arguments.study, arguments.execute, std::cout);
+        }
+        else if (*running)
+        {
+            runStudy(arguments.study, reportFolder(arguments), std::cout);
+        }
+        else
+        {
+            showReport(reportFolder(arguments));
+        }
+        return 0;
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "traceResidual: " << error.what() << '\n';
+        return 1;
+    }
+}

@@ -1,0 +1,149 @@
+#include "curves/table.h"
+#include "effects/measuringChain.h"
+#include "features/features.h"
+#include "temporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+double feature(const std::string& kind, const Curve& curve, FeatureKind::Parameters parameters)
+{
+    const FeatureKind& k = featureKinds().at(kind);
+    for (const auto& parameter : k.parameters)
+    {
+        parameters.emplace(parameter.name, parameter.byDefault);
+    }
+    return k.value(curve, parameters);
+}
+
+template<class Function>
+Curve sampled(double end, int points, Function function)
+{
+    Curve curve;
+    for (int i = 0; i < points; ++i)
+    {
+        curve.time.push_back(end * i / (points - 1));
+        curve.value.push_back(function(curve.time.back()));
+    }
+    return curve;
+}
+
+/// An OpenFOAM table of a run that was resumed at t = 2: the later part wins, and names lose their units.
+TEST(Curves, ResumedRunIsOneCurve)
+{
+    const TemporaryFolder folder;
+    folder.write("post/0/m.dat", "# time [s]\tmass [kg]\tbeads\n0\t1\t9\n1\t.9\t8\n2\t.7\t7\n3\t.1\t6\n");
+    folder.write("post/2/m.dat", "# time [s]\tmass [kg]\tbeads\n2\t.8\t7\n3\t.6\t6\n");
+    const Curve curve = readCurve(folder.path() / "post/*/m.dat", "time", "mass");
+    EXPECT_EQ(curve.time, (std::vector<double>{0, 1, 2, 3}));
+    EXPECT_EQ(curve.value, (std::vector<double>{1, .9, .8, .6}));
+}
+
+TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
+{
+    const TemporaryFolder folder;
+    const auto file = folder.write("a.csv", "t_s,m_g\n0,10\n1,\n2,NA\n3,7\n");
+    const Table table = readTable(file);
+    EXPECT_EQ(
+        tidied({table.columns[table.index("t_s")], table.columns[table.index("2")]}).time, (std::vector<double>{0, 3}));
+    const auto broken = folder.write("b.csv", "t,m\n0,1\n1,2,3\n");
+    try
+    {
+        readTable(broken);
+        FAIL() << "a row with a column too many was accepted";
+    }
+    catch (const std::runtime_error& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("b.csv:3:"), std::string::npos) << error.what();
+    }
+}
+
+/// m = 1 - .1 t: the rate is .1 in every window; with m0 = 1, 95 % have left after 9.5 s.
+TEST(Features, OfASteadyDischarge)
+{
+    const Curve curve = sampled(10, 201, [](double t) { return 1 - .1 * t; });
+    EXPECT_NEAR(feature("logMeanRate", curve, {{"from", .9}, {"to", .3}}), std::log(.1), 1e-12);
+    EXPECT_NEAR(feature("logTimeToDischarge", curve, {{"share", .95}}), std::log(9.5), 1e-12);
+    EXPECT_NEAR(feature("rateSlope", curve, {{"from", .9}, {"to", .3}}), 0, 1e-9);
+    EXPECT_NEAR(feature("residue", curve, {}), 0, 1e-12);
+}
+
+/// Torricelli: m = (1 - t/20)^2 has W = (1 - t/20)/10 = sqrt(m)/10, so d(ln W)/dm = 1/(2 m); where the window is narrow
+/// round m = .5 that is 1. A feature that knew only the mean rate would give 0.
+TEST(Features, SlopeOfTheRateOverTheMass)
+{
+    const Curve curve = sampled(19, 2001, [](double t) { return std::pow(1 - t / 20, 2); });
+    EXPECT_NEAR(feature("rateSlope", curve, {{"from", .55}, {"to", .45}}), 1, 1e-2);
+}
+
+TEST(Features, OfAFallingBead)
+{
+    const Curve curve = sampled(5, 501, [](double t) { return .03 * t; });
+    EXPECT_NEAR(feature("logSpeed", curve, {{"from", .02}, {"to", .12}}), std::log(.03), 1e-9);
+    EXPECT_NEAR(feature("logSpeedRatio", curve, {{"from", .02}, {"to", .12}}), 0, 1e-6);
+    EXPECT_TRUE(std::isnan(feature("logSpeed", curve, {{"from", .02}, {"to", 1}}))) << "never got there";
+}
+
+/// A ball without air: falls from .1 m, bounces with e = .5: height e^2 h, flight 2 e sqrt(2 h/g).
+TEST(Features, OfABounce)
+{
+    const double g = 9.81;
+    const double impact = std::sqrt(2 * .1 * g);
+    const double hit = impact / g;
+    const double flight = impact / g; // 2 (e v)/g with e = .5
+    const Curve curve = sampled(hit + flight + .05, 4001, [&](double t) {
+        if (t < hit)
+        {
+            return .1 - g * t * t / 2;
+        }
+        const double s = t - hit;
+        if (s < flight)
+        {
+            return .5 * impact * s - g * s * s / 2;
+        }
+        return .25 * impact * (s - flight) - g * std::pow(s - flight, 2) / 2;
+    });
+    EXPECT_NEAR(feature("logBounceHeight", curve, {{"bounce", 1}}), std::log(.025), 1e-4);
+    EXPECT_NEAR(feature("logBounceDuration", curve, {{"bounce", 1}}), std::log(flight), 1e-2);
+    EXPECT_NEAR(feature("logImpactSpeed", curve, {{"before", .02}, {"until", .01}}), std::log(impact - .015 * g), 1e-3);
+    EXPECT_TRUE(std::isnan(feature("logBounceHeight", curve, {{"bounce", 3}})));
+}
+
+/// A ramp through a first-order filter: y = s (t - tau (1 - exp(-t/tau))), exact for straight pieces.
+TEST(MeasuringChain, LagOfARamp)
+{
+    const Curve ramp = sampled(2, 21, [](double t) { return 3 * t; });
+    const Curve lagged = chainOperations().at("lag").apply(ramp, .4);
+    for (std::size_t i = 0; i < ramp.time.size(); ++i)
+    {
+        const double t = ramp.time[i];
+        EXPECT_NEAR(lagged.value[i], 3 * (t - .4 * (1 - std::exp(-t / .4))), 1e-12);
+    }
+}
+
+TEST(MeasuringChain, OthersOnARamp)
+{
+    const Curve ramp = sampled(2, 21, [](double t) { return 3 * t; });
+    const auto at = [&](const std::string& name, double size, double time) {
+        return valueAt(chainOperations().at(name).apply(ramp, size), time);
+    };
+    EXPECT_NEAR(at("gain", .1, 1), 3.3, 1e-12);
+    EXPECT_NEAR(at("offset", .1, 1), 3.1, 1e-12);
+    EXPECT_NEAR(at("drift", .1, 1.5), 4.65, 1e-12);
+    EXPECT_NEAR(at("shift", .3, 1), 3.9, 1e-12);
+    EXPECT_NEAR(at("shift", -.3, 1), 2.1, 1e-12);
+    EXPECT_NEAR(at("shift", -.3, .1), 0, 1e-12) << "before the record the first value holds";
+    EXPECT_NEAR(at("timeFactor", .25, 1.25), 3, 1e-12);
+    EXPECT_NEAR(at("lead", .2, 1), 3.6, 1e-12);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests

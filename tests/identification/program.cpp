@@ -1,0 +1,237 @@
+/// The program from the outside: study file to report, on the stand-in run as a program.
+#include "curves/table.h"
+#include "runner/caseRig.h"
+#include "standIn/standIn.h"
+#include "study/readStudy.h"
+#include "temporaryFolder.h"
+
+#include <nlohmann/json.hpp>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A copy of the stand-in's case and study, with measurements made by the stand-in itself.
+class Workshop
+{
+public:
+    Workshop()
+    {
+        fs::copy(fs::path(STAND_IN) / "case", folder_.path() / "case");
+        study_ = contentOf(fs::path(STAND_IN) / "study.yaml");
+        // The program of the case is in the build folder, wherever that is.
+        folder_.write("case/Allrun", "#!/bin/sh\nexec " STAND_IN_PROGRAM "\n");
+        fs::permissions(folder_.path() / "case/Allrun", fs::perms::owner_all);
+    }
+
+    /// Three measured repeats of every condition, in g, with an effect in them.
+    void measure(const Entries& effect, const std::set<std::string>& butNot = {})
+    {
+        folder_.write("study.yaml", study_);
+        const Study study = readStudy(folder_.path() / "study.yaml");
+        const Entries defaults = readEntries(folder_.path() / "case/parameters");
+        std::string with = study_;
+        long seed = 20011;
+        for (const auto& condition : study.conditions)
+        {
+            std::string files;
+            for (int repeat = 0; repeat < 3; ++repeat)
+            {
+                Entries entries = effect;
+                entries["seed"] = std::to_string(seed += 2);
+                entries.insert(condition.entries.begin(), condition.entries.end());
+                entries.insert(defaults.begin(), defaults.end());
+                const Curve curve = discharge(entries);
+                std::ostringstream csv;
+                csv << "t,m\n";
+                for (std::size_t i = 0; i < curve.time.size(); i += 2)
+                {
+                    csv << curve.time[i] << ',' << textOf(1e3 * curve.value[i]) << '\n';
+                }
+                const std::string name = condition.name + std::to_string(repeat) + ".csv";
+                folder_.write(name, butNot.count(condition.name) > 0 ? "nobody should read this yet\n" : csv.str());
+                files += (files.empty() ? "" : ", ") + name;
+            }
+            const std::string begin = "- name: " + condition.name + '\n';
+            with.insert(with.find(begin) + begin.size(), "    measured: { files: [" + files + "] }\n");
+        }
+        folder_.write(
+            "study.yaml", with + "measured:\n  time: { column: t, unit: s }\n  value: { column: m, unit: g }\n");
+    }
+
+    void append(const std::string& text) const
+    {
+        std::ofstream(folder_.path() / "study.yaml", std::ios::app) << text;
+    }
+
+    int run(const std::string& command, const std::string& environment = "")
+    {
+        const std::string line = environment + " " TRACE_RESIDUAL " " + command + ' '
+                                 + (folder_.path() / "study.yaml").string() + " > " + (folder_.path() / "out").string()
+                                 + " 2>&1";
+        const int status = std::system(line.c_str());
+        output = contentOf(folder_.path() / "out");
+        return WEXITSTATUS(status);
+    }
+
+    nlohmann::json json(const std::string& name) const
+    {
+        return nlohmann::json::parse(contentOf(folder_.path() / "results" / name));
+    }
+
+    const fs::path& path() const
+    {
+        return folder_.path();
+    }
+
+    std::string output;
+
+private:
+    TemporaryFolder folder_;
+    std::string study_;
+};
+
+/// An effect that was put into the data is named (or is in the set), the error on conditions that no fit saw falls, and a
+/// second time nothing is run again. A program that named the same effect always would fail the next test.
+TEST(Program, FindsTheEffectThatWasPutIn)
+{
+    Workshop workshop;
+    workshop.measure({{"addedMass", "0.7"}});
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    const auto report = workshop.json("report.json");
+    EXPECT_THAT(report["decision"].get<std::string>(), testing::AnyOf("named", "set"));
+    EXPECT_EQ(report["set"][0]["name"], "addedMass");
+    EXPECT_LT(report["pValue"].get<double>(), .01);
+    EXPECT_LT(report["heldOut"]["after"]["rmsLogError"].get<double>(),
+        .6 * report["heldOut"]["before"]["rmsLogError"].get<double>());
+    EXPECT_TRUE(report["heldOut"]["accepted"].get<bool>());
+    for (const std::string key : {"before", "after", "oneMoreParameter", "gaussianProcess"})
+    {
+        EXPECT_GT(report["heldOut"][key]["standardError"].get<double>(), 0) << key;
+    }
+    for (const std::string key : {"effects", "runs", "seeds", "assumptions", "identifiability", "residual"})
+    {
+        EXPECT_FALSE(report[key].empty()) << key;
+    }
+    const std::string page = contentOf(workshop.path() / "results/report.html");
+    EXPECT_THAT(page, HasSubstr("<svg"));
+    EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
+
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    const auto again = workshop.json("report.json");
+    EXPECT_EQ(again["runs"]["executed"], 0);
+    EXPECT_EQ(again["set"], report["set"]);
+
+    ASSERT_EQ(workshop.run("report"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
+}
+
+/// Nothing put in: nothing found, at this seed; the rate of false alarms is what checkIdentification measures.
+TEST(Program, FindsNothingWhereNothingIs)
+{
+    Workshop workshop;
+    workshop.measure({});
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    EXPECT_EQ(workshop.json("report.json")["decision"], "noResidual");
+    EXPECT_TRUE(workshop.json("report.json")["name"].is_null());
+}
+
+/// Held-out files that cannot even be read do not change the answer: it is on disk before they are opened.
+TEST(Program, DoesNotLookAtHeldOutDataFirst)
+{
+    Workshop workshop;
+    workshop.measure({{"addedMass", "0.7"}}, {"dryBetween", "wetBeyond"});
+    EXPECT_NE(workshop.run("run"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("dryBetween0.csv"));
+    EXPECT_EQ(workshop.json("answer.json")["set"][0]["name"], "addedMass");
+    EXPECT_TRUE(workshop.json("answer.json")["heldOut"].is_null());
+    EXPECT_FALSE(fs::exists(workshop.path() / "results/report.json"));
+}
+
+/// A plan names its cost and runs nothing unless told to; then it says what can be seen.
+TEST(Program, PlansBeforeItRuns)
+{
+    Workshop workshop;
+    workshop.measure({});
+    ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("108 of them not made yet"));
+    ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("hidden by"));
+    EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
+}
+
+TEST(Program, SaysWhatIsWrongAndWritesNothing)
+{
+    Workshop workshop;
+    workshop.measure({});
+    workshop.append("nonsense: 1\n");
+    EXPECT_NE(workshop.run("run"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("study.yaml:"));
+    EXPECT_THAT(workshop.output, HasSubstr("allowed here"));
+    EXPECT_FALSE(fs::exists(workshop.path() / "results"));
+}
+
+/// A run that fails with its seed is repeated with another, and told. The same through Slurm, played by a script that
+/// runs the tasks of the array one after the other.
+TEST(Runner, FailuresCacheAndSlurm)
+{
+    Workshop workshop;
+    workshop.measure({});
+    Study study = readStudy(workshop.path() / "study.yaml");
+    std::ostringstream progress;
+    const auto orderOf = [&](long seed) {
+        return RunOrder{"./Allrun", study.conditions[0].file, {{"seed", std::to_string(seed)}}, seed, "test"};
+    };
+    {
+        CaseRig rig(study, progress);
+        EXPECT_EQ(rig.missing({orderOf(10007), orderOf(10007), orderOf(10009)}), 2);
+        const auto results = rig.run({orderOf(10007), orderOf(10007)});
+        EXPECT_EQ(results[0].curve.value, results[1].curve.value);
+        EXPECT_EQ(rig.missing({orderOf(10007)}), 0);
+        RunOrder failing = orderOf(10009);
+        failing.entries["failWithSeed"] = "10009";
+        const auto failed = rig.run({failing});
+        EXPECT_THAT(failed[0].failure, HasSubstr("asked to fail with seed 10009"));
+        EXPECT_EQ(rig.missing({failing}), 1) << "a failure is not a result";
+        RunOrder strange = orderOf(10037);
+        strange.command = "true";
+        EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("has not written"));
+    }
+    // Any change of the case's files is another run.
+    std::ofstream(workshop.path() / "case/parameters", std::ios::app) << "// changed\n";
+    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);
+
+    const auto sbatch = workshop.path() / "bin/sbatch";
+    fs::create_directories(sbatch.parent_path());
+    std::ofstream(sbatch) << "#!/bin/bash\nfor word in \"$@\"; do case $word in --array=0-*) last=${word#--array=0-};; "
+                             "*slurmArray) script=$word;; esac; done\n"
+                             "for task in $(seq 0 ${last%%%*}); do SLURM_ARRAY_TASK_ID=$task bash $script; done\n";
+    fs::permissions(sbatch, fs::perms::owner_all);
+    const std::string path = std::getenv("PATH");
+    setenv("PATH", (sbatch.parent_path().string() + ':' + path).c_str(), 1);
+    study.executor.kind = "slurm";
+    study.executor.processes = 4;
+    CaseRig rig(study, progress);
+    const auto results = rig.run({orderOf(10007), orderOf(10039)});
+    setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(results[0].failure, "");
+    EXPECT_GT(results[1].curve.time.size(), 10U);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests

@@ -1,0 +1,316 @@
+#include "design/effectLibrary.h"
+#include "design/plackettBurman.h"
+#include "design/seeds.h"
+#include "runner/entries.h"
+#include "runner/sha256.h"
+#include "study/expression.h"
+#include "study/readStudy.h"
+#include "study/units.h"
+#include "temporaryFolder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+TEST(Expression, Formulas)
+{
+    const auto value = [](const std::string& text) { return Expression(text)({{"a", .5}, {"beadDiameter", 2e-3}}); };
+    EXPECT_DOUBLE_EQ(value("beadDiameter*(1 + 0.05*a)"), 2.05e-3);
+    EXPECT_DOUBLE_EQ(value("-2^2 + 3*4/6 - 1e-1"), -2.1);
+    EXPECT_DOUBLE_EQ(value("4^a"), 2);
+    EXPECT_DOUBLE_EQ(value("max(a, 2)*round(2.6) + min(1, a) + cos(0)"), 7.5);
+    for (const std::string bad : {"2*", "(1", "sinus(1)", "1 2", "*3", ""})
+    {
+        EXPECT_THROW(Expression{bad}, std::invalid_argument) << bad;
+    }
+    EXPECT_THROW(value("nobody"), std::invalid_argument);
+}
+
+TEST(Units, AreFactorsOfSi)
+{
+    EXPECT_DOUBLE_EQ(siUnitsPer("g"), 1e-3);
+    EXPECT_DOUBLE_EQ(siUnitsPer("mm"), 1e-3);
+    EXPECT_THROW(siUnitsPer("grams"), std::invalid_argument);
+}
+
+/// Comments, alignment and all other lines stay; a value that is asked for and not there is an error.
+TEST(Entries, AreReplacedInPlace)
+{
+    const TemporaryFolder folder;
+    const auto file = folder.write("parameters", "// beads\nfriction      0.15;   // between beads\nwall $friction;\n");
+    replaceEntries(file, {{"friction", "0.2"}});
+    EXPECT_EQ(contentOf(file), "// beads\nfriction      0.2;   // between beads\nwall $friction;\n");
+    EXPECT_DOUBLE_EQ(numbersOf(readEntries(file)).at("wall"), .2);
+    EXPECT_THROW(replaceEntries(file, {{"cohesion", "1"}}), std::runtime_error);
+}
+
+/// FIPS 180-4's own examples.
+TEST(Sha256, KnownDigests)
+{
+    EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+        "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
+}
+
+TEST(Seeds, ArePrimesAndDiffer)
+{
+    std::set<long> seeds;
+    for (int number = 0; number < 50; ++number)
+    {
+        const long seed = seedOf(1, "repeats", "dry", number);
+        EXPECT_GT(seed, 10000);
+        for (long divisor = 2; divisor * divisor <= seed; ++divisor)
+        {
+            ASSERT_NE(seed % divisor, 0) << seed;
+        }
+        seeds.insert(seed);
+        seeds.insert(seedOf(2, "repeats", "dry", number));
+        seeds.insert(seedOf(1, "design", "dry", number));
+    }
+    EXPECT_EQ(seeds.size(), 150U);
+    EXPECT_EQ(seedOf(1, "repeats", "dry", 7), seedOf(1, "repeats", "dry", 7));
+}
+
+/// Orthogonal columns, each with as many + as -: then effects do not mix and have variance sigma^2 4/N.
+TEST(PlackettBurman, IsOrthogonalAndBalanced)
+{
+    for (const Eigen::Index factors : {1, 3, 5, 7, 11, 12, 16, 19, 22, 23, 30})
+    {
+        const Eigen::MatrixXd design = plackettBurman(factors);
+        const auto runs = static_cast<double>(design.rows());
+        EXPECT_EQ(design.rows(), plackettBurmanRuns(factors));
+        EXPECT_GT(design.rows(), factors);
+        EXPECT_TRUE((design.array().abs() == 1).all());
+        EXPECT_TRUE(design.colwise().sum().isZero()) << factors;
+        EXPECT_TRUE((design.transpose() * design).isApprox(runs * Eigen::MatrixXd::Identity(factors, factors)));
+    }
+    EXPECT_EQ(plackettBurmanRuns(11), 12);
+    EXPECT_EQ(plackettBurmanRuns(23), 24);
+}
+
+//--- The study file ---------------------------------------------------------------------------------------------------
+
+const std::string goodStudy = R"yaml(study: s
+rig: { case: case, seed: seed }
+observable:
+  file: post/m.dat
+  value: mass
+  features:
+    - { kind: logMeanRate, from: 0.9, to: 0.3 }
+conditions:
+  - { name: dry, role: training, set: { friction: 0.2 } }
+parameters:
+  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
+effects:
+  - { name: size, set: { beadDiameter: "beadDiameter*(1 + a)" }, amplitude: [-1, 1] }
+)yaml";
+
+Study studyOf(const TemporaryFolder& folder, const std::string& text)
+{
+    folder.write("case/parameters", "friction 0.15;\nbeadDiameter 2e-3;\nseed 1;\n");
+    return readStudy(folder.write("study.yaml", text));
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by)
+{
+    return text.replace(text.find(old), old.size(), by);
+}
+
+TEST(StudyFile, IsRead)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(folder, goodStudy);
+    EXPECT_EQ(study.features.size(), 1U);
+    EXPECT_EQ(study.conditionsOf(Role::training).size(), 1U);
+    EXPECT_EQ(study.effects.front().bounds.lower, -1);
+    EXPECT_EQ(study.work, std::filesystem::absolute(folder.path()) / "s.work");
+}
+
+/// Each mistake is reported with the file, the right line, and what is allowed.
+TEST(StudyFile, MistakesNameTheirLine)
+{
+    struct Mistake
+    {
+        std::string old;
+        std::string by;
+        std::string where;
+        std::string what;
+    };
+    const std::vector<Mistake> mistakes = {
+        {"kind: logMeanRate", "kind: logMeanrate", "study.yaml:7:", "logMeanRate"},
+        {"from: 0.9, to: 0.3", "from: 0.9", "study.yaml:7:", "needs 'to'"},
+        {"role: training", "role: train", "study.yaml:9:", "training, heldOut or candidate"},
+        {"sd: 0.02", "sd: -1", "study.yaml:11:", "above 0"},
+        {"sd: 0.02", "sigma: 1", "study.yaml:11:", "mean or sd"},
+        {"(1 + a)", "(1 + a", "study.yaml:13:", "')'"},
+        {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
+        {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
+        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:", "no such entry"},
+        {"seed: seed", "seed: seeds", "study.yaml:", "seeds"},
+        {"case: case", "case: nowhere", "study.yaml:2:", "no file"},
+        {"study: s", "study: s\nbudgets: 3", "study.yaml:2:", "budget"},
+        {"study: s", "study: [", "study.yaml:", "YAML"},
+    };
+    for (const auto& mistake : mistakes)
+    {
+        const TemporaryFolder folder;
+        try
+        {
+            studyOf(folder, replaced(goodStudy, mistake.old, mistake.by));
+            ADD_FAILURE() << "accepted: " << mistake.by;
+        }
+        catch (const StudyError& error)
+        {
+            EXPECT_NE(std::string(error.what()).find(mistake.where), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(mistake.what), std::string::npos) << error.what();
+        }
+    }
+}
+
+/// The shipped libraries can be read, and hold what the project promises.
+TEST(StudyFile, ShippedLibraries)
+{
+    const std::filesystem::path folder = EFFECTS_FOLDER;
+    const auto hopper = readEffects(YamlPlace::fileAt(folder / "hopper.yaml").at("effects"));
+    EXPECT_GE(hopper.size(), 20U);
+    EXPECT_GE(readEffects(YamlPlace::fileAt(folder / "singleBead.yaml").at("effects")).size(), 12U);
+    for (const auto& effect : hopper)
+    {
+        EXPECT_FALSE(effect.meaning.empty()) << effect.name;
+    }
+}
+
+/// A library is for many cases: what this case has no entries for is left out and said, not an error.
+TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
+{
+    const TemporaryFolder folder;
+    folder.write("library.yaml",
+        "effects:\n  - { name: roll, set: { rolling: a } }\n  - { name: rub, set: { friction: friction + a } }\n");
+    const Study study = studyOf(folder, goodStudy + "effectsFrom: library.yaml\n");
+    EXPECT_EQ(study.effects.size(), 2U);
+    ASSERT_EQ(study.leftOut.size(), 1U);
+    EXPECT_NE(study.leftOut.front().find("roll"), std::string::npos);
+}
+
+//--- The effect library ------------------------------------------------------------------------------------------------
+
+/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x + 5 y: linear in the feature, so that the library must
+/// find the columns exactly.
+class LinearRig final : public Rig
+{
+public:
+    bool scatters = false;
+    long failing = 0; // fails where y is set, if 1
+
+    Entries defaults() const override
+    {
+        return {{"friction", "0.15"}, {"x", "0"}, {"y", "0"}, {"seed", "1"}};
+    }
+    int missing(const std::vector<RunOrder>& orders) override
+    {
+        return static_cast<int>(orders.size());
+    }
+    std::vector<RunResult> run(const std::vector<RunOrder>& orders) override
+    {
+        std::vector<RunResult> results;
+        for (const auto& order : orders)
+        {
+            Entries all = order.entries;
+            const auto own = defaults();
+            all.insert(own.begin(), own.end());
+            const auto p = numbersOf(all);
+            if (failing == 1 && p.at("y") != 0.0)
+            {
+                results.push_back({{}, "y is not possible", 1.0, false});
+                continue;
+            }
+            double rate = .1 * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y"));
+            rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
+            Curve curve;
+            for (int i = 0; i <= 200; ++i)
+            {
+                curve.time.push_back(i / 200. / rate);
+                curve.value.push_back(1 - i / 200.);
+            }
+            results.push_back({curve, "", 1.0, false});
+        }
+        return results;
+    }
+};
+
+Study linearStudy(const TemporaryFolder& folder, const std::string& seed)
+{
+    folder.write("case/parameters", "friction 0.15;\nx 0;\ny 0;\nseed 1;\n");
+    return readStudy(folder.write("study.yaml", R"(study: s
+rig: { case: case, seed: )" + seed + R"( }
+observable: { file: f, value: m, features: [ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }
+conditions:
+  - { name: both, role: training, tags: { medium: water } }
+  - { name: dry, role: training, tags: { medium: air } }
+parameters:
+  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
+effects:
+  - { name: x, set: { x: "0.02*a" }, amplitude: [-1, 1] }
+  - { name: y, set: { y: "0.04*a" }, actsIn: { medium: water } }
+  - { name: clock, chain: { timeFactor: "0.01*a" } }
+)"));
+}
+
+TEST(EffectLibrary, FindsLinearEffectsExactly)
+{
+    for (const std::string seed : {"seed", "none"})
+    {
+        const TemporaryFolder folder;
+        const Study study = linearStudy(folder, seed);
+        LinearRig rig;
+        Simulator simulator(study, rig);
+        const EffectLibrary library = makeLibrary(simulator);
+        const Sensitivity& both = library.conditions[0];
+        EXPECT_NEAR(both.base(0), std::log(.1), 1e-9);
+        EXPECT_NEAR(both.parameterColumns(0, 0), .04, 1e-9);
+        EXPECT_NEAR(both.effectColumns(0, 0), .06, 1e-9);
+        EXPECT_NEAR(both.effectColumns(0, 1), .2, 1e-9);
+        EXPECT_NEAR(both.effectColumns(0, 2), -std::log(1.01), 1e-9);
+        EXPECT_EQ(library.conditions[1].effectColumns(0, 1), 0) << "y acts in water only";
+        EXPECT_EQ(library.design, seed == "none" ? DesignKind::oneAtATime : DesignKind::plackettBurman);
+    }
+}
+
+/// A run that fails is tried again with other seeds, then excluded, and both is told.
+TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "none");
+    LinearRig rig;
+    rig.failing = 1;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    EXPECT_EQ(library.conditions[0].effectColumns(0, 1), 0);
+    EXPECT_NEAR(library.conditions[0].effectColumns(0, 0), .06, 1e-9);
+    ASSERT_EQ(library.remarks.size(), 1U);
+    EXPECT_NE(library.remarks.front().find("y"), std::string::npos);
+    ASSERT_EQ(simulator.failures().size(), 1U);
+    EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
+}
+
+TEST(Simulator, StopsAtTheBudget)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "seed");
+    study.settings.budget = 10;
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    EXPECT_THROW(makeLibrary(simulator), std::runtime_error);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests
