@@ -63,8 +63,8 @@ void RunOutput::printEstimate(double beads, bool withFluid) const
     const double duration = time_.endTime().value() - time_.value();
     const RunWork work{beads, withFluid ? static_cast<double>(mesh_.globalData().nTotalCells()) : 0,
         duration / engine_.timeStep(), duration / settings_.couplingInterval()};
-    Info << "Estimated wall time: " << round(model->seconds(work, Pstream::nProcs())) << " s to " << time_.endTime().value()
-         << " s, from costs measured on " << model->machine.c_str() << nl << endl;
+    Info << "Estimated wall time: " << round(model->seconds(work, Pstream::nProcs())) << " s to "
+         << time_.endTime().value() << " s, from costs measured on " << model->machine.c_str() << nl << endl;
 }
 
 void RunOutput::start()

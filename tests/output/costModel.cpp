@@ -31,8 +31,8 @@ protected:
         std::filesystem::remove(file);
     }
 
-    const std::filesystem::path file = std::filesystem::temp_directory_path()
-                                       / ("costModel" + std::to_string(getpid()) + ".json");
+    const std::filesystem::path file =
+        std::filesystem::temp_directory_path() / ("costModel" + std::to_string(getpid()) + ".json");
 };
 
 /// Worked out by hand: 10 beads, 5 steps, 27 cells (27^(4/3) = 81), 2 intervals:
@@ -40,7 +40,8 @@ protected:
 /// Leaving out any term or the ranks gives another number.
 TEST_F(CostModelFile, SumsBeadStepsAndIntervals)
 {
-    write(R"({"perBeadStep": 1, "perBead": 2, "perCell": 3, "perCell43": 4, "serialFraction": 0.1, "machine": "here"})");
+    write(
+        R"({"perBeadStep": 1, "perBead": 2, "perCell": 3, "perCell43": 4, "serialFraction": 0.1, "machine": "here"})");
     const std::optional<CostModel> model = CostModel::read(file);
     ASSERT_TRUE(model.has_value());
     EXPECT_NEAR(model->seconds({10, 27, 5, 2}, 1), 900, 1e-9);

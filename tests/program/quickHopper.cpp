@@ -64,8 +64,8 @@ Outcome QuickHopper::run(const std::string& stage)
 
 Outcome QuickHopper::runVariant(const std::string& stage, const std::string& name, const std::string& entries)
 {
-    return withAllrun("prepareStage " + stage + "\ncp -r stages/" + stage + " stages/" + name + "\ncat >> stages/" + name + "/stage << 'END'\n"
-                      + entries + "\nEND\nrunStages " + name + '\n');
+    return withAllrun("prepareStage " + stage + "\ncp -r stages/" + stage + " stages/" + name + "\ncat >> stages/"
+                      + name + "/stage << 'END'\n" + entries + "\nEND\nrunStages " + name + '\n');
 }
 
 std::vector<std::vector<double>> QuickHopper::table(const std::string& stage, const std::string& file) const
