@@ -268,6 +268,8 @@ TEST(Significance, SeesAnEffect)
 {
     std::mt19937_64 random(5);
     Example example;
+    // Each draw of the noise takes that many repeats.
+    example.noise.data.nu = example.noise.simulation.nu = 1000;
     example.problem.residual = Eigen::Vector4d(8, 0, 0, 0);
     const auto test = significance(example.problem, example.noise, {Bounds{0, 10}, Bounds{0, 1}}, 500, random);
     EXPECT_LT(test.pValue, .01);
