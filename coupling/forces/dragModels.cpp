@@ -8,13 +8,15 @@ namespace clepsydra
 namespace
 {
 
-/// A drag law of closures/ as a force model, `<law>Props { wallCorrection {...} }` for beads beside walls.
+/// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: times a number, and for
+/// beads beside walls.
 template<class Law>
 class Drag : public ForceModel
 {
 public:
     Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluid_(fluid),
+          factor_(coefficients.found("factor") ? positiveEntry(coefficients, "factor") : 1),
           walls_(coefficients.subOrEmptyDict("wallCorrection"))
     {}
 
@@ -29,7 +31,7 @@ public:
                 fluid_.density, fluid_.dynamicViscosity};
             const double velocityRatio = walls_.tubeVelocityRatio(inFluid);
             inFluid.slipSpeed /= velocityRatio;
-            const double coefficient = law(inFluid) / velocityRatio;
+            const double coefficient = factor_ * law(inFluid) / velocityRatio;
             sum.implicitCoefficient[bead] += coefficient;
             if (walls_.hasPlanes())
             {
@@ -42,11 +44,13 @@ public:
     Foam::string description() const override
     {
         return Foam::string(Law::name) + ": fluid density " + Foam::name(fluid_.density) + " kg/m3, viscosity "
-               + Foam::name(fluid_.dynamicViscosity) + " Pa s" + walls_.description();
+               + Foam::name(fluid_.dynamicViscosity) + " Pa s" + (factor_ == 1 ? "" : ", times " + Foam::name(factor_))
+               + walls_.description();
     }
 
 private:
     const FluidProperties fluid_;
+    const double factor_;
     const WallCorrection walls_;
 };
 

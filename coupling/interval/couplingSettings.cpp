@@ -44,13 +44,13 @@ void checkMaterialValues(const dictionary& variables)
     };
     for (const word& name : variables.toc())
     {
-        if (names(name, "density") || names(name, "diameter"))
-        {
-            positiveEntry(variables, name);
-        }
-        else if (names(name, "friction"))
+        if (names(name, "friction") || names(name, "cohesion"))
         {
             positiveEntry(variables, name, true);
+        }
+        else if (names(name, "density") || names(name, "diameter"))
+        {
+            positiveEntry(variables, name);
         }
     }
 }

@@ -76,6 +76,11 @@ bool readSelfDisturbance(const CouplingSettings& settings)
                                      << "(implicitCouple), whose coefficient says how dense the neighbours are"
                                      << exit(FatalIOError);
     }
+    if (dict.get<word>("smoothingModel") == "off")
+    {
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen, and smoothingModel is off; allowed: with "
+                                     << "smoothing over more than a bead's diameter" << exit(FatalIOError);
+    }
     return true;
 }
 
@@ -368,7 +373,15 @@ double FluidCoupling::selfMobility(
 {
     // The force is spread by the bead's sphere and the smoothing, the velocity is sampled through the sphere. Variances
     // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
-    const double bandwidthSqr = sqr(distribution_.smoothingModel().bandwidth()) + sqr(2 * radius) / 5;
+    const double smoothingLength = distribution_.smoothingModel().bandwidth();
+    if (smoothingLength <= 2 * radius)
+    {
+        FatalIOErrorInFunction(settings_.dict())
+            << "Entry 'selfDisturbance' is Oseen, and smoothingLength is " << smoothingLength
+            << " m; allowed: above the "
+            << "diameter of every bead, and there is one of " << 2 * radius << " m" << exit(FatalIOError);
+    }
+    const double bandwidthSqr = sqr(smoothingLength) + sqr(2 * radius) / 5;
     // Closures of beds speak of means over the bed, the bead's own disturbance included. So it is taken away only as far
     // as the solid at the bead is its own: all of it from a lone bead, next to nothing in a bed.
     const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));

@@ -177,6 +177,21 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
 }
 
+/// The correction for a bead's own disturbance is for beads that are smeared over more than their size: elsewhere its
+/// formula gives numbers that mean nothing, and a program that used them would run to its end.
+TEST(BadInput, SelfDisturbanceWithoutSmoothing)
+{
+    const auto oseenAnd = [](const std::string& entry, const std::string& value) {
+        return [=](TestCase& test) { test.coupling().set("selfDisturbance", "Oseen").set(entry, value); };
+    };
+    expectRefused(oseenAnd("smoothingModel", "off"),
+        {couplingProperties, "'selfDisturbance'", "smoothingModel", "allowed:"}, SeenBy::engine);
+    expectRefused(oseenAnd("momCoupleModels", "(explicitCouple)"),
+        {couplingProperties, "'selfDisturbance'", "allowed:", "implicitCouple"}, SeenBy::engine);
+    expectRefused(oseenAnd("constDiffSmoothingProps/smoothingLength", "1e-3"),
+        {couplingProperties, "'selfDisturbance'", "smoothingLength", "allowed:"}, SeenBy::engine);
+}
+
 /// A missing file, dictionary or entry is named. A program with silent defaults would run to its end.
 TEST(BadInput, MissingEntries)
 {

@@ -1,5 +1,5 @@
 /// \file
-/// Drag laws with `wallCorrection`.
+/// Drag laws with `factor` and with `wallCorrection`.
 
 #include "closures/wallCorrection.h"
 #include "forcesOnBeads.h"
@@ -21,6 +21,18 @@ Vector3d dragOn(const std::string& properties, const Vector3d& position, const V
     const Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
     EXPECT_LT((test.given(0).impulse - test.engine().timeStep() * force).norm(), 1e-14 * force.norm());
     return force;
+}
+
+/// `factor` multiplies the drag, also of a law whose properties are found by a pattern, as the hopper's case writes them.
+/// A factor that is not read leaves 1.
+TEST(DragFactor, MultipliesTheDrag)
+{
+    const Vector3d velocity(0.01, 0, -0.01);
+    const Vector3d plain = dragOn("forceModels (DiFeliceDrag);", Vector3d::Zero(), velocity);
+    const Vector3d larger =
+        dragOn("forceModels (DiFeliceDrag); \".*DragProps\" { factor 1.25; }", Vector3d::Zero(), velocity);
+    EXPECT_LT((larger - 1.25 * plain).norm(), 1e-10 * plain.norm());
+    EXPECT_THROW(ForcesOnBeads("forceModels (StokesDrag); StokesDragProps { factor -1; }"), Foam::IOerror);
 }
 
 /// Half a diameter above a plane's surface (lambda = .5) Stokes' drag of 1.884956e-5 * .01 N grows 1.386 times along the
