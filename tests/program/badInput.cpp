@@ -286,6 +286,8 @@ TEST(BadInput, DemScript)
     expectLineRefused("timestep ${demStep}", "demStep");
     expectLineRefused("fix m all mesh/surface file DEM/none.stl type 1", "DEM/none.stl");
     expectLineRefused("read_restart DEM/none.restart", "read_restart");
+    expectRefused([](TestCase& test) { test.dem.more = "include DEM/in.${none}"; },
+        {script + " line ", "DEM/in.${none}", "allowed", "DEM/variables"}, SeenBy::engine);
     // What LIGGGHTS sees only when all lines are read.
     expectRefused([](TestCase& test) { test.dem.youngsModulus = -5e6; }, {"LIGGGHTS stopped", "youngsModulus", script},
         SeenBy::engine);

@@ -78,7 +78,7 @@ public:
             const std::string style = isNumber(value) ? "equal" : "string";
             execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
-        runScript(setup.script, setup.resumeFrom);
+        runScript(setup);
         for (const GroupChange& change : setup.groupChanges)
         {
             groupChangers_.emplace_back(*program_, change);
@@ -248,9 +248,10 @@ private:
         }
     }
 
-    void runScript(const std::filesystem::path& script, const std::filesystem::path& resumeFrom)
+    void runScript(const LiggghtsSetup& setup)
     {
-        for (const ScriptCommand& command : readScript(script))
+        const std::filesystem::path& resumeFrom = setup.resumeFrom;
+        for (const ScriptCommand& command : readScript(setup.script, setup.variables))
         {
             if (resumeFrom.empty() || !makesBeads(command.text))
             {

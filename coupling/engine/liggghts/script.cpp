@@ -24,9 +24,29 @@ std::string word(const std::string& command, int index)
     return found;
 }
 
+/// A file's name with the values of its variables.
+std::string withValues(std::string name, const ScriptVariables& variables, const std::string& where)
+{
+    for (const auto& [variable, value] : variables)
+    {
+        const std::string reference = "${" + variable + '}';
+        for (std::size_t at; (at = name.find(reference)) != std::string::npos;)
+        {
+            name.replace(at, reference.size(), value);
+        }
+    }
+    if (name.find('$') != std::string::npos)
+    {
+        throw DemEngineError(where + ": include '" + name
+                             + "'; allowed in a file's name: variables that the "
+                               "dictionary DEM/variables sets");
+    }
+    return name;
+}
+
 } // namespace
 
-std::vector<ScriptCommand> readScript(const std::filesystem::path& script)
+std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables)
 {
     std::ifstream lines(script);
     if (!lines)
@@ -52,7 +72,8 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script)
         }
         if (name == "include")
         {
-            const std::vector<ScriptCommand> included = readScript(word(text, 1));
+            const std::vector<ScriptCommand> included =
+                readScript(withValues(word(text, 1), variables, where), variables);
             commands.insert(commands.end(), included.begin(), included.end());
         }
         else

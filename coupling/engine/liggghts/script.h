@@ -2,10 +2,13 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clepsydra
 {
+
+using ScriptVariables = std::vector<std::pair<std::string, std::string>>;
 
 /// A command of a LIGGGHTS script and where it stands, for errors.
 struct ScriptCommand
@@ -16,8 +19,9 @@ struct ScriptCommand
 
 /// The commands of a script in their order: lines joined at `&`, `include`d files in their place.
 /// The commands are given to LIGGGHTS one by one, so that an error can name its line. Hence no `jump`, `label`, `next`.
-/// \throws DemEngineError where a file cannot be read or a command jumps.
-std::vector<ScriptCommand> readScript(const std::filesystem::path& script);
+/// \param variables  name and value, for the names of included files: `include DEM/in.${sizes}`
+/// \throws DemEngineError where a file cannot be read, a file's name has another variable, or a command jumps.
+std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
 /// True for the commands whose result a checkpoint holds: those that make, read or change beads.
 bool makesBeads(const std::string& command);
