@@ -164,12 +164,12 @@ def tableI():
 def packingAtTheExit():
     """The paper says that the packing is denser there under water; it gives no number."""
     shares = {stage: exitFlow.profile(stage).shareAt(0) for stage in paper.STAGES}
-    found = [row(f"share of the orifice inside beads, {stage}, mu = .15", "-", share, [f"exit.100003.{stage}"])
+    found = [row(f"share of the orifice inside beads, {stage}, mu = .15", "-", share, [exitFlow.runOf(stage)])
              for stage, share in shares.items()]
     difference = Value(shares["submerged"].mean - shares["dry"].mean,
                        float(np.hypot(shares["submerged"].error, shares["dry"].error)))
     found.append(row("share of the orifice inside beads, submerged less dry", "-", difference,
-                     [f"exit.100003.{stage}" for stage in paper.STAGES]))
+                     [exitFlow.runOf(stage) for stage in paper.STAGES]))
     print(f"  submerged less dry: {difference}, {difference.mean / difference.error:+.1f} standard errors")
     return found
 

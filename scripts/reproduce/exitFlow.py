@@ -14,8 +14,9 @@ import paper
 import series
 
 FOLDER = RESULTS / "exit"
+RUNS = f"fill100-{paper.MATCHING_FRICTION['dry']}.*"
 HEIGHTS = np.linspace(-1e-3, 12e-3, 27)     # from the lower edge of the orifice's land
-SETTLED = 0.4           # s after opening: beads further up move by then
+STEADY = (0.4, 3.0)     # s after opening: beads further up move, and the hopper is more than half full
 PICTURE_AT = 1.0        # s: of the picture
 BLOCKS = 8              # of consecutive times, for the standard error
 SLAB_COLUMNS = ("x [m]", "y [m]", "z [m]", "u [m/s]", "v [m/s]", "w [m/s]", "radius [m]")
@@ -32,7 +33,7 @@ def keep(folder):
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "height [m]", "solid fraction [-]", "downward solid flux [m/s]"])
         for time, files in sorted(times.items()):
-            if time >= SETTLED:
+            if STEADY[0] <= time <= STEADY[1]:
                 for row in zip(HEIGHTS, *crossSections(*beadFiles.readBeads(files), radius)):
                     table.writerow([f"{time:.6g}", *(f"{value:.5g}" for value in row)])
     position, size, velocity = beadFiles.readBeads(times[min(times, key=lambda time: abs(time - PICTURE_AT))])
@@ -87,11 +88,20 @@ class Profile:
         return series.Value(float(mean[at]), float(error[at]))
 
 
-def read(stage, kind):
-    found = sorted(FOLDER.glob(f"exit.*.{stage}.{kind}.csv"))
+def runOf(stage):
+    """The name of the run that the beads at the exit are from."""
+    return files(stage, "profile")[0].name.removesuffix(".profile.csv")
+
+
+def files(stage, kind):
+    found = sorted(FOLDER.glob(f"*.{stage}.{kind}.csv"))
     if not found:
-        raise series.MissingRuns(f"no beads at the exit, {stage}: entry exit, then scripts/reproduce/figure1 --run")
-    with open(found[0]) as file:
+        raise series.MissingRuns(f"no beads at the exit, {stage}: entry fill100, then scripts/reproduce/figure1 --from WORK")
+    return found
+
+
+def read(stage, kind):
+    with open(files(stage, kind)[0]) as file:
         return np.array([[float(value) for value in row] for row in list(csv.reader(file))[1:]])
 
 
@@ -108,7 +118,7 @@ def slab(stage):
 
 
 def keepAll(work):
-    """Of the campaign's work folder the runs of the entry exit."""
+    """Of the campaign's work folder the runs whose beads were written often."""
     for stage in paper.STAGES:
-        for folder in sorted(Path(work).glob(f"runs/exit.*.{stage}")):
+        for folder in sorted(Path(work).glob(f"runs/{RUNS}.{stage}")):
             keep(folder)
