@@ -90,10 +90,10 @@ class Profile:
 
 def runOf(stage):
     """The name of the run that the beads at the exit are from."""
-    return files(stage, "profile")[0].name.removesuffix(".profile.csv")
+    return kept(stage, "profile")[0].name.removesuffix(".profile.csv")
 
 
-def files(stage, kind):
+def kept(stage, kind):
     found = sorted(FOLDER.glob(f"*.{stage}.{kind}.csv"))
     if not found:
         raise series.MissingRuns(f"no beads at the exit, {stage}: entry fill100, then scripts/reproduce/figure1 --from WORK")
@@ -101,7 +101,7 @@ def files(stage, kind):
 
 
 def read(stage, kind):
-    with open(files(stage, kind)[0]) as file:
+    with open(kept(stage, kind)[0]) as file:
         return np.array([[float(value) for value in row] for row in list(csv.reader(file))[1:]])
 
 

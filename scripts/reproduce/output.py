@@ -4,6 +4,7 @@ import argparse
 import csv
 import subprocess
 import sys
+from pathlib import Path
 
 import matplotlib
 
@@ -13,7 +14,6 @@ import matplotlib.pyplot as pyplot
 from repository import CAMPAIGN, CASE, RESULTS, SCRIPTS
 import series
 
-FIGURES = RESULTS / "figures"
 
 # the paper's: dry red and open, submerged blue and filled
 COLOUR = {"dry": "tab:red", "submerged": "tab:blue"}
@@ -31,6 +31,7 @@ def command(main, description, entries, afterRun=None):
     parser.add_argument("--run", action="store_true",
                         help=f"first run what is missing of the entries {', '.join(entries)} of {CAMPAIGN}" if entries
                         else "nothing has to be run for this one")
+    parser.add_argument("--into", metavar="FOLDER", type=Path, default=RESULTS / "figures")
     if afterRun:
         parser.add_argument("--from", dest="work", metavar="FOLDER", help="take it from this work folder of the campaign")
     given = parser.parse_args()
@@ -39,7 +40,7 @@ def command(main, description, entries, afterRun=None):
     if afterRun and (given.run or given.work):
         afterRun(given.work or CASE / "work")
     try:
-        main()
+        main(Folder(given.into))
     except series.MissingRuns as missing:
         sys.exit(f"{sys.argv[0]}: {missing}; `scripts/campaign run {CAMPAIGN} --only ENTRY` makes them")
 
@@ -49,20 +50,23 @@ def run(entries):
         sys.exit(1)
 
 
-def save(figure, name):
-    FIGURES.mkdir(parents=True, exist_ok=True)
-    figure.savefig(FIGURES / f"{name}.png", dpi=130, metadata={"Software": None})
-    pyplot.close(figure)
-    print(FIGURES / f"{name}.png")
+class Folder:
+    """Where pictures and the numbers behind them go."""
 
+    def __init__(self, path):
+        self.path = path
+        path.mkdir(parents=True, exist_ok=True)
 
-def saveNumbers(name, head, rows):
-    """The numbers behind a figure."""
-    FIGURES.mkdir(parents=True, exist_ok=True)
-    with open(FIGURES / f"{name}.csv", "w") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(head)
-        table.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in row] for row in rows)
+    def picture(self, figure, name):
+        figure.savefig(self.path / f"{name}.png", dpi=130, metadata={"Software": None})
+        pyplot.close(figure)
+        print(self.path / f"{name}.png")
+
+    def numbers(self, name, head, rows):
+        with open(self.path / f"{name}.csv", "w") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(head)
+            table.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in row] for row in rows)
 
 
 def thinned(*columns, rows=400):
