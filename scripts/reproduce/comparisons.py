@@ -101,6 +101,33 @@ def surge():
     return found
 
 
+def surgeOfSmallBeads():
+    """The paper's figure 3: the surge grows as the beads get smaller. Ours: beads of 1 mm in a rig of half the size."""
+    rises, found = {}, []
+    for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
+        runs = runsOf("submerged")
+        if not runs:
+            raise series.MissingRuns("no submerged run with beads of 1 mm: entry halfSize")
+        rises[size] = series.mean([run.rise for run in runs])
+        found.append(row(f"rise of W while half of the fill leaves, submerged, d = {size}", "-", rises[size], names(runs)))
+    for size, rise in rises.items():
+        print(f"  rise of W, d = {size}: {rise}")
+    return found
+
+
+def finerMeshes():
+    """The submerged rate on finer meshes than the campaign's: no more than the rates' own errors and 2 % apart?"""
+    coarsest = series.asDeepAsHalfSize("submerged")
+    reference = series.mean([run.startRate for run in coarsest])
+    found = []
+    for run in series.onFinerMeshes():
+        change = ratio(run.startRate, reference)
+        found.append(row(f"W_submerged on mesh {run.parameters['meshLevel']} over W on {coarsest[0].parameters['meshLevel']}",
+                         "-", change, names(coarsest) + [run.name]))
+        print(f"  {run.parameters['meshLevel']}: {change}")
+    return found
+
+
 def emptying():
     """Time that 500 g need at mu = .8: from the deepest run there is, and its rate at the start for what it lacks."""
     found = []
@@ -175,7 +202,7 @@ def packingAtTheExit():
 
 
 GROUPS = {group.__name__: group for group in
-          (rates, ratioOfRates, matchingFriction, surge, emptying, torricelli, tableI, packingAtTheExit)}
+          (rates, ratioOfRates, matchingFriction, surge, surgeOfSmallBeads, finerMeshes, emptying, torricelli, tableI, packingAtTheExit)}
 
 
 def table(rows):

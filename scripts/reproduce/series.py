@@ -18,6 +18,7 @@ LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the pape
 CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
+LIKE_HALF_SIZE = 100        # g, that lie as many beads deep as the fill of the rig of half the size
 DRAWS = 400                 # of a fit's data, for the uncertainty of what follows from it
 
 
@@ -122,7 +123,8 @@ def check(run):
         problems.append(f"{record['summary']['beads_lost']} beads were lost")
     if np.any(np.diff(run.time) <= 0):
         problems.append("its times do not increase")
-    if run.run.case.startswith(run.entry + "-") and not isclose(float(run.run.case[len(run.entry) + 1:]), run.friction):
+    swept = run.run.case.removeprefix(run.entry).removeprefix("-")
+    if run.entry.startswith("fill") and swept and not isclose(float(swept), run.friction):
         problems.append(f"its friction is {run.friction:g}")
     if any("dirty" in version for version in record["code"]):
         problems.append("it was made by a program that no commit holds")
@@ -231,6 +233,23 @@ def matching(stage):
     return deepest(stage, wanted if fills(stage, friction=wanted) else paper.MATCHING_FRICTION["dry"])
 
 
+def onFinerMeshes():
+    """Submerged runs that differ from one of the entry fill100 by their mesh."""
+    found = [run for run in allRuns() if run.entry == "cells"]
+    if not found:
+        raise MissingRuns("no run on another mesh: entry cells")
+    return found
+
+
 def halfSize(stage):
-    """Runs of the rig of half the size, with beads of 1 mm."""
+    """Runs of the rig of half the size; none where they are not there yet."""
     return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize" and run.emptyingTime]
+
+
+def asDeepAsHalfSize(stage):
+    """Runs of the full rig with the same number of beads, and of the same friction."""
+    found = [run for run in fills(stage, friction=paper.MATCHING_FRICTION["dry"])
+             if isclose(run.fill, LIKE_HALF_SIZE, rel_tol=0.01)]
+    if not found:
+        raise MissingRuns(f"no {stage} run of {LIKE_HALF_SIZE} g: entry fill100")
+    return found
