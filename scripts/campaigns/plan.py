@@ -39,9 +39,12 @@ class Task:
 
 
 class Campaign:
-    """A campaign file and its template, read and checked. CampaignError where anything is wrong."""
+    """A campaign file and its template, read and checked. CampaignError where anything is wrong.
 
-    def __init__(self, path):
+    only: of its entries `runs` these; all unless given.
+    """
+
+    def __init__(self, path, only=None):
         self.path = Path(path).resolve()
         self.settings = readYaml(self.path, CAMPAIGN_ENTRIES, required=())
         if "base" in self.settings:
@@ -62,7 +65,7 @@ class Campaign:
         self.defaults = caseFiles.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
         self.common = self._derive(self.given)
-        self.tasks = self._plan()
+        self.tasks = self._plan(only)
 
     @property
     def keepTimes(self):
@@ -112,11 +115,16 @@ class Campaign:
             plain[rule["sets"]] = str(eval(rule["to"], known | {name: float(overrides[name])}))
         return plain
 
-    def _plan(self):
-        tasks = {}
-        if not isinstance(self.settings["runs"], dict):
-            raise self._error("runs", self.settings["runs"], "a list of `name: { ... }`")
-        for name, entry in self.settings["runs"].items():
+    def _plan(self, only):
+        tasks, runs = {}, self.settings["runs"]
+        if not isinstance(runs, dict):
+            raise self._error("runs", runs, "a list of `name: { ... }`")
+        unknown = [name for name in only or [] if name not in runs]
+        if unknown:
+            raise CampaignError(f"{self.path}: no run '{unknown[0]}'; there are: {', '.join(map(str, runs))}")
+        for name, entry in runs.items():
+            if only and name not in only:
+                continue
             for task in self._tasksOf(str(name), entry or {}):
                 known = tasks.setdefault(task.name, task)
                 if known.overrides != task.overrides:

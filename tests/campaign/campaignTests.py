@@ -128,6 +128,15 @@ class CampaignOfStandIns(CampaignTest):
         self.assertNotEqual(outcome.returncode, 0)
         self.assertIn("begun with other parameters", outcome.stdout + outcome.stderr)
 
+    def testOnlySomeOfTheRuns(self):
+        """Of two entries one runs, and the whole campaign then has the other left to do."""
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry"], packings=[1],
+                   runs={"one": {}, "other": {"parameters": {"friction": 0.3}}})
+        self.assertEqual(self.call("run", "--only", "other").returncode, 0)
+        self.assertEqual([path.name for path in (self.folder / "results").glob("*.json")], ["other.1.dry.json"])
+        self.assertRegex(self.call("status").stdout, r"one\.1\.dry +waiting")
+        self.assertRegex(self.call("run", "--only", "noSuchRun").stderr, "no run 'noSuchRun'; there are: one, other")
+
     def testWrongFilesAreNamedWithWhatIsAllowed(self):
         self.sweep([0.1], parameters={"fricton": 1})
         outcome = self.call("run")

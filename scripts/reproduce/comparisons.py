@@ -1,0 +1,216 @@
+"""Quantities that the paper measured or simulated, beside ours: groups of rows, and what must hold of them.
+
+A row is never wrong for being far off. A group fails where its runs are missing or contradict each other, or where a
+claim that is made of them (`require`) is not borne out.
+"""
+
+import numpy as np
+
+from repository import hopper
+import closures
+import exitFlow
+import paper
+import series
+from series import Value
+
+SIGNIFICANT = 3             # standard errors
+KEYS = ("quantity", "unit", "measured", "paperSimulation", "ours", "uncertainty", "residualPercent", "runs")
+
+
+class ClaimFailed(Exception):
+    """What was claimed and is not so."""
+
+
+def row(quantity, unit, ours, runs, measured=None, simulated=None):
+    """The residual is against the measurement; without one, against the paper's simulation."""
+    reference = simulated if measured is None else measured
+    return dict(zip(KEYS, (quantity, unit, measured, simulated, float(f"{ours.mean:.5g}"),
+                           float(f"{ours.error:.2g}") if np.isfinite(ours.error) else None,
+                           round(100 * (ours.mean / reference - 1), 2) if reference else None, runs)))
+
+
+def require(claim, holds):
+    print(f"  {'holds' if holds else 'DOES NOT HOLD'}: {claim}")
+    if not holds:
+        raise ClaimFailed(claim)
+
+
+def names(runs):
+    return [run.name for run in runs]
+
+
+def ratio(above, below):
+    mean = above.mean / below.mean
+    return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
+
+
+def rates():
+    """W at the start, at the frictions that the paper finds to match."""
+    found = []
+    for stage in paper.STAGES:
+        for friction in sorted({paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}):
+            if friction != paper.MATCHING_FRICTION["dry"] and not series.fills(stage, friction=friction):
+                print(f"  not run yet: {stage}, mu = {friction:g}")
+                continue
+            runs = series.deepest(stage, friction)
+            matching = friction == paper.MATCHING_FRICTION[stage]
+            found.append(row(f"W_{stage}, mu = {friction:g}, {runs[0].fill:.0f} g", "g/s", series.startRate(stage, friction),
+                             names(runs), paper.RATE[stage], paper.RATE[stage] if matching else None))
+    return found
+
+
+def ratioOfRates():
+    """W_sub/W_dry: of one friction, so that the water alone makes the difference."""
+    friction = paper.MATCHING_FRICTION["dry"]
+    pair = [series.deepest(stage, friction) for stage in reversed(paper.STAGES)]
+    ours = ratio(*(series.mean([run.startRate for run in runs]) for runs in pair))
+    require("under water the hopper is slower, by more than three standard errors", 1 - ours.mean > SIGNIFICANT * ours.error)
+    return [row(f"W_submerged/W_dry, mu = {friction:g} in both", "-", ours, names(sum(pair, [])),
+                paper.RATE["submerged"] / paper.RATE["dry"])]
+
+
+def matchingFriction():
+    """mu at which our rate would be the measured one, and W_o, from the paper's fit."""
+    found = []
+    for stage in paper.STAGES:
+        law = series.frictionLaw(stage)
+        runs = names([run for repeats in series.sweep(stage).values() for run in repeats])
+        found.append(row(f"mu_{stage} that matches the measured rate", "-", law.frictionAt(paper.RATE[stage]), runs,
+                         simulated=paper.MATCHING_FRICTION[stage]))
+        found.append(row(f"W_o,{stage}", "g/s", law.parameter(0), runs, simulated=paper.ASYMPTOTIC_RATE[stage]))
+        found.append(row(f"mu_o,{stage} of the fit", "-", law.parameter(2), runs))
+    return found
+
+
+def surge():
+    """How straight m(t) is: what the rate gains while half of the fill leaves."""
+    friction, rises, found = paper.MATCHING_FRICTION["dry"], {}, []
+    for stage in paper.STAGES:
+        runs = series.deepest(stage, friction)
+        rises[stage] = series.mean([run.rise for run in runs])
+        found.append(row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-",
+                         rises[stage], names(runs)))
+    difference = Value(rises["submerged"].mean - rises["dry"].mean,
+                       float(np.hypot(rises["submerged"].error, rises["dry"].error)))
+    found.append(row("rise of W, submerged less dry", "-", difference, found[0]["runs"] + found[1]["runs"]))
+    for name, rise in (*rises.items(), ("submerged less dry", difference)):
+        print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
+    require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
+    require("it surges submerged: a rise beyond three standard errors",
+            rises["submerged"].mean > SIGNIFICANT * rises["submerged"].error)
+    return found
+
+
+def surgeOfSmallBeads():
+    """The paper's figure 3: the surge grows as the beads get smaller. Ours: beads of 1 mm in a rig of half the size."""
+    rises, found = {}, []
+    for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
+        runs = runsOf("submerged")
+        if not runs:
+            raise series.MissingRuns("no submerged run with beads of 1 mm: entry halfSize")
+        rises[size] = series.mean([run.rise for run in runs])
+        found.append(row(f"rise of W while half of the fill leaves, submerged, d = {size}", "-", rises[size], names(runs)))
+    for size, rise in rises.items():
+        print(f"  rise of W, d = {size}: {rise}")
+    return found
+
+
+def finerMeshes():
+    """The submerged rate on finer meshes than the campaign's: no more than the rates' own errors and 2 % apart?"""
+    coarsest = series.asDeepAsHalfSize("submerged")
+    reference = series.mean([run.startRate for run in coarsest])
+    found = []
+    for run in series.onFinerMeshes():
+        change = ratio(run.startRate, reference)
+        found.append(row(f"W_submerged on mesh {run.parameters['meshLevel']} over W on {coarsest[0].parameters['meshLevel']}",
+                         "-", change, names(coarsest) + [run.name]))
+        print(f"  {run.parameters['meshLevel']}: {change}")
+    return found
+
+
+def emptying():
+    """Time that 500 g need at mu = .8: from the deepest run there is, and its rate at the start for what it lacks."""
+    found = []
+    for stage in paper.STAGES:
+        runs = series.deepest(stage, paper.EMPTYING_FRICTION)
+        times = [emptyingOf(run) for run in runs]
+        found.append(row(f"time to empty {paper.EMPTYING_MASS} g, {stage}, mu = {paper.EMPTYING_FRICTION:g}"
+                         + (f", extrapolated from {runs[0].fill:.0f} g" if runs[0].fill < 0.99 * paper.EMPTYING_MASS else ""),
+                         "s", series.mean(times), names(runs), simulated=paper.EMPTYING_TIME[stage]))
+        found.append(row(f"W_{stage}, mu = {paper.EMPTYING_FRICTION:g}, {runs[0].fill:.0f} g", "g/s",
+                         series.mean([run.startRate for run in runs]), names(runs),
+                         simulated=paper.EMPTYING_MASS / paper.EMPTYING_TIME[stage]))
+    require("500 g need longer under water", found[2]["ours"] - found[0]["ours"]
+            > SIGNIFICANT * np.hypot(found[2]["uncertainty"], found[0]["uncertainty"]))
+    return found
+
+
+def emptyingOf(run):
+    if not run.emptyingTime:
+        raise series.MissingRuns(f"{run.name} ended before its flow did")
+    lacking = (paper.EMPTYING_MASS - run.fill) / run.startRate.mean
+    # the deeper part may also flow at the mean rate of the whole: the rise is not known to go on or to end
+    drift = lacking * abs(run.rise.mean)
+    return Value(run.emptyingTime + lacking, float(np.hypot(lacking * run.startRate.error / run.startRate.mean, drift)))
+
+
+def torricelli():
+    """W ~ m^p nearly without friction: p = 1/2 for a Newtonian fluid, 0 for Beverloo's grains."""
+    found = []
+    for stage in paper.STAGES:
+        runs = series.deepest(stage, paper.SMOOTH_FRICTION)
+        exponent = series.mean([run.rateExponent for run in runs])
+        rough = series.mean([run.rateExponent for run in series.deepest(stage, paper.MATCHING_FRICTION["dry"])])
+        found.append(row(f"p of W ~ m^p, {stage}, mu = {paper.SMOOTH_FRICTION:g} (Torricelli: .5)", "-", exponent, names(runs),
+                         simulated=0.5))
+        require(f"{stage}, without friction the rate falls with the height ({exponent}), with friction less ({rough})",
+                exponent.mean > SIGNIFICANT * exponent.error
+                and exponent.mean - rough.mean > SIGNIFICANT * np.hypot(exponent.error, rough.error))
+    return found
+
+
+def tableI():
+    """Re and C_d by Brown & Lawler's fit to measured spheres, and by the drag law that the runs use; I as printed."""
+    found, p = [], hopper()
+    water = {name: p[name] for name in ("fluidDensity", "fluidViscosity")}
+    excess = p["beadDensity"] / p["fluidDensity"] - 1
+    for law in ("BrownLawlerDrag", p["dragLaw"]):
+        for bead in paper.TABLE_1:
+            speed = closures.value("terminalVelocity", dragLaw=law, beadDiameter=bead.diameter,
+                                   beadDensity=p["beadDensity"], **water)
+            reynolds = speed * bead.diameter / p["fluidViscosity"]
+            drag = closures.value("dragCoefficient", dragLaw=law, beadDiameter=bead.diameter, slipSpeed=speed, **water)
+            inertial = 4 * p["fluidViscosity"] / (excess * speed * p["orificeDiameter"])
+            for name, ours, printed in (("Re", reynolds, bead.reynolds), ("C_d", drag, bead.dragCoefficient),
+                                        ("I = 4 eta/(rho_e v_t D)", inertial, bead.inertialNumber)):
+                found.append(row(f"Table I: {name}, d = {1e2 * bead.diameter:g} cm, {law}", "-", Value(ours, 0), [],
+                                 simulated=printed))
+    return found
+
+
+def packingAtTheExit():
+    """The paper says that the packing is denser there under water; it gives no number."""
+    shares = {stage: exitFlow.profile(stage).shareAt(0) for stage in paper.STAGES}
+    found = [row(f"share of the orifice inside beads, {stage}, mu = .15", "-", share, [exitFlow.runOf(stage)])
+             for stage, share in shares.items()]
+    difference = Value(shares["submerged"].mean - shares["dry"].mean,
+                       float(np.hypot(shares["submerged"].error, shares["dry"].error)))
+    found.append(row("share of the orifice inside beads, submerged less dry", "-", difference,
+                     [exitFlow.runOf(stage) for stage in paper.STAGES]))
+    print(f"  submerged less dry: {difference}, {difference.mean / difference.error:+.1f} standard errors")
+    return found
+
+
+GROUPS = {group.__name__: group for group in
+          (rates, ratioOfRates, matchingFriction, surge, surgeOfSmallBeads, finerMeshes, emptying, torricelli, tableI, packingAtTheExit)}
+
+
+def table(rows):
+    """Lines of text."""
+    def shown(value):
+        return "-" if value is None else value if isinstance(value, str) else f"{value:.4g}"
+
+    lines = [("quantity", "unit", "measured", "paper's simulation", "ours", "+-", "residual %")]
+    lines += [tuple(shown(one[key]) for key in KEYS[:-1]) for one in rows]
+    widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
+    return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines)

@@ -1,0 +1,75 @@
+"""Pictures, the numbers behind them, and what the commands figure1, figure2, ... have in common."""
+
+import argparse
+import csv
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as pyplot
+
+from repository import CAMPAIGN, CASE, RESULTS, SCRIPTS
+import series
+
+
+# the paper's: dry red and open, submerged blue and filled
+COLOUR = {"dry": "tab:red", "submerged": "tab:blue"}
+MARKER = {"dry": dict(marker="o", markerfacecolor="none"), "submerged": dict(marker="s")}
+MEASURED = {"dry": dict(marker="x", color="tab:red"), "submerged": dict(marker="+", color="tab:blue")}
+PANEL = {"dry": "(a) dry", "submerged": "(b) submerged"}
+
+
+def command(main, description, entries, afterRun=None):
+    """main() after the command line is read: --run does first what the campaign's entries have not done yet.
+
+    afterRun(folder): takes from the campaign's work folder what its results do not hold.
+    """
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("--run", action="store_true",
+                        help=f"first run what is missing of the entries {', '.join(entries)} of {CAMPAIGN}" if entries
+                        else "nothing has to be run for this one")
+    parser.add_argument("--into", metavar="FOLDER", type=Path, default=RESULTS / "figures")
+    if afterRun:
+        parser.add_argument("--from", dest="work", metavar="FOLDER", help="take it from this work folder of the campaign")
+    given = parser.parse_args()
+    if given.run and entries:
+        run(entries)
+    if afterRun and (given.run or given.work):
+        afterRun(given.work or CASE / "work")
+    try:
+        main(Folder(given.into))
+    except series.MissingRuns as missing:
+        sys.exit(f"{sys.argv[0]}: {missing}; `scripts/campaign run {CAMPAIGN} --only ENTRY` makes them")
+
+
+def run(entries):
+    if subprocess.run([SCRIPTS / "campaign", "run", CAMPAIGN, "--only", *entries]).returncode != 0:
+        sys.exit(1)
+
+
+class Folder:
+    """Where pictures and the numbers behind them go."""
+
+    def __init__(self, path):
+        self.path = path
+        path.mkdir(parents=True, exist_ok=True)
+
+    def picture(self, figure, name):
+        figure.savefig(self.path / f"{name}.png", dpi=130, metadata={"Software": None})
+        pyplot.close(figure)
+        print(self.path / f"{name}.png")
+
+    def numbers(self, name, head, rows):
+        with open(self.path / f"{name}.csv", "w") as file:
+            table = csv.writer(file, lineterminator="\n")
+            table.writerow(head)
+            table.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in row] for row in rows)
+
+
+def thinned(*columns, rows=400):
+    """Some of the rows of long columns."""
+    step = -(-len(columns[0]) // rows)
+    return zip(*(map(float, column[::step]) for column in columns))

@@ -1,0 +1,18 @@
+"""Where things lie. To be imported first: it puts scripts/ on the path of modules."""
+
+import sys
+from pathlib import Path
+
+import yaml
+
+SCRIPTS = Path(__file__).resolve().parent.parent
+CASE = SCRIPTS.parent / "cases" / "hopper5cm"
+RESULTS = CASE / "results"
+CAMPAIGN = CASE / "campaign.yaml"
+
+sys.path.insert(0, str(SCRIPTS))
+
+
+def hopper():
+    """The parameters of cases/hopper5cm/hopper.yaml."""
+    return yaml.safe_load((CASE / "hopper.yaml").read_text())["parameters"]

@@ -1,0 +1,255 @@
+"""The runs of cases/hopper5cm, and what figures and comparisons take from their m(t)."""
+
+import json
+from dataclasses import dataclass
+from functools import cache, cached_property
+from math import isclose, pi
+
+import numpy as np
+from scipy import optimize, stats
+
+from repository import RESULTS
+import campaignResults
+import flow
+import paper
+
+START = (0.95, 0.75)        # of the fill: "the beginning", 380 to 300 g of 400 g
+LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the paper fits its straight line
+CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
+BINS_OF_START, BINS_OF_CURVE = 5, 12
+STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
+LIKE_HALF_SIZE = 100        # g, that lie as many beads deep as the fill of the rig of half the size
+DRAWS = 400                 # of a fit's data, for the uncertainty of what follows from it
+
+
+class MissingRuns(Exception):
+    """Which entries of the campaign would have to be run."""
+
+
+@dataclass(frozen=True)
+class Value:
+    mean: float
+    error: float            # one standard error
+
+    def __str__(self):
+        return f"{self.mean:.4g} +- {self.error:.2g}"
+
+
+class HopperRun:
+    """One m(t), in g and s."""
+
+    def __init__(self, run):
+        self.run, self.name, self.stage = run, run.name, run.stage
+        self.entry = run.case.split("-")[0]
+        self.parameters = run.parameters
+        self.friction = run.parameters["friction"]
+        self.time, self.mass = run.time, 1e3 * run.mass
+        self.beadMass = 1e3 * run.parameters["beadDensity"] * pi / 6 * run.parameters["beadDiameter"] ** 3
+        self.fill = self.beadMass * run.parameters["beadCount"]
+
+    def meanRate(self, upper, lower):
+        """g/s while the hopper holds between two parts of its fill."""
+        return flow.meanRate(self.time, self.mass, upper, lower)
+
+    def rates(self, upper, lower, bins):
+        """Mass and rate in the middle of equal shares of the fill."""
+        edges = np.linspace(upper, lower, bins + 1)
+        rates = np.array([self.meanRate(*pair) for pair in zip(edges, edges[1:])])
+        return self.mass[0] * (edges[1:] + edges[:-1]) / 2, rates
+
+    @cached_property
+    def startRate(self):
+        """The paper's W, "at the beginning"; its error from how the rate varies meanwhile."""
+        _, rates = self.rates(*START, BINS_OF_START)
+        return Value(self.meanRate(*START), np.std(rates, ddof=1) / np.sqrt(len(rates)))
+
+    @cached_property
+    def rise(self):
+        """What the rate gains, as a part of its mean, while half of the fill leaves: slope of W against m.
+
+        A straight m(t) has none. The error is the regression's, from the scatter round it.
+        """
+        mass, rates = self.rates(*CURVED, BINS_OF_CURVE)
+        fit = stats.linregress(mass, rates)
+        scale = 0.5 * self.mass[0] / rates.mean()
+        return Value(-fit.slope * scale, fit.stderr * scale)
+
+    @cached_property
+    def rateExponent(self):
+        """p of W ~ m^p: 1/2 for a fluid that leaves by Torricelli's law."""
+        mass, rates = self.rates(*CURVED, BINS_OF_CURVE)
+        fit = stats.linregress(np.log(mass), np.log(rates))
+        return Value(fit.slope, fit.stderr)
+
+    @cached_property
+    def emptyingTime(self):
+        """t_c: when the flow stops. None where the run ended before."""
+        return flow.emptyingTime(*self.padded, STOPPED * self.startRate.mean)
+
+    @cached_property
+    def padded(self):
+        """m(t) with what follows: nothing leaves any more."""
+        after = np.arange(1, 500) * 0.01
+        return np.append(self.time, self.time[-1] + after), np.append(self.mass, np.full(len(after), self.mass[-1]))
+
+    def paperRate(self):
+        """t and W(t) as the paper takes it; in a smaller rig all times go as the root of its size, the window too."""
+        scale = np.sqrt(self.parameters["beadDiameter"] / paper.TABLE_1[-1].diameter)
+        return flow.smoothedRate(*self.padded, deviation=scale * paper.WINDOW_DEVIATION)
+
+    def line(self):
+        """Slope and height of the straight line through the upper half of m(t)."""
+        upper, lower = (part * self.mass[0] for part in LINEAR)
+        part = (self.mass < upper) & (self.mass > lower)
+        return np.polyfit(self.time[part], self.mass[part], 1)
+
+
+@cache
+def allRuns():
+    """All committed runs, each checked against its own inputs."""
+    runs = tuple(HopperRun(run) for run in campaignResults.read(RESULTS / "runs"))
+    for run in runs:
+        check(run)
+    return runs
+
+
+def check(run):
+    """A curve that is not that of its inputs must not be drawn."""
+    record = json.loads((RESULTS / "runs" / f"{run.name}.json").read_text())
+    problems = []
+    if abs(run.mass[0] - run.fill) > 0.01 * run.fill:
+        problems.append(f"m(t) begins with {run.mass[0]:.4g} g, the inputs say {run.fill:.4g} g")
+    if record["summary"]["beads_lost"] != 0:
+        problems.append(f"{record['summary']['beads_lost']} beads were lost")
+    if np.any(np.diff(run.time) <= 0):
+        problems.append("its times do not increase")
+    swept = run.run.case.removeprefix(run.entry).removeprefix("-")
+    if run.entry.startswith("fill") and swept and not isclose(float(swept), run.friction):
+        problems.append(f"its friction is {run.friction:g}")
+    if any("dirty" in version for version in record["code"]):
+        problems.append("it was made by a program that no commit holds")
+    if problems:
+        raise SystemExit(f"cases/hopper5cm/results/runs/{run.name}: {'; '.join(problems)}")
+
+
+def fills(stage, **wanted):
+    """Runs of the entries fill..., of a stage and with the parameters wanted, in order of fill."""
+    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith("fill") and run.startRate.mean and
+             all(isclose(run.parameters[name], value) for name, value in wanted.items())]
+    return sorted(found, key=lambda run: (run.fill, run.friction))
+
+
+def deepest(stage, friction):
+    """The runs with the largest fill there is: one or several packings."""
+    found = fills(stage, friction=friction)
+    if not found:
+        raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400")
+    return [run for run in found if isclose(run.fill, found[-1].fill)]
+
+
+def mean(values, deviation=None):
+    """Of runs that differ by their packing. Few runs: the larger of their scatter and of their own errors counts."""
+    means = [value.mean for value in values]
+    within = np.hypot.reduce([value.error for value in values]) / len(values)
+    between = np.std(means, ddof=1) / np.sqrt(len(means)) if len(means) > 1 else 0
+    return Value(float(np.mean(means)), float(max(within, between, deviation or 0)))
+
+
+def startRate(stage, friction):
+    return mean([run.startRate for run in deepest(stage, friction)])
+
+
+def sweep(stage):
+    """Runs of the fill with the most frictions, the larger fill where two have as many: {friction: [run, ...]}."""
+    byFill = {}
+    for run in fills(stage):
+        byFill.setdefault(round(run.fill), {}).setdefault(run.friction, []).append(run)
+    if not byFill:
+        raise MissingRuns(f"no {stage} run: entries fill100, fill200, fill400")
+    return byFill[max(byFill, key=lambda fill: (len(byFill[fill]), fill))]
+
+
+@dataclass(frozen=True)
+class FrictionLaw:
+    """W = W_o + A exp(-mu/mu_o), and as many more as were drawn within the errors of the rates."""
+
+    fits: np.ndarray        # rows of W_o, A, mu_o; the first is the fit to the means
+
+    def rate(self, friction, fit=0):
+        asymptote, amplitude, scale = self.fits[fit]
+        return asymptote + amplitude * np.exp(-np.asarray(friction) / scale)
+
+    def parameter(self, index):
+        return self._value(self.fits[:, index])
+
+    def frictionAt(self, rate):
+        """Where the law has this rate; an error of infinity where more than a tenth of the draws has it nowhere."""
+        asymptote, amplitude, scale = self.fits.T
+        inside = (rate > asymptote) & (rate < asymptote + amplitude)
+        found = np.full(len(inside), np.nan)
+        found[inside] = scale[inside] * np.log(amplitude[inside] / (rate - asymptote[inside]))
+        return self._value(found)
+
+    @staticmethod
+    def _value(values):
+        drawn = values[1:][np.isfinite(values[1:])]
+        missing = 1 - len(drawn) / (len(values) - 1)
+        # half of the central 68 %: some draws lie far out
+        error = np.subtract(*np.percentile(drawn, [84, 16])) / 2 if missing < 0.1 else np.inf
+        return Value(float(values[0]), float(error))
+
+
+def frictionLaw(stage):
+    """The paper's fit to the rates of a sweep. Needs three frictions; three leave nothing to check it by."""
+    byFriction = sweep(stage)
+    if len(byFriction) < 3:
+        raise MissingRuns(f"{len(byFriction)} frictions are not enough for a fit, {stage}: entry fill200")
+    frictions = np.array(list(byFriction))
+    rates = [mean([run.startRate for run in runs]) for runs in byFriction.values()]
+    means, errors = np.array([rate.mean for rate in rates]), np.array([rate.error for rate in rates])
+
+    def fit(values):
+        start = (values.min() - 0.1, values.max() - values.min() + 0.1, 0.15)
+        law = lambda friction, asymptote, amplitude, scale: asymptote + amplitude * np.exp(-friction / scale)
+        return optimize.curve_fit(law, frictions, values, start, sigma=errors, maxfev=5000,
+                                  bounds=([0, 0, 0.01], [np.inf, np.inf, 2]))[0]
+
+    best = fit(means)
+    spread = errors * max(1, scatterOverErrors(means - (best[0] + best[1] * np.exp(-frictions / best[2])), errors))
+    random = np.random.default_rng(20170327)
+    draws = [fit(means + spread * random.standard_normal(len(means))) for _ in range(DRAWS)]
+    return FrictionLaw(np.array([best, *draws]))
+
+
+def scatterOverErrors(residuals, errors):
+    """Square root of chi2 per degree of freedom of a fit with three parameters; 1 where there is none."""
+    freedom = len(residuals) - 3
+    return np.sqrt(((residuals / errors) ** 2).sum() / freedom) if freedom > 0 else 1.0
+
+
+def matching(stage):
+    """The deepest runs at the friction that the paper finds to match; where there are none yet, at the dry one's."""
+    wanted = paper.MATCHING_FRICTION[stage]
+    return deepest(stage, wanted if fills(stage, friction=wanted) else paper.MATCHING_FRICTION["dry"])
+
+
+def onFinerMeshes():
+    """Submerged runs that differ from one of the entry fill100 by their mesh."""
+    found = [run for run in allRuns() if run.entry == "cells"]
+    if not found:
+        raise MissingRuns("no run on another mesh: entry cells")
+    return found
+
+
+def halfSize(stage):
+    """Runs of the rig of half the size; none where they are not there yet."""
+    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize" and run.emptyingTime]
+
+
+def asDeepAsHalfSize(stage):
+    """Runs of the full rig with the same number of beads, and of the same friction."""
+    found = [run for run in fills(stage, friction=paper.MATCHING_FRICTION["dry"])
+             if isclose(run.fill, LIKE_HALF_SIZE, rel_tol=0.01)]
+    if not found:
+        raise MissingRuns(f"no {stage} run of {LIKE_HALF_SIZE} g: entry fill100")
+    return found

@@ -1,0 +1,66 @@
+"""The paper's hopper, run afresh: 20 g, a few tenths of a second, dry and under water."""
+
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+import yaml
+
+REPOSITORY = Path(__file__).resolve().parent.parent.parent
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+import beadFiles
+import campaignResults
+import flow
+
+DRY, SUBMERGED = 0.8, 0.6       # s
+
+
+class FreshRun(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = Path(tempfile.mkdtemp(prefix="clepsydra-hopper5cm-"))
+        cls.addClassCleanup(shutil.rmtree, cls.folder)
+        file = cls.folder / "fresh.yaml"
+        file.write_text(yaml.safe_dump({
+            "base": str(REPOSITORY / "cases" / "hopper5cm" / "hopper.yaml"), "work": str(cls.folder / "work"),
+            "results": str(cls.folder / "results"), "stages": ["dry", "submerged"], "runs": {"fresh": {}},
+            "parameters": {"fillMass": 0.02, "meshLevel": "quick", "pourDuration": 0.4, "pourTime": 1.1, "dryTime": DRY,
+                           "submergedTime": SUBMERGED, "fieldInterval": 0.05, "drawBeads": True}}))
+        outcome = subprocess.run([REPOSITORY / "scripts" / "campaign", "run", file], capture_output=True, text=True)
+        if outcome.returncode != 0:
+            raise AssertionError(outcome.stdout + outcome.stderr)
+        cls.runs = {run.stage: run for run in campaignResults.read(cls.folder / "results")}
+
+    def testNothingIsLostAndBothStartFromOnePour(self):
+        for stage, run in self.runs.items():
+            summary = json.loads((self.folder / "results" / f"{run.name}.json").read_text())["summary"]
+            self.assertEqual(summary["beads_lost"], 0, stage)
+            self.assertLess(summary["solid_volume_error"], 1e-9, stage)
+            self.assertEqual(summary["beads_start"], run.parameters["beadCount"], stage)
+        self.assertEqual(self.runs["dry"].mass[0], self.runs["submerged"].mass[0])
+
+    def testWaterSlowsTheFlow(self):
+        """By more than the 5 % that two packings differ by; a run whose water does nothing would leave at the dry rate."""
+        left = {stage: 1e3 * (run.mass[0] - np.interp(0.5, run.time, run.mass)) for stage, run in self.runs.items()}
+        print(f"left in 0.5 s: dry {left['dry']:.2f} g, submerged {left['submerged']:.2f} g")
+        self.assertGreater(left["submerged"], 1)
+        self.assertLess(left["submerged"], 0.9 * left["dry"])
+
+    def testNoBeadIsFasterThanItCanFall(self):
+        """Beads that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
+        # from the top of the beads, of which none lies higher than 2 cm, to the floor of the tank
+        limit = np.sqrt(2 * flow.GRAVITY * (self.runs["dry"].parameters["tankDepth"] + 0.02))
+        case = self.folder / "work" / "runs" / self.runs["dry"].name / "stages" / "dry"
+        fastest = max(np.linalg.norm(beadFiles.readBeads(files)[2], axis=1).max()
+                      for files in beadFiles.writtenTimes(case).values())
+        print(f"fastest bead {fastest:.2f} m/s, free fall {limit:.2f} m/s")
+        self.assertLess(fastest, limit)
+
+
+unittest.main()
