@@ -26,9 +26,18 @@ fs::path reportFolder(const Arguments& arguments)
     return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
 }
 
-/// The stored report again, in words.
-void showReport(const fs::path& folder)
+/// The report again, in words; its files anew where the runs are still stored.
+void showReport(const fs::path& study, const fs::path& folder)
 {
+    try
+    {
+        clepsydra::identification::reportAgain(study, folder);
+    }
+    catch (const std::exception& error)
+    {
+        std::cout << "report.json and report.html stay as they are, for they cannot be made from stored runs: "
+                  << error.what() << "\n\n";
+    }
     std::ifstream file(folder / "report.json");
     if (!file)
     {
@@ -53,7 +62,7 @@ int main(int argc, char** argv)
     auto* running = app.add_subcommand("run", "from study file to report; may be interrupted and started again");
     running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
-    auto* reporting = app.add_subcommand("report", "the report of a study that has been run");
+    auto* reporting = app.add_subcommand("report", "the report of a study that has been run, from its stored runs");
     reporting->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     reporting->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
     CLI11_PARSE(app, argc, argv);
@@ -70,7 +79,7 @@ int main(int argc, char** argv)
         }
         else
         {
-            showReport(reportFolder(arguments));
+            showReport(arguments.study, reportFolder(arguments));
         }
         return 0;
     }

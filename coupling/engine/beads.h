@@ -98,6 +98,12 @@ struct BeadsView
     ConstVectors otherForce{nullptr, 3, 0};
     /// For FluidForces::evaluate() only, as is otherForce.
     BeadPairs pairs{};
+    /// What a force keeps from step to step: `memorySize` numbers per bead, writable. None unless
+    /// DemEngine::keepMemory() was called.
+    double* memory = nullptr;
+    Eigen::Index memorySize = 0;
+    /// False where the forces of a step that has been are only made anew: DemEngine::prepare().
+    bool memoryAges = true;
 
     Eigen::Index size() const
     {

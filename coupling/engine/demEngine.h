@@ -55,6 +55,10 @@ public:
     /// `reach` times the sum of their radii. \pre not yet initialised, reach > 0.
     virtual void seePairs(double reach) = 0;
 
+    /// Asks for BeadsView::memory: so many numbers per bead, zero for a new bead, that travel with it and are part of
+    /// checkpoints. \pre not yet initialised, numbers > 0.
+    virtual void keepMemory(int numbers) = 0;
+
     /// Makes the engine ready to advance.
     /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState.
     /// \param forces  called at every DEM step until the engine is destroyed; nullptr: no fluid.

@@ -13,6 +13,7 @@ BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidPr
 {
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
+        const bool memoryTaken = needs().memory > 0;
         models_.append(ForceModel::New(name, couplingProperties, fluid).ptr());
         if (modelType_ == ModelType::B && models_.last().onlyInModelA())
         {
@@ -20,6 +21,11 @@ BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidPr
                 << "Entry 'forceModels' lists '" << name << "' and entry 'modelType' is B; allowed: without it, for in "
                 << "model B the fluid keeps the whole pressure gradient and viscous stress, and the beads' part of "
                 << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
+        }
+        if (memoryTaken && models_.last().needs().memory > 0)
+        {
+            FatalIOErrorInFunction(couplingProperties) << "Entry 'forceModels' lists a second force with a memory, '"
+                                                       << name << "'; allowed: one" << Foam::exit(Foam::FatalIOError);
         }
     }
 }
@@ -32,6 +38,7 @@ ForceNeeds BeadForces::needs() const
         needs.acceleration = needs.acceleration || model.needs().acceleration;
         needs.vorticity = needs.vorticity || model.needs().vorticity;
         needs.pairReach = std::max(needs.pairReach, model.needs().pairReach);
+        needs.memory = std::max(needs.memory, model.needs().memory);
     }
     return needs;
 }

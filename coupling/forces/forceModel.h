@@ -24,6 +24,8 @@ struct ForceNeeds
     bool vorticity = false;
     /// BeadsView::pairs up to this gap, in units of the sum of the two radii; 0: none.
     double pairReach = 0;
+    /// BeadsView::memory: numbers per bead kept from step to step; 0: none. One force of a run may ask for it.
+    int memory = 0;
 };
 
 /// The forces of one DEM step on the beads of one rank, split by what is implicit and by whose reaction the fluid
@@ -53,7 +55,8 @@ struct ForceSum
 };
 
 /// One force of the fluid on beads, selected by name in `forceModels (...)` of couplingProperties, coefficients in
-/// `<name>Props`. A model adds its part for all beads of the rank at once; it keeps no state between calls.
+/// `<name>Props`. A model adds its part for all beads of the rank at once; what it keeps between calls is in
+/// BeadsView::memory, for beads change ranks.
 class ForceModel
 {
 public:

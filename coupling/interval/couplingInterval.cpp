@@ -18,6 +18,10 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     {
         engine_.seePairs(models->forces.needs().pairReach);
     }
+    if (models && models->forces.needs().memory > 0)
+    {
+        engine_.keepMemory(models->forces.needs().memory);
+    }
     engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
     if (models)

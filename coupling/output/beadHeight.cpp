@@ -53,6 +53,7 @@ bool BeadHeight::read(const dictionary& dict)
     }
     axis_ = toEigen(axis).normalized();
 
+    stopBelow_ = dict.getOrDefault<scalar>("stopBelow", -GREAT);
     bead_ = dict.getOrDefault<label>("bead", 1);
     if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
     {
@@ -93,6 +94,12 @@ void BeadHeight::sample()
     Ostream& os = file();
     writeCurrentTime(os);
     os << tab << setw(charWidth()) << height << tab << setw(charWidth()) << velocity << endl;
+
+    if (height < stopBelow_)
+    {
+        Info << name() << ": bead " << bead_ << " is below " << stopBelow_ << " m: the run ends" << endl;
+        time_.stopAt(Time::saWriteNow);
+    }
 }
 
 } // namespace clepsydra

@@ -16,6 +16,7 @@ namespace clepsydra
 ///         type    beadHeight;
 ///         bead    1;          // its id; default 1
 ///         axis    (0 0 1);    // upwards; default (0 0 1)
+///         stopBelow 0.06;     // height at which the run writes a checkpoint and ends [m]; default: none
 ///     }
 ///
 /// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s], a row per
@@ -46,6 +47,7 @@ private:
 
     Foam::label bead_ = 1;
     Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
+    Foam::scalar stopBelow_ = -Foam::GREAT;
 };
 
 } // namespace clepsydra

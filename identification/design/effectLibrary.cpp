@@ -386,6 +386,13 @@ EffectLibrary makeLibrary(Simulator& simulator)
         }
         library.conditions[condition].baseFeatures = bases.back();
         library.conditions[condition].base = meanFeatures(bases.back());
+        // Before the many runs of the design.
+        if (!library.conditions[condition].base.array().isFinite().any())
+        {
+            throw std::runtime_error("condition '" + study.conditions[condition].name
+                                     + "': all runs at the base setting have failed"
+                                     + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
+        }
     }
     if (neighbours.size() == bases.size())
     {
@@ -414,12 +421,6 @@ EffectLibrary makeLibrary(Simulator& simulator)
         sensitivity.parameterColumns = Eigen::MatrixXd::Zero(features, parameters);
         sensitivity.effectColumns = Eigen::MatrixXd::Zero(features, effects);
         sensitivity.columnShare = Eigen::VectorXd::Zero(effects);
-        if (!sensitivity.base.array().isFinite().any())
-        {
-            throw std::runtime_error("condition '" + study.conditions[condition].name
-                                     + "': all runs at the base setting have failed"
-                                     + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
-        }
         const auto lost = fitColumns(study, groups[condition], simulatedEffects(study, condition),
             library.design == DesignKind::oneAtATime, library.commonSeeds ? library.seedCorrelation : 0.0, sensitivity);
         for (const auto e : lost)

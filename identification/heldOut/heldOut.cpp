@@ -117,6 +117,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
                 residuals.push_back(residual);
                 variances.push_back(answer.noise.data.matrix(f, f) * shareOfMean(training[c].features)(f, f)
                                     + answer.noise.simulation.matrix(f, f) / static_cast<double>(simulated.rows())
+                                    + training[c].declaredError(f) * training[c].declaredError(f)
                                     + answer.noise.modelError(f) * answer.noise.modelError(f) + 1e-12);
                 at.push_back(c);
             }
@@ -157,7 +158,8 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
         if (heldOut[c].features.rows() > 0)
         {
             result.conditions.push_back(c);
-            result.data.push_back({heldOut[c].features, shareOfMean(heldOut[c].features)});
+            result.data.push_back(
+                {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2()});
         }
     }
     const auto predict = [&](const std::vector<Simulation>& simulations) {
@@ -226,8 +228,8 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
     {
         for (const auto f : logs)
         {
-            floor +=
-                answer.noise.data.matrix(f, f) * result.data[i].meanShare(f, f) + result.predictedBefore[i].variance(f);
+            floor += answer.noise.data.matrix(f, f) * result.data[i].meanShare(f, f)
+                     + result.data[i].declaredVariance(f) + result.predictedBefore[i].variance(f);
         }
     }
     result.noiseFloor =

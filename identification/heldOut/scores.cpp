@@ -42,7 +42,8 @@ std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const s
             }
             squares += error * error;
             count += 1.0;
-            const double sd = std::sqrt(predictions[c].variance(f) + predictions[c].dataCovariance(f, f));
+            const double sd = std::sqrt(
+                predictions[c].variance(f) + predictions[c].dataCovariance(f, f) + data[c].declaredVariance(f));
             for (const double value : data[c].features.col(f))
             {
                 if (std::isfinite(value))
@@ -83,7 +84,7 @@ DataNoise drawDataNoise(const std::vector<HeldOutData>& data, const std::vector<
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         Eigen::MatrixXd covariance = predictions[c].dataCovariance.cwiseProduct(data[c].meanShare);
-        covariance.diagonal().array() += 1e-14;
+        covariance.diagonal().array() += data[c].declaredVariance.array() + 1e-14;
         const Eigen::MatrixXd root = covariance.llt().matrixL();
         Eigen::MatrixXd rows(draws, covariance.rows());
         for (auto row : rows.rowwise())

@@ -32,8 +32,9 @@ struct HeldOutScore
 /// What was measured there.
 struct HeldOutData
 {
-    Eigen::MatrixXd features;  // repeats by rows
-    Eigen::MatrixXd meanShare; // see shareOfMean
+    Eigen::MatrixXd features;         // repeats by rows
+    Eigen::MatrixXd meanShare;        // see shareOfMean
+    Eigen::VectorXd declaredVariance; // of each value and of the mean, beyond repeats
 };
 
 /// Draws of measurement noise, common to all predictions that are compared.

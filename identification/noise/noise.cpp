@@ -13,6 +13,7 @@ namespace
 {
 
 constexpr double enoughPerFeature = 3.0;
+constexpr double asGoodAsKnown = 1e6; // degrees of freedom of a declared error
 
 Eigen::MatrixXd drawnDeviations(const Covariance& covariance, std::mt19937_64& random)
 {
@@ -138,7 +139,8 @@ Noise Noise::redrawn(std::mt19937_64& random) const
     return drawn;
 }
 
-Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike)
+Noise noiseModel(
+    const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike, bool declared)
 {
     const auto features = static_cast<double>(modelError.size());
     const Eigen::MatrixXd simulated = simulation.deviations();
@@ -157,10 +159,16 @@ Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::Ve
         noise.data = noise.simulation;
         return noise;
     }
+    if (data.degreesOfFreedom() < 2.0 && declared)
+    {
+        noise.data = Covariance{Eigen::MatrixXd::Zero(modelError.size(), modelError.size()), asGoodAsKnown, 0.0};
+        return noise;
+    }
     if (data.degreesOfFreedom() < 2.0)
     {
         throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
-                                 "(at least two more measurements than conditions are needed)");
+                                 "(at least two more measurements than conditions are needed, or a relativeError or "
+                                 "standardError of every number measured)");
     }
     noise.data = pooledCovariance(data.deviations(), data.degreesOfFreedom());
     return noise;

@@ -60,6 +60,9 @@ struct Noise
 /// Chooses where the noise of the data comes from: their own repeats if these suffice (3 per feature) or if the
 /// simulator has no noise, else data and simulation together.
 /// \param alike  false: data and simulation scatter differently and must not be put together
-Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike = true);
+/// \param declared  every number measured has a declared error: repeats may be missing then, and the data's covariance is
+///     zero, for declared errors are added feature by feature
+Noise noiseModel(const Scatter& data, const Scatter& simulation, const Eigen::VectorXd& modelError, bool alike = true,
+    bool declared = false);
 
 } // namespace clepsydra::identification

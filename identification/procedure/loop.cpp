@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -104,14 +105,18 @@ std::vector<Simulation> plannedSimulations(const Study& study, const EffectLibra
 Noise plannedNoise(const Study& study, const EffectLibrary& library)
 {
     Scatter measured;
+    bool declared = true;
     for (const auto c : study.conditionsOf(Role::training))
     {
-        if (!study.conditions[c].measured.files.empty())
+        const Measurement& source = study.conditions[c].measured;
+        if (!source.files.empty() || !source.numbers.empty())
         {
-            measured.add(readMeasurements(study, c).features);
+            const auto data = readMeasurements(study, c);
+            measured.add(data.features);
+            declared = declared && hasDeclaredErrors(data);
         }
     }
-    return noiseModel(measured, library.scatter, study.modelError);
+    return noiseModel(measured, library.scatter, study.modelError, true, declared);
 }
 
 } // namespace
@@ -137,9 +142,11 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
     writePlan(study, library, noise, table, out);
 }
 
-void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out)
+namespace
 {
-    const Study study = readStudy(studyFile);
+
+void run(const Study& study, const std::filesystem::path& folder, std::ostream& out)
+{
     requireMeasurements(study);
     CaseRig rig(study, out);
     Simulator simulator(study, rig);
@@ -164,6 +171,21 @@ void runStudy(const std::filesystem::path& studyFile, const std::filesystem::pat
     write(folder / "report.html", htmlOf(findings, report));
     writeSummary(findings, out);
     out << "reports: " << (folder / "report.json").string() << ", " << (folder / "report.html").string() << std::endl;
+}
+
+} // namespace
+
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out)
+{
+    run(readStudy(studyFile), folder, out);
+}
+
+void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder)
+{
+    Study study = readStudy(studyFile);
+    study.settings.budget = 0;
+    std::ostringstream progress;
+    run(study, folder, progress);
 }
 
 } // namespace clepsydra::identification

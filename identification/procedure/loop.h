@@ -18,4 +18,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
 /// answer is on disk before the held-out measurements are opened.
 void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out);
 
+/// The same from the stored runs alone. \throws std::runtime_error where one is missing; the report is as before then
+void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder);
+
 } // namespace clepsydra::identification

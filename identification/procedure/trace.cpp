@@ -16,6 +16,7 @@ namespace
 /// A fit that ends further than this from where the simulator was run is run again there.
 constexpr double farInPriorSds = 1.0;
 constexpr int nullFits = 2;
+constexpr int exactNullFits = 5;
 
 /// Repeats of data and simulation whose spreads differ by as much as in fewer cases than this are not pooled.
 constexpr double otherSpread = 0.01;
@@ -63,13 +64,20 @@ private:
     void estimateNoise()
     {
         Scatter measured;
+        bool declared = true;
         for (const auto condition : training_)
         {
             measured.add(data_[condition].features);
+            declared = declared && hasDeclaredErrors(data_[condition]);
         }
         answer_.spread = compareSpread(measured, library_.scatter, study_.settings.draws, random_);
         const bool alike = answer_.spread.pValue > otherSpread;
-        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError, alike);
+        answer_.noise = noiseModel(measured, library_.scatter, study_.modelError, alike, declared);
+        if (measured.degreesOfFreedom() < 2.0 && answer_.noise.data.matrix.isZero())
+        {
+            answer_.remarks.push_back("Nothing has been measured more than once: the noise is what the study declares, "
+                                      "taken as independent from number to number.");
+        }
         if (!alike)
         {
             answer_.remarks.push_back(
@@ -98,7 +106,9 @@ private:
             throw std::runtime_error(
                 study_.file.string() + ": the training conditions have too few features in common with the simulation");
         }
-        for (int fit = 0; fit < nullFits; ++fit)
+        // Without scatter a fit can be followed to its end: what is left of it would be taken for a residual.
+        const bool exact = study_.rig.seedEntry.empty();
+        for (int fit = 0; fit < (exact ? exactNullFits : nullFits); ++fit)
         {
             anchor = shifted(answer_.problem, Fits(whitened(answer_.problem, answer_.noise)).parameterShift());
             answer_.atFit = simulator_.repeats(training_, simulator_.plainSetting(anchor),
@@ -109,7 +119,10 @@ private:
             answer_.null.setting = simulator_.plainSetting(shifted(answer_.problem, shift));
             answer_.null.misfit = refit.nullMisfit();
             answer_.parameterSd = refit.parameterCovariance().diagonal().cwiseSqrt();
-            if (shift.size() == 0 || shift.cwiseAbs().maxCoeff() < farInPriorSds)
+            const Eigen::ArrayXd away = shift.cwiseAbs();
+            const bool far =
+                (away >= farInPriorSds).any() || (exact && (away > nearInErrors * answer_.parameterSd.array()).any());
+            if (!far)
             {
                 break;
             }

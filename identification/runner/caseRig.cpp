@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <map>
 #include <sstream>
@@ -44,12 +45,20 @@ std::string endOfLog(const fs::path& file)
     return text;
 }
 
+/// A folder of OpenFOAM's for a time after the start; a run that found it would go on from there.
+bool isLaterTime(const std::string& name)
+{
+    char* end = nullptr;
+    return std::strtod(name.c_str(), &end) > 0.0 && *end == '\0';
+}
+
 /// What git would not carry: results of earlier runs in the case are no part of it.
 bool isOutput(const std::string& name)
 {
-    static const std::vector<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "processor0"};
-    return std::find(outputs.begin(), outputs.end(), name) != outputs.end() || name.rfind("log.", 0) == 0
-           || name.rfind("processor", 0) == 0 || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
+    static const std::vector<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "checkpoints"};
+    return std::find(outputs.begin(), outputs.end(), name) != outputs.end() || isLaterTime(name)
+           || name.rfind("log.", 0) == 0 || name.rfind("processor", 0) == 0
+           || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
 }
 
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
@@ -152,6 +161,10 @@ bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& res
     try
     {
         result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
+        for (double& value : result.curve.value)
+        {
+            value += study_.valueOffset;
+        }
     }
     catch (const std::exception& error)
     {

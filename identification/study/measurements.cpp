@@ -82,6 +82,12 @@ MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
     return result;
 }
 
+bool hasDeclaredErrors(const MeasuredCondition& measured)
+{
+    const auto known = measured.declaredError.array() > 0.0;
+    return (known.transpose().replicate(measured.features.rows(), 1) || !measured.features.array().isFinite()).all();
+}
+
 Eigen::VectorXd meanFeatures(const Eigen::MatrixXd& repeats)
 {
     Eigen::VectorXd mean(repeats.cols());

@@ -21,6 +21,9 @@ struct MeasuredCondition
 /// \throws std::runtime_error that names file, and column or row
 MeasuredCondition readMeasurements(const Study& study, std::size_t condition);
 
+/// Whether every number that was measured has a declared error.
+bool hasDeclaredErrors(const MeasuredCondition& measured);
+
 /// Mean over repeats, feature by feature; NaN where no repeat has it.
 Eigen::VectorXd meanFeatures(const Eigen::MatrixXd& repeats);
 

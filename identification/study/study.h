@@ -154,6 +154,7 @@ struct Study
     RigSpecification rig;
     std::string timeColumn;
     std::string valueColumn;
+    double valueOffset = 0.0; // added to what the simulation writes, SI units
     std::vector<Feature> features;
     Eigen::VectorXd modelError; // by feature
     std::vector<Condition> conditions;

@@ -19,7 +19,7 @@ namespace
 constexpr double interval = 1e-3;
 
 /// 72 beads that fall and pile up on a floor: contacts with beads and walls, friction and its history. The
-/// lowest come to rest for good.
+/// lowest come to rest for good. With fluid each has the history of its motion.
 void pilingBeads(TestCase& test, bool fluid)
 {
     test.box.upper = {0.012, 0.012, 0.024};
@@ -38,6 +38,7 @@ void pilingBeads(TestCase& test, bool fluid)
         .set("DEM/groupChanges/atRest/slowerThan", "2e-2")
         .set("DEM/groupChanges/atRest/during", "0.01");
     test.setFluid(1000, 1e-6);
+    test.coupling().set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce historyForce)");
     test.control()
         .set("startFrom", "latestTime")
         .set("writeFormat", "binary")
@@ -81,8 +82,8 @@ class StopAndResume : public testing::TestWithParam<bool>
 {};
 
 // Run A+B equals run A, stop, B over 2 x 1000 DEM steps, both writing the same checkpoint in the middle. A restart that
-// loses the contacts' history, the old void fraction, the momentum outstanding or half a step's force differs by more
-// than 1e-9 bead diameters at once; a program that ignores the checkpoint begins again and differs by the box.
+// loses the contacts' or the motion's history, the old void fraction, the momentum outstanding or half a step's force
+// differs by more than 1e-9 bead diameters at once; a program that ignores the checkpoint begins again and differs by the box.
 TEST_P(StopAndResume, EqualsNeverStopped)
 {
     const bool fluid = GetParam();

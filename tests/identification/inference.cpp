@@ -299,7 +299,8 @@ TEST(HeldOut, CrpsOfANormalPrediction)
 TEST(HeldOut, RmsErrorOfMeansAndItsStandardError)
 {
     std::mt19937_64 random(6);
-    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25)};
+    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
+        Eigen::VectorXd::Zero(1)};
     const Prediction prediction{
         Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
     const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);

@@ -40,6 +40,11 @@ public:
         engine_.initialise(nullptr);
     }
 
+    void advance()
+    {
+        engine_.advance(1);
+    }
+
 private:
     std::unique_ptr<Foam::fvMesh> mesh_;
     FakeEngine engine_;
@@ -75,6 +80,21 @@ TEST(BeadHeight, FollowsTheBeadNamed)
         }
         EXPECT_EQ(rows, 4);
     }
+}
+
+/// A bead that falls from .75 m, at .4 m/s and faster, is at .7450, .7391, .7321 m after steps of .01 s: a run that would
+/// go on to 1 s ends when it is below .736 m.
+TEST(BeadHeight, EndsTheRunBelowAHeight)
+{
+    TemporaryCase temporaryCase("functions { height { type beadHeight; bead 2; stopBelow 0.736; } } endTime 1;");
+    TwoBeads beads(temporaryCase);
+    int steps = 0;
+    while (temporaryCase.time().loop())
+    {
+        beads.advance();
+        ++steps;
+    }
+    EXPECT_EQ(steps, 3);
 }
 
 /// A bead that is not there must end the run with words that help, and leave no file behind.

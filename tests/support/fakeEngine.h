@@ -57,6 +57,12 @@ public:
         seesPairs_ = true;
     }
 
+    /// For the beads that there are.
+    void keepMemory(int numbers) override
+    {
+        memory_.setZero(numbers, static_cast<Eigen::Index>(id_.size()));
+    }
+
     void initialise(FluidForces* forces) override
     {
         forces_ = forces;
@@ -98,7 +104,8 @@ public:
             ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data(),
             ConstVectors(weight_.data(), 3, weight_.cols()),
             BeadPairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
-                Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())}};
+                Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
+            memory_.data(), memory_.rows()};
     }
 
     double timeStep() const override
@@ -164,6 +171,7 @@ private:
     Eigen::Matrix3Xd weight_;
     bool seesPairs_ = false;
     Eigen::Matrix2Xi pairs_;
+    Eigen::MatrixXd memory_;
 };
 
 } // namespace clepsydra::tests

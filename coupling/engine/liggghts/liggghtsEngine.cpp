@@ -34,6 +34,7 @@ namespace lmp = LAMMPS_NS;
 
 constexpr const char* stateFixId = "clepsydraState";
 constexpr const char* forceFixId = "clepsydraForce";
+constexpr const char* memoryFixId = "clepsydraMemory";
 
 /// First element of a LIGGGHTS array of rows, which its memory manager allocates in one piece.
 template<class T>
@@ -184,6 +185,29 @@ public:
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
 
+    void keepMemory(int numbers)
+    {
+        memorySize_ = numbers;
+    }
+
+    /// Unlike the coupling state it is part of LIGGGHTS' restart files.
+    void addMemory()
+    {
+        if (memorySize_ == 0)
+        {
+            return;
+        }
+        std::string command =
+            std::string("fix ") + memoryFixId + " all property/atom " + memoryFixId + " vector yes no no";
+        for (int number = 0; number < memorySize_; ++number)
+        {
+            command += " 0.";
+        }
+        execute(command, "memory of forces");
+        memoryFix_ =
+            program_->modify->find_fix_property(memoryFixId, "property/atom", "vector", memorySize_, 0, "coupling");
+    }
+
     BeadsView beads()
     {
         lmp::Atom& atom = *program_->atom;
@@ -270,7 +294,9 @@ private:
         auto& engine = *static_cast<Implementation*>(self);
         const BeadsView own = engine.beads();
         const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
-            own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{}};
+            own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{},
+            engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_,
+            engine.program_->update->setupflag == 0};
         engine.forces_->evaluate(beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
     }
 
@@ -279,6 +305,8 @@ private:
     lmp::Fix* stateFix_ = nullptr;
     FluidForces* forces_ = nullptr;
     bool seesPairs_ = false;
+    lmp::Fix* memoryFix_ = nullptr;
+    int memorySize_ = 0;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
     bool boxMade_ = false;
@@ -296,9 +324,15 @@ void LiggghtsEngine::seePairs(double reach)
     implementation_->seePairs(reach);
 }
 
+void LiggghtsEngine::keepMemory(int numbers)
+{
+    implementation_->keepMemory(numbers);
+}
+
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     implementation_->addCouplingState();
+    implementation_->addMemory();
     implementation_->addGroupChanges();
     if (forces)
     {

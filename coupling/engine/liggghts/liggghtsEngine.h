@@ -38,6 +38,7 @@ public:
     ~LiggghtsEngine() override;
 
     void seePairs(double reach) override;
+    void keepMemory(int numbers) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;

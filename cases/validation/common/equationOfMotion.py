@@ -1,5 +1,4 @@
-"""The equation of motion of a lone bead in still liquid: what the solver should give (one-way), and, with a history
-force, which the solver does not have, how much of a deviation that force would explain.
+"""The equation of motion of a lone bead in still liquid: what the solver should give (one-way).
 
     (m + m_a) dv/dt = (m - rho V) g - Sp(|v|) v - 3 pi mu d int K(t - s) dv,      v downwards, jumps of v included
 """

@@ -1,0 +1,118 @@
+#include "closures/historyForce.h"
+#include "forces/forceModel.h"
+
+#include "addToRunTimeSelectionTable.H"
+
+#include <memory>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+using closures::historyModes;
+
+/// What a bead keeps, all zero before its first step.
+struct MotionHistory
+{
+    /// 1 after it.
+    double begun;
+    /// Of the bead past the fluid, at the last step [m/s].
+    Vector3d velocity;
+    /// Changes of that velocity, faded with each mode's rate.
+    Eigen::Matrix<double, 3, historyModes, Eigen::DontAlign> modes;
+};
+static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as plain doubles beside the bead");
+
+/// -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A bead's history begins at its first step with the
+/// coupling; before, it is taken to have always moved as then. The last DEM step's part is implicit in its inertia.
+///
+///     historyForceProps { law Basset; }         // creeping flow
+///     historyForceProps { law MeiAdrian; }      // finite Re; the default
+class HistoryForce : public ForceModel
+{
+public:
+    TypeName("historyForce");
+
+    HistoryForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
+        : fluid_(fluid)
+    {
+        if (!coefficients.found("law") || selectedModel(coefficients, "law", {"Basset", "MeiAdrian"}) == "MeiAdrian")
+        {
+            share_ = std::make_unique<closures::MeiAdrianShare>();
+        }
+        for (int mode = 0; mode < historyModes; ++mode)
+        {
+            weight_[mode] = closures::historyWeight(mode);
+        }
+    }
+
+    void add(const BeadsView& beads, ForceSum& sum) const override
+    {
+        const closures::HistoryStep step(sum.timeStep);
+        const Eigen::Map<const Modes> fades(step.fades.data());
+        const Eigen::Map<const Modes> mean(step.mean.data());
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            auto& history = *reinterpret_cast<MotionHistory*>(beads.memory + bead * beads.memorySize);
+            const Vector3d velocity = beads.velocity.col(bead) - beads.state[bead].fluid.velocity;
+            if (beads.memoryAges)
+            {
+                const Vector3d change = history.begun * (velocity - history.velocity);
+                history.modes = history.modes * fades.matrix().asDiagonal();
+                history.modes += change * mean.matrix().transpose();
+                history.velocity = velocity;
+                history.begun = 1;
+            }
+            const double diameter = 2 * beads.radius[bead];
+            const double coefficient = closures::historyCoefficient(diameter, fluid_.density, fluid_.dynamicViscosity);
+            sum.addedMass[bead] += coefficient * step.ownPart;
+            sum.source.col(bead) -=
+                coefficient * (history.modes * (mean * weights(diameter, velocity.norm())).matrix());
+        }
+    }
+
+    ForceNeeds needs() const override
+    {
+        ForceNeeds needs;
+        needs.acceleration = true;
+        needs.memory = sizeof(MotionHistory) / sizeof(double);
+        return needs;
+    }
+
+    Foam::string description() const override
+    {
+        return Foam::string("historyForce: ") + (share_ ? "Mei & Adrian's kernel" : "Basset's kernel") + ", "
+               + Foam::name(historyModes) + " exponentials";
+    }
+
+private:
+    using Modes = Eigen::Array<double, historyModes, 1>;
+
+    Modes weights(double diameter, double speed) const
+    {
+        Modes weights = weight_;
+        if (share_)
+        {
+            const double logTime =
+                closures::meiAdrianLogTime(diameter, speed, fluid_.dynamicViscosity / fluid_.density);
+            for (int mode = 0; mode < historyModes; ++mode)
+            {
+                weights[mode] *= (*share_)(closures::historyLogRate(mode) + logTime);
+            }
+        }
+        return weights;
+    }
+
+    const FluidProperties fluid_;
+    Modes weight_;
+    std::unique_ptr<closures::MeiAdrianShare> share_; // none: Basset
+};
+
+defineTypeNameAndDebug(HistoryForce, 0);
+addToRunTimeSelectionTable(ForceModel, HistoryForce, dictionary);
+
+} // namespace
+
+} // namespace clepsydra
