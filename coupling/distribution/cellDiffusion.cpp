@@ -1,5 +1,7 @@
 #include "distribution/cellDiffusion.h"
 
+#include "vectorUnits.h"
+
 #include "PstreamReduceOps.H"
 #include "UIPstream.H"
 #include "UOPstream.H"
@@ -26,6 +28,46 @@ struct Link
     label column;
     double conductance;
 };
+
+/// Quantities of a cell side by side, as many as a vector unit takes at once.
+template<int Lanes>
+struct alignas(Lanes * sizeof(double)) Values
+{
+    double lane[Lanes] = {};
+};
+
+struct Neighbours
+{
+    const label* first;
+    const label* cell;
+    const double* rate;
+};
+
+/// above <- coefficient start + factor X here - above, in each cell
+template<int Lanes>
+CLEPSYDRA_FOR_VECTOR_UNITS void sweep(label cellCount, const Neighbours neighbours, double coefficient, double factor,
+    const Values<Lanes>* start, const Values<Lanes>* here, Values<Lanes>* above)
+{
+    for (label cell = 0; cell < cellCount; ++cell)
+    {
+        const Values<Lanes> own = here[cell];
+        Values<Lanes> gained = own;
+        for (label i = neighbours.first[cell]; i < neighbours.first[cell + 1]; ++i)
+        {
+            const Values<Lanes>& other = here[neighbours.cell[i]];
+            const double rate = neighbours.rate[i];
+            for (int lane = 0; lane < Lanes; ++lane)
+            {
+                gained.lane[lane] += rate * (other.lane[lane] - own.lane[lane]);
+            }
+        }
+        for (int lane = 0; lane < Lanes; ++lane)
+        {
+            above[cell].lane[lane] =
+                coefficient * start[cell].lane[lane] + factor * gained.lane[lane] - above[cell].lane[lane];
+        }
+    }
+}
 
 } // namespace
 
@@ -99,83 +141,73 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
 
 void CellDiffusion::applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const
 {
-    constexpr Eigen::Index most = 5;
+    constexpr Eigen::Index most = 8;
     for (Eigen::Index row = 0; row < u.rows(); row += most)
     {
         const Eigen::Index rows = std::min(most, u.rows() - row);
         const Eigen::Ref<Eigen::MatrixXd> part = u.middleRows(row, rows);
-        switch (rows)
+        if (rows <= 2)
         {
-            case 1:
-                applyChebyshevTo<1>(coefficients, part);
-                break;
-            case 2:
-                applyChebyshevTo<2>(coefficients, part);
-                break;
-            case 3:
-                applyChebyshevTo<3>(coefficients, part);
-                break;
-            case 4:
-                applyChebyshevTo<4>(coefficients, part);
-                break;
-            default:
-                applyChebyshevTo<most>(coefficients, part);
+            applyChebyshevTo<2>(coefficients, part);
+        }
+        else if (rows <= 4)
+        {
+            applyChebyshevTo<4>(coefficients, part);
+        }
+        else
+        {
+            applyChebyshevTo<most>(coefficients, part);
         }
     }
 }
 
-template<int Quantities>
+template<int Lanes>
 void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const
 {
-    using Values = Eigen::Array<double, Quantities, Eigen::Dynamic>;
-    using Value = Eigen::Array<double, Quantities, 1>;
-
     // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; result c_0 u + X b_1 - b_2.
-    const Values start = u;
-    Values above = Values::Zero(Quantities, columnCount_);
-    Values here = Values::Zero(Quantities, columnCount_);
-    here.leftCols(cellCount_) = coefficients.back() * start;
+    std::vector<Values<Lanes>> start(columnCount_);
+    std::vector<Values<Lanes>> above(columnCount_);
+    std::vector<Values<Lanes>> here(columnCount_);
+    for (label cell = 0; cell < cellCount_; ++cell)
+    {
+        std::copy_n(u.col(cell).data(), u.rows(), start[cell].lane);
+        for (int lane = 0; lane < Lanes; ++lane)
+        {
+            here[cell].lane[lane] = coefficients.back() * start[cell].lane[lane];
+        }
+    }
     for (std::size_t k = coefficients.size() - 1; k > 0; --k)
     {
         exchange(here);
-        const double factor = k > 1 ? 2 : 1;
-        for (label cell = 0; cell < cellCount_; ++cell)
-        {
-            const Value own = here.col(cell);
-            Value gained = own;
-            for (label i = firstNeighbour_[cell]; i < firstNeighbour_[cell + 1]; ++i)
-            {
-                gained += rate_[i] * (here.col(neighbour_[i]) - own);
-            }
-            above.col(cell) = coefficients[k - 1] * start.col(cell) + factor * gained - above.col(cell);
-        }
+        sweep(cellCount_, {firstNeighbour_.data(), neighbour_.data(), rate_.data()}, coefficients[k - 1], k > 1 ? 2 : 1,
+            start.data(), here.data(), above.data());
         here.swap(above);
     }
-    u = here.leftCols(cellCount_).matrix();
+    for (label cell = 0; cell < cellCount_; ++cell)
+    {
+        std::copy_n(here[cell].lane, u.rows(), u.col(cell).data());
+    }
 }
 
 template<class Values>
-void CellDiffusion::exchange(Values& values) const
+void CellDiffusion::exchange(std::vector<Values>& values) const
 {
-    if (boundaries_.empty())
-    {
-        return;
-    }
-    const auto bytes = [&](std::size_t columns) {
-        return static_cast<std::streamsize>(columns * static_cast<std::size_t>(values.rows()) * sizeof(double));
-    };
+    const auto bytes = [](std::size_t columns) { return static_cast<std::streamsize>(columns * sizeof(Values)); };
     const label before = UPstream::nRequests();
-    std::vector<Values> outgoing;
+    std::vector<std::vector<Values>> outgoing;
     outgoing.reserve(boundaries_.size());
     for (const Boundary& boundary : boundaries_)
     {
         UIPstream::read(UPstream::commsTypes::nonBlocking, boundary.rank,
-            reinterpret_cast<char*>(values.col(boundary.firstBehind).data()), bytes(boundary.cells.size()),
-            boundary.tag, boundary.communicator);
-        outgoing.push_back(values(Eigen::all, boundary.cells));
-        UOPstream::write(UPstream::commsTypes::nonBlocking, boundary.rank,
-            reinterpret_cast<const char*>(outgoing.back().data()), bytes(boundary.cells.size()), boundary.tag,
+            reinterpret_cast<char*>(&values[boundary.firstBehind]), bytes(boundary.cells.size()), boundary.tag,
             boundary.communicator);
+        std::vector<Values>& message = outgoing.emplace_back();
+        for (const label cell : boundary.cells)
+        {
+            message.push_back(values[cell]);
+        }
+        UOPstream::write(UPstream::commsTypes::nonBlocking, boundary.rank,
+            reinterpret_cast<const char*>(message.data()), bytes(message.size()), boundary.tag, boundary.communicator);
     }
     UPstream::waitRequests(before);
 }

@@ -29,7 +29,7 @@ public:
     }
 
     /// u <- sum_k c_k T_k(1 - 2 L/largestEigenvalue) u, T_k being Chebyshev's polynomials. Collective; one message to
-    /// each neighbouring rank per term for up to five quantities.
+    /// each neighbouring rank per term for up to eight quantities.
     /// \param coefficients  c_k, at least one
     /// \param u  quantities x cells of this rank
     void applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const;
@@ -45,12 +45,12 @@ private:
         Eigen::Index firstBehind;
     };
 
-    /// The same for a number of quantities that the compiler knows, to keep the sums of a cell in registers.
-    template<int Quantities>
+    /// The same for up to `Lanes` quantities.
+    template<int Lanes>
     void applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const;
     /// Fills in the values behind the boundaries to other ranks.
     template<class Values>
-    void exchange(Values& values) const;
+    void exchange(std::vector<Values>& values) const;
 
     Foam::label cellCount_;
     /// The cells of this rank, then those behind its boundaries.

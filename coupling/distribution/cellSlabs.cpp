@@ -225,7 +225,7 @@ void CellSlabs::cellsNear(const Vector3d& centre, double radius, std::vector<lab
                 const int bin = (z * binCount_.y() + y) * binCount_.x() + x;
                 for (int i = firstInBin_[bin]; i < firstInBin_[bin + 1]; ++i)
                 {
-                    if (cellBoxes_[cellsInBins_[i]].intersects(around))
+                    if (isNear(cellsInBins_[i], centre, radius))
                     {
                         cells.push_back(cellsInBins_[i]);
                     }

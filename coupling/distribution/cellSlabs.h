@@ -36,6 +36,13 @@ public:
     /// Cells whose bounding box touches the sphere's, by growing label.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
 
+    /// Whether the cell's bounding box touches the sphere's.
+    bool isNear(Foam::label cell, const Vector3d& centre, double radius) const
+    {
+        const Box& box = cellBoxes_[cell];
+        return ((centre - box.min()).array() >= -radius).all() && ((box.max() - centre).array() >= -radius).all();
+    }
+
     /// Box around the cells of this rank.
     const Box& box() const
     {

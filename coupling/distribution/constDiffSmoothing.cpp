@@ -56,7 +56,7 @@ public:
 private:
     /// Largest error of the operator, relative to what it acts on, in the volume-weighted mean square. Volume, momentum
     /// and reaction do not depend on it: they are kept to rounding.
-    static constexpr double tolerance = 1e-8;
+    static constexpr double tolerance = 1e-5;
 
     const double smoothingLength_;
     const CellDiffusion diffusion_;

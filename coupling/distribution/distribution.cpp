@@ -1,7 +1,17 @@
 #include "distribution/distribution.h"
 
+#include <cmath>
+
 namespace clepsydra
 {
+
+namespace
+{
+
+/// In units of a bead's reach. Larger: fewer searches, more cells to look at in between.
+constexpr double marginOfNeighbourhood = 0.3;
+
+} // namespace
 
 Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
     : mesh_(mesh),
@@ -12,48 +22,81 @@ Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foa
 
 Eigen::MatrixXd Distribution::findCells(const std::vector<VisitingBead>& visitors)
 {
-    Eigen::MatrixXd shareSums = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(visitors.size()));
+    ++call_;
+    shares_.swap(lastShares_);
+    firstShare_.swap(lastFirstShare_);
     shares_.clear();
     firstShare_.assign(1, 0);
-    std::vector<Foam::label> near;
-    Eigen::Index visitor = 0;
-    for (const VisitingBead& bead : visitors)
+    Eigen::MatrixXd shareSums = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(visitors.size()));
+    for (std::size_t visitor = 0; visitor < visitors.size(); ++visitor)
     {
-        cells_.cellsNear(bead.position, voidFraction_->reach(bead), near);
-        for (const Foam::label cell : near)
+        const VisitingBead& bead = visitors[visitor];
+        Neighbourhood& near = known_[std::lround(bead.id)];
+        addShares(bead, near);
+        near.call = call_;
+        near.position = bead.position;
+        near.visitor = visitor;
+        for (std::size_t i = firstShare_.back(); i < shares_.size(); ++i)
         {
-            const double share = voidFraction_->share(cell, bead);
-            if (share > 0)
-            {
-                shares_.push_back({cell, share});
-                shareSums(0, visitor) += share;
-            }
+            shareSums(0, static_cast<Eigen::Index>(visitor)) += shares_[i].share;
         }
         firstShare_.push_back(shares_.size());
-        ++visitor;
     }
+    forgetTheLongGone(visitors.size());
     return shareSums;
+}
+
+void Distribution::addShares(const VisitingBead& bead, Neighbourhood& near)
+{
+    const double reach = voidFraction_->reach(bead);
+    const bool alike = near.reach == reach;
+    if (alike && near.call == call_ - 1 && near.position == bead.position)
+    {
+        shares_.insert(shares_.end(), lastShares_.begin() + lastFirstShare_[near.visitor],
+            lastShares_.begin() + lastFirstShare_[near.visitor + 1]);
+        return;
+    }
+    const double margin = marginOfNeighbourhood * reach;
+    if (!alike || (bead.position - near.centre).cwiseAbs().maxCoeff() > margin)
+    {
+        near.centre = bead.position;
+        near.reach = reach;
+        cells_.cellsNear(bead.position, reach + margin, near.cells);
+    }
+    for (const Foam::label cell : near.cells)
+    {
+        const double share = cells_.isNear(cell, bead.position, reach) ? voidFraction_->share(cell, bead) : 0;
+        if (share > 0)
+        {
+            shares_.push_back({cell, share});
+        }
+    }
+}
+
+void Distribution::forgetTheLongGone(std::size_t visitorCount)
+{
+    // Beads come back to a rank that they have just left, so not each at once.
+    if (known_.size() > 2 * visitorCount + 1000)
+    {
+        known_.clear();
+    }
 }
 
 void Distribution::normalise(const Eigen::MatrixXd& shareSums)
 {
-    for (Eigen::Index visitor = 0; visitor < shareSums.cols(); ++visitor)
-    {
-        for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
-        {
-            shares_[i].share /= shareSums(0, visitor);
-        }
-    }
+    normalisation_ = shareSums.row(0).cwiseInverse();
 }
 
 Eigen::MatrixXd Distribution::densities(const Eigen::MatrixXd& amounts) const
 {
     Eigen::MatrixXd densities = Eigen::MatrixXd::Zero(amounts.rows(), mesh_.nCells());
+    Eigen::VectorXd amount(amounts.rows());
     for (Eigen::Index visitor = 0; visitor < amounts.cols(); ++visitor)
     {
+        amount = normalisation_[visitor] * amounts.col(visitor);
         for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
         {
-            densities.col(shares_[i].cell) += shares_[i].share * amounts.col(visitor);
+            densities.col(shares_[i].cell) += shares_[i].share * amount;
         }
     }
     const Foam::scalarField& volumes = mesh_.V().field();
@@ -74,6 +117,7 @@ Eigen::MatrixXd Distribution::sample(const Eigen::MatrixXd& cellValues) const
         {
             values.col(visitor) += shares_[i].share * cellValues.col(shares_[i].cell);
         }
+        values.col(visitor) *= normalisation_[visitor];
     }
     return values;
 }

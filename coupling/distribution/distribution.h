@@ -3,6 +3,7 @@
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
 
+#include <unordered_map>
 #include <vector>
 
 namespace clepsydra
@@ -61,12 +62,38 @@ private:
         double share;
     };
 
+    /// Where a visitor was looked up, and what was there.
+    struct Neighbourhood
+    {
+        Vector3d centre;
+        double reach = -1;
+        /// All that a bead can touch while its centre is within the margin of `centre`.
+        std::vector<Foam::label> cells;
+        /// The last call of findCells() that had the bead, where it was then, and its place among the visitors.
+        long call = -1;
+        Vector3d position;
+        std::size_t visitor = 0;
+    };
+
+    void addShares(const VisitingBead& bead, Neighbourhood& near);
+    void forgetTheLongGone(std::size_t visitorCount);
+
     const Foam::fvMesh& mesh_;
     CellSlabs cells_;
     Foam::autoPtr<VoidFractionModel> voidFraction_;
     Foam::autoPtr<SmoothingModel> smoothing_;
+    /// Of each visitor, not normalised: from firstShare_[visitor] to firstShare_[visitor + 1].
     std::vector<Share> shares_;
     std::vector<std::size_t> firstShare_;
+    /// What makes them add up to one.
+    Eigen::ArrayXd normalisation_;
+
+    /// By bead. Spares the search for cells to beads that hardly move, the cutting of spheres to those at rest; the
+    /// shares are the same to the last bit as without.
+    std::unordered_map<long, Neighbourhood> known_;
+    long call_ = 0;
+    std::vector<Share> lastShares_;
+    std::vector<std::size_t> lastFirstShare_;
 };
 
 } // namespace clepsydra

@@ -23,14 +23,15 @@ struct FluidAtBead
     double logVoidFraction = 0;
     /// Interstitial velocity, as the forces see it [m/s].
     Vector3d velocity = Vector3d::Zero();
-    /// The same as the cells have it, with what the bead itself stirs up.
-    Vector3d velocityInCells = Vector3d::Zero();
-    /// What a force on the fluid at the bead's place adds to velocityInCells there [m/(N s)]; 0: not to be taken away.
-    double selfMobility = 0;
     /// Gradient of the pressure without its hydrostatic part [Pa/m].
     Vector3d pressureGradient = Vector3d::Zero();
     /// Divergence of the viscous stress [Pa/m].
     Vector3d viscousStressDivergence = Vector3d::Zero();
+    /// What a force on the fluid at the bead's place adds to velocityInCells there [m/(N s)]; 0: not to be taken away.
+    double selfMobility = 0;
+
+    /// As `velocity`, but as the cells have it, with what the bead itself stirs up.
+    Vector3d velocityInCells = Vector3d::Zero();
     /// DU/Dt = dU/dt + U.grad U, U interstitial [m/s2]; zero unless a force asks for it.
     Vector3d acceleration = Vector3d::Zero();
     /// curl U [1/s]; zero unless a force asks for it.
@@ -42,19 +43,21 @@ struct GivenToFluid
 {
     /// Impulse of the forces whose reaction is a source of the fluid (drag ...), as received by the bead [N s].
     Vector3d impulse = Vector3d::Zero();
-    /// Impulse of the forces whose reaction the fluid's own equation holds (pressure gradient) [N s].
-    Vector3d sharedImpulse = Vector3d::Zero();
     /// Time integral of the implicit coefficient Sp of the forces in `impulse` [kg].
     double implicitCoefficientTime = 0;
 };
 
 /// The part of a bead's state that belongs to the coupling. It travels with the bead from rank to rank,
 /// because a bead may change rank at any DEM step, also in the middle of an interval.
+///
+/// In the order of how often it is used: the states of all beads do not fit into the near caches, and the time of the
+/// forces is that of fetching, at every DEM step, everything down to selfMobility.
 struct CouplingState
 {
-    FluidAtBead fluid;
     GivenToFluid given;
-    /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N].
+    FluidAtBead fluid;
+    /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N]. Kept only where
+    /// selfMobility is not zero.
     Vector3d handedOver = Vector3d::Zero();
 };
 

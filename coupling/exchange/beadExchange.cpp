@@ -144,7 +144,6 @@ void BeadExchange::send(const BeadsView& beads)
     constexpr std::size_t size = sizeof(VisitingBead) / sizeof(double);
     static_assert(std::is_standard_layout_v<VisitingBead> && sizeof(VisitingBead) % sizeof(double) == 0);
 
-    bytesSent_ = 0;
     beadCount_ = beads.size();
     makePlan(beads);
 

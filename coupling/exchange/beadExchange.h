@@ -49,7 +49,7 @@ public:
     /// \param perBead  one column per bead. \return one column per visitor.
     Eigen::MatrixXd toVisitors(const Eigen::MatrixXd& perBead) const;
 
-    /// Local: bytes that this rank sent to others since send() began.
+    /// Local: bytes that this rank has sent to others so far.
     std::size_t bytesSent() const
     {
         return bytesSent_;

@@ -7,6 +7,37 @@
 namespace clepsydra
 {
 
+namespace
+{
+
+constexpr Eigen::Index beadsAtATime = 64;
+
+/// Beads `first` to `first + count`, with all the pairs.
+BeadsView part(const BeadsView& beads, Eigen::Index first, Eigen::Index count)
+{
+    const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
+    const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
+    return {values(beads.id), vectors(beads.position), vectors(beads.velocity), vectors(beads.angularVelocity),
+        values(beads.radius), values(beads.mass), beads.state + first, vectors(beads.otherForce), beads.pairs};
+}
+
+/// Asks for what every force needs of the states of beads `first` to `end`: the engine's contacts have pushed it out of
+/// the near caches.
+void prefetch(const BeadsView& beads, Eigen::Index first, Eigen::Index end)
+{
+    constexpr std::size_t cacheLine = 64;
+    for (Eigen::Index bead = first; bead < end; ++bead)
+    {
+        const char* const state = reinterpret_cast<const char*>(beads.state + bead);
+        for (std::size_t byte = 0; byte <= offsetof(CouplingState, fluid.velocityInCells); byte += cacheLine)
+        {
+            __builtin_prefetch(state + byte, 1);
+        }
+    }
+}
+
+} // namespace
+
 BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers)
     : timers_(timers),
       modelType_(readModelType(couplingProperties))
@@ -28,6 +59,7 @@ BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidPr
                                                        << name << "'; allowed: one" << Foam::exit(Foam::FatalIOError);
         }
     }
+    pairs_ = needs().pairReach > 0;
 }
 
 ForceNeeds BeadForces::needs() const
@@ -46,6 +78,18 @@ ForceNeeds BeadForces::needs() const
 void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force)
 {
     const PhaseTimers::Scope timing = timers_.time("forces");
+    // Pairs may be of any two beads, everything else is done for a few at a time: their states stay in the cache.
+    const Eigen::Index most = pairs_ ? beads.size() : beadsAtATime;
+    for (Eigen::Index first = 0; first < beads.size(); first += most)
+    {
+        const Eigen::Index count = std::min(most, beads.size() - first);
+        prefetch(beads, first + count, std::min(first + 2 * count, beads.size()));
+        evaluatePart(part(beads, first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
+    }
+}
+
+void BeadForces::evaluatePart(const BeadsView& beads, double timeStep, Vectors force)
+{
     sum_.setZero(beads.size());
     sum_.timeStep = timeStep;
     removeSelfDisturbance(beads);
@@ -71,9 +115,11 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
             handedOver += addedMass * (state.fluid.acceleration - acceleration);
         }
         force.col(bead) = handedOver + notHandedOver;
-        state.handedOver = handedOver;
+        if (state.fluid.selfMobility > 0)
+        {
+            state.handedOver = handedOver;
+        }
         state.given.impulse += timeStep * handedOver;
-        state.given.sharedImpulse += timeStep * sum_.shared.col(bead);
         state.given.implicitCoefficientTime += timeStep * coefficient;
     }
 }

@@ -28,11 +28,13 @@ public:
     }
 
 private:
+    void evaluatePart(const BeadsView& beads, double timeStep, Vectors force);
     /// Sets the velocity that the forces see to the one that the fluid would have without the bead.
     static void removeSelfDisturbance(const BeadsView& beads);
 
     PhaseTimers& timers_;
     const ModelType modelType_;
+    bool pairs_ = false;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;
 };

@@ -1,4 +1,5 @@
 #include "closures/dragLaws.h"
+#include "forces/dragOfMany.h"
 #include "forces/forceModel.h"
 #include "forces/wallCorrection.h"
 
@@ -17,27 +18,18 @@ public:
     Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluid_(fluid),
           factor_(coefficients.found("factor") ? positiveEntry(coefficients, "factor") : 1),
-          walls_(coefficients.subOrEmptyDict("wallCorrection"))
+          walls_(coefficients.subOrEmptyDict("wallCorrection")),
+          law_(dragOfMany(Law::name))
     {}
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {
-        const Law law;
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        ManyBeadsInFluid many;
+        many.density = fluid_.density;
+        many.dynamicViscosity = fluid_.dynamicViscosity;
+        for (Eigen::Index first = 0; first < beads.size(); first += most)
         {
-            const FluidAtBead& at = beads.state[bead].fluid;
-            const Vector3d slip = at.velocity - beads.velocity.col(bead);
-            closures::BeadInFluid inFluid{2 * beads.radius[bead], at.voidFraction, at.logVoidFraction, slip.norm(),
-                fluid_.density, fluid_.dynamicViscosity};
-            const double velocityRatio = walls_.tubeVelocityRatio(inFluid);
-            inFluid.slipSpeed /= velocityRatio;
-            const double coefficient = factor_ * law(inFluid) / velocityRatio;
-            sum.implicitCoefficient[bead] += coefficient;
-            if (walls_.hasPlanes())
-            {
-                sum.source.col(bead) +=
-                    coefficient * walls_.addedSlip(slip, beads.position.col(bead), beads.radius[bead]);
-            }
+            addTo(beads, first, std::min(most, beads.size() - first), many, sum);
         }
     }
 
@@ -49,9 +41,48 @@ public:
     }
 
 private:
+    static constexpr Eigen::Index most = ManyBeadsInFluid::most;
+
+    void addTo(
+        const BeadsView& beads, Eigen::Index first, Eigen::Index count, ManyBeadsInFluid& many, ForceSum& sum) const
+    {
+        std::array<double, most> velocityRatio;
+        many.count = static_cast<std::size_t>(count);
+        for (Eigen::Index i = 0; i < count; ++i)
+        {
+            const FluidAtBead& at = beads.state[first + i].fluid;
+            closures::BeadInFluid inFluid{2 * beads.radius[first + i], at.voidFraction, at.logVoidFraction,
+                slip(beads, first + i).norm(), fluid_.density, fluid_.dynamicViscosity};
+            velocityRatio[i] = walls_.tubeVelocityRatio(inFluid);
+            many.diameter[i] = inFluid.diameter;
+            many.voidFraction[i] = inFluid.voidFraction;
+            many.logVoidFraction[i] = inFluid.logVoidFraction;
+            many.slipSpeed[i] = inFluid.slipSpeed / velocityRatio[i];
+        }
+        ManyCoefficients coefficients;
+        law_(many, coefficients);
+        for (Eigen::Index i = 0; i < count; ++i)
+        {
+            const Eigen::Index bead = first + i;
+            const double coefficient = factor_ * coefficients[i] / velocityRatio[i];
+            sum.implicitCoefficient[bead] += coefficient;
+            if (walls_.hasPlanes())
+            {
+                sum.source.col(bead) +=
+                    coefficient * walls_.addedSlip(slip(beads, bead), beads.position.col(bead), beads.radius[bead]);
+            }
+        }
+    }
+
+    static Vector3d slip(const BeadsView& beads, Eigen::Index bead)
+    {
+        return beads.state[bead].fluid.velocity - beads.velocity.col(bead);
+    }
+
     const FluidProperties fluid_;
     const double factor_;
     const WallCorrection walls_;
+    const DragOfMany law_;
 };
 
 template<class Law>

@@ -44,8 +44,9 @@ public:
     /// One line to the log.
     void report() const;
 
-    /// Writes postProcessing/ledger/<startTime>/summary.json, the time of each phase with it. Master rank only.
-    void writeSummary(const std::map<std::string, double>& phaseSeconds) const;
+    /// Writes postProcessing/ledger/<startTime>/summary.json, with it the time of each phase and what the exchange of
+    /// beads has sent between ranks, all of them together. Master rank only.
+    void writeSummary(const std::map<std::string, double>& phaseSeconds, double exchangedBytes) const;
 
 private:
     double momentumError() const;

@@ -140,7 +140,8 @@ void RunOutput::finish()
              << round(1000 * time / total) / 10 << " %" << nl;
     }
     Info << endl;
-    interval_.ledger().writeSummary(seconds);
+    const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
+    interval_.ledger().writeSummary(seconds, returnReduce(sent, sumOp<scalar>()));
 }
 
 } // namespace clepsydra

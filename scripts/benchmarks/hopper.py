@@ -1,9 +1,13 @@
 """cases/hopperQuick in a folder of its own, poured once; every comparison starts from this packing."""
 
+import functools
+import json
 import shutil
 import subprocess
 import sys
 from pathlib import Path
+
+from . import timing
 
 REPOSITORY = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(REPOSITORY / "scripts"))
@@ -13,26 +17,48 @@ import caseFiles
 FULL_SIZE = {"beadCount": "13900", "hopperDiameter": "0.05", "hopperHeight": "0.095", "orificeDiameter": "0.02",
              "tankDiameter": "0.12", "tankDepth": "0.06", "pourTime": "1.4"}
 
+# All of Allrun but its last line, which calls main.
+FUNCTIONS = "sed '$d' Allrun > functions; . ./functions; ranks=1"
+
 
 class Hopper:
-    def __init__(self, folder, quick):
+    def __init__(self, folder, quick, **parameters):
+        self.folder = folder
         self.case = folder / "cases" / "hopperQuick"
         self.quick = quick
         shutil.copytree(REPOSITORY / "cases" / "hopperQuick", self.case,
                         ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
         for name in ("meshes", "scripts"):
             (folder / name).symlink_to(REPOSITORY / name)
-        if not quick:
-            self._setParameters(FULL_SIZE)
+        self.setParameters(self.case / "parameters", parameters if quick else {**FULL_SIZE, **parameters})
         self.parameters = caseFiles.parameters(self.case / "parameters")
         self._poured = False
+
+    @functools.cache
+    def quickOne(self):
+        """The hopper of 3000 beads: this one, or another."""
+        return self if self.quick else Hopper(self.folder / "quickOne", quick=True)
+
+    @functools.cache
+    def withCells(self, cellSize):
+        """The same packing in another mesh."""
+        other = Hopper(self.folder / f"cells{cellSize}", self.quick, cellSize=cellSize)
+        self.inFolder(other.case, f"{FUNCTIONS}; startAfresh; makeMesh")
+        shutil.copy(self.packing, other.case / "stages" / "pour")
+        other._poured = True
+        return other
+
+    def run(self, template, name, duration, ranks=1, **entries):
+        """A timing.Run of such a stage, its result what the ledger says."""
+        folder = self.stage(template, name, duration, ranks, **entries)
+        return timing.Run(solver(ranks), folder, prepare=lambda: forgetResults(folder), result=lambda: ledger(folder))
 
     def stage(self, template, name, duration, ranks=1, **entries):
         """A stage like `dry` or `submerged`, from the packing, that ends after `duration` [s]; its folder."""
         self._pour()
         folder = self.case / "stages" / name
         shutil.rmtree(folder, ignore_errors=True)
-        self.inFolder(self.case, f". ./functions; ranks=1; prepareStage {template}")
+        self.inFolder(self.case, f"{FUNCTIONS}; prepareStage {template}")
         shutil.copytree(self.case / "stages" / template, folder, symlinks=True)
         entries = {"stageEndTime": duration, "ranks": ranks, **entries}
         with open(folder / "stage", "a") as stage:
@@ -55,25 +81,22 @@ class Hopper:
 
     def _pour(self):
         if not self._poured:
-            # All of Allrun but its last line, which calls main.
-            self.inFolder(self.case, "sed '$d' Allrun > functions; . ./functions; ranks=1; "
-                                     "startAfresh; makeMesh; runStages pour; requireAllBeads")
+            self.inFolder(self.case, f"{FUNCTIONS}; startAfresh; makeMesh; runStages pour; requireAllBeads")
             self._poured = True
 
-    def _setParameters(self, values):
-        file = self.case / "parameters"
-        text = file.read_text().splitlines()
-        for name, value in values.items():
-            at = [i for i, line in enumerate(text) if line.split(" ")[0] == name]
-            if len(at) != 1:
-                sys.exit(f"benchmark: {file} has no entry '{name}'")
-            text[at[0]] = f"{name} {value};"
-        file.write_text("\n".join(text) + "\n")
+    @staticmethod
+    def setParameters(file, values):
+        file.write_text(caseFiles.withParameters(file.read_text(), {name: str(value) for name, value in values.items()}))
 
 
 def solver(ranks=1):
     command = ["pimpleDemFoam"]
     return command if ranks == 1 else ["mpirun", "-np", str(ranks), *command, "-parallel"]
+
+
+def ledger(folder):
+    """What the run in this folder wrote at its end: beads, errors, seconds of each phase, bytes exchanged."""
+    return json.loads((folder / "postProcessing" / "ledger" / "0" / "summary.json").read_text())
 
 
 def forgetResults(folder):

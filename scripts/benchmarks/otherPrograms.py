@@ -1,8 +1,8 @@
 """The same beads from the same packing, dry, in other programs."""
 
+import re
 import shutil
 import subprocess
-import sys
 
 from . import timing
 from .stockLiggghts import STOCK_STEP, script
@@ -16,9 +16,8 @@ def overLammps(hopper, repetitions):
     """The bed in the closed hopper, in LIGGGHTS with our settings and in LAMMPS with pair granular: the same contact law
     (Hertz, Mindlin with history, Tsuji's damping), walls, step and neighbour lists. Not the drain itself: LAMMPS has no
     plate with a hole whose edge beads touch."""
-    if not shutil.which("lmp"):
-        sys.exit("benchmark: there is no program lmp; run  scripts/setup --with otherCodes")
-    steps = 5000 if hopper.quick else 20000
+    require("lmp")
+    steps = 5000
     folder = hopper.stage("dry", "besideLammps", 0)
     writeLammpsData(hopper, folder)
     (folder / "in.lammps").write_text(lammpsScript(hopper.parameters, steps))
@@ -31,6 +30,73 @@ def overLammps(hopper, repetitions):
         timing.ratios(times, "LAMMPS", "LIGGGHTS", "processor"), target=">= 1.2",
         meaning=f"processor time of LAMMPS (pair granular) over LIGGGHTS as we run it; bed in the closed hopper, {steps} steps",
         details={name: [time.processor for time in of] for name, of in times.items()})
+
+
+def overYade(hopper, repetitions):
+    """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour lists
+    of the same width. Yade takes so long that it does fewer steps: compared are times per step."""
+    require("yade")
+    steps, yadeSteps = 5000, 1000 if hopper.quick else 400
+    folder = hopper.stage("dry", "besideYade", 0)
+    writeLammpsData(hopper, folder)
+    (folder / "in.liggghts").write_text(liggghtsScript(hopper, steps))
+    (folder / "bed.py").write_text(yadeScript(hopper.parameters, yadeSteps))
+    loop = folder / "seconds"
+    times = timing.interleaved({
+        "Yade": timing.Run(["yade", "-n", "-x", "-j1", "bed.py"], folder, result=lambda: float(loop.read_text())),
+        "LIGGGHTS": timing.Run(["liggghts", "-in", "in.liggghts", "-screen", "/dev/null", "-log", "log.bed"], folder,
+                               result=lambda: loopTime(folder / "log.bed")),
+    }, repetitions)
+    perStep = {"Yade": [time.result / yadeSteps for time in times["Yade"]],
+               "LIGGGHTS": [time.result / steps for time in times["LIGGGHTS"]]}
+    return timing.Figure(
+        [yade / ours for yade, ours in zip(perStep["Yade"], perStep["LIGGGHTS"])], target=">= 10",
+        meaning="time per step of Yade over LIGGGHTS as we run it; bed in the closed hopper, loops only",
+        details={name: {"beadStepsPerSecond": [len(beads(folder)) / seconds for seconds in of]}
+                 for name, of in perStep.items()})
+
+
+def require(program):
+    if not shutil.which(program):
+        raise timing.Skipped(f"there is no program {program}; scripts/setup --with otherCodes installs it")
+
+
+def beads(folder):
+    """x y z of the packing."""
+    lines = (folder / "beads.data").read_text().split("Atoms # sphere\n\n")[1].splitlines()
+    return [line.split()[-3:] for line in lines]
+
+
+def loopTime(log):
+    return float(re.search(r"Loop time of (\S+)", log.read_text())[1])
+
+
+def yadeScript(p, steps):
+    radius = p["hopperDiameter"] / 2
+    return f"""from yade import geom
+import time
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["beadDensity"]},
+                                    frictionAngle=atan({p["friction"]})))
+text = open("beads.data").read().split("Atoms # sphere\\n\\n")[1]
+for line in text.splitlines():
+    O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["beadDiameter"] / 2}, material=glass))
+height = {p["hopperHeight"]}
+O.bodies.append(geom.facetCylinder((0, 0, height / 2), {radius}, height, segmentsNumber=40, wallMask=4, material=glass))
+O.bodies.append(wall(0, axis=2, material=glass))
+law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["beadDiameter"]}),
+    InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [law],
+                    [Law2_ScGeom_MindlinPhys_Mindlin()]),
+    NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
+]
+O.dt = {p["demStep"]}
+O.run(10, True)
+start = time.process_time()
+O.run({steps}, True)
+open("seconds", "w").write(str(time.process_time() - start))
+"""
 
 
 def writeLammpsData(hopper, folder):

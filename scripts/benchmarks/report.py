@@ -8,19 +8,27 @@ from pathlib import Path
 
 
 def table(figures):
-    lines = [f"{'':24}{'median':>9}{'min':>9}{'max':>9}  {'target':8}"]
+    """Figures by name; a text in place of a figure is the reason why there is none."""
+    lines = [f"{'':36}{'median':>9}{'min':>9}{'max':>9}  target"]
     for name, figure in figures.items():
-        lines.append(f"{name:24}{figure.median:9.3g}{min(figure.values):9.3g}{max(figure.values):9.3g}"
-                     f"  {figure.target:8}{figure.meaning}")
+        if isinstance(figure, str):
+            lines.append(f"{name:36}{'skipped':>9}{'':18}  {figure}")
+        else:
+            lines.append(f"{name:36}{figure.median:9.3g}{min(figure.values):9.3g}{max(figure.values):9.3g}"
+                         f"  {figure.target:8}{figure.meaning}")
     return "\n".join(lines + [machine()])
 
 
 def write(file, figures, quick):
-    entries = {name: {"median": figure.median, "min": min(figure.values), "max": max(figure.values),
-                      "values": figure.values, "target": figure.target, "meaning": figure.meaning,
-                      "details": figure.details}
-               for name, figure in figures.items()}
-    file.write_text(json.dumps({"machine": machine(), "quick": quick, "entries": entries}, indent=2) + "\n")
+    file.write_text(json.dumps({"machine": machine(), "quick": quick,
+                                "entries": {name: entry(figure) for name, figure in figures.items()}}, indent=2) + "\n")
+
+
+def entry(figure):
+    if isinstance(figure, str):
+        return {"skipped": figure}
+    return {"median": figure.median, "min": min(figure.values), "max": max(figure.values), "values": figure.values,
+            "target": figure.target, "meaning": figure.meaning, "details": figure.details}
 
 
 def machine():

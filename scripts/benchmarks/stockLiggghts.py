@@ -1,18 +1,18 @@
 """Our way to run the beads against stock LIGGGHTS: mesh walls, every bead integrated, half the step."""
 
 from . import timing
-from .hopper import forgetResults, solver
 
 STOCK_STEP = 2e-5
 
 
 def demOverStockLiggghts(hopper, repetitions):
-    duration = 0.3 if hopper.quick else float(hopper.parameters["dryTime"])
-    folder = hopper.stage("dry", "ours", duration)
+    duration = 0.3 if hopper.quick else 1.0
+    ours = hopper.run("dry", "ours", duration)
+    folder = ours.folder
     (folder / "in.stock").write_text(script(hopper, duration))
     times = timing.interleaved({
         "stock": timing.Run(["liggghts", "-in", "in.stock", "-screen", "/dev/null", "-log", "log.stock"], folder),
-        "ours": timing.Run(solver(), folder, prepare=lambda: forgetResults(folder)),
+        "ours": ours,
     }, repetitions)
     return timing.Figure(
         timing.ratios(times, "stock", "ours", "processor"), target=">= 2.5",

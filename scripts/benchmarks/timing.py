@@ -23,19 +23,26 @@ class Figure:
         return statistics.median(self.values)
 
 
+class Skipped(Exception):
+    """Why an entry cannot be measured here."""
+
+
 @dataclass
 class Run:
-    """A command, the folder it runs in, and what it must find there: `prepare` is not timed."""
+    """A command, the folder it runs in, what it must find there and what it left: neither is timed."""
 
     command: list
     folder: Path
     prepare: object = None
+    result: object = None
 
 
 @dataclass
 class Time:
     wall: float
     processor: float  # user and system, of the command and all its children
+    peakMemory: int   # of the largest of its processes [bytes]
+    result: object = None
 
 
 def timed(run):
@@ -44,14 +51,16 @@ def timed(run):
         run.prepare()
     log = run.folder / "log.timed"
     with open(log, "w") as output:
-        before, start = os.times(), time.monotonic()
-        status = subprocess.call(run.command, cwd=run.folder, stdout=output, stderr=subprocess.STDOUT,
-                                 stdin=subprocess.DEVNULL)
-        wall, after = time.monotonic() - start, os.times()
+        start = time.monotonic()
+        process = subprocess.Popen(run.command, cwd=run.folder, stdout=output, stderr=subprocess.STDOUT,
+                                   stdin=subprocess.DEVNULL)
+        _, status, used = os.wait4(process.pid, 0)
+        wall = time.monotonic() - start
+        process.returncode = os.waitstatus_to_exitcode(status)
     if status != 0:
         lines = log.read_text(errors="replace").splitlines()[-20:]
         sys.exit("\n".join(lines + [f"benchmark: {' '.join(map(str, run.command))} failed in {run.folder}"]))
-    return Time(wall, after.children_user + after.children_system - before.children_user - before.children_system)
+    return Time(wall, used.ru_utime + used.ru_stime, 1024 * used.ru_maxrss, run.result and run.result())
 
 
 def interleaved(runs, repetitions):

@@ -382,7 +382,7 @@ TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingLength)
                    / beads.integral(density);
         };
         const double added = variance(beads.smoothed(raw)) - variance(raw);
-        EXPECT_NEAR(added / (0.5 * smoothingLength * smoothingLength), 1, 1e-5) << "cells of " << cellSize;
+        EXPECT_NEAR(added / (0.5 * smoothingLength * smoothingLength), 1, 5e-4) << "cells of " << cellSize;
     }
 }
 
@@ -434,8 +434,8 @@ TEST(ConstDiffSmoothing, IsTheExponentialOfDiffusionOnALattice)
             }
             worst = std::max(worst, std::abs(smooth[cell] - expected));
         }
-        EXPECT_LT(worst, 1e-8) << "cells of " << cellSize;
-        EXPECT_GT(Foam::gMin(smooth), -1e-8) << "cells of " << cellSize;
+        EXPECT_LT(worst, 1e-6) << "cells of " << cellSize;
+        EXPECT_GT(Foam::gMin(smooth), -1e-6) << "cells of " << cellSize;
         EXPECT_NEAR(Foam::gSum(smooth), 1, 1e-13) << "cells of " << cellSize;
     }
 }

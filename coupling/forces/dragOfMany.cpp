@@ -1,0 +1,45 @@
+// Compiled with -ffast-math, see CMakeLists.txt: only so does the compiler take the C library's exponential and
+// logarithm of vectors. Nothing but the drag laws belongs here.
+#include "forces/dragOfMany.h"
+
+#include "closures/dragLaws.h"
+#include "vectorUnits.h"
+
+namespace clepsydra
+{
+
+namespace
+{
+
+template<class Law>
+CLEPSYDRA_FOR_VECTOR_UNITS void evaluate(const ManyBeadsInFluid& beads, ManyCoefficients& coefficients)
+{
+    const Law law;
+    for (std::size_t bead = 0; bead < beads.count; ++bead)
+    {
+        coefficients[bead] = law({beads.diameter[bead], beads.voidFraction[bead], beads.logVoidFraction[bead],
+            beads.slipSpeed[bead], beads.density, beads.dynamicViscosity});
+    }
+}
+
+template<class... Laws>
+DragOfMany find(const std::string& name, std::tuple<Laws...>)
+{
+    DragOfMany found = nullptr;
+    ((found = name == Laws::name ? &evaluate<Laws> : found), ...);
+    return found;
+}
+
+} // namespace
+
+DragOfMany dragOfMany(const std::string& name)
+{
+    const DragOfMany found = find(name, closures::DragLaws{});
+    if (!found)
+    {
+        throw std::invalid_argument("no drag law '" + name + "'");
+    }
+    return found;
+}
+
+} // namespace clepsydra

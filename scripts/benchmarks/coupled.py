@@ -1,0 +1,55 @@
+"""What the coupling costs beside the two engines, from the phases of coupled runs and of dry ones in between."""
+
+import functools
+
+from . import timing
+
+COUPLING = ("locate", "distribute", "smooth", "exchange", "forces")
+# The engines' own; "other" is reading the mesh and what is outside all phases.
+FLUID = ("momentum", "pressure", "output", "other")
+
+
+@functools.cache
+def runs(hopper, repetitions):
+    """Phases by name, a dictionary a repetition."""
+    duration = 0.2
+    times = timing.interleaved({"coupled": hopper.run("submerged", "coupled", duration),
+                                "dry": hopper.run("dry", "alone", duration)}, repetitions)
+    return {name: [time.result["phaseSeconds"] for time in of] for name, of in times.items()}
+
+
+def couplingShare(hopper, repetitions):
+    coupled = runs(hopper, repetitions)["coupled"]
+    shares = [{name: 100 * seconds / sum(phases.values()) for name, seconds in phases.items()} for phases in coupled]
+    return timing.Figure([sum(share[name] for name in COUPLING) for share in shares], target="<= 9",
+                         meaning=f"% of the whole run's time: {', '.join(COUPLING)}", details={"shares": shares})
+
+
+def coupledOverEnginesAlone(hopper, repetitions):
+    return overEngines(hopper, repetitions, "<= 1.10", "", [])
+
+
+def coupledOverEnginesAloneWithoutSmoothing(hopper, repetitions):
+    return overEngines(hopper, repetitions, "<= 1.05", " without the smoothing", ["smooth"])
+
+
+def overEngines(hopper, repetitions, target, said, without):
+    of = runs(hopper, repetitions)
+    ratios = [(sum(coupled.values()) - sum(coupled[name] for name in without))
+              / (dry["DEM"] + sum(coupled[name] for name in FLUID)) for coupled, dry in zip(of["coupled"], of["dry"])]
+    return timing.Figure(
+        ratios, target=target,
+        meaning=f"coupled run{said} over the same number of DEM steps without fluid from the same packing plus its own "
+                "fluid steps",
+        details=of)
+
+
+def exchangeBytesPerBead(hopper, repetitions):
+    """A count, not a time: one run."""
+    run = hopper.run("submerged", "exchange", 0.05, 2)
+    ledger = timing.timed(run).result
+    intervals = (ledger["timeEnd"] - ledger["timeStart"]) / hopper.parameters["couplingInterval"]
+    perBead = ledger["exchangedBytes"] / ledger["beadsStart"] / intervals
+    return timing.Figure(
+        [perBead], target="< 1100",
+        meaning="bytes that both of two ranks send for a bead and interval; all-to-all: about 1100 a bead and rank")

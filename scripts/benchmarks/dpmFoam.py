@@ -1,0 +1,44 @@
+"""OpenFOAM's own DPMFoam on the cases of cases/validation/besideDPMFoam: beads, mesh, inlet, drag and contact law alike."""
+
+import shutil
+
+from . import timing
+from .hopper import REPOSITORY, Hopper, forgetResults
+
+
+def overDPMFoam(hopper, repetitions):
+    """Contacts are rare: DPMFoam takes few DEM steps."""
+    return over(hopper, repetitions, "settling", "settlingCloud 0.06", "391 beads settling in water, .06 s")
+
+
+def overDPMFoamBed(hopper, repetitions):
+    """The case's fluid step is as short as DPMFoam needs it for a bed."""
+    return over(hopper, repetitions, "fluidised", 'inBoth fluidised inletVelocity="constant (0 0 0.044)" endTime=0.04',
+                "500 beads in a fluidised bed, .04 s, the fluid's step .2 ms in both")
+
+
+def over(hopper, repetitions, run, make, said):
+    if not shutil.which("DPMFoam"):
+        raise timing.Skipped("there is no program DPMFoam in this OpenFOAM")
+    folder = caseFolder(hopper)
+    Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; "
+                            f"{make}; inEachRun solveInBoth")
+    ours = folder / "runs" / run
+    theirs = ours / "DPMFoam"
+    times = timing.interleaved({
+        "DPMFoam": timing.Run(["DPMFoam"], theirs, prepare=lambda: forgetResults(theirs)),
+        "ours": timing.Run(["pimpleDemFoam"], ours, prepare=lambda: forgetResults(ours)),
+    }, repetitions)
+    return timing.Figure(
+        timing.ratios(times, "DPMFoam", "ours", "processor"), target=">= 10",
+        meaning=f"processor time of DPMFoam over pimpleDemFoam; {said}",
+        details={name: [time.processor for time in of] for name, of in times.items()})
+
+
+def caseFolder(hopper):
+    """A copy that may be run in, with the folders that the case refers to."""
+    cases = hopper.folder / "cases" / "validation"
+    for name in ("besideDPMFoam", "common"):
+        shutil.copytree(REPOSITORY / "cases" / "validation" / name, cases / name, dirs_exist_ok=True,
+                        ignore=shutil.ignore_patterns("runs", "results"))
+    return cases / "besideDPMFoam"
