@@ -115,16 +115,16 @@ def surgeOfSmallBeads():
     return found
 
 
-def finerMeshes():
-    """The submerged rate on finer meshes than the campaign's: no more than the rates' own errors and 2 % apart?"""
-    coarsest = series.asDeepAsHalfSize("submerged")
-    reference = series.mean([run.startRate for run in coarsest])
+def numericalChoices():
+    """What finer meshes and stiffer beads than the campaign's make of the rate at the start."""
     found = []
-    for run in series.onFinerMeshes():
-        change = ratio(run.startRate, reference)
-        found.append(row(f"W_submerged on mesh {run.parameters['meshLevel']} over W on {coarsest[0].parameters['meshLevel']}",
-                         "-", change, names(coarsest) + [run.name]))
-        print(f"  {run.parameters['meshLevel']}: {change}")
+    for stage in paper.STAGES:
+        usual = series.asDeepAsHalfSize(stage)
+        for what, run in series.variants(stage).items():
+            change = ratio(run.startRate, series.mean([its.startRate for its in usual]))
+            found.append(row(f"W_{stage} with {what} over W", "-", change, names(usual) + [run.name]))
+    if not found:
+        raise series.MissingRuns("no run on another mesh or with stiffer beads: entries cells and stiff")
     return found
 
 
@@ -202,7 +202,7 @@ def packingAtTheExit():
 
 
 GROUPS = {group.__name__: group for group in
-          (rates, ratioOfRates, matchingFriction, surge, surgeOfSmallBeads, finerMeshes, emptying, torricelli, tableI, packingAtTheExit)}
+          (rates, ratioOfRates, matchingFriction, surge, surgeOfSmallBeads, numericalChoices, emptying, torricelli, tableI, packingAtTheExit)}
 
 
 def table(rows):

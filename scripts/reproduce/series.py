@@ -233,11 +233,14 @@ def matching(stage):
     return deepest(stage, wanted if fills(stage, friction=wanted) else paper.MATCHING_FRICTION["dry"])
 
 
-def onFinerMeshes():
-    """Submerged runs that differ from one of the entry fill100 by their mesh."""
-    found = [run for run in allRuns() if run.entry == "cells"]
-    if not found:
-        raise MissingRuns("no run on another mesh: entry cells")
+def variants(stage):
+    """Runs that differ from one of the entry fill100 by their mesh or by how stiff the beads are, by what differs."""
+    found = {}
+    for run in allRuns():
+        if run.stage == stage and run.entry == "cells":
+            found[f"mesh {run.parameters['meshLevel']}"] = run
+        if run.stage == stage and run.entry == "stiff":
+            found[f"beads of {run.parameters['youngsModulus']:.0e} Pa"] = run
     return found
 
 

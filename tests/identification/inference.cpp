@@ -131,6 +131,21 @@ TEST(Noise, SpreadIsComparedWithChance)
     EXPECT_NEAR(spread.ratio, 4, 2);
 }
 
+/// One trajectory has no repeats: with a declared error of every number the noise is that, without it nothing can be said.
+TEST(Noise, DeclaredWhereNothingWasRepeated)
+{
+    const double gap = std::nan("");
+    MeasuredCondition once;
+    once.features = (Eigen::MatrixXd(1, 3) << 1, gap, 2).finished();
+    once.declaredError = (Eigen::VectorXd(3) << .1, 0, .2).finished();
+    EXPECT_TRUE(hasDeclaredErrors(once));
+    const Noise noise = noiseModel(Scatter(), Scatter(), Eigen::VectorXd::Zero(3), true, true);
+    EXPECT_TRUE(noise.data.matrix.isZero());
+    EXPECT_NEAR(intervalSds(noise), 1.96, .001);
+    once.features(0, 1) = 3;
+    EXPECT_FALSE(hasDeclaredErrors(once));
+}
+
 //--- Generalised least squares --------------------------------------------------------------------------------------
 
 /// With prior sd 1: theta = sum(r)/(4 + 1) = 3/5, misfit = sum(r^2) - 9/5 = 9.2.
@@ -294,6 +309,18 @@ TEST(HeldOut, CrpsOfANormalPrediction)
         EXPECT_NEAR(crpsOfNormal(.5, .8, observed), integral, 1e-3);
     }
     EXPECT_EQ(crpsOfNormal(1, 0, 3), 2);
+}
+
+/// A declared error counts beside what repeats show: sqrt(.0004/4 + .0003 + .0012) = .04.
+TEST(HeldOut, DeclaredErrorsWidenTheStandardError)
+{
+    std::mt19937_64 random(6);
+    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
+        Eigen::VectorXd::Constant(1, .0012)};
+    const Prediction prediction{
+        Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
+    const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);
+    EXPECT_NEAR(heldOutScore({data}, {prediction}, {0}, noise, random).rmsLogError.standardError, .04, .002);
 }
 
 TEST(HeldOut, RmsErrorOfMeansAndItsStandardError)

@@ -211,6 +211,20 @@ TEST(Runner, FailuresCacheAndSlurm)
         strange.command = "true";
         EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("has not written"));
     }
+    // What an earlier run of the case has left, fields of a later time and checkpoints, is no part of it: a copy that had
+    // them would go on from there.
+    for (const char* left : {"case/0.36", "case/2", "case/checkpoints"})
+    {
+        fs::create_directories(workshop.path() / left);
+        std::ofstream(workshop.path() / left / "U") << "fields\n";
+    }
+    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
+    // A stored run with another zero of the observable.
+    const auto before = CaseRig(study, progress).run({orderOf(10007)});
+    study.valueOffset = -0.25;
+    EXPECT_NEAR(
+        CaseRig(study, progress).run({orderOf(10007)})[0].curve.value[3], before[0].curve.value[3] - 0.25, 1e-12);
+    study.valueOffset = 0;
     // Any change of the case's files is another run.
     std::ofstream(workshop.path() / "case/parameters", std::ios::app) << "// changed\n";
     EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);
