@@ -88,6 +88,7 @@ Bundle bundleOf(const std::vector<Simulation>& simulations, std::size_t conditio
     {
         const double t = begin + (end - begin) * i / (points - 1);
         std::vector<double> values;
+        values.reserve(curves.size());
         for (const auto* curve : curves)
         {
             values.push_back(valueAt(*curve, t));

@@ -324,9 +324,10 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
                   + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
                     "a range are "
                     "equally likely beforehand.");
-    all.push_back(answer.noise.pooled
-                      ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
-                      : "The scatter of measurements is that of their own repeats.");
+    all.emplace_back(
+        answer.noise.pooled
+            ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
+            : "The scatter of measurements is that of their own repeats.");
     all.emplace_back("The scatter of a feature is the same in all conditions and close to normal.");
     if (answer.noise.data.shrinkage > 0.0)
     {

@@ -119,27 +119,27 @@ std::string Plot::svg() const
     };
 
     std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << "<svg viewBox=\"0 0 " << width << ' ' << height
-         << "\" class=\"plot\" role=\"img\" aria-label=\"" << escaped(title_) << "\">\n<text x=\"" << left
-         << "\" y=\"16\" class=\"title\">" << escaped(title_) << "</text>\n";
+    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << width << ' ' << height
+         << R"(" class="plot" role="img" aria-label=")" << escaped(title_) << "\">\n<text x=\"" << left
+         << R"(" y="16" class="title">)" << escaped(title_) << "</text>\n";
     const double xStep = niceStep(xs.high - xs.low);
     for (double x = std::ceil(xs.low / xStep) * xStep; x <= xs.high + 1e-9 * xStep; x += xStep)
     {
-        text << "<line class=\"grid\" x1=\"" << px(x) << "\" x2=\"" << px(x) << "\" y1=\"" << top << "\" y2=\""
-             << height - bottom << "\"/><text class=\"tick\" text-anchor=\"middle\" x=\"" << px(x) << "\" y=\""
-             << height - bottom + 14 << "\">" << shown(x) << "</text>\n";
+        text << R"(<line class="grid" x1=")" << px(x) << R"(" x2=")" << px(x) << R"(" y1=")" << top << R"(" y2=")"
+             << height - bottom << R"("/><text class="tick" text-anchor="middle" x=")" << px(x) << R"(" y=")"
+             << height - bottom + 14 << R"(">)" << shown(x) << "</text>\n";
     }
     const double yStep = niceStep(ys.high - ys.low);
     for (double y = std::ceil(ys.low / yStep) * yStep; y <= ys.high + 1e-9 * yStep; y += yStep)
     {
-        text << "<line class=\"grid\" x1=\"" << left << "\" x2=\"" << width - right << "\" y1=\"" << py(y) << "\" y2=\""
-             << py(y) << "\"/><text class=\"tick\" text-anchor=\"end\" x=\"" << left - 5 << "\" y=\"" << py(y) + 3
-             << "\">" << shown(y) << "</text>\n";
+        text << R"(<line class="grid" x1=")" << left << R"(" x2=")" << width - right << R"(" y1=")" << py(y)
+             << R"(" y2=")" << py(y) << R"("/><text class="tick" text-anchor="end" x=")" << left - 5 << R"(" y=")"
+             << py(y) + 3 << R"(">)" << shown(y) << "</text>\n";
     }
     double legend = top + 12;
     for (const auto& shape : shapes_)
     {
-        text << "<" << (shape.closed ? "polygon" : "polyline") << " style=\"" << shape.style << "\" points=\"";
+        text << "<" << (shape.closed ? "polygon" : "polyline") << R"( style=")" << shape.style << R"(" points=")";
         for (std::size_t i = 0; i < shape.x.size(); ++i)
         {
             if (std::isfinite(shape.y[i]))
@@ -150,15 +150,15 @@ std::string Plot::svg() const
         text << "\"/>\n";
         if (!shape.label.empty())
         {
-            text << "<line style=\"" << shape.style << ";stroke-width:3\" x1=\"" << width - right - 128 << "\" x2=\""
-                 << width - right - 110 << "\" y1=\"" << legend - 3 << "\" y2=\"" << legend - 3
-                 << "\"/><text class=\"tick\" x=\"" << width - right - 104 << "\" y=\"" << legend << "\">"
+            text << R"(<line style=")" << shape.style << R"(;stroke-width:3" x1=")" << width - right - 128
+                 << R"(" x2=")" << width - right - 110 << R"(" y1=")" << legend - 3 << R"(" y2=")" << legend - 3
+                 << R"("/><text class="tick" x=")" << width - right - 104 << R"(" y=")" << legend << R"(">)"
                  << escaped(shape.label) << "</text>\n";
             legend += 13;
         }
     }
-    text << "<text class=\"label\" text-anchor=\"middle\" x=\"" << (left + width - right) / 2 << "\" y=\"" << height - 8
-         << "\">" << escaped(xLabel_)
+    text << R"(<text class="label" text-anchor="middle" x=")" << (left + width - right) / 2 << R"(" y=")" << height - 8
+         << R"(">)" << escaped(xLabel_)
          << "</text>\n<text class=\"label\" text-anchor=\"middle\" transform=\"translate(13 "
          << (top + height - bottom) / 2 << ") rotate(-90)\">" << escaped(yLabel_) << "</text>\n</svg>\n";
     return text.str();
@@ -180,30 +180,30 @@ std::string barChart(const std::string& title, const std::vector<Bar>& bars, con
     const auto px = [&](double x) { return labels + (x - range.low) / (range.high - range.low) * (all - labels - 90); };
     const double tall = top + row * static_cast<double>(bars.size()) + 8;
     std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << "<svg viewBox=\"0 0 " << all << ' ' << tall
-         << "\" class=\"bars\" role=\"img\" aria-label=\"" << escaped(title)
+    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << all << ' ' << tall
+         << R"(" class="bars" role="img" aria-label=")" << escaped(title)
          << "\">\n<text x=\"4\" y=\"16\" class=\"title\">" << escaped(title) << "</text>\n";
     double y = top;
     for (const auto& bar : bars)
     {
         const double from = std::min(px(0.0), px(bar.value));
-        text << "<text class=\"tick\" text-anchor=\"end\" x=\"" << labels - 6 << "\" y=\"" << y + 14 << "\">"
+        text << R"(<text class="tick" text-anchor="end" x=")" << labels - 6 << R"(" y=")" << y + 14 << R"(">)"
              << escaped(bar.label) << "</text>";
         if (std::isfinite(bar.value))
         {
-            text << "<rect style=\"" << bar.style << "\" x=\"" << from << "\" y=\"" << y + 3 << "\" height=\""
-                 << row - 7 << "\" width=\"" << std::abs(px(bar.value) - px(0.0)) << "\"/>";
+            text << R"(<rect style=")" << bar.style << R"(" x=")" << from << R"(" y=")" << y + 3 << R"(" height=")"
+                 << row - 7 << R"(" width=")" << std::abs(px(bar.value) - px(0.0)) << R"("/>)";
             if (bar.error > 0.0)
             {
-                text << "<line class=\"error\" x1=\"" << px(bar.value - bar.error) << "\" x2=\""
-                     << px(bar.value + bar.error) << "\" y1=\"" << y + 10.5 << "\" y2=\"" << y + 10.5 << "\"/>";
+                text << R"(<line class="error" x1=")" << px(bar.value - bar.error) << R"(" x2=")"
+                     << px(bar.value + bar.error) << R"(" y1=")" << y + 10.5 << R"(" y2=")" << y + 10.5 << R"("/>)";
             }
-            text << "<text class=\"tick\" x=\"" << std::max(px(bar.value + bar.error), px(0.0)) + 6 << "\" y=\""
-                 << y + 14 << "\">" << shown(bar.value) << ' ' << unit << "</text>\n";
+            text << R"(<text class="tick" x=")" << std::max(px(bar.value + bar.error), px(0.0)) + 6 << R"(" y=")"
+                 << y + 14 << R"(">)" << shown(bar.value) << ' ' << unit << "</text>\n";
         }
         y += row;
     }
-    text << "<line class=\"axis\" x1=\"" << px(0.0) << "\" x2=\"" << px(0.0) << "\" y1=\"" << top << "\" y2=\"" << y
+    text << R"(<line class="axis" x1=")" << px(0.0) << R"(" x2=")" << px(0.0) << R"(" y1=")" << top << R"(" y2=")" << y
          << "\"/>\n</svg>\n";
     return text.str();
 }

@@ -296,7 +296,7 @@ TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
     EXPECT_EQ(library.conditions[0].effectColumns(0, 1), 0);
     EXPECT_NEAR(library.conditions[0].effectColumns(0, 0), .06, 1e-9);
     ASSERT_EQ(library.remarks.size(), 1U);
-    EXPECT_NE(library.remarks.front().find("y"), std::string::npos);
+    EXPECT_NE(library.remarks.front().find('y'), std::string::npos);
     ASSERT_EQ(simulator.failures().size(), 1U);
     EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
 }
