@@ -98,7 +98,7 @@ void Ledger::report() const
          << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_ << endl;
 }
 
-void Ledger::writeSummary(const std::map<std::string, double>& phaseSeconds, double exchangedBytes) const
+void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) const
 {
     if (!Pstream::master())
     {
@@ -111,8 +111,8 @@ void Ledger::writeSummary(const std::map<std::string, double>& phaseSeconds, dou
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
         {"pressureForceError", pressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
-        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", phaseSeconds},
-        {"exchangedBytes", exchangedBytes}};
+        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
+        {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
     std::ofstream(folder / "summary.json") << summary.dump(2) << '\n';
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include "ledger/beadCensus.h"
+#include "output/phaseTimers.h"
 
 #include "Time.H"
 #include "dictionary.H"
 #include "vector.H"
 
-#include <map>
 #include <string>
 
 namespace clepsydra
@@ -46,7 +46,7 @@ public:
 
     /// Writes postProcessing/ledger/<startTime>/summary.json, with it the time of each phase and what the exchange of
     /// beads has sent between ranks, all of them together. Master rank only.
-    void writeSummary(const std::map<std::string, double>& phaseSeconds, double exchangedBytes) const;
+    void writeSummary(const PhaseTimers& timers, double exchangedBytes) const;
 
 private:
     double momentumError() const;

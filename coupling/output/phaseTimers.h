@@ -1,14 +1,15 @@
 #pragma once
 
-#include <chrono>
+#include <ctime>
 #include <map>
 #include <string>
 
 namespace clepsydra
 {
 
-/// Wall time of the phases of a run by name. A phase inside another (forces inside DEM) is not counted twice: time
-/// goes to the innermost.
+/// Wall and processor time of the phases of a run by name. A phase inside another (forces inside DEM) is not counted
+/// twice: time goes to the innermost. Where other programs keep the processor busy, only processor time says what a
+/// phase costs; on several ranks it contains the waiting for messages.
 class PhaseTimers
 {
 public:
@@ -40,28 +41,44 @@ public:
     }
 
     /// Seconds of each phase so far; everything outside named phases is "other".
-    std::map<std::string, double> seconds() const
+    const std::map<std::string, double>& wallSeconds() const
     {
-        return seconds_;
+        return wallSeconds_;
+    }
+
+    /// The same in processor time of this thread.
+    const std::map<std::string, double>& processorSeconds() const
+    {
+        return processorSeconds_;
     }
 
 private:
-    using Clock = std::chrono::steady_clock;
+    static double now(clockid_t clock)
+    {
+        timespec time{};
+        clock_gettime(clock, &time);
+        return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
 
     /// \return the phase that was running.
     const char* switchTo(const char* phase)
     {
-        const Clock::time_point now = Clock::now();
-        seconds_[current_] += std::chrono::duration<double>(now - since_).count();
-        since_ = now;
+        const double wall = now(CLOCK_MONOTONIC);
+        const double processor = now(CLOCK_THREAD_CPUTIME_ID);
+        wallSeconds_[current_] += wall - sinceWall_;
+        processorSeconds_[current_] += processor - sinceProcessor_;
+        sinceWall_ = wall;
+        sinceProcessor_ = processor;
         const char* before = current_;
         current_ = phase;
         return before;
     }
 
     const char* current_ = "other";
-    Clock::time_point since_ = Clock::now();
-    std::map<std::string, double> seconds_;
+    double sinceWall_ = now(CLOCK_MONOTONIC);
+    double sinceProcessor_ = now(CLOCK_THREAD_CPUTIME_ID);
+    std::map<std::string, double> wallSeconds_;
+    std::map<std::string, double> processorSeconds_;
 };
 
 } // namespace clepsydra

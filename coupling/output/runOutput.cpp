@@ -127,21 +127,22 @@ void RunOutput::finish()
     progress_.clear();
     interval_.ledger().report();
 
-    const std::map<std::string, double> seconds = interval_.timers().seconds();
+    const PhaseTimers& timers = interval_.timers();
     double total = 0;
-    for (const auto& [phase, time] : seconds)
+    for (const auto& [phase, time] : timers.wallSeconds())
     {
         total += time;
     }
-    Info << nl << "Wall time by phase (this rank)" << nl;
-    for (const auto& [phase, time] : seconds)
+    Info << nl << "Wall time by phase, and processor time (this rank)" << nl;
+    for (const auto& [phase, time] : timers.wallSeconds())
     {
         Info << "    " << setw(12) << phase.c_str() << ' ' << setw(10) << time << " s " << setw(6)
-             << round(1000 * time / total) / 10 << " %" << nl;
+             << round(1000 * time / total) / 10 << " % " << setw(10) << timers.processorSeconds().at(phase) << " s"
+             << nl;
     }
     Info << endl;
     const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
-    interval_.ledger().writeSummary(seconds, returnReduce(sent, sumOp<scalar>()));
+    interval_.ledger().writeSummary(timers, returnReduce(sent, sumOp<scalar>()));
 }
 
 } // namespace clepsydra

@@ -30,10 +30,11 @@ def cellCount(folder):
 
 
 def measured(hopper, ranks=1):
-    """Terms and seconds of the submerged hopper."""
+    """Terms and seconds of the submerged hopper: processor time of one rank, wall time of more."""
     run = hopper.run("submerged", f"cost{ranks}", DURATION, ranks)
     ledger = timing.timed(run).result
-    seconds = sum(time for name, time in ledger["phaseSeconds"].items() if name not in NOT_MODELLED)
+    phases = ledger["phaseProcessorSeconds" if ranks == 1 else "phaseSeconds"]
+    seconds = sum(time for name, time in phases.items() if name not in NOT_MODELLED)
     return work(ledger, hopper, cellCount(run.folder)), seconds
 
 

@@ -11,18 +11,18 @@ FLUID = ("momentum", "pressure", "output", "other")
 
 @functools.cache
 def runs(hopper, repetitions):
-    """Phases by name, a dictionary a repetition."""
+    """Processor seconds of each phase by name, a dictionary a repetition."""
     duration = 0.2
     times = timing.interleaved({"coupled": hopper.run("submerged", "coupled", duration),
                                 "dry": hopper.run("dry", "alone", duration)}, repetitions)
-    return {name: [time.result["phaseSeconds"] for time in of] for name, of in times.items()}
+    return {name: [time.result["phaseProcessorSeconds"] for time in of] for name, of in times.items()}
 
 
 def couplingShare(hopper, repetitions):
     coupled = runs(hopper, repetitions)["coupled"]
     shares = [{name: 100 * seconds / sum(phases.values()) for name, seconds in phases.items()} for phases in coupled]
     return timing.Figure([sum(share[name] for name in COUPLING) for share in shares], target="<= 9",
-                         meaning=f"% of the whole run's time: {', '.join(COUPLING)}", details={"shares": shares})
+                         meaning=f"% of the whole run's processor time: {', '.join(COUPLING)}", details={"shares": shares})
 
 
 def coupledOverEnginesAlone(hopper, repetitions):
@@ -39,7 +39,7 @@ def overEngines(hopper, repetitions, target, said, without):
               / (dry["DEM"] + sum(coupled[name] for name in FLUID)) for coupled, dry in zip(of["coupled"], of["dry"])]
     return timing.Figure(
         ratios, target=target,
-        meaning=f"coupled run{said} over the same number of DEM steps without fluid from the same packing plus its own "
+        meaning=f"processor time of the coupled run{said} over the same number of DEM steps without fluid from the same packing plus its own "
                 "fluid steps",
         details=of)
 

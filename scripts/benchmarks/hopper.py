@@ -74,7 +74,8 @@ class Hopper:
 
     @staticmethod
     def inFolder(folder, commands):
-        done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, capture_output=True, text=True)
+        done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, capture_output=True, text=True,
+                              preexec_fn=timing.priority())
         if done.returncode != 0:
             sys.exit(f"{done.stdout[-2000:]}{done.stderr[-2000:]}\nbenchmark: failed in {folder}: {commands}")
         return done.stdout

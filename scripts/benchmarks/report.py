@@ -19,8 +19,8 @@ def table(figures):
     return "\n".join(lines + [machine()])
 
 
-def write(file, figures, quick):
-    file.write_text(json.dumps({"machine": machine(), "quick": quick,
+def write(file, figures, options):
+    file.write_text(json.dumps({"machine": machine(), "quick": options.quick, "realTime": options.realTime,
                                 "entries": {name: entry(figure) for name, figure in figures.items()}}, indent=2) + "\n")
 
 
