@@ -223,6 +223,11 @@ HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library
     result.gaussianProcess =
         scoreOf(withGaussianProcess(study, answer, training, result.conditions, result.predictedBefore));
 
+    if (answer.bestOfUnknown)
+    {
+        result.bestOfUnknown = scoreOf(predict(simulate(answer.bestOfUnknown->setting, "best of unknown")));
+    }
+
     double floor = 0.0;
     for (std::size_t i = 0; i < result.data.size(); ++i)
     {

@@ -28,10 +28,11 @@ struct HeldOutResult
     HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
     HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
     std::vector<MemberScore> members;
-    Estimate improvement;          // of the rms error, before minus after, with the noise they share
-    double noiseFloor = 0.0;       // rms error that measurement noise alone would give
-    bool accepted = false;         // the improvement exceeds its standard error
-    double oneMoreAmplitude = 0.0; // what control 1 fitted
+    std::optional<HeldOutScore> bestOfUnknown; // of Answer::bestOfUnknown: for people to see, never accepted
+    Estimate improvement;                      // of the rms error, before minus after, with the noise they share
+    double noiseFloor = 0.0;                   // rms error that measurement noise alone would give
+    bool accepted = false;                     // the improvement exceeds its standard error
+    double oneMoreAmplitude = 0.0;             // what control 1 fitted
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
     std::vector<Prediction> predictedAfter;

@@ -52,9 +52,10 @@ struct Explanation
 struct Answer
 {
     Decision decision = Decision::noResidual;
-    std::vector<Explanation> set; // best first; more than one is never given as a name
-    bool otherInSet = false;      // something outside the library is as likely
-    Explanation null;             // refitted parameters, no effect
+    std::vector<Explanation> set;             // best first; more than one is never given as a name
+    bool otherInSet = false;                  // something outside the library is as likely
+    std::optional<Explanation> bestOfUnknown; // the most likely one where none is enough; no part of the answer
+    Explanation null;                         // refitted parameters, no effect
     double otherLogOdds = 0.0;
     double nullLogOdds = 0.0;
     std::vector<EffectFinding> effects; // as in the study

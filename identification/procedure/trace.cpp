@@ -419,6 +419,7 @@ private:
         if (best.misfit > best.misfitLimit || answer_.otherLogOdds > best.logOdds)
         {
             answer_.decision = Decision::unknown;
+            answer_.bestOfUnknown = best;
             return;
         }
         for (const auto& explanation : explanations)

@@ -177,10 +177,17 @@ Json heldOutJson(const Findings& findings)
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
+    Json bestOfUnknown = nullptr;
+    if (result.bestOfUnknown)
+    {
+        bestOfUnknown = heldOutScore(*result.bestOfUnknown);
+        bestOfUnknown["explanation"] = explanationJson(study, *findings.answer->bestOfUnknown);
+    }
     return {{"conditions", names}, {"before", heldOutScore(result.before)},
         {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
         {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
-        {"noiseFloor", result.noiseFloor}, {"accepted", result.accepted}, {"members", members}};
+        {"noiseFloor", result.noiseFloor}, {"accepted", result.accepted}, {"members", members},
+        {"bestOfUnknown", bestOfUnknown}};
 }
 
 Json runsJson(const Simulator& simulator)

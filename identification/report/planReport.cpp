@@ -96,6 +96,14 @@ std::string inWords(const Findings& findings)
         case Decision::unknown:
             text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue)
                  << "), and none of the effects in the library explains it: unknown.";
+            if (findings.heldOut != nullptr && findings.heldOut->bestOfUnknown)
+            {
+                text << " The nearest, which still misfits (" << textOf(answer.bestOfUnknown->misfit) << ", limit "
+                     << textOf(answer.bestOfUnknown->misfitLimit) << "), is " << nameOf(study, *answer.bestOfUnknown)
+                     << "; with it the error on the held-out conditions goes from "
+                     << withError(findings.heldOut->before.rmsLogError) << " to "
+                     << withError(findings.heldOut->bestOfUnknown->rmsLogError) << '.';
+            }
             return text.str();
         case Decision::named:
             text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue)
