@@ -75,8 +75,9 @@ private:
         answer_.noise = noiseModel(measured, library_.scatter, study_.modelError, alike, declared);
         if (measured.degreesOfFreedom() < 2.0 && answer_.noise.data.matrix.isZero())
         {
-            answer_.remarks.push_back("Nothing has been measured more than once: the noise is what the study declares, "
-                                      "taken as independent from number to number.");
+            answer_.remarks.emplace_back(
+                "Nothing has been measured more than once: the noise is what the study declares, "
+                "taken as independent from number to number.");
         }
         if (!alike)
         {
