@@ -18,7 +18,8 @@ BeadsView part(const BeadsView& beads, Eigen::Index first, Eigen::Index count)
     const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
     const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
     return {values(beads.id), vectors(beads.position), vectors(beads.velocity), vectors(beads.angularVelocity),
-        values(beads.radius), values(beads.mass), beads.state + first, vectors(beads.otherForce), beads.pairs};
+        values(beads.radius), values(beads.mass), beads.state + first, vectors(beads.otherForce), beads.pairs,
+        beads.memory + first * beads.memorySize, beads.memorySize, beads.memoryAges};
 }
 
 /// Asks for what every force needs of the states of beads `first` to `end`: the engine's contacts have pushed it out of
