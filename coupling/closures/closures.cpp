@@ -93,6 +93,11 @@ public:
         return *this;
     }
 
+    Formula& settlingBead()
+    {
+        return bead().beadDensity().fluid().gravity();
+    }
+
     Formula& dragLaw()
     {
         command_->add_option("--dragLaw", input_->dragLaw, "its name, see `closures dragLaws`")
@@ -198,19 +203,13 @@ void addSettling(CLI::App& program)
 {
     Formula(program, "terminalVelocity", "[m/s] of a lone bead in still fluid")
         .dragLaw()
-        .bead()
-        .beadDensity()
-        .fluid()
-        .gravity()
+        .settlingBead()
         .prints([](const Input& in) {
             return std::vector<double>{terminalVelocity(dragLaw(in.dragLaw), in.settlingBead())};
         });
     Formula(program, "hinderedSettlingVelocity", "[m/s] against the vessel; superficial one that fluidises to it, too")
         .dragLaw()
-        .bead()
-        .beadDensity()
-        .fluid()
-        .gravity()
+        .settlingBead()
         .voidFractions()
         .prints([](const Input& in) {
             return forEach(in.voidFraction,
@@ -260,10 +259,7 @@ void addBeds(CLI::App& program)
             return values;
         });
     Formula(program, "minimumFluidisationVelocity", "[m/s], superficial, by Ergun, at each void fraction")
-        .bead()
-        .beadDensity()
-        .fluid()
-        .gravity()
+        .settlingBead()
         .voidFractions()
         .prints([](const Input& in) {
             return forEach(in.voidFraction,
@@ -283,10 +279,7 @@ void addHoppers(CLI::App& program)
         });
     Formula submerged(program, "modifiedBeverlooRate", "[kg/s], submerged, v_t by the drag law, C = .4, k = 2.4");
     submerged.dragLaw()
-        .bead()
-        .beadDensity()
-        .fluid()
-        .gravity()
+        .settlingBead()
         .positive("--orificeDiameter", submerged.input().orificeDiameter, "[m]")
         .prints([](const Input& in) {
             const double fall = terminalVelocity(dragLaw(in.dragLaw), in.settlingBead());

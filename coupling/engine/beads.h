@@ -112,6 +112,16 @@ struct BeadsView
     {
         return id.size();
     }
+
+    /// Beads `first` to `first + count`, with all the pairs.
+    BeadsView segment(Eigen::Index first, Eigen::Index count) const
+    {
+        const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
+        const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
+        return {values(id), vectors(position), vectors(velocity), vectors(angularVelocity), values(radius),
+            values(mass), state + first, vectors(otherForce), pairs, memory + first * memorySize, memorySize,
+            memoryAges};
+    }
 };
 
 /// Volume of a sphere [m3].

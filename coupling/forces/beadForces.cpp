@@ -12,16 +12,6 @@ namespace
 
 constexpr Eigen::Index beadsAtATime = 64;
 
-/// Beads `first` to `first + count`, with all the pairs.
-BeadsView part(const BeadsView& beads, Eigen::Index first, Eigen::Index count)
-{
-    const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
-    const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
-    return {values(beads.id), vectors(beads.position), vectors(beads.velocity), vectors(beads.angularVelocity),
-        values(beads.radius), values(beads.mass), beads.state + first, vectors(beads.otherForce), beads.pairs,
-        beads.memory + first * beads.memorySize, beads.memorySize, beads.memoryAges};
-}
-
 /// Asks for what every force needs of the states of beads `first` to `end`: the engine's contacts have pushed it out of
 /// the near caches.
 void prefetch(const BeadsView& beads, Eigen::Index first, Eigen::Index end)
@@ -85,7 +75,7 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
     {
         const Eigen::Index count = std::min(most, beads.size() - first);
         prefetch(beads, first + count, std::min(first + 2 * count, beads.size()));
-        evaluatePart(part(beads, first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
+        evaluatePart(beads.segment(first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
     }
 }
 

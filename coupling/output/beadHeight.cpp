@@ -19,10 +19,7 @@ BeadHeight::BeadHeight(const word& name, const Time& time, const dictionary& dic
 {
     // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
     BeadHeight::read(dict);
-    if (Pstream::master())
-    {
-        makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
-    }
+    makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
 
     Ostream& os = file();

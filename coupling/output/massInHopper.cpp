@@ -31,10 +31,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
 {
     // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
     MassInHopper::read(dict);
-    if (Pstream::master())
-    {
-        makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
-    }
+    makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
 
     Ostream& os = file();

@@ -45,6 +45,10 @@ void dropRowsFrom(scalar time, const fileName& table)
 
 void makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
 {
+    if (!Pstream::master())
+    {
+        return;
+    }
     for (const instant& start : Time::findTimes(folder))
     {
         const fileName file = folder / start.name() / table;

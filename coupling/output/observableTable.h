@@ -9,7 +9,7 @@ namespace clepsydra
 /// Makes room for an observable's rows from the start time on: postProcessing/<name>/<startTime>/<name>.dat. Rows that
 /// a run wrote after the checkpoint from which it is resumed are dropped from the tables of earlier start times, since
 /// they will be written again; a table of this or a later start time is renamed to <name>.dat.bak*. So no row is lost
-/// or doubled, whenever the run was killed. Call on the master only.
+/// or doubled, whenever the run was killed. Done by the master rank only.
 /// \param folder  postProcessing/<name>
 /// \param table  <name>.dat
 void makeRoomFrom(Foam::scalar startTime, const Foam::fileName& folder, const Foam::word& table);

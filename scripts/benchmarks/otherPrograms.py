@@ -5,7 +5,7 @@ import shutil
 import subprocess
 
 from . import timing
-from .stockLiggghts import STOCK_STEP, script
+from .stockLiggghts import STOCK_STEP, liggghts, script
 
 
 # In a flowing hopper lists are renewed about as often; a bed at rest would renew none.
@@ -21,15 +21,14 @@ def overLammps(hopper, repetitions):
     folder = hopper.stage("dry", "besideLammps", 0)
     writeLammpsData(hopper, folder)
     (folder / "in.lammps").write_text(lammpsScript(hopper.parameters, steps))
-    (folder / "in.liggghts").write_text(liggghtsScript(hopper, steps))
+    (folder / "in.bed").write_text(liggghtsScript(hopper, steps))
     times = timing.interleaved({
         "LAMMPS": timing.Run(["lmp", "-in", "in.lammps", "-screen", "none", "-log", "log.lammps"], folder),
-        "LIGGGHTS": timing.Run(["liggghts", "-in", "in.liggghts", "-screen", "/dev/null", "-log", "log.bed"], folder),
+        "LIGGGHTS": timing.Run(liggghts("bed"), folder),
     }, repetitions)
-    return timing.Figure(
-        timing.ratios(times, "LAMMPS", "LIGGGHTS", "processor"), target=">= 1.2",
-        meaning=f"processor time of LAMMPS (pair granular) over LIGGGHTS as we run it; bed in the closed hopper, {steps} steps",
-        details={name: [time.processor for time in of] for name, of in times.items()})
+    return timing.processorRatio(
+        times, "LAMMPS", "LIGGGHTS", ">= 1.2",
+        f"processor time of LAMMPS (pair granular) over LIGGGHTS as we run it; bed in the closed hopper, {steps} steps")
 
 
 def overYade(hopper, repetitions):
@@ -39,13 +38,12 @@ def overYade(hopper, repetitions):
     steps, yadeSteps = 5000, 1000 if hopper.quick else 400
     folder = hopper.stage("dry", "besideYade", 0)
     writeLammpsData(hopper, folder)
-    (folder / "in.liggghts").write_text(liggghtsScript(hopper, steps))
+    (folder / "in.bed").write_text(liggghtsScript(hopper, steps))
     (folder / "bed.py").write_text(yadeScript(hopper.parameters, yadeSteps))
     loop = folder / "seconds"
     times = timing.interleaved({
         "Yade": timing.Run(["yade", "-n", "-x", "-j1", "bed.py"], folder, result=lambda: float(loop.read_text())),
-        "LIGGGHTS": timing.Run(["liggghts", "-in", "in.liggghts", "-screen", "/dev/null", "-log", "log.bed"], folder,
-                               result=lambda: loopTime(folder / "log.bed")),
+        "LIGGGHTS": timing.Run(liggghts("bed"), folder, result=lambda: loopTime(folder / "log.bed")),
     }, repetitions)
     perStep = {"Yade": [time.result / yadeSteps for time in times["Yade"]],
                "LIGGGHTS": [time.result / steps for time in times["LIGGGHTS"]]}
@@ -104,8 +102,7 @@ def writeLammpsData(hopper, folder):
     p = hopper.parameters
     setUp = script(hopper, 0).split("thermo")[0]
     (folder / "in.dump").write_text(setUp + "dump beads all custom 1 beads.dump id x y z\nrun 0\n")
-    subprocess.run(["liggghts", "-in", "in.dump", "-screen", "/dev/null", "-log", "log.dump"], cwd=folder, check=True,
-                   stdout=subprocess.DEVNULL)
+    subprocess.run(liggghts("dump"), cwd=folder, check=True, stdout=subprocess.DEVNULL)
     lines = (folder / "beads.dump").read_text().splitlines()
     beads = [line.split() for line in lines[lines.index(next(l for l in lines if l.startswith("ITEM: ATOMS"))) + 1:]]
     half, top = 0.51 * p["tankDiameter"], 1.02 * (p["hopperHeight"] + p["waterAboveRim"])

@@ -11,13 +11,17 @@ def demOverStockLiggghts(hopper, repetitions):
     folder = ours.folder
     (folder / "in.stock").write_text(script(hopper, duration))
     times = timing.interleaved({
-        "stock": timing.Run(["liggghts", "-in", "in.stock", "-screen", "/dev/null", "-log", "log.stock"], folder),
+        "stock": timing.Run(liggghts("stock"), folder),
         "ours": ours,
     }, repetitions)
-    return timing.Figure(
-        timing.ratios(times, "stock", "ours", "processor"), target=">= 2.5",
-        meaning=f"processor time of stock LIGGGHTS, mesh walls, dt 2e-5 s, over ours; first {duration} s of the drain",
-        details={name: [time.processor for time in of] for name, of in times.items()})
+    return timing.processorRatio(
+        times, "stock", "ours", ">= 2.5",
+        f"processor time of stock LIGGGHTS, mesh walls, dt 2e-5 s, over ours; first {duration} s of the drain")
+
+
+def liggghts(name):
+    """The command that runs in.<name> and logs in log.<name>."""
+    return ["liggghts", "-in", f"in.{name}", "-screen", "/dev/null", "-log", f"log.{name}"]
 
 
 def script(hopper, duration):

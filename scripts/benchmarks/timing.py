@@ -85,6 +85,7 @@ def interleaved(runs, repetitions):
     return times
 
 
-def ratios(times, slow, fast, quantity):
-    """slow/fast of each repetition; `quantity` is "wall" or "processor"."""
-    return [getattr(a, quantity) / getattr(b, quantity) for a, b in zip(times[slow], times[fast])]
+def processorRatio(times, slow, fast, target, meaning):
+    """A figure of slow/fast in processor time, one value a repetition."""
+    processor = {name: [time.processor for time in of] for name, of in times.items()}
+    return Figure([a / b for a, b in zip(processor[slow], processor[fast])], meaning, target, details=processor)

@@ -48,6 +48,17 @@ struct Fall
     }
 };
 
+/// A whole number of DEM steps in an interval, each below a fraction of the Rayleigh time of the case's beads.
+/// \return how many
+int setDemStep(TestCase& test, double interval, double fraction)
+{
+    const double rayleighTime = closures::rayleighTime(0.5 * test.dem.diameter, test.dem.density,
+        closures::shearModulus(test.dem.youngsModulus, test.dem.poissonsRatio), test.dem.poissonsRatio);
+    const int steps = std::max(20, static_cast<int>(std::ceil(interval / (fraction * rayleighTime))));
+    test.dem.timeStep = interval / steps;
+    return steps;
+}
+
 /// Lets a bead fall from rest for eight relaxation times. Velocities over the last of them.
 template<class DragLaw>
 void fall(const Row& row, Fall& result)
@@ -71,10 +82,7 @@ void fall(const Row& row, Fall& result)
         .set("constDiffSmoothingProps/smoothingLength", row.smoothingDiameters * row.diameter);
     test.dem.diameter = row.diameter;
     test.dem.density = row.beadDensity;
-    const double rayleighTime = closures::rayleighTime(0.5 * row.diameter, row.beadDensity,
-        closures::shearModulus(test.dem.youngsModulus, test.dem.poissonsRatio), test.dem.poissonsRatio);
-    const int demSteps = std::max(20, static_cast<int>(std::ceil(interval / (0.2 * rayleighTime))));
-    test.dem.timeStep = interval / demSteps;
+    const int demSteps = setDemStep(test, interval, 0.2);
     // Off the cells' symmetry planes, five cells below the top.
     test.dem.beads = {test.box.upper.cwiseProduct(Eigen::Vector3d(0.507, 0.493, 1)) - Eigen::Vector3d(0, 0, 5 * cell)};
     test.dem.dumpEvery = demSteps;
@@ -188,10 +196,7 @@ double deviationOnCells(const Row& row, double cellDiameters, const Eigen::Vecto
         .set("selfDisturbance", selfDisturbance);
     test.dem.diameter = row.diameter;
     test.dem.density = row.beadDensity;
-    const double rayleighTime = closures::rayleighTime(0.5 * row.diameter, row.beadDensity,
-        closures::shearModulus(test.dem.youngsModulus, test.dem.poissonsRatio), test.dem.poissonsRatio);
-    const int demSteps = std::max(20, static_cast<int>(std::ceil(interval / (0.3 * rayleighTime))));
-    test.dem.timeStep = interval / demSteps;
+    const int demSteps = setDemStep(test, interval, 0.3);
     test.dem.dumpEvery = demSteps;
     test.dem.beads = {
         test.box.upper.cwiseProduct(Eigen::Vector3d(0.507, 0.493, 1)) - Eigen::Vector3d(0, 0, 10.03 * row.diameter)};
