@@ -280,6 +280,7 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         for (const auto place : places)
         {
             results[place] = result;
+            results[place].cached = result.cached || place != places.front();
         }
     });
     return results;

@@ -47,6 +47,6 @@ std::unique_ptr<Executor> makeExecutor(
     const ExecutorSpecification& specification, const std::filesystem::path& work, double timeLimit);
 
 /// The name of the file that a job's output goes to.
-inline constexpr const char* jobLog = "log.run";
+inline constexpr const char* jobLog = "traceResidual.out";
 
 } // namespace clepsydra::identification

@@ -24,7 +24,7 @@ struct RunResult
     Curve curve;
     std::string failure; // empty: none
     double seconds = 0.0;
-    bool cached = false;
+    bool cached = false; // from the store, or the run of an equal order
 };
 
 /// Something that makes a curve of entries and a seed: a case directory with a program, or a formula in a test.

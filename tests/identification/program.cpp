@@ -201,6 +201,8 @@ TEST(Runner, FailuresCacheAndSlurm)
         EXPECT_EQ(rig.missing({orderOf(10007), orderOf(10007), orderOf(10009)}), 2);
         const auto results = rig.run({orderOf(10007), orderOf(10007)});
         EXPECT_EQ(results[0].curve.value, results[1].curve.value);
+        EXPECT_FALSE(results[0].cached);
+        EXPECT_TRUE(results[1].cached) << "asked for twice, made and counted once";
         EXPECT_EQ(rig.missing({orderOf(10007)}), 0);
         RunOrder failing = orderOf(10009);
         failing.entries["failWithSeed"] = "10009";
@@ -210,6 +212,9 @@ TEST(Runner, FailuresCacheAndSlurm)
         RunOrder strange = orderOf(10037);
         strange.command = "true";
         EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("has not written"));
+        // as a case that begins with its Allclean does
+        strange.command = "rm -f log.*; echo 'the valve is stuck'; exit 3";
+        EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("the valve is stuck"));
     }
     // What an earlier run of the case has left, fields of a later time and checkpoints, is no part of it: a copy that had
     // them would go on from there.
