@@ -26,6 +26,7 @@
 #include <neigh_list.h>
 #include <neighbor.h>
 #include <pair.h>
+#include <properties.h>
 #include <suffix.h>
 #include <update.h>
 
@@ -128,7 +129,8 @@ private:
 
     void fillMaterials()
     {
-        typeCount_ = program_.atom->ntypes + 1;
+        // LIGGGHTS has no values for types that no bead and no wall has.
+        typeCount_ = program_.atom->get_properties()->max_type() + 1;
         materials_.resize(static_cast<std::size_t>(typeCount_) * typeCount_);
         for (int i = 1; i < typeCount_; ++i)
         {
