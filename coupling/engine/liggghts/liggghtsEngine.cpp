@@ -1,5 +1,6 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
+#include "engine/liggghts/hertzPairStyle.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/script.h"
 
@@ -74,6 +75,7 @@ public:
     {
         keepLiggghtsErrorReplacements();
         start(setup.logFile);
+        registerHertzPairStyle();
         for (const auto& [name, value] : setup.variables)
         {
             const std::string style = isNumber(value) ? "equal" : "string";

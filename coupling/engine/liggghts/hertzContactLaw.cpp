@@ -1,0 +1,94 @@
+// Compiled without fused operations, so that rounding is LIGGGHTS' own, and without errno, so that roots vectorise: see
+// CMakeLists.txt.
+#include "engine/liggghts/hertzContactLaw.h"
+
+#include "vectorUnits.h"
+
+#include <cmath>
+
+namespace clepsydra
+{
+
+CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double shearStep)
+{
+    constexpr double rootOfFiveSixths = 0.91287092917527685576161630466800355658790782499663875;
+    HertzContacts& c = contacts;
+    const bool shears = shearStep > 0;
+    for (std::size_t k = 0; k < c.count; ++k)
+    {
+        const double dx = c.distance[0][k];
+        const double dy = c.distance[1][k];
+        const double dz = c.distance[2][k];
+        const double r = std::sqrt(dx * dx + dy * dy + dz * dz);
+        const double rInverse = 1.0 / r;
+        const double nx = dx * rInverse;
+        const double ny = dy * rInverse;
+        const double nz = dz * rInverse;
+        const double mass = c.massI[k] * c.massJ[k] / (c.massI[k] + c.massJ[k]);
+
+        // Relative velocity of the surfaces
+        const double normalVelocity = c.velocity[0][k] * nx + c.velocity[1][k] * ny + c.velocity[2][k] * nz;
+        const double overlap = c.radiusI[k] + c.radiusJ[k] - r;
+        const double armI = c.radiusI[k] - 0.5 * overlap;
+        const double armJ = c.radiusJ[k] - 0.5 * overlap;
+        const double wx = (armI * c.angularVelocityI[0][k] + armJ * c.angularVelocityJ[0][k]) * rInverse;
+        const double wy = (armI * c.angularVelocityI[1][k] + armJ * c.angularVelocityJ[1][k]) * rInverse;
+        const double wz = (armI * c.angularVelocityI[2][k] + armJ * c.angularVelocityJ[2][k]) * rInverse;
+        const double tx = c.velocity[0][k] - normalVelocity * nx - (dz * wy - dy * wz);
+        const double ty = c.velocity[1][k] - normalVelocity * ny - (dx * wz - dz * wx);
+        const double tz = c.velocity[2][k] - normalVelocity * nz - (dy * wx - dx * wy);
+
+        // Normal force
+        const double radius = c.radiusI[k] * c.radiusJ[k] / (c.radiusI[k] + c.radiusJ[k]);
+        const double root = std::sqrt(radius * overlap);
+        const double normalStiffness = 4. / 3. * c.youngsModulus[k] * root;
+        const double tangentialStiffness = 8. * c.shearModulus[k] * root;
+        const double twiceDamping = -2. * rootOfFiveSixths * c.damping[k];
+        const double normalDamping = twiceDamping * std::sqrt(2. * c.youngsModulus[k] * root * mass);
+        const double tangentialDamping = twiceDamping * std::sqrt(tangentialStiffness * mass);
+        const double normalForce = -normalDamping * normalVelocity + normalStiffness * overlap;
+
+        // Shear: grown, and turned with the contact
+        double sx = c.shear[0][k];
+        double sy = c.shear[1][k];
+        double sz = c.shear[2][k];
+        const double grownX = sx + tx * shearStep;
+        const double grownY = sy + ty * shearStep;
+        const double grownZ = sz + tz * shearStep;
+        const double along = grownX * nx + grownY * ny + grownZ * nz;
+        sx = shears ? grownX - along * nx : sx;
+        sy = shears ? grownY - along * ny : sy;
+        sz = shears ? grownZ - along * nz : sz;
+
+        // Tangential force: spring and dashpot, or friction, which also holds the spring back
+        const double springX = -(tangentialStiffness * sx);
+        const double springY = -(tangentialStiffness * sy);
+        const double springZ = -(tangentialStiffness * sz);
+        const double spring = tangentialStiffness * std::sqrt(sx * sx + sy * sy + sz * sz);
+        const double limit = c.friction[k] * std::fabs(normalForce);
+        const bool slides = spring > limit;
+        const double ratio = limit / (slides ? spring : 1.0);
+        const double fx = slides ? springX * ratio : springX - tangentialDamping * tx;
+        const double fy = slides ? springY * ratio : springY - tangentialDamping * ty;
+        const double fz = slides ? springZ * ratio : springZ - tangentialDamping * tz;
+        const double stiffness = slides ? tangentialStiffness : 1.0;
+        c.shear[0][k] = slides && shears ? -fx / stiffness : sx;
+        c.shear[1][k] = slides && shears ? -fy / stiffness : sy;
+        c.shear[2][k] = slides && shears ? -fz / stiffness : sz;
+
+        c.force[0][k] = normalForce * nx + fx;
+        c.force[1][k] = normalForce * ny + fy;
+        c.force[2][k] = normalForce * nz + fz;
+        const double turnX = ny * fz - nz * fy;
+        const double turnY = nz * fx - nx * fz;
+        const double turnZ = nx * fy - ny * fx;
+        c.torqueI[0][k] = -armI * turnX;
+        c.torqueI[1][k] = -armI * turnY;
+        c.torqueI[2][k] = -armI * turnZ;
+        c.torqueJ[0][k] = -armJ * turnX;
+        c.torqueJ[1][k] = -armJ * turnY;
+        c.torqueJ[2][k] = -armJ * turnZ;
+    }
+}
+
+} // namespace clepsydra

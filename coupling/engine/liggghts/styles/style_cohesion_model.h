@@ -1,0 +1,1 @@
+// One of the lists that LIGGGHTS' build writes and its package leaves out: the models of hertzPairStyle.cpp. Here none.

@@ -1,0 +1,2 @@
+// One of the lists that LIGGGHTS' build writes and its package leaves out: the models of hertzPairStyle.cpp.
+#include "surface_model_default.h"
