@@ -56,8 +56,10 @@ class Campaign:
         for name in ("case", "stages", "runs"):
             if name not in self.settings:
                 raise CampaignError(f"{self.path}: entry '{name}' is missing")
-        self.case = self._folder("case")
         self.work = self._folder("work", "work")
+        # the template as it was when the campaign began, once it has begun
+        self.frozenCase = self.work / "case"
+        self.case = self.frozenCase if self.frozenCase.exists() else self._folder("case")
         self.results = self._folder("results", "results")
         self.template = readYaml(self.case / "template.yaml", ("shared", "stages", "seed", "summary", "derived"),
                                  required=("shared", "stages", "seed", "summary"))

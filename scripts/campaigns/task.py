@@ -71,18 +71,23 @@ def makeFolder(campaign, task):
                              "remove that folder to begin anew, or give the run another name")
         return
     unfinished = folder.with_name(folder.name + ".unfinished")
-    shutil.rmtree(unfinished, ignore_errors=True)
-    shutil.copytree(campaign.case, unfinished, ignore=shutil.ignore_patterns(*OUTPUTS))
+    copyCase(campaign.case, unfinished)
     (unfinished / "parameters").write_text(text)
-    for program in campaign.case.iterdir():
-        # a link: it finds the repository's scripts from where it really is
-        if program.is_file() and os.access(program, os.X_OK):
-            (unfinished / program.name).unlink()
-            (unfinished / program.name).symlink_to(program)
     for made, maker in task.links:
         (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
         (unfinished / made).symlink_to(campaign.work / maker / made)
     unfinished.rename(folder)
+
+
+def copyCase(case, folder):
+    """A case without what runs have left in it. Its programs become links: they find the repository's scripts from where
+    they really are."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(case, folder, ignore=shutil.ignore_patterns(*OUTPUTS))
+    for program in case.iterdir():
+        if program.is_file() and os.access(program, os.X_OK):
+            (folder / program.name).unlink()
+            (folder / program.name).symlink_to(program.resolve())
 
 
 @contextlib.contextmanager
