@@ -37,6 +37,12 @@ public:
         }
     }
 
+    void nearTo(const std::vector<Foam::label>& cells) override
+    {
+        // Beyond, the Gaussian has less than a part in a million.
+        diffusion_.restrictTo(cells, 4 * smoothingLength_);
+    }
+
     void smooth(Eigen::MatrixXd& densities) const override
     {
         diffusion_.applyChebyshev(series_, densities);
@@ -59,7 +65,7 @@ private:
     static constexpr double tolerance = 1e-5;
 
     const double smoothingLength_;
-    const CellDiffusion diffusion_;
+    CellDiffusion diffusion_;
     const std::vector<double> series_;
 };
 
