@@ -300,8 +300,8 @@ void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Ei
     for (std::size_t k = coefficients.size() - 1; k > 0; --k)
     {
         exchange(part, here);
-        sweep(cellCount, {part.firstNeighbour.data(), part.neighbour.data(), part.rate.data()}, coefficients[k - 1], k > 1 ? 2 : 1,
-            start.data(), here.data(), above.data());
+        sweep(cellCount, {part.firstNeighbour.data(), part.neighbour.data(), part.rate.data()}, coefficients[k - 1],
+            k > 1 ? 2 : 1, start.data(), here.data(), above.data());
         here.swap(above);
     }
     for (label cell = 0; cell < cellCount; ++cell)

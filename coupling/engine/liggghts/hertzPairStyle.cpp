@@ -41,8 +41,9 @@
 #include <vector>
 
 // The library has it compiled.
-using HertzStyle = LIGGGHTS::ContactModels::GranStyle<LIGGGHTS::ContactModels::HERTZ, LIGGGHTS::ContactModels::TANGENTIAL_HISTORY,
-    LIGGGHTS::ContactModels::COHESION_OFF, LIGGGHTS::ContactModels::ROLLING_OFF, LIGGGHTS::ContactModels::SURFACE_DEFAULT>;
+using HertzStyle = LIGGGHTS::ContactModels::GranStyle<LIGGGHTS::ContactModels::HERTZ,
+    LIGGGHTS::ContactModels::TANGENTIAL_HISTORY, LIGGGHTS::ContactModels::COHESION_OFF,
+    LIGGGHTS::ContactModels::ROLLING_OFF, LIGGGHTS::ContactModels::SURFACE_DEFAULT>;
 extern template class LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<HertzStyle>>;
 
 namespace clepsydra
