@@ -143,15 +143,21 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         whole.rate[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
     }
     reduce(restrictable_, andOp<bool>());
-    part_ = whole;
 }
 
 void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
 {
-    if (restrictable_)
+    // Where nearly all cells are near, a second list of them saves no time and costs memory.
+    constexpr double worthwhile = 0.8;
+    if (!restrictable_)
     {
-        part_ = partOf(near(sources, reach));
+        return;
     }
+    const std::vector<bool> taken = near(sources, reach);
+    const auto count = static_cast<scalar>(std::count(taken.begin(), taken.end(), true));
+    const bool some = returnReduce(count, sumOp<scalar>())
+                      < worthwhile * returnReduce(static_cast<scalar>(taken.size()), sumOp<scalar>());
+    part_ = some ? std::optional<Part>(partOf(taken)) : std::nullopt;
 }
 
 std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double reach) const
@@ -180,9 +186,10 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
     bool more = true;
     while (more)
     {
-        for (std::size_t next = 0; next < changed.size(); ++next)
+        std::size_t next = 0;
+        while (next < changed.size())
         {
-            const label cell = changed[next];
+            const label cell = changed[next++];
             const vector source = nearest[cell].source;
             for (label n = whole_.firstNeighbour[cell]; n < whole_.firstNeighbour[cell + 1]; ++n)
             {
@@ -284,7 +291,7 @@ template<int Lanes>
 void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const
 {
     // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; result c_0 u + X b_1 - b_2.
-    const Part& part = part_;
+    const Part& part = part_ ? *part_ : whole_;
     const auto cellCount = static_cast<label>(part.cells.size());
     std::vector<Values<Lanes>> start(part.columnCount);
     std::vector<Values<Lanes>> above(part.columnCount);

@@ -4,6 +4,7 @@
 
 #include "fvMesh.H"
 
+#include <optional>
 #include <vector>
 
 namespace clepsydra
@@ -81,8 +82,8 @@ private:
     /// False where straight distances lead nowhere: cells across a cyclic patch are far away.
     bool restrictable_ = true;
     Part whole_;
-    /// What is smoothed.
-    Part part_;
+    /// What is smoothed, where that is not all.
+    std::optional<Part> part_;
     double largestEigenvalue_;
 };
 
