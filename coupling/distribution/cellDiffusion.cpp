@@ -28,6 +28,7 @@ struct Link
     label cell;
     label column;
     double conductance;
+    double distance;
 };
 
 /// Quantities of a cell side by side, as many as a vector unit takes at once.
@@ -86,8 +87,9 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
     const scalarField inside = conductances(mesh.magSf().primitiveField(), mesh.deltaCoeffs().primitiveField());
     forAll (inside, face)
     {
-        links.push_back({mesh.owner()[face], mesh.neighbour()[face], inside[face]});
-        links.push_back({mesh.neighbour()[face], mesh.owner()[face], inside[face]});
+        const double distance = 1 / mesh.deltaCoeffs()[face];
+        links.push_back({mesh.owner()[face], mesh.neighbour()[face], inside[face], distance});
+        links.push_back({mesh.neighbour()[face], mesh.owner()[face], inside[face], distance});
     }
     for (const fvPatch& patch : mesh.boundary())
     {
@@ -118,15 +120,17 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         {
             const label behind =
                 toRank ? static_cast<label>(whole.columnCount++) : cyclic->neighbFvPatch().faceCells()[face];
-            links.push_back({cells[face], behind, across[face]});
+            links.push_back({cells[face], behind, across[face], 1 / patch.deltaCoeffs()[face]});
         }
     }
 
+    width_.assign(mesh.nCells(), 0.0);
     scalarField outOfCell(mesh.nCells(), 0.0);
     whole.firstNeighbour.assign(mesh.nCells() + 1, 0);
     for (const Link& link : links)
     {
         outOfCell[link.cell] += link.conductance / mesh.V()[link.cell];
+        width_[link.cell] = std::max(width_[link.cell], link.distance);
         ++whole.firstNeighbour[link.cell + 1];
     }
     // A mesh of one cell has none; any bound will do there.
@@ -173,7 +177,7 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
     std::vector<label> changed;
     const auto offer = [&](label cell, const vector& source) {
         const scalar distanceSqr = magSqr(centres[cell] - source);
-        if (distanceSqr <= reach * reach && distanceSqr < nearest[cell].distanceSqr)
+        if (distanceSqr <= sqr(reach + 2 * width_[cell]) && distanceSqr < nearest[cell].distanceSqr)
         {
             nearest[cell] = {source, distanceSqr};
             changed.push_back(cell);

@@ -37,7 +37,7 @@ public:
 
     /// From now on applyChebyshev() smooths near these cells only: the others keep what they have, and nothing passes
     /// between the two. Still conservative and self-adjoint, and the same as on the whole mesh as far as nothing diffuses
-    /// farther than `reach`. Distances are straight, but do not lead through walls. On a mesh
+    /// farther than `reach` and two cells. Distances are straight, but do not lead through walls. On a mesh
     /// with cyclic patches no cell is left out. Collective.
     /// \param sources  cells of this rank
     void restrictTo(const std::vector<Foam::label>& sources, double reach);
@@ -81,6 +81,8 @@ private:
     const Foam::fvMesh& mesh_;
     /// False where straight distances lead nowhere: cells across a cyclic patch are far away.
     bool restrictable_ = true;
+    /// Largest distance between a cell and one of its neighbours.
+    std::vector<double> width_;
     Part whole_;
     /// What is smoothed, where that is not all.
     std::optional<Part> part_;

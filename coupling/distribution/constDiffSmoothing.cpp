@@ -39,7 +39,8 @@ public:
 
     void nearTo(const std::vector<Foam::label>& cells) override
     {
-        // Beyond, the Gaussian has less than a part in a million.
+        // Beyond, the Gaussian has less than a part in a million; on cells as wide as it, whose steps reach farther, the
+        // two cells more that restrictTo() takes keep it so.
         diffusion_.restrictTo(cells, 4 * smoothingLength_);
     }
 
