@@ -181,7 +181,7 @@ TEST(Liggghts, HasTheSameContactsAsItsOwn)
         jitter(beads.dem.beads, 4e-4, 1);
         for (std::size_t bead = 0; bead < 20; ++bead)
         {
-            beads.dem.beads.push_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
+            beads.dem.beads.emplace_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
         }
         beads.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
                          "pair_style gran model hertz tangential history "
