@@ -6,6 +6,7 @@
 #include "UIPstream.H"
 #include "UOPstream.H"
 #include "cyclicFvPatch.H"
+#include "processorCyclicFvPatch.H"
 #include "processorFvPatch.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -27,6 +28,7 @@ struct Link
     label cell;
     label column;
     double conductance;
+    double distance;
 };
 
 /// Quantities of a cell side by side, as many as a vector unit takes at once.
@@ -72,9 +74,12 @@ CLEPSYDRA_FOR_VECTOR_UNITS void sweep(label cellCount, const Neighbours neighbou
 } // namespace
 
 CellDiffusion::CellDiffusion(const fvMesh& mesh)
-    : cellCount_(mesh.nCells()),
-      columnCount_(mesh.nCells())
+    : mesh_(mesh)
 {
+    Part& whole = whole_;
+    whole.cells.resize(mesh.nCells());
+    std::iota(whole.cells.begin(), whole.cells.end(), 0);
+    whole.columnCount = mesh.nCells();
     std::vector<Link> links;
     const auto conductances = [](const scalarField& faceArea, const scalarField& deltaCoeff) {
         return scalarField(faceArea * deltaCoeff);
@@ -82,8 +87,9 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
     const scalarField inside = conductances(mesh.magSf().primitiveField(), mesh.deltaCoeffs().primitiveField());
     forAll (inside, face)
     {
-        links.push_back({mesh.owner()[face], mesh.neighbour()[face], inside[face]});
-        links.push_back({mesh.neighbour()[face], mesh.owner()[face], inside[face]});
+        const double distance = 1 / mesh.deltaCoeffs()[face];
+        links.push_back({mesh.owner()[face], mesh.neighbour()[face], inside[face], distance});
+        links.push_back({mesh.neighbour()[face], mesh.owner()[face], inside[face], distance});
     }
     for (const fvPatch& patch : mesh.boundary())
     {
@@ -104,39 +110,163 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
                                     "rotation"
                                  << exit(FatalError);
         }
+        restrictable_ = restrictable_ && !cyclic && !isA<processorCyclicFvPatch>(patch);
         if (toRank)
         {
-            boundaries_.push_back({toRank->neighbProcNo(), toRank->tag(), toRank->comm(),
-                std::vector<label>(cells.begin(), cells.end()), columnCount_});
+            whole.boundaries.push_back({toRank->neighbProcNo(), toRank->tag(), toRank->comm(),
+                std::vector<label>(cells.begin(), cells.end()), whole.columnCount});
         }
         forAll (cells, face)
         {
             const label behind =
-                toRank ? static_cast<label>(columnCount_++) : cyclic->neighbFvPatch().faceCells()[face];
-            links.push_back({cells[face], behind, across[face]});
+                toRank ? static_cast<label>(whole.columnCount++) : cyclic->neighbFvPatch().faceCells()[face];
+            links.push_back({cells[face], behind, across[face], 1 / patch.deltaCoeffs()[face]});
         }
     }
 
+    width_.assign(mesh.nCells(), 0.0);
     scalarField outOfCell(mesh.nCells(), 0.0);
-    firstNeighbour_.assign(mesh.nCells() + 1, 0);
+    whole.firstNeighbour.assign(mesh.nCells() + 1, 0);
     for (const Link& link : links)
     {
         outOfCell[link.cell] += link.conductance / mesh.V()[link.cell];
-        ++firstNeighbour_[link.cell + 1];
+        width_[link.cell] = std::max(width_[link.cell], link.distance);
+        ++whole.firstNeighbour[link.cell + 1];
     }
     // A mesh of one cell has none; any bound will do there.
     largestEigenvalue_ = std::max(2 * gMax(outOfCell), VSMALL);
-    std::partial_sum(firstNeighbour_.begin(), firstNeighbour_.end(), firstNeighbour_.begin());
+    std::partial_sum(whole.firstNeighbour.begin(), whole.firstNeighbour.end(), whole.firstNeighbour.begin());
 
-    neighbour_.resize(links.size());
-    rate_.resize(links.size());
-    std::vector<label> next(firstNeighbour_.begin(), firstNeighbour_.end() - 1);
+    whole.neighbour.resize(links.size());
+    whole.rate.resize(links.size());
+    std::vector<label> next(whole.firstNeighbour.begin(), whole.firstNeighbour.end() - 1);
     for (const Link& link : links)
     {
         const label at = next[link.cell]++;
-        neighbour_[at] = link.column;
-        rate_[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
+        whole.neighbour[at] = link.column;
+        whole.rate[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
     }
+    reduce(restrictable_, andOp<bool>());
+}
+
+void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
+{
+    // Where nearly all cells are near, a second list of them saves no time and costs memory.
+    constexpr double worthwhile = 0.8;
+    if (!restrictable_)
+    {
+        return;
+    }
+    const std::vector<bool> taken = near(sources, reach);
+    const auto count = static_cast<scalar>(std::count(taken.begin(), taken.end(), true));
+    const bool some = returnReduce(count, sumOp<scalar>())
+                      < worthwhile * returnReduce(static_cast<scalar>(taken.size()), sumOp<scalar>());
+    part_ = some ? std::optional<Part>(partOf(taken)) : std::nullopt;
+}
+
+std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double reach) const
+{
+    // Each cell learns of the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227, 1980).
+    struct Nearest
+    {
+        vector source = vector::zero;
+        scalar distanceSqr = GREAT;
+    };
+    const vectorField& centres = mesh_.C().primitiveField();
+    std::vector<Nearest> nearest(whole_.columnCount);
+    std::vector<label> changed;
+    const auto offer = [&](label cell, const vector& source) {
+        const scalar distanceSqr = magSqr(centres[cell] - source);
+        if (distanceSqr <= sqr(reach + 2 * width_[cell]) && distanceSqr < nearest[cell].distanceSqr)
+        {
+            nearest[cell] = {source, distanceSqr};
+            changed.push_back(cell);
+        }
+    };
+    for (const label cell : sources)
+    {
+        offer(cell, centres[cell]);
+    }
+    bool more = true;
+    while (more)
+    {
+        std::size_t next = 0;
+        while (next < changed.size())
+        {
+            const label cell = changed[next++];
+            const vector source = nearest[cell].source;
+            for (label n = whole_.firstNeighbour[cell]; n < whole_.firstNeighbour[cell + 1]; ++n)
+            {
+                const label other = whole_.neighbour[n];
+                if (other < mesh_.nCells() && nearest[other].distanceSqr > 0)
+                {
+                    offer(other, source);
+                }
+            }
+        }
+        changed.clear();
+        exchange(whole_, nearest);
+        for (const Boundary& boundary : whole_.boundaries)
+        {
+            for (std::size_t face = 0; face < boundary.cells.size(); ++face)
+            {
+                const Nearest& behind = nearest[boundary.firstBehind + face];
+                if (behind.distanceSqr < GREAT)
+                {
+                    offer(boundary.cells[face], behind.source);
+                }
+            }
+        }
+        more = returnReduce(!changed.empty(), orOp<bool>());
+    }
+    std::vector<bool> taken(nearest.size());
+    std::transform(
+        nearest.begin(), nearest.end(), taken.begin(), [](const Nearest& n) { return n.distanceSqr < GREAT; });
+    return taken;
+}
+
+CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const
+{
+    Part part;
+    std::vector<label> place(taken.size(), -1);
+    for (label cell = 0; cell < mesh_.nCells(); ++cell)
+    {
+        if (taken[cell])
+        {
+            place[cell] = static_cast<label>(part.cells.size());
+            part.cells.push_back(cell);
+        }
+    }
+    part.columnCount = static_cast<Eigen::Index>(part.cells.size());
+    // Faces with a cell that is taken on either side: both ranks have the same, in the same order.
+    for (const Boundary& boundary : whole_.boundaries)
+    {
+        Boundary some{boundary.rank, boundary.tag, boundary.communicator, {}, part.columnCount};
+        for (std::size_t face = 0; face < boundary.cells.size(); ++face)
+        {
+            const Eigen::Index behind = boundary.firstBehind + static_cast<Eigen::Index>(face);
+            if (taken[boundary.cells[face]] && taken[behind])
+            {
+                some.cells.push_back(place[boundary.cells[face]]);
+                place[behind] = static_cast<label>(part.columnCount++);
+            }
+        }
+        part.boundaries.push_back(std::move(some));
+    }
+    part.firstNeighbour.assign(1, 0);
+    for (const label cell : part.cells)
+    {
+        for (label n = whole_.firstNeighbour[cell]; n < whole_.firstNeighbour[cell + 1]; ++n)
+        {
+            if (place[whole_.neighbour[n]] >= 0)
+            {
+                part.neighbour.push_back(place[whole_.neighbour[n]]);
+                part.rate.push_back(whole_.rate[n]);
+            }
+        }
+        part.firstNeighbour.push_back(static_cast<label>(part.neighbour.size()));
+    }
+    return part;
 }
 
 void CellDiffusion::applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const
@@ -165,12 +295,14 @@ template<int Lanes>
 void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const
 {
     // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; result c_0 u + X b_1 - b_2.
-    std::vector<Values<Lanes>> start(columnCount_);
-    std::vector<Values<Lanes>> above(columnCount_);
-    std::vector<Values<Lanes>> here(columnCount_);
-    for (label cell = 0; cell < cellCount_; ++cell)
+    const Part& part = part_ ? *part_ : whole_;
+    const auto cellCount = static_cast<label>(part.cells.size());
+    std::vector<Values<Lanes>> start(part.columnCount);
+    std::vector<Values<Lanes>> above(part.columnCount);
+    std::vector<Values<Lanes>> here(part.columnCount);
+    for (label cell = 0; cell < cellCount; ++cell)
     {
-        std::copy_n(u.col(cell).data(), u.rows(), start[cell].lane);
+        std::copy_n(u.col(part.cells[cell]).data(), u.rows(), start[cell].lane);
         for (int lane = 0; lane < Lanes; ++lane)
         {
             here[cell].lane[lane] = coefficients.back() * start[cell].lane[lane];
@@ -178,25 +310,25 @@ void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Ei
     }
     for (std::size_t k = coefficients.size() - 1; k > 0; --k)
     {
-        exchange(here);
-        sweep(cellCount_, {firstNeighbour_.data(), neighbour_.data(), rate_.data()}, coefficients[k - 1], k > 1 ? 2 : 1,
-            start.data(), here.data(), above.data());
+        exchange(part, here);
+        sweep(cellCount, {part.firstNeighbour.data(), part.neighbour.data(), part.rate.data()}, coefficients[k - 1],
+            k > 1 ? 2 : 1, start.data(), here.data(), above.data());
         here.swap(above);
     }
-    for (label cell = 0; cell < cellCount_; ++cell)
+    for (label cell = 0; cell < cellCount; ++cell)
     {
-        std::copy_n(here[cell].lane, u.rows(), u.col(cell).data());
+        std::copy_n(here[cell].lane, u.rows(), u.col(part.cells[cell]).data());
     }
 }
 
 template<class Values>
-void CellDiffusion::exchange(std::vector<Values>& values) const
+void CellDiffusion::exchange(const Part& part, std::vector<Values>& values)
 {
     const auto bytes = [](std::size_t columns) { return static_cast<std::streamsize>(columns * sizeof(Values)); };
     const label before = UPstream::nRequests();
     std::vector<std::vector<Values>> outgoing;
-    outgoing.reserve(boundaries_.size());
-    for (const Boundary& boundary : boundaries_)
+    outgoing.reserve(part.boundaries.size());
+    for (const Boundary& boundary : part.boundaries)
     {
         UIPstream::read(UPstream::commsTypes::nonBlocking, boundary.rank,
             reinterpret_cast<char*>(&values[boundary.firstBehind]), bytes(boundary.cells.size()), boundary.tag,

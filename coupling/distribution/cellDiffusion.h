@@ -4,6 +4,7 @@
 
 #include "fvMesh.H"
 
+#include <optional>
 #include <vector>
 
 namespace clepsydra
@@ -34,6 +35,13 @@ public:
     /// \param u  quantities x cells of this rank
     void applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const;
 
+    /// From now on applyChebyshev() smooths near these cells only: the others keep what they have, and nothing passes
+    /// between the two. Still conservative and self-adjoint, and the same as on the whole mesh as far as nothing diffuses
+    /// farther than `reach` and two cells. Distances are straight, but do not lead through walls. On a mesh
+    /// with cyclic patches no cell is left out. Collective.
+    /// \param sources  cells of this rank
+    void restrictTo(const std::vector<Foam::label>& sources, double reach);
+
 private:
     /// The cells at one boundary to another rank, and where the values of the cells behind it are kept.
     struct Boundary
@@ -45,23 +53,39 @@ private:
         Eigen::Index firstBehind;
     };
 
+    /// All cells of this rank, or some of them.
+    struct Part
+    {
+        /// Their places in the mesh.
+        std::vector<Foam::label> cells;
+        /// The cells, then those behind the boundaries.
+        Eigen::Index columnCount;
+        std::vector<Boundary> boundaries;
+        // Neighbours of cell P: entries firstNeighbour[P] to firstNeighbour[P + 1].
+        std::vector<Foam::label> firstNeighbour;
+        std::vector<Foam::label> neighbour;
+        /// 2/largestEigenvalue |S_f|/(|d_f| V_P)
+        std::vector<double> rate;
+    };
+
+    /// Of each column of the whole mesh whether it is near a source. Collective.
+    std::vector<bool> near(const std::vector<Foam::label>& sources, double reach) const;
+    Part partOf(const std::vector<bool>& taken) const;
     /// The same for up to `Lanes` quantities.
     template<int Lanes>
     void applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const;
     /// Fills in the values behind the boundaries to other ranks.
     template<class Values>
-    void exchange(std::vector<Values>& values) const;
+    static void exchange(const Part& part, std::vector<Values>& values);
 
-    Foam::label cellCount_;
-    /// The cells of this rank, then those behind its boundaries.
-    Eigen::Index columnCount_;
-    std::vector<Boundary> boundaries_;
-
-    // Neighbours of cell P: entries firstNeighbour_[P] to firstNeighbour_[P + 1].
-    std::vector<Foam::label> firstNeighbour_;
-    std::vector<Foam::label> neighbour_;
-    /// 2/largestEigenvalue |S_f|/(|d_f| V_P)
-    std::vector<double> rate_;
+    const Foam::fvMesh& mesh_;
+    /// False where straight distances lead nowhere: cells across a cyclic patch are far away.
+    bool restrictable_ = true;
+    /// Largest distance between a cell and one of its neighbours.
+    std::vector<double> width_;
+    Part whole_;
+    /// What is smoothed, where that is not all.
+    std::optional<Part> part_;
     double largestEigenvalue_;
 };
 

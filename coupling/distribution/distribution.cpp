@@ -87,6 +87,17 @@ void Distribution::normalise(const Eigen::MatrixXd& shareSums)
     normalisation_ = shareSums.row(0).cwiseInverse();
 }
 
+void Distribution::smoothNearBeads()
+{
+    std::vector<Foam::label> cells;
+    cells.reserve(shares_.size());
+    for (const Share& share : shares_)
+    {
+        cells.push_back(share.cell);
+    }
+    smoothing_->nearTo(cells);
+}
+
 Eigen::MatrixXd Distribution::densities(const Eigen::MatrixXd& amounts) const
 {
     Eigen::MatrixXd densities = Eigen::MatrixXd::Zero(amounts.rows(), mesh_.nCells());

@@ -34,6 +34,9 @@ public:
     /// \return quantities x visitors
     Eigen::MatrixXd sample(const Eigen::MatrixXd& cellValues) const;
 
+    /// Lets smooth() leave out the cells far from the beads that were found last. Collective.
+    void smoothNearBeads();
+
     /// Smooths densities; see SmoothingModel::smooth. Collective.
     void smooth(Eigen::MatrixXd& densities) const
     {

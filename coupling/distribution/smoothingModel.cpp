@@ -26,6 +26,9 @@ public:
     NoSmoothing(const Foam::dictionary&, const Foam::fvMesh&)
     {}
 
+    void nearTo(const std::vector<Foam::label>&) override
+    {}
+
     void smooth(Eigen::MatrixXd&) const override
     {}
 

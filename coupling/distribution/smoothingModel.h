@@ -5,6 +5,8 @@
 #include "fvMesh.H"
 #include "runTimeSelection.h"
 
+#include <vector>
+
 namespace clepsydra
 {
 
@@ -24,6 +26,11 @@ public:
         static Foam::autoPtr<SmoothingModel> New(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
     virtual ~SmoothingModel() = default;
+
+    /// From now on smooth() is asked for what is in these cells, or wanted there; what it does far from them does not
+    /// matter. Collective.
+    /// \param cells  of this rank; may be listed twice
+    virtual void nearTo(const std::vector<Foam::label>& cells) = 0;
 
     /// Smooths quantities per volume, all in one pass over the mesh. Collective.
     /// \param densities  quantities x cells of this rank

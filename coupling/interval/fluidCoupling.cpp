@@ -169,6 +169,8 @@ void FluidCoupling::findCells(const BeadsView& beads)
         }
     }
     distribution_.normalise(exchanged([&] { return exchange_.toVisitors(shareSums); }));
+    const PhaseTimers::Scope timing = timers_.time("smooth");
+    distribution_.smoothNearBeads();
 }
 
 void FluidCoupling::smooth(Eigen::MatrixXd& densities)

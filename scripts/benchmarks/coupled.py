@@ -3,6 +3,7 @@
 import functools
 
 from . import timing
+from .stockLiggghts import liggghts
 
 COUPLING = ("locate", "distribute", "smooth", "exchange", "forces")
 # The engines' own; "other" is reading the mesh and what is outside all phases.
@@ -12,7 +13,7 @@ FLUID = ("momentum", "pressure", "output", "other")
 @functools.cache
 def runs(hopper, repetitions):
     """Processor seconds of each phase by name, a dictionary a repetition."""
-    duration = 0.2
+    duration = 0.2 if hopper.quick else 0.1
     times = timing.interleaved({"coupled": hopper.run("submerged", "coupled", duration),
                                 "dry": hopper.run("dry", "alone", duration)}, repetitions)
     return {name: [time.result["phaseProcessorSeconds"] for time in of] for name, of in times.items()}
@@ -42,6 +43,27 @@ def overEngines(hopper, repetitions, target, said, without):
         meaning=f"processor time of the coupled run{said} over the same number of DEM steps without fluid from the same packing plus its own "
                 "fluid steps",
         details=of)
+
+
+def coupledOverLiggghtsAndFluid(hopper, repetitions):
+    """The same with the DEM steps in the program liggghts, whose contacts are its own: what two programs would cost."""
+    duration = 0.2 if hopper.quick else 0.1
+    run = hopper.run("submerged", "besideLiggghts", duration)
+    steps = round(duration / hopper.parameters["demStep"])
+    variables = "".join(f"variable {name} equal {value}\n" for name, value in hopper.parameters.items()
+                        if isinstance(value, (int, float)))
+    for name, count in (("alone", steps), ("start", 0)):
+        (run.folder / f"in.{name}").write_text(f"{variables}variable packing string {hopper.packing}\n"
+                                               f"include DEM/in.discharge\nrun {count}\n")
+    times = timing.interleaved({"coupled": run, **{name: timing.Run(liggghts(name), run.folder) for name in ("alone", "start")}},
+                               repetitions)
+    phases = [time.result["phaseProcessorSeconds"] for time in times["coupled"]]
+    alone = [time.processor - start.processor for time, start in zip(times["alone"], times["start"])]
+    return timing.Figure(
+        [sum(of.values()) / (dem + sum(of[name] for name in FLUID)) for of, dem in zip(phases, alone)], target="<= 1.10",
+        meaning="processor time of the coupled run over the same DEM steps without fluid in the program liggghts plus its own "
+                "fluid steps",
+        details={"coupled": phases, "liggghts": alone})
 
 
 def exchangeBytesPerBead(hopper, repetitions):

@@ -5,6 +5,7 @@ import shutil
 import subprocess
 
 from . import timing
+from .hopper import forgetResults, ledger, solver
 from .stockLiggghts import STOCK_STEP, liggghts, script
 
 
@@ -13,44 +14,58 @@ STEPS_PER_LIST = 25
 
 
 def overLammps(hopper, repetitions):
-    """The bed in the closed hopper, in LIGGGHTS with our settings and in LAMMPS with pair granular: the same contact law
-    (Hertz, Mindlin with history, Tsuji's damping), walls, step and neighbour lists. Not the drain itself: LAMMPS has no
-    plate with a hole whose edge beads touch."""
+    """The bed in the closed hopper, in our program and in LAMMPS with pair granular: the same contact law (Hertz, Mindlin
+    with history, Tsuji's damping), walls, step and neighbour lists."""
     require("lmp")
     steps = 5000
-    folder = hopper.stage("dry", "besideLammps", 0)
-    writeLammpsData(hopper, folder)
+    folder = closedHopper(hopper, "besideLammps", steps)
     (folder / "in.lammps").write_text(lammpsScript(hopper.parameters, steps))
-    (folder / "in.bed").write_text(liggghtsScript(hopper, steps))
+    log = folder / "log.lammps"
     times = timing.interleaved({
-        "LAMMPS": timing.Run(["lmp", "-in", "in.lammps", "-screen", "none", "-log", "log.lammps"], folder),
-        "LIGGGHTS": timing.Run(liggghts("bed"), folder),
+        "LAMMPS": timing.Run(["lmp", "-in", "in.lammps", "-screen", "none", "-log", log.name], folder,
+                             result=lambda: loopTime(log)),
+        "ours": bed(folder),
     }, repetitions)
-    return timing.processorRatio(
-        times, "LAMMPS", "LIGGGHTS", ">= 1.2",
-        f"processor time of LAMMPS (pair granular) over LIGGGHTS as we run it; bed in the closed hopper, {steps} steps")
+    return perStepRatio(hopper, times, "LAMMPS", {"LAMMPS": steps, "ours": steps}, ">= 1.2",
+                        "LAMMPS (pair granular)", f"{steps} steps of each")
 
 
 def overYade(hopper, repetitions):
     """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour lists
-    of the same width. Yade takes so long that it does fewer steps: compared are times per step."""
+    of the same width. Yade takes so long that it does fewer steps."""
     require("yade")
     steps, yadeSteps = 5000, 1000 if hopper.quick else 400
-    folder = hopper.stage("dry", "besideYade", 0)
-    writeLammpsData(hopper, folder)
-    (folder / "in.bed").write_text(liggghtsScript(hopper, steps))
+    folder = closedHopper(hopper, "besideYade", steps)
     (folder / "bed.py").write_text(yadeScript(hopper.parameters, yadeSteps))
     loop = folder / "seconds"
     times = timing.interleaved({
         "Yade": timing.Run(["yade", "-n", "-x", "-j1", "bed.py"], folder, result=lambda: float(loop.read_text())),
-        "LIGGGHTS": timing.Run(liggghts("bed"), folder, result=lambda: loopTime(folder / "log.bed")),
+        "ours": bed(folder),
     }, repetitions)
-    perStep = {"Yade": [time.result / yadeSteps for time in times["Yade"]],
-               "LIGGGHTS": [time.result / steps for time in times["LIGGGHTS"]]}
+    return perStepRatio(hopper, times, "Yade", {"Yade": yadeSteps, "ours": steps}, ">= 10", "Yade",
+                        f"{yadeSteps} and {steps} steps")
+
+
+def closedHopper(hopper, name, steps):
+    """A stage with the packing in the closed hopper, for our program; the packing as LAMMPS' data beside it."""
+    (hopper.case / "DEM" / "in.bed").write_text(liggghtsScript(hopper))
+    folder = hopper.stage("dry", name, steps * hopper.parameters["demStep"], stageScript='"DEM/in.bed"')
+    writeLammpsData(hopper, folder)
+    return folder
+
+
+def bed(folder):
+    return timing.Run(solver(), folder, prepare=lambda: forgetResults(folder),
+                      result=lambda: ledger(folder)["phaseProcessorSeconds"]["DEM"])
+
+
+def perStepRatio(hopper, times, other, steps, target, said, took):
+    """Loops only, without the start of the programs."""
+    perStep = {name: [time.result / steps[name] for time in of] for name, of in times.items()}
     return timing.Figure(
-        [yade / ours for yade, ours in zip(perStep["Yade"], perStep["LIGGGHTS"])], target=">= 10",
-        meaning="time per step of Yade over LIGGGHTS as we run it; bed in the closed hopper, loops only",
-        details={name: {"beadStepsPerSecond": [len(beads(folder)) / seconds for seconds in of]}
+        [theirs / ours for theirs, ours in zip(perStep[other], perStep["ours"])], target=target,
+        meaning=f"time per DEM step of {said} over pimpleDemFoam's; bed in the closed hopper, {took}",
+        details={name: {"beadStepsPerSecond": [hopper.parameters["beadCount"] / seconds for seconds in of]}
                  for name, of in perStep.items()})
 
 
@@ -59,14 +74,10 @@ def require(program):
         raise timing.Skipped(f"there is no program {program}; scripts/setup --with otherCodes installs it")
 
 
-def beads(folder):
-    """x y z of the packing."""
-    lines = (folder / "beads.data").read_text().split("Atoms # sphere\n\n")[1].splitlines()
-    return [line.split()[-3:] for line in lines]
-
-
 def loopTime(log):
-    return float(re.search(r"Loop time of (\S+)", log.read_text())[1])
+    """Processor seconds of LAMMPS' loop."""
+    text = log.read_text()
+    return float(re.search(r"Loop time of (\S+)", text)[1]) * float(re.search(r"(\S+)% CPU use", text)[1]) / 100
 
 
 def yadeScript(p, steps):
@@ -134,13 +145,12 @@ run {steps}
 """
 
 
-def liggghtsScript(hopper, steps):
+def liggghtsScript(hopper):
     p = hopper.parameters
     setUp = script(hopper, 0).split("fix cylinder")[0].replace(f"timestep {STOCK_STEP}", f"timestep {p['demStep']}")
     return setUp + f"""neighbor {0.5 * p["beadDiameter"]} bin
-neigh_modify delay 0 every {STEPS_PER_LIST} check no
+neigh_modify delay 0 every {STEPS_PER_LIST} check no binsize {1.5 * p["beadDiameter"]}
 fix barrel all wall/gran model hertz tangential history primitive type 2 zcylinder {p["hopperDiameter"] / 2} 0 0
 fix bottom all wall/gran model hertz tangential history primitive type 3 zplane 0
 fix motion all nve/sphere
-run {steps}
 """

@@ -6,7 +6,7 @@ STOCK_STEP = 2e-5
 
 
 def demOverStockLiggghts(hopper, repetitions):
-    duration = 0.3 if hopper.quick else 1.0
+    duration = 0.3
     ours = hopper.run("dry", "ours", duration)
     folder = ours.folder
     (folder / "in.stock").write_text(script(hopper, duration))

@@ -4,11 +4,11 @@ from . import timing
 
 
 def speedupCoupled(hopper, repetitions):
-    return speedup(hopper, repetitions, "submerged", 0.2 if hopper.quick else 0.4)
+    return speedup(hopper, repetitions, "submerged", 0.2 if hopper.quick else 0.1)
 
 
 def speedupDry(hopper, repetitions):
-    return speedup(hopper, repetitions, "dry", 0.3 if hopper.quick else 1)
+    return speedup(hopper, repetitions, "dry", 0.3)
 
 
 def speedup(hopper, repetitions, stage, duration):

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cfenv>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
@@ -165,10 +166,11 @@ TEST(Liggghts, TakesTheAddedMassImplicitly)
         beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
 }
 
-/// 240 beads of two sizes fall into a heap, with friction and sliding, on one rank and across the boundary between two:
+/// 260 beads of two sizes fall into a heap, with friction and sliding, on one rank and across the boundary between two:
 /// our contacts and LIGGGHTS' own, which any further word in the line of the contact law brings back, here one that
 /// states the default. The same to the last bit after 2000 steps and thousands of contacts; one wrong digit in one
-/// contact would be a millimetre by then.
+/// contact would be a millimetre by then. With OpenFOAM's traps set, as in a run: twenty pairs touch at the start, when
+/// no spring is loaded.
 TEST(Liggghts, HasTheSameContactsAsItsOwn)
 {
     const auto heap = [](const std::string& contactLaw) {
@@ -177,6 +179,10 @@ TEST(Liggghts, HasTheSameContactsAsItsOwn)
         beads.dem.timeStep = 2e-5;
         beads.dem.beads = simpleLattice(beads.box, {10, 6, 4});
         jitter(beads.dem.beads, 4e-4, 1);
+        for (std::size_t bead = 0; bead < 20; ++bead)
+        {
+            beads.dem.beads.emplace_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
+        }
         beads.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
                          "pair_style gran model hertz tangential history "
                          + contactLaw + "\npair_coeff * *\n";
@@ -187,7 +193,9 @@ TEST(Liggghts, HasTheSameContactsAsItsOwn)
         state << view.id.matrix().cast<double>().transpose(), view.position, view.velocity, view.angularVelocity;
         return state;
     };
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
     const Eigen::MatrixXd ours = heap("");
+    fedisableexcept(FE_ALL_EXCEPT);
     const Eigen::MatrixXd theirs = heap("tangential_damping on");
     ASSERT_EQ(ours.cols(), theirs.cols());
     EXPECT_EQ(ours, theirs);

@@ -4,7 +4,9 @@
 
 #include "vectorUnits.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clepsydra
 {
@@ -12,6 +14,7 @@ namespace clepsydra
 CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double shearStep)
 {
     constexpr double rootOfFiveSixths = 0.91287092917527685576161630466800355658790782499663875;
+    constexpr double smallest = std::numeric_limits<double>::min();
     HertzContacts& c = contacts;
     const bool shears = shearStep > 0;
     for (std::size_t k = 0; k < c.count; ++k)
@@ -67,14 +70,22 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double spring = tangentialStiffness * std::sqrt(sx * sx + sy * sy + sz * sz);
         const double limit = c.friction[k] * std::fabs(normalForce);
         const bool slides = spring > limit;
-        const double ratio = limit / (slides ? spring : 1.0);
-        const double fx = slides ? springX * ratio : springX - tangentialDamping * tx;
-        const double fy = slides ? springY * ratio : springY - tangentialDamping * ty;
-        const double fz = slides ? springZ * ratio : springZ - tangentialDamping * tz;
-        const double stiffness = slides ? tangentialStiffness : 1.0;
-        c.shear[0][k] = slides && shears ? -fx / stiffness : sx;
-        c.shear[1][k] = slides && shears ? -fy / stiffness : sy;
-        c.shear[2][k] = slides && shears ? -fz / stiffness : sz;
+        // Whatever is not taken is evaluated too, and must divide by nothing that may be zero: OpenFOAM traps that.
+        const double ratio = limit / std::max(std::max(spring, limit), smallest);
+        const double frictionX = springX * ratio;
+        const double frictionY = springY * ratio;
+        const double frictionZ = springZ * ratio;
+        const double fx = slides ? frictionX : springX - tangentialDamping * tx;
+        const double fy = slides ? frictionY : springY - tangentialDamping * ty;
+        const double fz = slides ? frictionZ : springZ - tangentialDamping * tz;
+        const double divisor = std::max(tangentialStiffness, smallest);
+        const double heldX = -frictionX / divisor;
+        const double heldY = -frictionY / divisor;
+        const double heldZ = -frictionZ / divisor;
+        const bool holds = slides && shears;
+        c.shear[0][k] = holds ? heldX : sx;
+        c.shear[1][k] = holds ? heldY : sy;
+        c.shear[2][k] = holds ? heldZ : sz;
 
         c.force[0][k] = normalForce * nx + fx;
         c.force[1][k] = normalForce * ny + fy;

@@ -1,0 +1,77 @@
+"""One rank against two as the bed empties: from checkpoints of one run, so that both begin with the same beads."""
+
+import json
+import shutil
+
+from . import timing
+from .hopper import Hopper, solver
+from .twoRanks import loopSeconds
+
+# Parts of the fill that remain, and the length of each window [s]
+REMAINING = (1.0, 0.5, 0.12)
+WINDOW = 0.04
+
+
+def speedupEmptying(hopper, repetitions):
+    """Figures of the three windows in `details`; the value is the least of their medians."""
+    folder = drained(hopper)
+    speedups = {}
+    for remaining in REMAINING:
+        start = startOf(folder, remaining)
+        runs = {ranks: window(folder, start, ranks) for ranks in (1, 2)}
+        times = timing.interleaved(runs, repetitions)
+        seconds = {ranks: [loopSeconds(time.result) for time in of] for ranks, of in times.items()}
+        speedups[remaining] = [one / two for one, two in zip(seconds[1], seconds[2])]
+    middle = {remaining: timing.Figure(of, "").median for remaining, of in speedups.items()}
+    return timing.Figure(
+        speedups[min(middle, key=middle.get)], target=">= 1.8", details={"remaining": speedups},
+        meaning=f"wall time on 1 rank over that on 2, submerged, windows of {WINDOW} s; with "
+                + ", ".join(f"{of:.2f} while {100 * remaining:.0f} % remain" for remaining, of in middle.items())
+                + "; here the least")
+
+
+def drained(hopper):
+    """The submerged stage with its checkpoints, until less than the last part remains."""
+    folder = hopper.stage("submerged", "drained", 3.0)
+    timing.timed(timing.Run(solver(), folder))
+    return folder
+
+
+def startOf(folder, remaining):
+    """The write time at which most nearly this part of the fill remains."""
+    rows = [line.split() for line in (folder / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines()
+            if not line.startswith("#")]
+    beads = {float(row[0]): int(row[2]) for row in rows}
+    written = [float(path.name) for path in (folder / "checkpoints").iterdir() if path.name != "beginning"]
+    first = beads[min(beads)]
+    return min([0.0, *written], key=lambda time: abs(beads[min(beads, key=lambda at: abs(at - time))] / first - remaining))
+
+
+def window(folder, start, ranks):
+    """A run of this length from the checkpoint at `start`."""
+    name = f"{start:g}"
+    part = folder.parent / f"from{name}On{ranks}"
+    shutil.rmtree(part, ignore_errors=True)
+    shutil.copytree(folder, part, symlinks=True, ignore=shutil.ignore_patterns("postProcessing", "VTK", "[0-9]*"))
+    shutil.rmtree(part / "checkpoints", ignore_errors=True)
+    shutil.copytree(folder / name, part / name)
+    if start > 0:
+        shutil.copytree(folder / "checkpoints" / name, part / "checkpoints" / name)
+        shutil.copy(folder / "checkpoints" / "beginning", part / "checkpoints")
+    with open(part / "stage", "a") as stage:
+        stage.write(f"stageEndTime {start + WINDOW};\nranks {ranks};\nfieldInterval 10;\n")
+    if ranks > 1:
+        Hopper.inFolder(part, f"decomposePar -latestTime > log.decomposePar 2>&1")
+    return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newestLedger(part))
+
+
+def forget(part, kept):
+    """What a window wrote; what it starts from stays."""
+    for pattern in ("postProcessing", "VTK", "[0-9]*", "processor*/[0-9]*", "checkpoints/[0-9]*"):
+        for path in part.glob(pattern):
+            if path.name != kept:
+                shutil.rmtree(path)
+
+
+def newestLedger(part):
+    return json.loads(next((part / "postProcessing/ledger").glob("*/summary.json")).read_text())

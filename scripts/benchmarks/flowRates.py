@@ -1,0 +1,103 @@
+"""The flow rates of the programs that the benchmark compares: dry beads from one packing through the same hopper."""
+
+import shutil
+
+import numpy as np
+
+from . import timing
+from .hopper import REPOSITORY, Hopper, caseFiles, forgetResults, solver
+from .otherPrograms import require
+
+import flow    # of scripts/, which .hopper puts on the path
+
+DUMP_EVERY = 250
+# Parts of the fill; the rate is that of the whole window, its error that of the parts.
+WINDOW = (0.95, 0.85, 0.75, 0.65, 0.55)
+# A third of the beads, as cases/validation/besideLammps has it; otherwise the quick hopper.
+QUICK = "beadCount=900 hopperDiameter=0.02 hopperHeight=0.05 tankDiameter=0.05 pourTime=0.8 dryTime=0.5"
+WHOLE = "dryTime=1.2"
+
+
+def rates(hopper, repetitions):
+    """Once: the packing's own scatter, 3.5 % from one to the next, is larger than what a repetition shows."""
+    require("lmp")
+    require("yade")
+    folder = caseFolder(hopper)
+    Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../hopperQuick; "
+                            f"makeRun hopper {QUICK if hopper.quick else WHOLE}; inEachRun solveInBoth")
+    run = folder / "runs" / "hopper"
+    p = caseFiles.parameters(run / "parameters")
+    (run / "hopper.py").write_text(yadeScript(p))
+    yade = timing.timed(timing.Run(["yade", "-n", "-x", "-j1", "hopper.py"], run))
+    ours = timing.timed(timing.Run(solver(), run, prepare=lambda: forgetResults(run)))
+    lammps = timing.timed(timing.Run(["lmp", "-in", "DEM/in.lammps", "-screen", "none", "-log", "log.lammps"], run))
+    steps = round(p["dryTime"] / p["demStep"])
+    found = {
+        "ours": (ours, *dumped(run, p, "DEM/beads.dump")),
+        "LAMMPS": (lammps, *dumped(run, p, "DEM/lammps.dump")),
+        "Yade": (yade, *np.loadtxt(run / "yade.dat").T),
+    }
+    details = {}
+    for name, (took, time, inside) in found.items():
+        rate, error = meanRate(time, inside, p)
+        details[name] = {"gramsPerSecond": rate, "standardError": error, "processorSeconds": took.processor,
+                         "beadStepsPerSecond": p["beadCount"] * steps / took.processor}
+    return timing.Figure([details["ours"]["gramsPerSecond"]], details=details,
+                         meaning=f"g/s, {p['beadCount']:.0f} dry beads, while {100 * WINDOW[0]:.0f} to {100 * WINDOW[-1]:.0f} % remain; "
+                                 + ", ".join(f"{name} {of['gramsPerSecond']:.2f} +- {of['standardError']:.2f}"
+                                             for name, of in details.items())
+                                 + "; one packing, they scatter by 3.5 %")
+
+
+def caseFolder(hopper):
+    """A copy that may be run in, with the folders that the case refers to."""
+    cases = hopper.folder / "cases" / "validation"
+    for name in ("besideLammps", "common"):
+        shutil.copytree(REPOSITORY / "cases" / "validation" / name, cases / name, dirs_exist_ok=True,
+                        ignore=shutil.ignore_patterns("runs", "results"))
+    return cases / "besideLammps"
+
+
+def dumped(run, p, dump):
+    """Times, and the beads above the orifice."""
+    entries = caseFiles.dumpedBeads(run, dump)
+    return (np.array([step * p["demStep"] for step, _ in entries]),
+            np.array([(beads[:, 3] > 0).sum() for _, beads in entries]))
+
+
+def meanRate(time, inside, p):
+    """While WINDOW of the fill remains, with its standard error [g/s]."""
+    mass = 1e3 * inside * p["beadDensity"] * np.pi / 6 * p["beadDiameter"]**3
+    parts = [flow.meanRate(time, mass, *part) for part in zip(WINDOW, WINDOW[1:])]
+    return flow.meanRate(time, mass, WINDOW[0], WINDOW[-1]), np.std(parts, ddof=1) / np.sqrt(len(parts))
+
+
+def yadeScript(p):
+    """DEM/beads.data, at rest, and the hopper's own surfaces of triangles."""
+    return f"""from yade import geom, ymport
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["beadDensity"]},
+                                    frictionAngle=atan({p["friction"]})))
+beads = []
+for line in open("DEM/beads.data").read().split("Atoms\\n\\n")[1].splitlines():
+    beads.append(O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["beadDiameter"] / 2}, material=glass)))
+for name in ("hopperWall", "hopperPlate"):
+    O.bodies.append(ymport.stl(f"DEM/meshes/{{name}}.stl", material=glass))
+O.bodies.append(geom.facetCylinder((0, 0, {(p["hopperHeight"] + p["waterAboveRim"] - p["tankDepth"]) / 2}), {p["tankDiameter"] / 2},
+                                   {p["hopperHeight"] + p["waterAboveRim"] + p["tankDepth"]}, segmentsNumber=40, wallMask=4,
+                                   material=glass))
+O.bodies.append(wall({-p["tankDepth"]}, axis=2, material=glass))
+law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["beadDiameter"]}),
+    InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [law],
+                    [Law2_ScGeom_MindlinPhys_Mindlin()]),
+    NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
+]
+O.dt = {p["demStep"]}
+with open("yade.dat", "w") as out:
+    for part in range({round(p["dryTime"] / p["demStep"] / DUMP_EVERY)} + 1):
+        inside = sum(O.bodies[bead].state.pos[2] > 0 for bead in beads)
+        out.write(f"{{part * {DUMP_EVERY * p['demStep']}}} {{inside}}\\n")
+        O.run({DUMP_EVERY}, True)
+"""
