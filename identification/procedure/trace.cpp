@@ -32,6 +32,9 @@ constexpr double smallAmplitude = 0.02; // for derivatives
 /// A confirmation is near enough to its fit if the fit is this many standard errors away.
 constexpr double nearInErrors = 1.0;
 
+/// Steps beyond the study's rounds for an explanation that misfits and has not come to the end of its way.
+constexpr int stepsToTheEnd = 3;
+
 class Tracing
 {
 public:
@@ -161,11 +164,9 @@ private:
         }
     }
 
-    /// The simulations with an effect of the measuring chain at another amplitude; nothing is run.
-    std::vector<Simulation> throughChain(std::vector<Simulation> simulations, std::size_t e, double amplitude) const
+    /// The simulations with effects of the measuring chain at other amplitudes; nothing is run.
+    std::vector<Simulation> throughChain(std::vector<Simulation> simulations, const Eigen::VectorXd& amplitudes) const
     {
-        Eigen::VectorXd amplitudes = simulator_.plainSetting().amplitudes;
-        amplitudes(static_cast<Eigen::Index>(e)) = amplitude;
         for (auto& simulation : simulations)
         {
             if (!simulation.failed)
@@ -177,23 +178,30 @@ private:
         return simulations;
     }
 
-    /// The problem at simulations that have the effect at an amplitude. The column of an effect of the measuring chain
-    /// is taken at that amplitude, from these very curves.
-    ResidualProblem problemAt(const std::vector<Simulation>& simulations, const Eigen::VectorXd& parameters,
-        std::size_t e, double amplitude) const
+    /// The problem at simulations of a setting. Of the effects given, the columns of those of the measuring chain are
+    /// taken at their amplitudes, from these very curves.
+    ResidualProblem problemAt(const std::vector<Simulation>& simulations, const Setting& setting,
+        const std::vector<std::size_t>& effects) const
     {
-        ResidualProblem problem = assemble(study_, library_, data_, simulations, parameters);
-        if (study_.effects[e].isOfChain())
+        ResidualProblem problem = assemble(study_, library_, data_, simulations, setting.parameters);
+        for (const std::size_t e : effects)
         {
+            if (!study_.effects[e].isOfChain())
+            {
+                continue;
+            }
+            const auto column = static_cast<Eigen::Index>(e);
             const Bounds& bounds = study_.effects[e].bounds;
-            const double low = std::max(amplitude - smallAmplitude, bounds.lower);
-            const double high = std::min(amplitude + smallAmplitude, bounds.upper);
-            const auto below = assemble(study_, library_, data_, throughChain(simulations, e, low), parameters);
-            const auto above = assemble(study_, library_, data_, throughChain(simulations, e, high), parameters);
+            Eigen::VectorXd lower = setting.amplitudes;
+            Eigen::VectorXd upper = setting.amplitudes;
+            lower(column) = std::max(lower(column) - smallAmplitude, bounds.lower);
+            upper(column) = std::min(upper(column) + smallAmplitude, bounds.upper);
+            const auto below = assemble(study_, library_, data_, throughChain(simulations, lower), setting.parameters);
+            const auto above = assemble(study_, library_, data_, throughChain(simulations, upper), setting.parameters);
             if (below.residual.size() == problem.residual.size() && above.residual.size() == problem.residual.size())
             {
-                problem.effectColumns.col(static_cast<Eigen::Index>(e)) =
-                    (below.residual - above.residual) / (high - low);
+                problem.effectColumns.col(column) =
+                    (below.residual - above.residual) / (upper(column) - lower(column));
             }
         }
         return problem;
@@ -204,12 +212,13 @@ private:
     {
         const Effect& effect = study_.effects[e];
         const auto index = static_cast<Eigen::Index>(e);
-        const Eigen::VectorXd anchor = physical(study_, answer_.problem.parameterOffset);
-        double amplitude = effect.isSwitch ? 1.0 : 0.0;
+        Setting setting = simulator_.plainSetting(physical(study_, answer_.problem.parameterOffset));
+        double& amplitude = setting.amplitudes(index);
+        amplitude = effect.isSwitch ? 1.0 : 0.0;
         Score best = score(answer_.problem, answer_.noise, index, effect.bounds, 0.0, effect.isSwitch);
         for (int step = 0; step < chainSteps; ++step)
         {
-            const auto problem = problemAt(throughChain(answer_.atFit, e, amplitude), anchor, e, amplitude);
+            const auto problem = problemAt(throughChain(answer_.atFit, setting.amplitudes), setting, {e});
             if (problem.residual.size() != answer_.problem.residual.size())
             {
                 break;
@@ -256,6 +265,23 @@ private:
                 }
             }
         }
+        followBest();
+    }
+
+    /// A large effect that was left out has carried the null's parameters far away, where the library's columns do not
+    /// hold; one or two steps do not lead back. Without this it would be answered by "unknown".
+    void followBest()
+    {
+        for (int step = 0; step < stepsToTheEnd; ++step)
+        {
+            const std::size_t best = byOdds().front();
+            const EffectFinding& finding = answer_.effects[best];
+            if (simulatedAt_.count(best) == 0 || isNear(best) || finding.score().misfit <= finding.misfitLimit)
+            {
+                return;
+            }
+            confirm(best, study_.settings.rounds);
+        }
     }
 
     /// Whether the effect has been simulated close to where its fit ended.
@@ -280,7 +306,7 @@ private:
         const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(e));
         const auto simulations = simulator_.repeats(training_, setting,
             "confirmation of " + effect.name + (round > 0 ? ", again" : ""), study_.settings.repeatsConfirmation);
-        auto problem = problemAt(simulations, setting.parameters, e, amplitude);
+        auto problem = problemAt(simulations, setting, {e});
         if (problem.residual.size() < answer_.problem.residual.size())
         {
             answer_.remarks.push_back(
@@ -376,14 +402,27 @@ private:
         explanations.insert(explanations.end(), answer_.pairs.begin(), answer_.pairs.end());
     }
 
+    /// The pair, simulated where its last fit ended; again from there while it misfits and its steps are long.
     void confirmPair(Explanation& explanation, double prior)
+    {
+        for (int step = 0; step <= stepsToTheEnd; ++step)
+        {
+            if (!stepOfPair(explanation, prior) || explanation.misfit <= explanation.misfitLimit)
+            {
+                return;
+            }
+        }
+    }
+
+    /// \return whether it was a long step
+    bool stepOfPair(Explanation& explanation, double prior)
     {
         const auto first = explanation.effects[0];
         const auto second = explanation.effects[1];
         const auto simulations = simulator_.repeats(training_, explanation.setting,
             "confirmation of " + study_.effects[first].name + " with " + study_.effects[second].name,
             study_.settings.repeatsConfirmation);
-        ResidualProblem problem = assemble(study_, library_, data_, simulations, explanation.setting.parameters);
+        ResidualProblem problem = problemAt(simulations, explanation.setting, explanation.effects);
         // The two alone: all other columns only cost time here.
         const std::vector<Eigen::Index> columns = {static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
         problem.effectColumns = Eigen::MatrixXd(problem.effectColumns(Eigen::all, columns));
@@ -392,13 +431,15 @@ private:
         const auto fixed = study_.fixed();
         const auto scored = pairScores(
             problem, answer_.noise, {bounds[first], bounds[second]}, {fixed[first], fixed[second]}, anchor, 1);
-        explanation.logOdds = scored.front().logEvidence + prior;
-        explanation.misfit = scored.front().misfit;
+        const PairScore& best = scored.front();
+        explanation.logOdds = best.logEvidence + prior;
+        explanation.misfit = best.misfit;
         explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
         explanation.confirmed = problem.residual.size() == answer_.problem.residual.size();
-        explanation.setting.parameters = shifted(problem, scored.front().parameterShift);
-        explanation.setting.amplitudes(columns[0]) = scored.front().firstAmplitude;
-        explanation.setting.amplitudes(columns[1]) = scored.front().secondAmplitude;
+        explanation.setting.parameters = shifted(problem, best.parameterShift);
+        explanation.setting.amplitudes(columns[0]) = best.firstAmplitude;
+        explanation.setting.amplitudes(columns[1]) = best.secondAmplitude;
+        return best.parameterShift.size() > 0 && best.parameterShift.cwiseAbs().maxCoeff() >= farInPriorSds;
     }
 
     void decide()

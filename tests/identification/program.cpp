@@ -38,6 +38,13 @@ public:
         fs::permissions(folder_.path() / "case/Allrun", fs::perms::owner_all);
     }
 
+    /// Another effect of the library, as a line of the study.
+    void offer(const std::string& effect)
+    {
+        const std::string begin = "\neffects:\n";
+        study_.insert(study_.find(begin) + begin.size(), effect);
+    }
+
     /// Three measured repeats of every condition, in g, with an effect in them.
     void measure(const Entries& effect, const std::set<std::string>& butNot = {})
     {
@@ -138,6 +145,21 @@ TEST(Program, FindsTheEffectThatWasPutIn)
 
     ASSERT_EQ(workshop.run("report"), 0);
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
+}
+
+/// Beads so light that the wet flow is half as fast drive the null's friction far from where the library was made, and
+/// back takes more steps than a small effect needs. Without them the program calls an effect of its own library unknown.
+TEST(Program, FollowsALargeEffectToItsEnd)
+{
+    Workshop workshop;
+    workshop.offer("  - { name: lightBeads, set: { beadDensity: 1900 }, switch: true }\n");
+    workshop.measure({{"beadDensity", "1900"}});
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    const auto report = workshop.json("report.json");
+    ASSERT_EQ(report["decision"], "named") << report["summary"];
+    EXPECT_EQ(report["name"], "lightBeads");
+    EXPECT_NEAR(report["set"][0]["parameters"]["friction"].get<double>(), .15, .03);
+    EXPECT_GT(report["null"]["parameters"]["friction"].get<double>(), .25) << "not as far as this test wants it";
 }
 
 /// Nothing put in: nothing found, at this seed; the rate of false alarms is what checkIdentification measures.
