@@ -48,8 +48,7 @@ Spread compareSpread(const Scatter& data, const Scatter& simulation, int draws, 
     double above = 1.0;
     for (int draw = 0; draw < draws; ++draw)
     {
-        const double drawn =
-            ratioOf(redrawn(root, nuData, random), redrawn(root, nuSimulation, random));
+        const double drawn = ratioOf(redrawn(root, nuData, random), redrawn(root, nuSimulation, random));
         (drawn < spread.ratio ? below : above) += 1.0;
     }
     spread.pValue = std::min(1.0, 2.0 * std::min(below, above) / (draws + 1.0));
