@@ -16,12 +16,13 @@ double ratioOf(const Covariance& data, const Covariance& simulation)
     return simulation.matrix.llt().solve(data.matrix).trace() / static_cast<double>(data.matrix.rows());
 }
 
-Covariance drawnFromUnit(Eigen::Index features, double nu, std::mt19937_64& random)
+/// From a covariance, for the shrinking of few repeats makes correlated features look wider than independent ones.
+Covariance redrawn(const Eigen::MatrixXd& root, double nu, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
     const Eigen::MatrixXd rows =
-        Eigen::MatrixXd::NullaryExpr(std::lround(nu), features, [&] { return normal(random); });
-    return pooledCovariance(rows, nu);
+        Eigen::MatrixXd::NullaryExpr(std::lround(nu), root.rows(), [&] { return normal(random); });
+    return pooledCovariance(rows * root.transpose(), nu);
 }
 
 } // namespace
@@ -40,13 +41,14 @@ Spread compareSpread(const Scatter& data, const Scatter& simulation, int draws, 
     {
         return spread;
     }
-    spread.ratio = ratioOf(pooledCovariance(data.deviations(), nuData), pooledCovariance(simulated, nuSimulation));
+    const Covariance ofSimulation = pooledCovariance(simulated, nuSimulation);
+    spread.ratio = ratioOf(pooledCovariance(data.deviations(), nuData), ofSimulation);
+    const Eigen::MatrixXd root = ofSimulation.matrix.llt().matrixL();
     double below = 1.0;
     double above = 1.0;
     for (int draw = 0; draw < draws; ++draw)
     {
-        const double drawn =
-            ratioOf(drawnFromUnit(features, nuData, random), drawnFromUnit(features, nuSimulation, random));
+        const double drawn = ratioOf(redrawn(root, nuData, random), redrawn(root, nuSimulation, random));
         (drawn < spread.ratio ? below : above) += 1.0;
     }
     spread.pValue = std::min(1.0, 2.0 * std::min(below, above) / (draws + 1.0));

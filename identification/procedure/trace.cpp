@@ -200,8 +200,7 @@ private:
             const auto above = assemble(study_, library_, data_, throughChain(simulations, upper), setting.parameters);
             if (below.residual.size() == problem.residual.size() && above.residual.size() == problem.residual.size())
             {
-                problem.effectColumns.col(column) =
-                    (below.residual - above.residual) / (upper(column) - lower(column));
+                problem.effectColumns.col(column) = (below.residual - above.residual) / (upper(column) - lower(column));
             }
         }
         return problem;

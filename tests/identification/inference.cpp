@@ -131,6 +131,29 @@ TEST(Noise, SpreadIsComparedWithChance)
     EXPECT_NEAR(spread.ratio, 4, 2);
 }
 
+/// Few repeats of features that go together are shrunk towards independent ones, which makes them look wider: not to be
+/// taken for another spread. Drawn from independent features, most of the 100 cases were.
+TEST(Noise, CorrelatedFeaturesHaveNoOtherSpread)
+{
+    std::mt19937_64 random(5);
+    Eigen::MatrixXd together = Eigen::MatrixXd::Constant(5, 5, .95);
+    together.diagonal().setOnes();
+    const Eigen::MatrixXd root = together.llt().matrixU();
+    int alarms = 0;
+    for (int trial = 0; trial < 100; ++trial)
+    {
+        Scatter simulation;
+        Scatter data;
+        for (int condition = 0; condition < 4; ++condition)
+        {
+            simulation.add(normals(7, 5, random) * root);
+            data.add(normals(3, 5, random) * root);
+        }
+        alarms += compareSpread(data, simulation, 300, random).pValue < .01 ? 1 : 0;
+    }
+    EXPECT_LE(alarms, 5);
+}
+
 /// One trajectory has no repeats: with a declared error of every number the noise is that, without it nothing can be said.
 TEST(Noise, DeclaredWhereNothingWasRepeated)
 {

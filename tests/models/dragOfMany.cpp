@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <cmath>
 
 namespace
@@ -41,6 +42,30 @@ TEST(DragOfMany, IsThatOfEachBead)
             EXPECT_NEAR(coefficients[i] / alone, 1, 1e-13) << law.name << ", bead " << i;
         }
     });
+}
+
+// OpenFOAM stops a program that divides by zero, and a compiler may take the branches of a law for all beads at once, with
+// zero where a branch is not the bead's: Koch and Hill's logarithm of a dense bed's beads did so.
+TEST(DragOfMany, RaisesNoFloatingPointException)
+{
+    for (const double voidFraction : {0.36, 0.59, 0.61, 0.9, 1.0})
+    {
+        ManyBeadsInFluid beads;
+        beads.count = 251;
+        beads.density = 1000;
+        beads.dynamicViscosity = 1e-3;
+        beads.diameter.fill(1e-3);
+        beads.voidFraction.fill(voidFraction);
+        beads.logVoidFraction.fill(std::log(voidFraction));
+        beads.slipSpeed.fill(0);
+        closures::forEachDragLaw([&](const auto& law) {
+            ManyCoefficients coefficients;
+            std::feclearexcept(FE_ALL_EXCEPT);
+            dragOfMany(law.name)(beads, coefficients);
+            EXPECT_FALSE(std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW))
+                << law.name << " at a void fraction of " << voidFraction;
+        });
+    }
 }
 
 TEST(DragOfMany, RefusesAnUnknownName)
