@@ -271,7 +271,7 @@ private:
     /// hold; one or two steps do not lead back. Without this it would be answered by "unknown".
     void followBest()
     {
-        for (int step = 0; step < stepsToTheEnd; ++step)
+        for (int step = 0; step < stepsToTheEnd && !answer_.effects.empty(); ++step)
         {
             const std::size_t best = byOdds().front();
             const EffectFinding& finding = answer_.effects[best];

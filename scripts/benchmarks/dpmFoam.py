@@ -3,7 +3,7 @@
 import shutil
 
 from . import timing
-from .hopper import REPOSITORY, Hopper, caseFiles, forgetResults
+from .hopper import Hopper, caseFiles, forgetResults
 
 
 def overDPMFoam(hopper, repetitions):
@@ -20,7 +20,7 @@ def overDPMFoamBed(hopper, repetitions):
 def over(hopper, repetitions, run, make, said):
     if not shutil.which("DPMFoam"):
         raise timing.Skipped("there is no program DPMFoam in this OpenFOAM")
-    folder = caseFolder(hopper)
+    folder = hopper.validationCase("besideDPMFoam")
     Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; "
                             f"{make}; inEachRun solveInBoth")
     ours = folder / "runs" / run
@@ -32,12 +32,3 @@ def over(hopper, repetitions, run, make, said):
     step = caseFiles.parameters(ours / "parameters")["couplingInterval"]
     return timing.processorRatio(times, "DPMFoam", "ours", ">= 10",
                                  f"processor time of DPMFoam over pimpleDemFoam; {said}; fluid's step {1e6 * step:g} us in both")
-
-
-def caseFolder(hopper):
-    """A copy that may be run in, with the folders that the case refers to."""
-    cases = hopper.folder / "cases" / "validation"
-    for name in ("besideDPMFoam", "common"):
-        shutil.copytree(REPOSITORY / "cases" / "validation" / name, cases / name, dirs_exist_ok=True,
-                        ignore=shutil.ignore_patterns("runs", "results"))
-    return cases / "besideDPMFoam"

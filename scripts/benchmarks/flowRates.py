@@ -1,12 +1,10 @@
 """The flow rates of the programs that the benchmark compares: dry beads from one packing through the same hopper."""
 
-import shutil
-
 import numpy as np
 
 from . import timing
-from .hopper import REPOSITORY, Hopper, caseFiles, forgetResults, solver
-from .otherPrograms import require
+from .hopper import Hopper, caseFiles, forgetResults, solver
+from .otherPrograms import require, yadeEngines
 
 import flow    # of scripts/, which .hopper puts on the path
 
@@ -22,7 +20,7 @@ def rates(hopper, repetitions):
     """Once: the packing's own scatter, 3.5 % from one to the next, is larger than what a repetition shows."""
     require("lmp")
     require("yade")
-    folder = caseFolder(hopper)
+    folder = hopper.validationCase("besideLammps")
     Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../hopperQuick; "
                             f"makeRun hopper {QUICK if hopper.quick else WHOLE}; inEachRun solveInBoth")
     run = folder / "runs" / "hopper"
@@ -47,15 +45,6 @@ def rates(hopper, repetitions):
                                  + ", ".join(f"{name} {of['gramsPerSecond']:.2f} +- {of['standardError']:.2f}"
                                              for name, of in details.items())
                                  + "; one packing, they scatter by 3.5 %")
-
-
-def caseFolder(hopper):
-    """A copy that may be run in, with the folders that the case refers to."""
-    cases = hopper.folder / "cases" / "validation"
-    for name in ("besideLammps", "common"):
-        shutil.copytree(REPOSITORY / "cases" / "validation" / name, cases / name, dirs_exist_ok=True,
-                        ignore=shutil.ignore_patterns("runs", "results"))
-    return cases / "besideLammps"
 
 
 def dumped(run, p, dump):
@@ -86,16 +75,7 @@ O.bodies.append(geom.facetCylinder((0, 0, {(p["hopperHeight"] + p["waterAboveRim
                                    {p["hopperHeight"] + p["waterAboveRim"] + p["tankDepth"]}, segmentsNumber=40, wallMask=4,
                                    material=glass))
 O.bodies.append(wall({-p["tankDepth"]}, axis=2, material=glass))
-law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
-O.engines = [
-    ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["beadDiameter"]}),
-    InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [law],
-                    [Law2_ScGeom_MindlinPhys_Mindlin()]),
-    NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
-]
-O.dt = {p["demStep"]}
-with open("yade.dat", "w") as out:
+{yadeEngines(p)}with open("yade.dat", "w") as out:
     for part in range({round(p["dryTime"] / p["demStep"] / DUMP_EVERY)} + 1):
         inside = sum(O.bodies[bead].state.pos[2] > 0 for bead in beads)
         out.write(f"{{part * {DUMP_EVERY * p['demStep']}}} {{inside}}\\n")

@@ -48,6 +48,14 @@ class Hopper:
         other._poured = True
         return other
 
+    def validationCase(self, name):
+        """A copy of that case that may be run in, with the folders that it refers to."""
+        cases = self.folder / "cases" / "validation"
+        for part in (name, "common"):
+            shutil.copytree(REPOSITORY / "cases" / "validation" / part, cases / part, dirs_exist_ok=True,
+                            ignore=shutil.ignore_patterns("runs", "results"))
+        return cases / name
+
     def run(self, template, name, duration, ranks=1, **entries):
         """A timing.Run of such a stage, its result what the ledger says."""
         folder = self.stage(template, name, duration, ranks, **entries)

@@ -92,7 +92,16 @@ for line in text.splitlines():
 height = {p["hopperHeight"]}
 O.bodies.append(geom.facetCylinder((0, 0, height / 2), {radius}, height, segmentsNumber=40, wallMask=4, material=glass))
 O.bodies.append(wall(0, axis=2, material=glass))
-law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
+{yadeEngines(p)}O.run(10, True)
+start = time.process_time()
+O.run({steps}, True)
+open("seconds", "w").write(str(time.process_time() - start))
+"""
+
+
+def yadeEngines(p):
+    """Contacts as Hertz and Mindlin have them, gravity, and the step."""
+    return f"""law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["beadDiameter"]}),
@@ -101,10 +110,6 @@ O.engines = [
     NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
 ]
 O.dt = {p["demStep"]}
-O.run(10, True)
-start = time.process_time()
-O.run({steps}, True)
-open("seconds", "w").write(str(time.process_time() - start))
 """
 
 
