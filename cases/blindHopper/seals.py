@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "work/sealed.json"))
-HASHES = HERE / "truth.sha256"      # lines "hash  name": of sealed.json, and of each set's part, truth/SET.json
+SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "work/sealed"))     # SET.json of what has not been opened
+HASHES = HERE / "truth.sha256"      # lines "hash  truth/SET.json"; the first eight had one more, of a file of them all
 OPENED = HERE / "truth"
 
 
@@ -15,21 +15,31 @@ def content(part):
     return (json.dumps(part, indent=1) + "\n").encode()
 
 
-def hashes(truth):
-    """A set's part has 54 drawn seeds of eight digits: nobody finds it by trying."""
-    parts = {"sealed.json": truth, **{f"truth/{name}.json": part for name, part in truth["sets"].items()}}
-    return "".join(f"{hashlib.sha256(content(part)).hexdigest()}  {name}\n" for name, part in parts.items())
+def seal(truth):
+    """{set: what is in it} into sealed files, and their hashes to the committed ones. A set's part has 54 drawn seeds of
+    eight digits: nobody finds it by trying."""
+    SEALED.mkdir(parents=True, exist_ok=True)
+    for name, part in truth.items():
+        (SEALED / f"{name}.json").write_bytes(content(part))
+        (SEALED / f"{name}.json").chmod(0o400)
+    lines = "".join(f"{hashlib.sha256(content(part)).hexdigest()}  truth/{name}.json\n" for name, part in truth.items())
+    HASHES.write_text((HASHES.read_text() if HASHES.exists() else "") + lines)
 
 
 def committed():
     """{name: hash}"""
-    return {name: digest for digest, name in (line.split() for line in HASHES.read_text().splitlines())}
+    lines = HASHES.read_text().splitlines() if HASHES.exists() else []
+    return {name: digest for digest, name in (line.split() for line in lines)}
+
+
+def setNames():
+    return [name[len("truth/"):-len(".json")] for name in committed() if name.startswith("truth/")]
 
 
 def open(name):
-    """What is in a set, from truth/SET.json or else from the sealed file, which it is then copied from."""
+    """What is in a set, from truth/SET.json or else from its sealed file, which it is then copied from."""
     path = OPENED / f"{name}.json"
-    part = path.read_bytes() if path.exists() else content(json.loads(SEALED.read_text())["sets"][name])
+    part = path.read_bytes() if path.exists() else (SEALED / f"{name}.json").read_bytes()
     if hashlib.sha256(part).hexdigest() != committed()[f"truth/{name}.json"]:
         raise SystemExit(f"{path}: this is not what was sealed: its hash is not that of {HASHES}")
     if not path.exists():

@@ -72,8 +72,12 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
     const double nu = effectiveDegreesOfFreedom(noise);
     const double lower = (fixed ? 1.0 : bounds.lower) - anchorAmplitude;
     const double upper = (fixed ? 1.0 : bounds.upper) - anchorAmplitude;
-    const auto first = Fits(whitened(problem, noise)).effect(effect, lower, upper);
-    const Fits fits(whitened(problem, noise, effect, first.amplitude));
+    const WhiteProblem plain = whitened(problem, noise);
+    Eigen::VectorXd steps = Eigen::VectorXd::Zero(problem.effectColumns.cols());
+    steps(effect) = Fits(plain).effect(effect, lower, upper).amplitude;
+    const WhiteProblem widened = whitened(problem, noise, steps);
+    const double widening = 0.5 * (widened.logDeterminant - plain.logDeterminant);
+    const Fits fits(widened);
     const auto fit = fits.effect(effect, lower, upper);
 
     Score result;
@@ -83,7 +87,7 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
     result.parameterShift = fits.parameterShift(effect, fit.amplitude);
     if (fixed)
     {
-        result.logEvidence = logLikelihood(fit.misfit, nu, problem.residual.size());
+        result.logEvidence = logLikelihood(fit.misfit, nu, problem.residual.size()) - widening;
         return result;
     }
     std::vector<double> along(points);
@@ -93,7 +97,7 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
         along[static_cast<std::size_t>(point)] =
             logLikelihood(fit.freeMisfit + away * away, nu, problem.residual.size());
     }
-    result.logEvidence = logMeanExp(along);
+    result.logEvidence = logMeanExp(along) - widening;
     return result;
 }
 
@@ -123,58 +127,82 @@ double otherEvidence(const ResidualProblem& problem, const Noise& noise)
     return logLikelihood(misfit, effectiveDegreesOfFreedom(noise), rows) + occam;
 }
 
+namespace
+{
+
+/// Where the two amplitudes of a pair may be, as steps from the anchor.
+struct Square
+{
+    Bounds first;
+    Bounds second;
+};
+
+/// A pair's score among effects in white noise. \param widening  half the log of what the noise was widened by
+PairScore pairScore(const Fits& fits, Eigen::Index first, Eigen::Index second, const Square& steps, double nu,
+    Eigen::Index rows, double widening)
+{
+    const Eigen::MatrixXd columns = fits.effectsLeft()(Eigen::all, std::vector<Eigen::Index>{first, second});
+    const Eigen::Matrix2d products = columns.transpose() * columns;
+    const Eigen::Vector2d with = columns.transpose() * fits.residualLeft();
+    PairScore pair{first, second, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0, {}};
+    std::vector<double> likelihoods;
+    for (int k = 0; k < pairPoints; ++k)
+    {
+        for (int l = 0; l < pairPoints; ++l)
+        {
+            const Eigen::Vector2d step(middle(k, pairPoints, steps.first.lower, steps.first.upper),
+                middle(l, pairPoints, steps.second.lower, steps.second.upper));
+            const double misfit = fits.nullMisfit() - 2.0 * step.dot(with) + step.dot(products * step);
+            likelihoods.push_back(logLikelihood(std::max(misfit, 0.0), nu, rows));
+            if (misfit < pair.misfit)
+            {
+                pair.misfit = misfit;
+                pair.firstAmplitude = step(0);
+                pair.secondAmplitude = step(1);
+            }
+        }
+    }
+    pair.logEvidence = logMeanExp(likelihoods) - widening;
+    pair.parameterShift = fits.parameterShift(first, pair.firstAmplitude)
+                          + fits.parameterShift(second, pair.secondAmplitude) - fits.parameterShift();
+    return pair;
+}
+
+} // namespace
+
 std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise, const std::vector<Bounds>& bounds,
-    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor, std::size_t howMany)
+    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor)
 {
     const double nu = effectiveDegreesOfFreedom(noise);
-    const Fits fits(whitened(problem, noise));
-    const Eigen::VectorXd& r = fits.residualLeft();
-    const Eigen::MatrixXd& columns = fits.effectsLeft();
-    const Eigen::MatrixXd products = columns.transpose() * columns;
-    const Eigen::VectorXd with = columns.transpose() * r;
-    const auto range = [&](Eigen::Index e, int point) {
+    const auto rows = problem.residual.size();
+    const WhiteProblem plain = whitened(problem, noise);
+    const Fits fits(plain);
+    const auto range = [&](Eigen::Index e) {
         const auto i = static_cast<std::size_t>(e);
-        return (fixed[i] ? 1.0 : middle(point, pairPoints, bounds[i].lower, bounds[i].upper)) - anchor(e);
+        return fixed[i] ? Bounds{1.0 - anchor(e), 1.0 - anchor(e)}
+                        : Bounds{bounds[i].lower - anchor(e), bounds[i].upper - anchor(e)};
     };
 
     std::vector<PairScore> all;
-    for (Eigen::Index i = 0; i < columns.cols(); ++i)
+    for (Eigen::Index second = 0; second < problem.effectColumns.cols(); ++second)
     {
-        for (Eigen::Index j = 0; j < i; ++j)
+        for (Eigen::Index first = 0; first < second; ++first)
         {
-            PairScore pair{j, i, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0, {}};
-            std::vector<double> likelihoods;
-            for (int k = 0; k < pairPoints; ++k)
-            {
-                for (int l = 0; l < pairPoints; ++l)
-                {
-                    const double a = range(j, k);
-                    const double b = range(i, l);
-                    const double misfit = fits.nullMisfit() - 2.0 * (a * with(j) + b * with(i)) + a * a * products(j, j)
-                                          + b * b * products(i, i) + 2.0 * a * b * products(i, j);
-                    likelihoods.push_back(logLikelihood(std::max(misfit, 0.0), nu, problem.residual.size()));
-                    if (misfit < pair.misfit)
-                    {
-                        pair.misfit = misfit;
-                        pair.firstAmplitude = a + anchor(j);
-                        pair.secondAmplitude = b + anchor(i);
-                    }
-                }
-            }
-            pair.logEvidence = logMeanExp(likelihoods);
+            const Square steps{range(first), range(second)};
+            const PairScore sharp = pairScore(fits, first, second, steps, nu, rows, 0.0);
+            const ResidualProblem two = problem.withEffects({first, second});
+            const WhiteProblem widened =
+                whitened(two, noise, Eigen::Vector2d(sharp.firstAmplitude, sharp.secondAmplitude));
+            const double widening = 0.5 * (widened.logDeterminant - plain.logDeterminant);
+            PairScore pair = pairScore(Fits(widened), 0, 1, steps, nu, rows, widening);
+            pair.first = first;
+            pair.second = second;
+            pair.firstAmplitude += anchor(first);
+            pair.secondAmplitude += anchor(second);
             all.push_back(pair);
         }
     }
-    const auto kept = std::min(howMany, all.size());
-    std::partial_sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(kept), all.end(),
-        [](const auto& a, const auto& b) { return a.logEvidence > b.logEvidence; });
-    all.resize(kept);
-    for (auto& pair : all)
-    {
-        pair.parameterShift = fits.parameterShift(pair.first, pair.firstAmplitude - anchor(pair.first))
-                              + fits.parameterShift(pair.second, pair.secondAmplitude - anchor(pair.second))
-                              - fits.parameterShift();
-    }
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.logEvidence > b.logEvidence; });
     return all;
 }
 

@@ -53,8 +53,9 @@ struct PairScore
     Eigen::VectorXd parameterShift;
 };
 
-/// The pairs with the largest evidence, best first. \param anchor  amplitudes in the simulation of the residual
+/// All pairs, the one with the largest evidence first. The uncertainty of their columns widens the noise.
+/// \param anchor  amplitudes in the simulation of the residual
 std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise, const std::vector<Bounds>& bounds,
-    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor, std::size_t howMany);
+    const std::vector<bool>& fixed, const Eigen::VectorXd& anchor);
 
 } // namespace clepsydra::identification

@@ -18,14 +18,13 @@ constexpr double negligible = 1e-10;
 
 } // namespace
 
-Eigen::MatrixXd ResidualProblem::covariance(
-    std::size_t block, const Noise& noise, Eigen::Index effect, double amplitude) const
+Eigen::MatrixXd ResidualProblem::covariance(std::size_t block, const Noise& noise, const Eigen::VectorXd& steps) const
 {
     const Block& b = blocks[block];
     double simulationShare = b.simulationShare;
-    if (effect >= 0)
+    if (steps.size() > 0)
     {
-        simulationShare += amplitude * amplitude * columnShare(static_cast<Eigen::Index>(block), effect);
+        simulationShare += columnShare.row(static_cast<Eigen::Index>(block)).dot(steps.cwiseAbs2());
     }
     Eigen::MatrixXd sum = noise.data.matrix(b.features, b.features).cwiseProduct(b.dataShare)
                           + simulationShare * noise.simulation.matrix(b.features, b.features);
@@ -33,22 +32,31 @@ Eigen::MatrixXd ResidualProblem::covariance(
     return sum;
 }
 
-WhiteProblem whitened(const ResidualProblem& problem, const Noise& noise, Eigen::Index effect, double amplitude)
+ResidualProblem ResidualProblem::withEffects(const std::vector<Eigen::Index>& effects) const
+{
+    ResidualProblem part = *this;
+    part.effectColumns = Eigen::MatrixXd(effectColumns(Eigen::all, effects));
+    part.columnShare = Eigen::MatrixXd(columnShare(Eigen::all, effects));
+    return part;
+}
+
+WhiteProblem whitened(const ResidualProblem& problem, const Noise& noise, const Eigen::VectorXd& steps)
 {
     const auto rows = problem.residual.size();
     const auto parameters = problem.parameterColumns.cols();
     const auto effects = problem.effectColumns.cols();
     WhiteProblem white{Eigen::VectorXd(rows + parameters), Eigen::MatrixXd(rows + parameters, parameters),
-        Eigen::MatrixXd(rows + parameters, effects)};
+        Eigen::MatrixXd(rows + parameters, effects), 0.0};
     for (std::size_t block = 0; block < problem.blocks.size(); ++block)
     {
         const auto first = problem.blocks[block].firstRow;
         const auto count = static_cast<Eigen::Index>(problem.blocks[block].features.size());
-        const Eigen::LLT<Eigen::MatrixXd> root(problem.covariance(block, noise, effect, amplitude));
+        const Eigen::LLT<Eigen::MatrixXd> root(problem.covariance(block, noise, steps));
         const auto lower = root.matrixL();
         white.residual.segment(first, count) = lower.solve(problem.residual.segment(first, count));
         white.parameters.middleRows(first, count) = lower.solve(problem.parameterColumns.middleRows(first, count));
         white.effects.middleRows(first, count) = lower.solve(problem.effectColumns.middleRows(first, count));
+        white.logDeterminant += 2.0 * root.matrixLLT().diagonal().array().log().sum();
     }
     white.residual.tail(parameters) = -problem.parameterOffset;
     white.parameters.bottomRows(parameters).setIdentity();

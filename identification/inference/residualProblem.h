@@ -33,9 +33,12 @@ struct ResidualProblem
     Eigen::MatrixXd columnShare;      // blocks x E: variance of a column over that of one run
     Eigen::VectorXd parameterOffset;  // q: anchor minus prior mean, in prior sd
 
-    /// Covariance of a block's residual. \param effect, amplitude  adds the uncertainty of amplitude times a column
-    Eigen::MatrixXd covariance(
-        std::size_t block, const Noise& noise, Eigen::Index effect = -1, double amplitude = 0.0) const;
+    /// Covariance of a block's residual. \param steps  of all effects from the anchor, or none: adds the uncertainty of
+    /// the effects' columns times these steps
+    Eigen::MatrixXd covariance(std::size_t block, const Noise& noise, const Eigen::VectorXd& steps = {}) const;
+
+    /// The same with these effects alone, in this order.
+    ResidualProblem withEffects(const std::vector<Eigen::Index>& effects) const;
 };
 
 /// The problem in coordinates in which the noise is white; the parameters' priors are its last rows.
@@ -44,11 +47,11 @@ struct WhiteProblem
     Eigen::VectorXd residual;
     Eigen::MatrixXd parameters;
     Eigen::MatrixXd effects;
+    double logDeterminant = 0.0; // of the covariance that was made white
 };
 
-/// \param effect, amplitude  as for ResidualProblem::covariance
-WhiteProblem whitened(
-    const ResidualProblem& problem, const Noise& noise, Eigen::Index effect = -1, double amplitude = 0.0);
+/// \param steps  as for ResidualProblem::covariance
+WhiteProblem whitened(const ResidualProblem& problem, const Noise& noise, const Eigen::VectorXd& steps = {});
 
 /// Generalised least squares for the parameters alone, and for the parameters with one effect each.
 class Fits

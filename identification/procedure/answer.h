@@ -58,8 +58,9 @@ struct Answer
     Explanation null;                         // refitted parameters, no effect
     double otherLogOdds = 0.0;
     double nullLogOdds = 0.0;
-    std::vector<EffectFinding> effects; // as in the study
-    std::vector<Explanation> pairs;     // those looked at
+    std::vector<EffectFinding> effects;  // as in the study
+    std::vector<Explanation> pairs;      // those simulated
+    std::vector<Explanation> pairsAlike; // not simulated; by the effects' columns as likely as the best one, a pair
 
     Noise noise;
     Spread spread;

@@ -32,6 +32,13 @@ constexpr double smallAmplitude = 0.02; // for derivatives
 /// A confirmation is near enough to its fit if the fit is this many standard errors away.
 constexpr double nearInErrors = 1.0;
 
+/// Pairs that are simulated, the most likely ones by the effects' columns.
+constexpr std::size_t simulatedPairs = 3;
+
+/// Explanations are simulated with the same seeds, so that chance speaks for none of them: two that set the same entries
+/// are alike to the last digit, instead of as far apart as two simulations.
+const std::string confirmationSeeds = "confirmation";
+
 /// Steps beyond the study's rounds for an explanation that misfits and has not come to the end of its way.
 constexpr int stepsToTheEnd = 3;
 
@@ -303,8 +310,9 @@ private:
         EffectFinding& finding = answer_.effects[e];
         Setting setting = settingOf(e);
         const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(e));
-        const auto simulations = simulator_.repeats(training_, setting,
-            "confirmation of " + effect.name + (round > 0 ? ", again" : ""), study_.settings.repeatsConfirmation);
+        const std::string again = round > 0 ? ", again" : "";
+        const auto simulations = simulator_.repeats(training_, setting, "confirmation of " + effect.name + again,
+            study_.settings.repeatsConfirmation, confirmationSeeds + again);
         auto problem = problemAt(simulations, setting, {e});
         if (problem.residual.size() < answer_.problem.residual.size())
         {
@@ -370,7 +378,8 @@ private:
         return explanation;
     }
 
-    /// The most likely pair, if it beats the best single effect by more than its penalty, switched on and scored again.
+    /// The most likely pairs, where they beat the best single effect by more than their penalty, switched on and scored
+    /// again.
     void tryPairs(std::vector<Explanation>& explanations)
     {
         if (!study_.settings.pairs || study_.effects.size() < 2)
@@ -378,67 +387,101 @@ private:
             return;
         }
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()));
-        const auto best = pairScores(answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none, 3);
-        for (const auto& pair : best)
+        for (const auto& pair : pairScores(answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none))
         {
-            const auto first = static_cast<std::size_t>(pair.first);
-            const auto second = static_cast<std::size_t>(pair.second);
-            const double prior = std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
-                                 - study_.settings.pairPenalty
-                                 - std::log((static_cast<double>(study_.effects.size()) - 1.0) / 2.0);
-            if (pair.logEvidence + prior < explanations.front().logOdds - study_.settings.setWidth)
+            pairsByColumns_.push_back(byColumns(pair));
+        }
+        for (std::size_t i = 0; i < std::min(simulatedPairs, pairsByColumns_.size()); ++i)
+        {
+            if (pairsByColumns_[i].logOdds > explanations.front().logOdds - study_.settings.setWidth)
             {
-                continue;
+                answer_.pairs.push_back(confirmedPair(pairsByColumns_[i]));
             }
-            Explanation explanation;
-            explanation.effects = {first, second};
-            explanation.setting = simulator_.plainSetting(shifted(answer_.problem, pair.parameterShift));
-            explanation.setting.amplitudes(pair.first) = pair.firstAmplitude;
-            explanation.setting.amplitudes(pair.second) = pair.secondAmplitude;
-            confirmPair(explanation, prior);
-            answer_.pairs.push_back(explanation);
         }
         explanations.insert(explanations.end(), answer_.pairs.begin(), answer_.pairs.end());
     }
 
+    double logPriorOfPair(std::size_t first, std::size_t second) const
+    {
+        return std::log(study_.effects[first].prior) + std::log(study_.effects[second].prior)
+               - study_.settings.pairPenalty - std::log((static_cast<double>(study_.effects.size()) - 1.0) / 2.0);
+    }
+
+    /// A pair as the library's columns show it.
+    Explanation byColumns(const PairScore& pair) const
+    {
+        const auto first = static_cast<std::size_t>(pair.first);
+        const auto second = static_cast<std::size_t>(pair.second);
+        Explanation explanation;
+        explanation.effects = {first, second};
+        explanation.logOdds = pair.logEvidence + logPriorOfPair(first, second);
+        explanation.misfit = pair.misfit;
+        explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
+        explanation.setting = simulator_.plainSetting(shifted(answer_.problem, pair.parameterShift));
+        explanation.setting.amplitudes(pair.first) = pair.firstAmplitude;
+        explanation.setting.amplitudes(pair.second) = pair.secondAmplitude;
+        return explanation;
+    }
+
     /// The pair, simulated where its last fit ended; again from there while it misfits and its steps are long.
-    void confirmPair(Explanation& explanation, double prior)
+    Explanation confirmedPair(Explanation explanation)
     {
         for (int step = 0; step <= stepsToTheEnd; ++step)
         {
-            if (!stepOfPair(explanation, prior) || explanation.misfit <= explanation.misfitLimit)
+            if (!stepOfPair(explanation) || explanation.misfit <= explanation.misfitLimit)
             {
-                return;
+                break;
             }
         }
+        return explanation;
     }
 
     /// \return whether it was a long step
-    bool stepOfPair(Explanation& explanation, double prior)
+    bool stepOfPair(Explanation& explanation)
     {
         const auto first = explanation.effects[0];
         const auto second = explanation.effects[1];
         const auto simulations = simulator_.repeats(training_, explanation.setting,
             "confirmation of " + study_.effects[first].name + " with " + study_.effects[second].name,
-            study_.settings.repeatsConfirmation);
-        ResidualProblem problem = problemAt(simulations, explanation.setting, explanation.effects);
-        // The two alone: all other columns only cost time here.
+            study_.settings.repeatsConfirmation, confirmationSeeds);
         const std::vector<Eigen::Index> columns = {static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
-        problem.effectColumns = Eigen::MatrixXd(problem.effectColumns(Eigen::all, columns));
+        const ResidualProblem problem =
+            problemAt(simulations, explanation.setting, explanation.effects).withEffects(columns);
         const Eigen::VectorXd anchor = explanation.setting.amplitudes(columns);
         const auto bounds = study_.bounds();
         const auto fixed = study_.fixed();
-        const auto scored = pairScores(
-            problem, answer_.noise, {bounds[first], bounds[second]}, {fixed[first], fixed[second]}, anchor, 1);
-        const PairScore& best = scored.front();
-        explanation.logOdds = best.logEvidence + prior;
+        const PairScore best =
+            pairScores(problem, answer_.noise, {bounds[first], bounds[second]}, {fixed[first], fixed[second]}, anchor)
+                .front();
+        explanation.logOdds = best.logEvidence + logPriorOfPair(first, second);
         explanation.misfit = best.misfit;
-        explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
         explanation.confirmed = problem.residual.size() == answer_.problem.residual.size();
         explanation.setting.parameters = shifted(problem, best.parameterShift);
         explanation.setting.amplitudes(columns[0]) = best.firstAmplitude;
         explanation.setting.amplitudes(columns[1]) = best.secondAmplitude;
         return best.parameterShift.size() > 0 && best.parameterShift.cwiseAbs().maxCoeff() >= farInPriorSds;
+    }
+
+    /// Pairs that nobody simulated and that are as likely as this one. The columns, crude for the evidence itself, are
+    /// believed for the difference between two pairs: a name for one of many alike would be a set reported as a name.
+    std::vector<Explanation> pairsLike(const Explanation& best) const
+    {
+        std::vector<Explanation> alike;
+        const auto own = std::find_if(pairsByColumns_.begin(), pairsByColumns_.end(),
+            [&](const Explanation& pair) { return pair.effects == best.effects; });
+        if (own == pairsByColumns_.end())
+        {
+            return alike;
+        }
+        const auto isSimulated = [&](const Explanation& pair) {
+            return std::any_of(answer_.pairs.begin(), answer_.pairs.end(),
+                [&](const Explanation& other) { return other.effects == pair.effects; });
+        };
+        std::copy_if(
+            pairsByColumns_.begin(), pairsByColumns_.end(), std::back_inserter(alike), [&](const Explanation& pair) {
+                return pair.logOdds > own->logOdds - study_.settings.setWidth && !isSimulated(pair);
+            });
+        return alike;
     }
 
     void decide()
@@ -476,7 +519,9 @@ private:
             }
         }
         answer_.otherInSet = answer_.otherLogOdds > best.logOdds - study_.settings.setWidth;
-        answer_.decision = answer_.set.size() == 1 && !answer_.otherInSet ? Decision::named : Decision::set;
+        answer_.pairsAlike = pairsLike(best);
+        const bool alone = answer_.set.size() == 1 && answer_.pairsAlike.empty() && !answer_.otherInSet;
+        answer_.decision = alone ? Decision::named : Decision::set;
         if (const auto found = simulations_.find(best.effects.front());
             found != simulations_.end() && best.effects.size() == 1)
         {
@@ -490,6 +535,7 @@ private:
     const std::vector<MeasuredCondition>& data_;
     std::mt19937_64& random_;
     std::vector<std::size_t> training_;
+    std::vector<Explanation> pairsByColumns_; // most likely first, as the library's columns show them
     std::map<std::size_t, Setting> settings_;
     std::map<std::size_t, double> simulatedAt_; // amplitude
     std::map<std::size_t, ResidualProblem> problems_;

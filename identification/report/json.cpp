@@ -277,23 +277,22 @@ Json jsonOf(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    Json set = Json::array();
-    for (const auto& explanation : answer.set)
-    {
-        set.push_back(explanationJson(study, explanation));
-    }
-    Json pairs = Json::array();
-    for (const auto& pair : answer.pairs)
-    {
-        pairs.push_back(explanationJson(study, pair));
-    }
+    const auto listed = [&](const std::vector<Explanation>& explanations) {
+        Json list = Json::array();
+        for (const auto& explanation : explanations)
+        {
+            list.push_back(explanationJson(study, explanation));
+        }
+        return list;
+    };
     Json json;
     json["study"] = study.name;
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(nameOf(study, answer.set.front())) : Json(nullptr);
     json["summary"] = inWords(findings);
-    json["set"] = set;
+    json["set"] = listed(answer.set);
+    json["pairsAlike"] = listed(answer.pairsAlike);
     json["somethingElseInSet"] = answer.otherInSet;
     json["pValue"] = answer.significance.pValue;
     json["test"] = {{"omnibus", answer.significance.omnibus}, {"omnibusPValue", answer.significance.omnibusPValue},
@@ -303,7 +302,7 @@ Json jsonOf(const Findings& findings)
     json["null"]["parameterSds"] = numbers(answer.parameterSd);
     json["somethingElse"] = {{"logOdds", answer.otherLogOdds}};
     json["effects"] = effectsJson(findings);
-    json["pairs"] = pairs;
+    json["pairs"] = listed(answer.pairs);
     json["residual"] = residualJson(findings);
     json["heldOut"] = heldOutJson(findings);
     json["identifiability"] = identifiabilityJson(findings);

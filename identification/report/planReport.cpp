@@ -116,6 +116,12 @@ std::string inWords(const Findings& findings)
             {
                 text << (i == 0 ? "" : "; or ") << nameOf(study, answer.set[i]);
             }
+            if (!answer.pairsAlike.empty())
+            {
+                text << "; or one of " << answer.pairsAlike.size()
+                     << " other pairs that were not simulated, for instance "
+                     << nameOf(study, answer.pairsAlike.front());
+            }
             text << (answer.otherInSet ? "; or something that is not in the library." : ".");
             break;
     }

@@ -84,9 +84,14 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     return sha256(all);
 }
 
+/// A link that points elsewhere is replaced: the store may have been made in another checkout.
 void link(const fs::path& target, const fs::path& place)
 {
     std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(place)) && fs::read_symlink(place, error) != target)
+    {
+        fs::remove(place, error);
+    }
     if (!fs::exists(fs::symlink_status(place)))
     {
         fs::create_symlink(target, place, error);

@@ -149,8 +149,9 @@ RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
     run.purpose = order.purpose + ", " + condition.name;
     if (!study_.rig.seedEntry.empty())
     {
-        const std::string purpose = order.commonSeed ? "common" : order.purpose;
-        run.seed = seedOf(study_.settings.seed, purpose + (attempt > 0 ? "/" + std::to_string(attempt) : ""),
+        const std::string own = order.seeds.empty() ? order.purpose : order.seeds;
+        const std::string seeds = order.commonSeed ? "common" : own;
+        run.seed = seedOf(study_.settings.seed, seeds + (attempt > 0 ? "/" + std::to_string(attempt) : ""),
             condition.name, order.commonSeed ? 0 : order.number);
         run.entries[study_.rig.seedEntry] = std::to_string(run.seed);
     }
@@ -232,15 +233,15 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
     return done;
 }
 
-std::vector<Simulation> Simulator::repeats(
-    const std::vector<std::size_t>& conditions, const Setting& setting, const std::string& purpose, int repeats)
+std::vector<Simulation> Simulator::repeats(const std::vector<std::size_t>& conditions, const Setting& setting,
+    const std::string& purpose, int repeats, const std::string& seeds)
 {
     std::vector<SimulationOrder> orders;
     for (const auto condition : conditions)
     {
         for (int number = 0; number < repeats; ++number)
         {
-            orders.push_back({condition, setting, purpose, number, false});
+            orders.push_back({condition, setting, purpose, number, false, seeds});
         }
     }
     return run(orders);

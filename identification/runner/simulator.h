@@ -19,7 +19,7 @@ struct Setting
     Eigen::VectorXd amplitudes; // of all effects, those of the measuring chain too
 };
 
-/// A simulation that is wanted; its seed follows from purpose, condition and number.
+/// A simulation that is wanted; its seed follows from seeds (or, where that is empty, purpose), condition and number.
 struct SimulationOrder
 {
     std::size_t condition = 0;
@@ -27,6 +27,7 @@ struct SimulationOrder
     std::string purpose;
     int number = 0;
     bool commonSeed = false; // the same seed for all numbers
+    std::string seeds = {};
 };
 
 struct Simulation
@@ -62,9 +63,9 @@ public:
     /// \throws std::runtime_error above the budget, or on a failed run where the study says `onFailure: stop`
     std::vector<Simulation> run(const std::vector<SimulationOrder>& orders);
 
-    /// `repeats` runs of one setting in each of the conditions.
-    std::vector<Simulation> repeats(
-        const std::vector<std::size_t>& conditions, const Setting& setting, const std::string& purpose, int repeats);
+    /// `repeats` runs of one setting in each of the conditions. \param seeds  as in SimulationOrder
+    std::vector<Simulation> repeats(const std::vector<std::size_t>& conditions, const Setting& setting,
+        const std::string& purpose, int repeats, const std::string& seeds = {});
 
     /// Entries of a run. \throws std::runtime_error that names the effect whose formula fails
     Entries entriesOf(std::size_t condition, const Setting& setting) const;

@@ -216,8 +216,9 @@ TEST(Fits, UncertainColumnsWidenTheNoise)
     Example example;
     example.problem.columnShare(0, 0) = .25;
     EXPECT_NEAR(example.problem.covariance(0, example.noise)(0, 0), 1, 1e-12);
-    EXPECT_NEAR(example.problem.covariance(0, example.noise, 0, 2)(0, 0), 2, 1e-12);
-    EXPECT_NEAR(example.problem.covariance(1, example.noise, 0, 2)(0, 0), 1, 1e-12);
+    const Eigen::Vector2d steps(2, 1);
+    EXPECT_NEAR(example.problem.covariance(0, example.noise, steps)(0, 0), 2, 1e-12);
+    EXPECT_NEAR(example.problem.covariance(1, example.noise, steps)(0, 0), 1, 1e-12);
 }
 
 //--- Evidence -------------------------------------------------------------------------------------------------------
@@ -268,11 +269,35 @@ TEST(Evidence, Pairs)
     example.problem.effectColumns.col(1) << 0, 10, -10, 0;
     example.problem.residual = .5 * example.problem.effectColumns.col(0) + .25 * example.problem.effectColumns.col(1);
     const auto pairs = pairScores(
-        example.problem, example.noise, {Bounds{0, 1}, Bounds{0, 1}}, {false, false}, Eigen::Vector2d::Zero(), 5);
+        example.problem, example.noise, {Bounds{0, 1}, Bounds{0, 1}}, {false, false}, Eigen::Vector2d::Zero());
     ASSERT_EQ(pairs.size(), 1U);
     EXPECT_NEAR(pairs[0].firstAmplitude, .5, .02);
     EXPECT_NEAR(pairs[0].secondAmplitude, .25, .02);
     EXPECT_GT(pairs[0].logEvidence, score(example.problem, example.noise, 0, {0, 1}).logEvidence);
+}
+
+/// Two columns of the same effect, one of them a noisy estimate. As exact columns they part the pairs by more than any
+/// threshold; with their uncertainty told, the pairs with one or the other are alike.
+TEST(Evidence, PairsOfUncertainColumns)
+{
+    Example example;
+    ResidualProblem& problem = example.problem;
+    problem.effectColumns = Eigen::MatrixXd(4, 3);
+    problem.effectColumns.col(0) << 10, 10, 10, -10;
+    problem.effectColumns.col(1) << 0, 10, -10, 0;
+    problem.effectColumns.col(2) << 1, 18, -8, -9;
+    problem.columnShare = Eigen::MatrixXd::Zero(2, 3);
+    problem.residual = problem.effectColumns.col(0) + .9 * problem.effectColumns.col(1);
+    const auto margin = [&]() {
+        const auto pairs = pairScores(
+            problem, example.noise, std::vector<Bounds>(3, {0, 1}), std::vector<bool>(3), Eigen::Vector3d::Zero());
+        EXPECT_EQ(pairs[0].first, 0);
+        EXPECT_EQ(pairs[1].first, 0);
+        return pairs[0].logEvidence - pairs[1].logEvidence;
+    };
+    EXPECT_GT(margin(), 3);
+    problem.columnShare.rightCols(2).setConstant(50);
+    EXPECT_LT(margin(), 3);
 }
 
 //--- Significance ---------------------------------------------------------------------------------------------------

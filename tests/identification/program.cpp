@@ -45,8 +45,8 @@ public:
         study_.insert(study_.find(begin) + begin.size(), effect);
     }
 
-    /// Three measured repeats of every condition, in g, with an effect in them.
-    void measure(const Entries& effect, const std::set<std::string>& butNot = {})
+    /// Three measured repeats of every condition, in g, with an effect in them. \param late  [s] that the record starts
+    void measure(const Entries& effect, const std::set<std::string>& butNot = {}, double late = 0.0)
     {
         folder_.write("study.yaml", study_);
         const Study study = readStudy(folder_.path() / "study.yaml");
@@ -67,7 +67,11 @@ public:
                 csv << "t,m\n";
                 for (std::size_t i = 0; i < curve.time.size(); i += 2)
                 {
-                    csv << curve.time[i] << ',' << textOf(1e3 * curve.value[i]) << '\n';
+                    if (curve.time[i] < late)
+                    {
+                        continue;
+                    }
+                    csv << curve.time[i] - late << ',' << textOf(1e3 * curve.value[i]) << '\n';
                 }
                 const std::string name = condition.name + std::to_string(repeat) + ".csv";
                 folder_.write(name, butNot.count(condition.name) > 0 ? "nobody should read this yet\n" : csv.str());
@@ -162,6 +166,34 @@ TEST(Program, FollowsALargeEffectToItsEnd)
     EXPECT_GT(report["null"]["parameters"]["friction"].get<double>(), .25) << "not as far as this test wants it";
 }
 
+/// Two effects, one of which has three twins in the library: all four pairs are told, though only three are simulated. A
+/// program that gives as its answer what it simulated leaves one out.
+TEST(Program, TellsOfPairsThatItDidNotSimulate)
+{
+    Workshop workshop;
+    for (const std::string twin : {"2", "3", "4"})
+    {
+        workshop.offer("  - { name: trigger" + twin + ", chain: { shift: \"0.4*a\" }, amplitude: [-1, 1] }\n");
+    }
+    workshop.measure({{"addedMass", "0.8"}}, {}, 0.3);
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    const auto report = workshop.json("report.json");
+    EXPECT_EQ(report["decision"], "set") << report["summary"];
+    EXPECT_EQ(report["pairs"].size(), 3U);
+    std::set<std::string> told;
+    for (const auto* list : {&report["set"], &report["pairsAlike"]})
+    {
+        for (const auto& explanation : *list)
+        {
+            for (const auto& amplitude : explanation["amplitudes"].items())
+            {
+                told.insert(amplitude.key());
+            }
+        }
+    }
+    EXPECT_THAT(told, testing::IsSupersetOf({"addedMass", "trigger", "trigger2", "trigger3", "trigger4"}));
+}
+
 /// Nothing put in: nothing found, at this seed; the rate of false alarms is what checkIdentification measures.
 TEST(Program, FindsNothingWhereNothingIs)
 {
@@ -252,6 +284,13 @@ TEST(Runner, FailuresCacheAndSlurm)
     EXPECT_NEAR(
         CaseRig(study, progress).run({orderOf(10007)})[0].curve.value[3], before[0].curve.value[3] - 0.25, 1e-12);
     study.valueOffset = 0;
+    // A store that was made in a checkout that is no more: its runs' surroundings are those of this one.
+    const auto sibling = study.work / "tree" / workshop.path().filename() / "study.yaml";
+    fs::remove(sibling);
+    fs::create_symlink("/of/another/checkout/study.yaml", sibling);
+    ASSERT_FALSE(fs::exists(sibling));
+    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
+    EXPECT_TRUE(fs::exists(sibling));
     // Any change of the case's files is another run.
     std::ofstream(workshop.path() / "case/parameters", std::ios::app) << "// changed\n";
     EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);

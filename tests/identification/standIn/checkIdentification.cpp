@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <iostream>
@@ -109,8 +110,8 @@ public:
         const Answer answer = trace(simulator, library, measured, random_);
         const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, measured, measured, random_);
 
-        Outcome outcome{answer.decision, answer.significance.pValue, false, false, answer.set.size(), 0.0, false,
-            heldOut.before.rmsLogError.value,
+        Outcome outcome{answer.decision, answer.significance.pValue, false, false,
+            answer.set.size() + answer.pairsAlike.size(), 0.0, false, heldOut.before.rmsLogError.value,
             heldOut.after ? heldOut.after->rmsLogError.value : heldOut.before.rmsLogError.value,
             heldOut.oneMoreParameter.rmsLogError.value, heldOut.gaussianProcess.rmsLogError.value, heldOut.accepted};
         const bool inLibrary = !truth.effects.empty() && truth.effects.front() < study_.effects.size();
@@ -124,6 +125,9 @@ public:
                     outcome.topOne = member == 0;
                 }
             }
+            outcome.inSet = outcome.inSet
+                            || std::any_of(answer.pairsAlike.begin(), answer.pairsAlike.end(),
+                                [&](const Explanation& pair) { return pair.effects == truth.effects; });
             const Score& score = answer.effects[truth.effects.front()].score();
             const double reach = intervalSds(answer.noise) * score.sd;
             outcome.covered = std::abs(score.amplitude - truth.amplitudes.front()) <= reach;
