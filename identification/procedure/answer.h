@@ -26,6 +26,7 @@ std::string nameOf(Decision decision);
 struct EffectFinding
 {
     Score linear;                   // from the library's columns
+    Eigen::VectorXd parameters;     // physical values that go with it
     std::optional<Score> confirmed; // from simulations with the effect switched on
     double logOdds = 0.0;           // log evidence + log prior weight, of the best score there is
     double misfitLimit = 0.0;       // 99 % of the cases that it explains lie below

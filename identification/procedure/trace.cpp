@@ -111,7 +111,8 @@ private:
             }
         }
         Eigen::VectorXd anchor = simulator_.plainSetting().parameters;
-        answer_.problem = assemble(study_, library_, data_, base, anchor);
+        atBase_ = assemble(study_, library_, data_, base, anchor);
+        answer_.problem = atBase_;
         if (answer_.problem.residual.size() <= answer_.problem.parameterColumns.cols())
         {
             throw std::runtime_error(
@@ -156,8 +157,17 @@ private:
         answer_.otherLogOdds = otherEvidence(answer_.problem, answer_.noise) + std::log(study_.settings.otherWeight);
     }
 
+    /// Whether the null fit has gone so far that the library's columns, taken at the base setting, may not hold there. A
+    /// large effect that is left out does so; with the effect the parameters are nearer to the base setting again.
+    bool nullIsFar() const
+    {
+        const Eigen::ArrayXd away = (answer_.problem.parameterOffset - atBase_.parameterOffset).array().abs();
+        return (away >= farInPriorSds).any() && atBase_.residual.size() == answer_.problem.residual.size();
+    }
+
     void scoreAll()
     {
+        const bool alsoFromBase = nullIsFar();
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
             const Effect& effect = study_.effects[e];
@@ -165,6 +175,17 @@ private:
             finding.linear = effect.isOfChain() ? scoreChain(e)
                                                 : score(answer_.problem, answer_.noise, static_cast<Eigen::Index>(e),
                                                     effect.bounds, 0.0, effect.isSwitch);
+            finding.parameters = shifted(answer_.problem, finding.linear.parameterShift);
+            if (alsoFromBase)
+            {
+                const Score fromBase =
+                    score(atBase_, answer_.noise, static_cast<Eigen::Index>(e), effect.bounds, 0.0, effect.isSwitch);
+                if (fromBase.logEvidence > finding.linear.logEvidence)
+                {
+                    finding.linear = fromBase;
+                    finding.parameters = shifted(atBase_, fromBase.parameterShift);
+                }
+            }
             finding.logOdds = finding.linear.logEvidence + std::log(effect.prior);
             finding.misfitLimit = answer_.significance.misfitLimit[e];
             answer_.effects.push_back(std::move(finding));
@@ -360,7 +381,7 @@ private:
             return found->second;
         }
         const EffectFinding& finding = answer_.effects[e];
-        Setting setting = simulator_.plainSetting(shifted(answer_.problem, finding.linear.parameterShift));
+        Setting setting = simulator_.plainSetting(finding.parameters);
         setting.amplitudes(static_cast<Eigen::Index>(e)) = finding.linear.amplitude;
         return setting;
     }
@@ -387,9 +408,23 @@ private:
             return;
         }
         const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()));
-        for (const auto& pair : pairScores(answer_.problem, answer_.noise, study_.bounds(), study_.fixed(), none))
+        const auto pairsAt = [&](const ResidualProblem& problem) {
+            return pairScores(problem, answer_.noise, study_.bounds(), study_.fixed(), none);
+        };
+        auto pairs = pairsAt(answer_.problem);
+        const ResidualProblem* problem = &answer_.problem;
+        if (nullIsFar())
         {
-            pairsByColumns_.push_back(byColumns(pair));
+            const auto fromBase = pairsAt(atBase_);
+            if (fromBase.front().logEvidence > pairs.front().logEvidence)
+            {
+                pairs = fromBase;
+                problem = &atBase_;
+            }
+        }
+        for (const auto& pair : pairs)
+        {
+            pairsByColumns_.push_back(byColumns(pair, *problem));
         }
         for (std::size_t i = 0; i < std::min(simulatedPairs, pairsByColumns_.size()); ++i)
         {
@@ -408,7 +443,7 @@ private:
     }
 
     /// A pair as the library's columns show it.
-    Explanation byColumns(const PairScore& pair) const
+    Explanation byColumns(const PairScore& pair, const ResidualProblem& problem) const
     {
         const auto first = static_cast<std::size_t>(pair.first);
         const auto second = static_cast<std::size_t>(pair.second);
@@ -417,7 +452,7 @@ private:
         explanation.logOdds = pair.logEvidence + logPriorOfPair(first, second);
         explanation.misfit = pair.misfit;
         explanation.misfitLimit = std::min(answer_.effects[first].misfitLimit, answer_.effects[second].misfitLimit);
-        explanation.setting = simulator_.plainSetting(shifted(answer_.problem, pair.parameterShift));
+        explanation.setting = simulator_.plainSetting(shifted(problem, pair.parameterShift));
         explanation.setting.amplitudes(pair.first) = pair.firstAmplitude;
         explanation.setting.amplitudes(pair.second) = pair.secondAmplitude;
         return explanation;
@@ -535,6 +570,7 @@ private:
     const std::vector<MeasuredCondition>& data_;
     std::mt19937_64& random_;
     std::vector<std::size_t> training_;
+    ResidualProblem atBase_;                  // at the prior's means
     std::vector<Explanation> pairsByColumns_; // most likely first, as the library's columns show them
     std::map<std::size_t, Setting> settings_;
     std::map<std::size_t, double> simulatedAt_; // amplitude

@@ -117,9 +117,7 @@ Json effectsJson(const Findings& findings)
             {"sets", entriesAt(effect, score.amplitude)}, {"misfit", number(score.misfit)},
             {"misfitLimit", finding.misfitLimit}, {"logEvidence", number(score.logEvidence)},
             {"logOdds", number(finding.logOdds)}, {"probability", number(std::exp(finding.logOdds - largest) / sum)},
-            {"confirmed", finding.confirmed.has_value()},
-            {"parameters",
-                parametersOf(study, physical(study, answer.problem.parameterOffset + finding.linear.parameterShift))},
+            {"confirmed", finding.confirmed.has_value()}, {"parameters", parametersOf(study, finding.parameters)},
             {"maskedByParameters", number(table.masked(i))},
             {"smallestDetectable", number(table.smallestDetectable(i))}, {"howToMeasure", effect.hint}});
     }
