@@ -58,6 +58,11 @@ class HopperRun:
         return self.mass[0] * (edges[1:] + edges[:-1]) / 2, rates
 
     @cached_property
+    def clogged(self):
+        """Whether an arch over the orifice ended the flow before it had a rate."""
+        return self.mass[-1] > START[1] * self.mass[0]
+
+    @cached_property
     def startRate(self):
         """The paper's W, "at the beginning"; its error from how the rate varies meanwhile."""
         _, rates = self.rates(*START, BINS_OF_START)
@@ -133,17 +138,26 @@ def check(run):
 
 
 def fills(stage, **wanted):
-    """Runs of the entries fill..., of a stage and with the parameters wanted, in order of fill."""
-    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith("fill") and run.startRate.mean and
+    """Runs of the entries fill..., of a stage and with the parameters wanted, in order of fill; without clogged ones."""
+    return [run for run in withClogged(stage, **wanted) if not run.clogged]
+
+
+def withClogged(stage, **wanted):
+    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith("fill") and
              all(isclose(run.parameters[name], value) for name, value in wanted.items())]
     return sorted(found, key=lambda run: (run.fill, run.friction))
+
+
+def cloggedRuns(stage, **wanted):
+    return [run for run in withClogged(stage, **wanted) if run.clogged]
 
 
 def deepest(stage, friction):
     """The runs with the largest fill there is: one or several packings."""
     found = fills(stage, friction=friction)
     if not found:
-        raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400")
+        clogged = "".join(f"; {run.name} clogged" for run in cloggedRuns(stage, friction=friction))
+        raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400{clogged}")
     return [run for run in found if isclose(run.fill, found[-1].fill)]
 
 
