@@ -161,6 +161,7 @@ RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
 int Simulator::missing(const std::vector<SimulationOrder>& orders)
 {
     std::vector<RunOrder> runs;
+    runs.reserve(orders.size());
     for (const auto& order : orders)
     {
         runs.push_back(runOrder(order, 0));
@@ -178,6 +179,7 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
     for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
     {
         std::vector<RunOrder> runs;
+        runs.reserve(open.size());
         for (const auto i : open)
         {
             runs.push_back(runOrder(orders[i], attempt));

@@ -324,7 +324,7 @@ TEST(Significance, PValueIsUniformUnderNoise)
     }
     EXPECT_GE(rejected, 6);
     EXPECT_LE(rejected, 26);
-    EXPECT_NEAR(belowHalf, trials / 2, 2.5 * std::sqrt(trials / 4.));
+    EXPECT_NEAR(belowHalf, trials / 2., 2.5 * std::sqrt(trials / 4.));
 }
 
 TEST(Significance, SeesAnEffect)
