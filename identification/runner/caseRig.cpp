@@ -3,6 +3,7 @@
 #include "curves/table.h"
 #include "runner/runProgress.h"
 #include "runner/sha256.h"
+#include "runner/storeLock.h"
 
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -231,6 +233,12 @@ int CaseRig::missing(const std::vector<RunOrder>& orders)
 
 std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
 {
+    // Before looking what is there: what another process is just making is there when it has ended.
+    std::optional<StoreLock> lock;
+    if (missing(orders) > 0)
+    {
+        lock.emplace(study_.work, progress_);
+    }
     std::vector<RunResult> results(orders.size());
     std::map<std::string, std::vector<std::size_t>> toDo;
     for (std::size_t i = 0; i < orders.size(); ++i)

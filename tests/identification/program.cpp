@@ -12,9 +12,11 @@
 
 #include <sys/wait.h>
 
+#include <array>
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <thread>
 
 namespace clepsydra::identification::tests
 {
@@ -237,6 +239,33 @@ TEST(Program, SaysWhatIsWrongAndWritesNothing)
     EXPECT_THAT(workshop.output, HasSubstr("study.yaml:"));
     EXPECT_THAT(workshop.output, HasSubstr("allowed here"));
     EXPECT_FALSE(fs::exists(workshop.path() / "results"));
+}
+
+/// Two studies of one store that want the same run at the same time: one makes it, the other waits and finds it there.
+/// Without a lock both make it in the same folder, each under the other's feet.
+TEST(Runner, TwoAtOnceInOneStore)
+{
+    Workshop workshop;
+    workshop.measure({});
+    std::ofstream(workshop.path() / "case/Allrun") << "#!/bin/sh\nsleep 0.3\nexec " STAND_IN_PROGRAM "\n";
+    const Study study = readStudy(workshop.path() / "study.yaml");
+    const RunOrder order{"./Allrun", study.conditions[0].file, {{"seed", "10007"}}, 10007, "test"};
+    std::array<RunResult, 2> results;
+    std::array<std::thread, 2> studies;
+    for (std::size_t i = 0; i < studies.size(); ++i)
+    {
+        studies[i] = std::thread([&, i]() {
+            std::ostringstream progress;
+            results[i] = CaseRig(study, progress).run({order})[0];
+        });
+    }
+    for (auto& one : studies)
+    {
+        one.join();
+    }
+    EXPECT_EQ(results[0].failure + results[1].failure, "");
+    EXPECT_NE(results[0].cached, results[1].cached);
+    EXPECT_EQ(results[0].curve.value, results[1].curve.value);
 }
 
 /// A run that fails with its seed is repeated with another, and told. The same through Slurm, played by a script that
