@@ -161,6 +161,15 @@ def deepest(stage, friction):
     return [run for run in found if isclose(run.fill, found[-1].fill)]
 
 
+def deepestOfBoth(friction):
+    """{stage: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the difference."""
+    common = set.intersection(*({round(run.fill) for run in fills(stage, friction=friction)} for stage in paper.STAGES))
+    if not common:
+        raise MissingRuns(f"no fill with a friction of {friction:g} in both: entries fill100, fill200, fill400")
+    return {stage: [run for run in fills(stage, friction=friction) if round(run.fill) == max(common)]
+            for stage in paper.STAGES}
+
+
 def mean(values, deviation=None):
     """Of runs that differ by their packing. Few runs: the larger of their scatter and of their own errors counts."""
     means = [value.mean for value in values]
