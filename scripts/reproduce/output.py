@@ -46,7 +46,14 @@ def command(main, description, entries, afterRun=None):
 
 
 def run(entries):
-    if subprocess.run([SCRIPTS / "campaign", "run", CAMPAIGN, "--only", *entries]).returncode != 0:
+    with subprocess.Popen([SCRIPTS / "campaign", "run", CAMPAIGN, "--only", *entries]) as campaign:
+        try:
+            status = campaign.wait()
+        except KeyboardInterrupt:
+            campaign.terminate()        # which lets its runs write their checkpoints
+            campaign.wait()
+            sys.exit(f"{sys.argv[0]}: stopped; the same command goes on")
+    if status != 0:
         sys.exit(1)
 
 
