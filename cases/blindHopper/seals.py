@@ -36,13 +36,17 @@ def setNames():
     return [name[len("truth/"):-len(".json")] for name in committed() if name.startswith("truth/")]
 
 
+def isOpen(name):
+    return (OPENED / f"{name}.json").exists()
+
+
 def open(name):
     """What is in a set, from truth/SET.json or else from its sealed file, which it is then copied from."""
     path = OPENED / f"{name}.json"
-    part = path.read_bytes() if path.exists() else (SEALED / f"{name}.json").read_bytes()
+    part = path.read_bytes() if isOpen(name) else (SEALED / f"{name}.json").read_bytes()
     if hashlib.sha256(part).hexdigest() != committed()[f"truth/{name}.json"]:
         raise SystemExit(f"{path}: this is not what was sealed: its hash is not that of {HASHES}")
-    if not path.exists():
+    if not isOpen(name):
         OPENED.mkdir(exist_ok=True)
         path.write_bytes(part)
     return json.loads(part)

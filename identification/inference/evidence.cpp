@@ -1,7 +1,5 @@
 #include "inference/evidence.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,10 +31,72 @@ double middle(int point, int count, double lower, double upper)
     return lower + (upper - lower) * (point + 0.5) / count;
 }
 
-double logDeterminant(const Eigen::LLT<Eigen::MatrixXd>& root)
+/// From the anchor, where an effect's amplitude may go. \param fixed  an effect that is on or off: to amplitude 1
+Bounds stepsFrom(double anchor, const Bounds& bounds, bool fixed)
 {
-    return 2.0 * root.matrixLLT().diagonal().array().log().sum();
+    return fixed ? Bounds{1.0 - anchor, 1.0 - anchor} : Bounds{bounds.lower - anchor, bounds.upper - anchor};
 }
+
+/// What a wider noise takes off the log-likelihood.
+double widening(const WhiteProblem& widened, const WhiteProblem& plain)
+{
+    return 0.5 * (widened.logDeterminant - plain.logDeterminant);
+}
+
+/// Of two effects, over a grid of their steps.
+class PairGrid
+{
+public:
+    PairGrid(
+        const Fits& fits, Eigen::Index first, Eigen::Index second, const Bounds& firstSteps, const Bounds& secondSteps)
+        : misfits_(pairPoints, pairPoints)
+    {
+        const Eigen::MatrixXd columns = fits.effectsLeft()(Eigen::all, std::vector<Eigen::Index>{first, second});
+        const Eigen::Matrix2d products = columns.transpose() * columns;
+        const Eigen::Vector2d with = columns.transpose() * fits.residualLeft();
+        double best = std::numeric_limits<double>::infinity();
+        for (int k = 0; k < pairPoints; ++k)
+        {
+            for (int l = 0; l < pairPoints; ++l)
+            {
+                const Eigen::Vector2d step(middle(k, pairPoints, firstSteps.lower, firstSteps.upper),
+                    middle(l, pairPoints, secondSteps.lower, secondSteps.upper));
+                const double misfit = fits.nullMisfit() - 2.0 * step.dot(with) + step.dot(products * step);
+                misfits_(k, l) = misfit;
+                if (misfit < best)
+                {
+                    best = misfit;
+                    best_ = step;
+                }
+            }
+        }
+    }
+
+    double leastMisfit() const
+    {
+        return misfits_.minCoeff();
+    }
+
+    const Eigen::Vector2d& bestSteps() const
+    {
+        return best_;
+    }
+
+    double logEvidence(double nu, Eigen::Index rows) const
+    {
+        std::vector<double> likelihoods;
+        likelihoods.reserve(static_cast<std::size_t>(misfits_.size()));
+        for (const double misfit : misfits_.reshaped<Eigen::RowMajor>())
+        {
+            likelihoods.push_back(logLikelihood(std::max(misfit, 0.0), nu, rows));
+        }
+        return logMeanExp(likelihoods);
+    }
+
+private:
+    Eigen::MatrixXd misfits_;
+    Eigen::Vector2d best_ = Eigen::Vector2d::Zero();
+};
 
 } // namespace
 
@@ -70,13 +130,11 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
     double anchorAmplitude, bool fixed)
 {
     const double nu = effectiveDegreesOfFreedom(noise);
-    const double lower = (fixed ? 1.0 : bounds.lower) - anchorAmplitude;
-    const double upper = (fixed ? 1.0 : bounds.upper) - anchorAmplitude;
+    const auto [lower, upper] = stepsFrom(anchorAmplitude, bounds, fixed);
     const WhiteProblem plain = whitened(problem, noise);
     Eigen::VectorXd steps = Eigen::VectorXd::Zero(problem.effectColumns.cols());
     steps(effect) = Fits(plain).effect(effect, lower, upper).amplitude;
     const WhiteProblem widened = whitened(problem, noise, steps);
-    const double widening = 0.5 * (widened.logDeterminant - plain.logDeterminant);
     const Fits fits(widened);
     const auto fit = fits.effect(effect, lower, upper);
 
@@ -87,7 +145,7 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
     result.parameterShift = fits.parameterShift(effect, fit.amplitude);
     if (fixed)
     {
-        result.logEvidence = logLikelihood(fit.misfit, nu, problem.residual.size()) - widening;
+        result.logEvidence = logLikelihood(fit.misfit, nu, problem.residual.size()) - widening(widened, plain);
         return result;
     }
     std::vector<double> along(points);
@@ -97,7 +155,7 @@ Score score(const ResidualProblem& problem, const Noise& noise, Eigen::Index eff
         along[static_cast<std::size_t>(point)] =
             logLikelihood(fit.freeMisfit + away * away, nu, problem.residual.size());
     }
-    result.logEvidence = logMeanExp(along) - widening;
+    result.logEvidence = logMeanExp(along) - widening(widened, plain);
     return result;
 }
 
@@ -127,49 +185,6 @@ double otherEvidence(const ResidualProblem& problem, const Noise& noise)
     return logLikelihood(misfit, effectiveDegreesOfFreedom(noise), rows) + occam;
 }
 
-namespace
-{
-
-/// Where the two amplitudes of a pair may be, as steps from the anchor.
-struct Square
-{
-    Bounds first;
-    Bounds second;
-};
-
-/// A pair's score among effects in white noise. \param widening  half the log of what the noise was widened by
-PairScore pairScore(const Fits& fits, Eigen::Index first, Eigen::Index second, const Square& steps, double nu,
-    Eigen::Index rows, double widening)
-{
-    const Eigen::MatrixXd columns = fits.effectsLeft()(Eigen::all, std::vector<Eigen::Index>{first, second});
-    const Eigen::Matrix2d products = columns.transpose() * columns;
-    const Eigen::Vector2d with = columns.transpose() * fits.residualLeft();
-    PairScore pair{first, second, 0.0, 0.0, std::numeric_limits<double>::infinity(), 0.0, {}};
-    std::vector<double> likelihoods;
-    for (int k = 0; k < pairPoints; ++k)
-    {
-        for (int l = 0; l < pairPoints; ++l)
-        {
-            const Eigen::Vector2d step(middle(k, pairPoints, steps.first.lower, steps.first.upper),
-                middle(l, pairPoints, steps.second.lower, steps.second.upper));
-            const double misfit = fits.nullMisfit() - 2.0 * step.dot(with) + step.dot(products * step);
-            likelihoods.push_back(logLikelihood(std::max(misfit, 0.0), nu, rows));
-            if (misfit < pair.misfit)
-            {
-                pair.misfit = misfit;
-                pair.firstAmplitude = step(0);
-                pair.secondAmplitude = step(1);
-            }
-        }
-    }
-    pair.logEvidence = logMeanExp(likelihoods) - widening;
-    pair.parameterShift = fits.parameterShift(first, pair.firstAmplitude)
-                          + fits.parameterShift(second, pair.secondAmplitude) - fits.parameterShift();
-    return pair;
-}
-
-} // namespace
-
 std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& noise, const std::vector<Bounds>& bounds,
     const std::vector<bool>& fixed, const Eigen::VectorXd& anchor)
 {
@@ -177,10 +192,9 @@ std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& n
     const auto rows = problem.residual.size();
     const WhiteProblem plain = whitened(problem, noise);
     const Fits fits(plain);
-    const auto range = [&](Eigen::Index e) {
+    const auto steps = [&](Eigen::Index e) {
         const auto i = static_cast<std::size_t>(e);
-        return fixed[i] ? Bounds{1.0 - anchor(e), 1.0 - anchor(e)}
-                        : Bounds{bounds[i].lower - anchor(e), bounds[i].upper - anchor(e)};
+        return stepsFrom(anchor(e), bounds[i], fixed[i]);
     };
 
     std::vector<PairScore> all;
@@ -188,18 +202,14 @@ std::vector<PairScore> pairScores(const ResidualProblem& problem, const Noise& n
     {
         for (Eigen::Index first = 0; first < second; ++first)
         {
-            const Square steps{range(first), range(second)};
-            const PairScore sharp = pairScore(fits, first, second, steps, nu, rows, 0.0);
-            const ResidualProblem two = problem.withEffects({first, second});
-            const WhiteProblem widened =
-                whitened(two, noise, Eigen::Vector2d(sharp.firstAmplitude, sharp.secondAmplitude));
-            const double widening = 0.5 * (widened.logDeterminant - plain.logDeterminant);
-            PairScore pair = pairScore(Fits(widened), 0, 1, steps, nu, rows, widening);
-            pair.first = first;
-            pair.second = second;
-            pair.firstAmplitude += anchor(first);
-            pair.secondAmplitude += anchor(second);
-            all.push_back(pair);
+            const PairGrid sharp(fits, first, second, steps(first), steps(second));
+            const WhiteProblem widened = whitened(problem.withEffects({first, second}), noise, sharp.bestSteps());
+            const Fits two(widened);
+            const PairGrid grid(two, 0, 1, steps(first), steps(second));
+            const Eigen::Vector2d& best = grid.bestSteps();
+            all.push_back({first, second, anchor(first) + best(0), anchor(second) + best(1), grid.leastMisfit(),
+                grid.logEvidence(nu, rows) - widening(widened, plain),
+                two.parameterShift(0, best(0)) + two.parameterShift(1, best(1)) - two.parameterShift()});
         }
     }
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.logEvidence > b.logEvidence; });

@@ -1,7 +1,5 @@
 #include "inference/residualProblem.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -40,6 +38,11 @@ ResidualProblem ResidualProblem::withEffects(const std::vector<Eigen::Index>& ef
     return part;
 }
 
+double logDeterminant(const Eigen::LLT<Eigen::MatrixXd>& root)
+{
+    return 2.0 * root.matrixLLT().diagonal().array().log().sum();
+}
+
 WhiteProblem whitened(const ResidualProblem& problem, const Noise& noise, const Eigen::VectorXd& steps)
 {
     const auto rows = problem.residual.size();
@@ -56,7 +59,7 @@ WhiteProblem whitened(const ResidualProblem& problem, const Noise& noise, const 
         white.residual.segment(first, count) = lower.solve(problem.residual.segment(first, count));
         white.parameters.middleRows(first, count) = lower.solve(problem.parameterColumns.middleRows(first, count));
         white.effects.middleRows(first, count) = lower.solve(problem.effectColumns.middleRows(first, count));
-        white.logDeterminant += 2.0 * root.matrixLLT().diagonal().array().log().sum();
+        white.logDeterminant += logDeterminant(root);
     }
     white.residual.tail(parameters) = -problem.parameterOffset;
     white.parameters.bottomRows(parameters).setIdentity();

@@ -2,6 +2,7 @@
 
 #include "noise/noise.h"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include <vector>
@@ -40,6 +41,9 @@ struct ResidualProblem
     /// The same with these effects alone, in this order.
     ResidualProblem withEffects(const std::vector<Eigen::Index>& effects) const;
 };
+
+/// Of the matrix that was factorised.
+double logDeterminant(const Eigen::LLT<Eigen::MatrixXd>& root);
 
 /// The problem in coordinates in which the noise is white; the parameters' priors are its last rows.
 struct WhiteProblem

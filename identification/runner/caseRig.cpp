@@ -233,21 +233,30 @@ int CaseRig::missing(const std::vector<RunOrder>& orders)
 
 std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
 {
-    // Before looking what is there: what another process is just making is there when it has ended.
-    std::optional<StoreLock> lock;
-    if (missing(orders) > 0)
-    {
-        lock.emplace(study_.work, progress_);
-    }
     std::vector<RunResult> results(orders.size());
-    std::map<std::string, std::vector<std::size_t>> toDo;
-    for (std::size_t i = 0; i < orders.size(); ++i)
-    {
-        const std::string key = keyOf(orders[i]);
-        if (!load(orders[i], cache_ / key, results[i]))
+    const auto notStored = [&]() {
+        std::map<std::string, std::vector<std::size_t>> missing;
+        for (std::size_t i = 0; i < orders.size(); ++i)
         {
-            toDo[key].push_back(i);
+            if (results[i].cached)
+            {
+                continue;
+            }
+            const std::string key = keyOf(orders[i]);
+            if (!load(orders[i], cache_ / key, results[i]))
+            {
+                missing[key].push_back(i);
+            }
         }
+        return missing;
+    };
+    std::optional<StoreLock> lock;
+    auto toDo = notStored();
+    if (!toDo.empty())
+    {
+        // What another process was just making is there once the lock is ours.
+        lock.emplace(study_.work, progress_);
+        toDo = notStored();
     }
     std::vector<Job> jobs;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
