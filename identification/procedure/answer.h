@@ -47,6 +47,7 @@ struct Explanation
     double misfit = 0.0;
     double misfitLimit = 0.0;
     bool confirmed = false;
+    std::vector<Simulation> simulations; // the last ones with it switched on; empty: it was not simulated
 };
 
 /// All that the training data say. Held-out data have no part in it.
@@ -58,7 +59,6 @@ struct Answer
     std::optional<Explanation> bestOfUnknown; // the most likely one where none is enough; no part of the answer
     Explanation null;                         // refitted parameters, no effect
     double otherLogOdds = 0.0;
-    double nullLogOdds = 0.0;
     std::vector<EffectFinding> effects;  // as in the study
     std::vector<Explanation> pairs;      // those simulated
     std::vector<Explanation> pairsAlike; // not simulated; by the effects' columns as likely as the best one, a pair
@@ -69,7 +69,6 @@ struct Answer
     ResidualProblem problem;          // at the null fit
     Eigen::VectorXd parameterSd;      // of the refitted parameters, in prior sd
     std::vector<Simulation> atFit;    // the null's simulations on the training conditions
-    std::vector<Simulation> ofBest;   // those of the best explanation
     std::vector<std::string> remarks; // what had to be left out or could not be done
 };
 

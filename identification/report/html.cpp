@@ -123,7 +123,10 @@ std::string curvePlots(const Findings& findings)
     {
         Plot plot(study.conditions[c].name, "time [s]", study.valueColumn);
         draw(plot, bundleOf(findings.answer->atFit, c), beforeStyle, beforeBand, "without effect");
-        draw(plot, bundleOf(findings.answer->ofBest, c), afterStyle, afterBand, "with the best");
+        if (!findings.answer->set.empty())
+        {
+            draw(plot, bundleOf(findings.answer->set.front().simulations, c), afterStyle, afterBand, "with the best");
+        }
         bool first = true;
         for (const auto& curve : (*findings.data)[c].curves)
         {
