@@ -144,102 +144,209 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
     return predictions;
 }
 
+/// Everything that is scored on the held-out conditions, with the same draws of their noise.
+class Comparison
+{
+public:
+    Comparison(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+        const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
+        std::mt19937_64& random)
+        : simulator_(simulator),
+          study_(simulator.study()),
+          library_(library),
+          answer_(answer),
+          training_(training),
+          random_(random),
+          logs_(logFeatures(study_))
+    {
+        for (const auto c : study_.conditionsOf(Role::heldOut))
+        {
+            if (heldOut[c].features.rows() > 0)
+            {
+                result_.conditions.push_back(c);
+                result_.data.push_back(
+                    {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2()});
+            }
+        }
+    }
+
+    HeldOutResult run()
+    {
+        if (result_.conditions.empty())
+        {
+            return std::move(result_);
+        }
+        scoreNull();
+        scoreMembers();
+        scoreControls();
+        scoreBestOfUnknown();
+        findNoise();
+        judge();
+        return std::move(result_);
+    }
+
+private:
+    struct Scored
+    {
+        HeldOutScore score;
+        std::vector<double> draws; // of the rms error
+    };
+
+    std::vector<Simulation> simulated(const Setting& setting, const std::string& purpose)
+    {
+        return simulator_.repeats(result_.conditions, setting, "held out, " + purpose, study_.settings.repeatsHeldOut);
+    }
+
+    std::vector<Prediction> predictionsOf(const std::vector<Simulation>& simulations) const
+    {
+        std::vector<Prediction> predictions;
+        for (const auto c : result_.conditions)
+        {
+            predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), answer_.noise));
+        }
+        return predictions;
+    }
+
+    Scored scored(const std::vector<Prediction>& predictions)
+    {
+        Scored one;
+        one.score = heldOutScore(result_.data, predictions, logs_, noise_, random_, &one.draws);
+        return one;
+    }
+
+    void scoreNull()
+    {
+        result_.simulations.push_back(simulated(answer_.null.setting, "before"));
+        result_.predictedBefore = predictionsOf(result_.simulations.back());
+        noise_ = drawDataNoise(result_.data, result_.predictedBefore, draws, random_);
+        before_ = scored(result_.predictedBefore);
+        result_.before = before_.score;
+    }
+
+    void scoreMembers()
+    {
+        for (std::size_t member = 0; member < answer_.set.size(); ++member)
+        {
+            const auto after = simulated(answer_.set[member].setting, nameOf(study_, answer_.set[member]));
+            const auto predicted = predictionsOf(after);
+            Scored one = scored(predicted);
+            result_.members.push_back({member, one.score});
+            if (member == 0)
+            {
+                result_.after = one.score;
+                result_.predictedAfter = predicted;
+                result_.simulations.push_back(after);
+                after_ = std::move(one);
+            }
+        }
+    }
+
+    void scoreControls()
+    {
+        const FreeOperation more = fitOneMore(simulator_, library_, answer_, training_);
+        result_.oneMoreAmplitude = more.size;
+        auto oneMore = simulated(simulator_.plainSetting(more.parameters), "one more parameter");
+        for (auto& simulation : oneMore)
+        {
+            if (!simulation.failed)
+            {
+                simulation.features = simulator_.featuresOf(changed(study_, simulation.curve, more.size));
+            }
+        }
+        oneMore_ = scored(predictionsOf(oneMore));
+        result_.oneMoreParameter = oneMore_.score;
+        result_.gaussianProcess =
+            scored(withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore)).score;
+    }
+
+    void scoreBestOfUnknown()
+    {
+        if (answer_.bestOfUnknown)
+        {
+            result_.bestOfUnknown =
+                scored(predictionsOf(simulated(answer_.bestOfUnknown->setting, "best of unknown"))).score;
+        }
+    }
+
+    /// What noise alone does to the error of a prediction: one whose mean is what was measured, moved by the draws.
+    void findNoise()
+    {
+        auto right = result_.after ? result_.predictedAfter : result_.predictedBefore;
+        for (std::size_t i = 0; i < right.size(); ++i)
+        {
+            right[i].mean = meanFeatures(result_.data[i].features);
+        }
+        auto errors = scored(right).draws;
+        const Eigen::Map<const Eigen::ArrayXd> all(errors.data(), static_cast<Eigen::Index>(errors.size()));
+        result_.noiseFloor = std::sqrt(all.square().mean());
+        std::sort(errors.begin(), errors.end());
+        result_.noiseLimit = errors[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1];
+    }
+
+    void judge()
+    {
+        if (!result_.after)
+        {
+            return;
+        }
+        result_.improvement = difference(before_, after_);
+        result_.overOneMore = difference(oneMore_, after_);
+        auto& reasons = result_.notAcceptedBecause;
+        if (answer_.decision != Decision::named)
+        {
+            reasons.emplace_back("it is not the only explanation");
+        }
+        if (!isBeyondItsError(result_.improvement))
+        {
+            reasons.emplace_back("the error does not fall by more than its standard error");
+        }
+        if (!isBeyondItsError(result_.overOneMore))
+        {
+            reasons.emplace_back("one more free parameter does as well");
+        }
+        if (result_.after->rmsLogError.value > result_.noiseLimit)
+        {
+            reasons.emplace_back("the error that is left is more than noise");
+        }
+    }
+
+    static bool isBeyondItsError(const Estimate& estimate)
+    {
+        return estimate.value > estimate.standardError;
+    }
+
+    /// Of two rms errors, draw by draw, so that what they share does not count.
+    static Estimate difference(const Scored& larger, const Scored& smaller)
+    {
+        const auto drawsOf = [](const Scored& one) {
+            return Eigen::Map<const Eigen::ArrayXd>(one.draws.data(), static_cast<Eigen::Index>(one.draws.size()));
+        };
+        const Eigen::ArrayXd gain = drawsOf(larger) - drawsOf(smaller);
+        return {larger.score.rmsLogError.value - smaller.score.rmsLogError.value,
+            std::sqrt((gain - gain.mean()).square().mean())};
+    }
+
+    Simulator& simulator_;
+    const Study& study_;
+    const EffectLibrary& library_;
+    const Answer& answer_;
+    const std::vector<MeasuredCondition>& training_;
+    std::mt19937_64& random_;
+    const std::vector<Eigen::Index> logs_; // the features that are scored
+    DataNoise noise_;
+    Scored before_;
+    Scored after_;
+    Scored oneMore_;
+    HeldOutResult result_;
+};
+
 } // namespace
 
 HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random)
 {
-    const Study& study = simulator.study();
-    const auto features = study.featureCount();
-    HeldOutResult result;
-    for (const auto c : study.conditionsOf(Role::heldOut))
-    {
-        if (heldOut[c].features.rows() > 0)
-        {
-            result.conditions.push_back(c);
-            result.data.push_back(
-                {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2()});
-        }
-    }
-    const auto predict = [&](const std::vector<Simulation>& simulations) {
-        std::vector<Prediction> predictions;
-        for (const auto c : result.conditions)
-        {
-            predictions.push_back(predictionOf(featureRows(simulations, c, features), answer.noise));
-        }
-        return predictions;
-    };
-    const auto simulate = [&](const Setting& setting, const std::string& purpose) {
-        return simulator.repeats(result.conditions, setting, "held out, " + purpose, study.settings.repeatsHeldOut);
-    };
-    const auto logs = logFeatures(study);
-
-    const auto before = simulate(answer.null.setting, "before");
-    result.predictedBefore = predict(before);
-    result.simulations.push_back(before);
-    const DataNoise noise = drawDataNoise(result.data, result.predictedBefore, draws, random);
-    const auto scoreOf = [&](const std::vector<Prediction>& predictions, std::vector<double>* samples = nullptr) {
-        return heldOutScore(result.data, predictions, logs, noise, random, samples);
-    };
-
-    std::vector<double> samplesBefore;
-    result.before = scoreOf(result.predictedBefore, &samplesBefore);
-    for (std::size_t member = 0; member < answer.set.size(); ++member)
-    {
-        std::string name;
-        for (const auto e : answer.set[member].effects)
-        {
-            name += (name.empty() ? "" : " with ") + study.effects[e].name;
-        }
-        const auto after = simulate(answer.set[member].setting, name);
-        const auto predicted = predict(after);
-        std::vector<double> samples;
-        result.members.push_back({member, scoreOf(predicted, &samples)});
-        if (member == 0)
-        {
-            result.after = result.members.front().score;
-            result.predictedAfter = predicted;
-            result.simulations.push_back(after);
-            Eigen::ArrayXd gain = Eigen::Map<Eigen::ArrayXd>(samplesBefore.data(), draws)
-                                  - Eigen::Map<Eigen::ArrayXd>(samples.data(), draws);
-            result.improvement.value = result.before.rmsLogError.value - result.after->rmsLogError.value;
-            result.improvement.standardError = std::sqrt((gain - gain.mean()).square().mean());
-            result.accepted = result.improvement.value > result.improvement.standardError;
-        }
-    }
-
-    const FreeOperation more = fitOneMore(simulator, library, answer, training);
-    result.oneMoreAmplitude = more.size;
-    auto oneMore = simulate(simulator.plainSetting(more.parameters), "one more parameter");
-    for (auto& simulation : oneMore)
-    {
-        if (!simulation.failed)
-        {
-            simulation.features = simulator.featuresOf(changed(study, simulation.curve, more.size));
-        }
-    }
-    result.oneMoreParameter = scoreOf(predict(oneMore));
-    result.gaussianProcess =
-        scoreOf(withGaussianProcess(study, answer, training, result.conditions, result.predictedBefore));
-
-    if (answer.bestOfUnknown)
-    {
-        result.bestOfUnknown = scoreOf(predict(simulate(answer.bestOfUnknown->setting, "best of unknown")));
-    }
-
-    double floor = 0.0;
-    for (std::size_t i = 0; i < result.data.size(); ++i)
-    {
-        for (const auto f : logs)
-        {
-            floor += answer.noise.data.matrix(f, f) * result.data[i].meanShare(f, f)
-                     + result.data[i].declaredVariance(f) + result.predictedBefore[i].variance(f);
-        }
-    }
-    result.noiseFloor =
-        std::sqrt(floor / static_cast<double>(logs.size() * std::max<std::size_t>(result.data.size(), 1)));
-    return result;
+    return Comparison(simulator, library, answer, training, heldOut, random).run();
 }
 
 } // namespace clepsydra::identification

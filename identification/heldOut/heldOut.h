@@ -30,14 +30,23 @@ struct HeldOutResult
     std::vector<MemberScore> members;
     std::optional<HeldOutScore> bestOfUnknown; // of Answer::bestOfUnknown: for people to see, never accepted
     Estimate improvement;                      // of the rms error, before minus after, with the noise they share
-    double noiseFloor = 0.0;                   // rms error that measurement noise alone would give
-    bool accepted = false;                     // the improvement exceeds its standard error
+    Estimate overOneMore;                      // the same, control 1 minus after
+    double noiseFloor = 0.0;                   // rms error that noise alone would give
+    double noiseLimit = 0.0;                   // 99 % of right predictions have a smaller one
     double oneMoreAmplitude = 0.0;             // what control 1 fitted
+    std::vector<std::string> notAcceptedBecause;
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
     std::vector<Prediction> predictedAfter;
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
+
+    /// Whether the best explanation may enter the model: it is a name, the error falls by more than the standard error of
+    /// that, is smaller than with one more free parameter by more than the standard error of that, and reaches the noise.
+    bool accepted() const
+    {
+        return after && notAcceptedBecause.empty();
+    }
 };
 
 /// Simulates the held-out conditions with fresh seeds, then reads their measurements.

@@ -27,6 +27,8 @@ struct Significance
     double bestGainCritical = 0.0;   // D above which the p-value falls below .05
     std::vector<double> misfitLimit; // per effect: its misfit is below this in 99 % of the cases that it explains
     double nullMisfitLimit = 0.0;    // the same for none
+    double noticed = 0.0; // what a pattern of any shape takes off the misfit if that is to be above its limit
+                          // in 80 % of the cases
 };
 
 /// Omnibus and max-T test. Both distributions by Monte Carlo: in each draw the residual is noise, the covariance is

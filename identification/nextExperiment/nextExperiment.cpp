@@ -15,16 +15,6 @@ namespace
 
 constexpr int seedsPerOutcome = 2;
 
-std::string nameOfExplanation(const Study& study, const Explanation& explanation)
-{
-    std::string name;
-    for (const auto e : explanation.effects)
-    {
-        name += (name.empty() ? "" : " with ") + study.effects[e].name;
-    }
-    return name.empty() ? "no effect" : name;
-}
-
 } // namespace
 
 double divergence(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::MatrixXd& covariance)
@@ -81,7 +71,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
         next.condition = condition;
         for (const auto& explanation : left)
         {
-            const std::string name = nameOfExplanation(study, explanation);
+            const std::string name = nameOf(study, explanation);
             const auto simulations =
                 simulator.repeats({condition}, explanation.setting, "next experiment, " + name, seedsPerOutcome);
             next.outcomes.push_back({name, std::exp(explanation.logOdds - left.front().logOdds) / sum,

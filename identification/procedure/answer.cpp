@@ -19,4 +19,14 @@ std::string nameOf(Decision decision)
     return "unknown";
 }
 
+std::string nameOf(const Study& study, const Explanation& explanation)
+{
+    std::string name;
+    for (const auto e : explanation.effects)
+    {
+        name += (name.empty() ? "" : " with ") + study.effects[e].name;
+    }
+    return name.empty() ? "no effect" : name;
+}
+
 } // namespace clepsydra::identification

@@ -50,12 +50,16 @@ struct Explanation
     std::vector<Simulation> simulations; // the last ones with it switched on; empty: it was not simulated
 };
 
+/// "effect" or "effect with other effect"
+std::string nameOf(const Study& study, const Explanation& explanation);
+
 /// All that the training data say. Held-out data have no part in it.
 struct Answer
 {
     Decision decision = Decision::noResidual;
-    std::vector<Explanation> set;             // best first; more than one is never given as a name
-    bool otherInSet = false;                  // something outside the library is as likely
+    std::vector<Explanation> set; // best first; more than one is never given as a name
+    std::vector<std::string>
+        somethingElseBecause; // why something outside the library belongs to the set; empty: it does not
     std::optional<Explanation> bestOfUnknown; // the most likely one where none is enough; no part of the answer
     Explanation null;                         // refitted parameters, no effect
     double otherLogOdds = 0.0;

@@ -15,7 +15,7 @@ struct Verdict
 
 /// `unknown` where the best explanation still misfits, or something else is more likely; otherwise those within
 /// `setWidth` of the best that do not misfit: a name where that is one, and nothing speaks for others.
-/// \param explanations  most likely first
+/// \param explanations  most likely first; at least one
 /// \param otherLogOdds  of something that is not in the library
 /// \param others  whether something outside the library, or a pair that was not simulated, may be behind the best one
 Verdict decide(const std::vector<Explanation>& explanations, double otherLogOdds, bool others, double setWidth);

@@ -14,6 +14,24 @@ namespace
 constexpr int nullFits = 2;
 constexpr int exactNullFits = 5;
 
+std::string failuresOf(const Simulator& simulator)
+{
+    return simulator.failures().empty() ? "" : "; the last run that failed: " + simulator.failures().back().reason;
+}
+
+/// \param simulation  "the library's runs", say
+void requireEnough(const ResidualProblem& problem, const TraceInputs& inputs, const std::string& simulation)
+{
+    if (problem.residual.size() <= problem.parameterColumns.cols())
+    {
+        throw std::runtime_error(inputs.study.file.string() + ": measurements and " + simulation + " have "
+                                 + std::to_string(problem.residual.size())
+                                 + " features in common in the training conditions; allowed: more than there are "
+                                   "parameters, "
+                                 + std::to_string(problem.parameterColumns.cols()) + failuresOf(inputs.simulator));
+    }
+}
+
 /// The library's runs at the base setting, as simulations.
 std::vector<Simulation> baseSimulations(const TraceInputs& inputs)
 {
@@ -47,11 +65,7 @@ NullFit fitNull(const TraceInputs& inputs, const Noise& noise)
     Eigen::VectorXd anchor = simulator.plainSetting().parameters;
     fit.atBase = assemble(study, library, data, baseSimulations(inputs), anchor);
     fit.problem = fit.atBase;
-    if (fit.problem.residual.size() <= fit.problem.parameterColumns.cols())
-    {
-        throw std::runtime_error(
-            study.file.string() + ": the training conditions have too few features in common with the simulation");
-    }
+    requireEnough(fit.atBase, inputs, "the library's runs");
     // Without scatter a fit can be followed to its end: what is left of it would be taken for a residual.
     const bool exact = study.rig.seedEntry.empty();
     bool far = true;
@@ -61,6 +75,7 @@ NullFit fitNull(const TraceInputs& inputs, const Noise& noise)
         fit.simulations = simulator.repeats(training, simulator.plainSetting(anchor),
             round == 0 ? "null fit" : "null fit, again", study.settings.repeatsAtFit);
         fit.problem = assemble(study, library, data, fit.simulations, anchor);
+        requireEnough(fit.problem, inputs, "the runs at the null fit");
         const Fits refit(whitened(fit.problem, noise));
         const Eigen::VectorXd shift = refit.parameterShift();
         fit.setting = simulator.plainSetting(shifted(study, fit.problem, shift));

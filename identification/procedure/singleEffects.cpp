@@ -170,15 +170,16 @@ void SingleEffects::confirm(std::size_t e, int round)
     Trial& trial = trials_[e];
     const double amplitude = trial.setting.amplitudes(index);
     const std::string again = round > 0 ? ", again" : "";
-    auto simulations = inputs_.simulator.repeats(inputs_.training, trial.setting,
-        "confirmation of " + effect.name + again, inputs_.study.settings.repeatsConfirmation,
-        confirmationSeeds + again);
+    auto simulations =
+        inputs_.simulator.repeats(inputs_.training, trial.setting, "confirmation of " + effect.name + again,
+            inputs_.study.settings.repeatsConfirmation, confirmationSeeds + again);
     auto problem = problemAt(inputs_, simulations, trial.setting, {e});
     if (problem.residual.size() < null_.problem.residual.size())
     {
-        remarks_.push_back("effect " + effect.name
-                           + " could not be confirmed: runs with it on have failed or lack features; its linear score is "
-                             "kept");
+        remarks_.push_back(
+            "effect " + effect.name
+            + " could not be confirmed: runs with it on have failed or lack features; its linear score is "
+              "kept");
         return;
     }
     if (isNear(trial) && trial.problem.residual.size() == problem.residual.size())

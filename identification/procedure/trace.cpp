@@ -1,6 +1,7 @@
 #include "procedure/trace.h"
 
 #include "procedure/decide.h"
+#include "procedure/doubts.h"
 #include "procedure/effectPairs.h"
 #include "procedure/nullFit.h"
 #include "procedure/singleEffects.h"
@@ -13,9 +14,6 @@ namespace clepsydra::identification
 
 namespace
 {
-
-/// Repeats of data and simulation whose spreads differ by as much as in fewer cases than this are not pooled.
-constexpr double otherSpread = 0.01;
 
 class Tracing
 {
@@ -46,18 +44,17 @@ public:
 private:
     void estimateNoise()
     {
-        Scatter measured;
         bool declared = true;
         for (const auto condition : inputs_.training)
         {
-            measured.add(inputs_.data[condition].features);
+            measured_.add(inputs_.data[condition].features);
             declared = declared && hasDeclaredErrors(inputs_.data[condition]);
         }
         const Scatter& simulated = inputs_.library.scatter;
-        answer_.spread = compareSpread(measured, simulated, study_.settings.draws, random_);
+        answer_.spread = compareSpread(measured_, simulated, study_.settings.draws, random_);
         const bool alike = answer_.spread.pValue > otherSpread;
-        answer_.noise = noiseModel(measured, simulated, study_.modelError, alike, declared);
-        if (measured.degreesOfFreedom() < 2.0 && answer_.noise.data.matrix.isZero())
+        answer_.noise = noiseModel(measured_, simulated, study_.modelError, alike, declared);
+        if (measured_.degreesOfFreedom() < 2.0 && answer_.noise.data.matrix.isZero())
         {
             answer_.remarks.emplace_back(
                 "Nothing has been measured more than once: the noise is what the study declares, "
@@ -86,21 +83,22 @@ private:
         explanations.insert(explanations.end(), pairs.simulated.begin(), pairs.simulated.end());
         std::stable_sort(explanations.begin(), explanations.end(),
             [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
-        const double setWidth = study_.settings.setWidth;
-        std::vector<Explanation> pairsAlike;
-        bool other = false;
-        if (!explanations.empty())
+        if (explanations.empty())
         {
-            pairsAlike = pairs.like(explanations.front(), setWidth);
-            other = answer_.otherLogOdds > explanations.front().logOdds - setWidth;
+            answer_.decision = Decision::unknown;
+            return;
         }
-        Verdict verdict = decide(explanations, answer_.otherLogOdds, other || !pairsAlike.empty(), setWidth);
+        const Explanation& best = explanations.front();
+        auto pairsAlike = pairs.like(best, study_.settings.setWidth);
+        auto doubts = doubtsAbout(best, answer_, null.misfit, measured_, inputs_, random_);
+        Verdict verdict = decide(
+            explanations, answer_.otherLogOdds, !doubts.empty() || !pairsAlike.empty(), study_.settings.setWidth);
         answer_.decision = verdict.decision;
         answer_.set = std::move(verdict.set);
         answer_.bestOfUnknown = std::move(verdict.bestOfUnknown);
         if (!answer_.set.empty())
         {
-            answer_.otherInSet = other;
+            answer_.somethingElseBecause = std::move(doubts);
             answer_.pairsAlike = std::move(pairsAlike);
         }
     }
@@ -128,6 +126,7 @@ private:
     const Study& study_;
     const TraceInputs inputs_;
     std::mt19937_64& random_;
+    Scatter measured_;
     Answer answer_;
 };
 

@@ -238,7 +238,8 @@ std::string heldOutSection(const Json& report)
                 + "</tr>\n";
         }
     }
-    html += "</table>\n<p class=\"small\">Noise alone would give " + shown(heldOut["noiseFloor"], 2) + ". Conditions: ";
+    html += "</table>\n<p class=\"small\">Noise alone would give " + shown(heldOut["noiseFloor"], 2)
+            + ", and rarely more than " + shown(heldOut["noiseLimit"], 2) + ". Conditions: ";
     for (const auto& name : heldOut["conditions"])
     {
         html += shown(name) + ' ';

@@ -184,8 +184,9 @@ Json heldOutJson(const Findings& findings)
     return {{"conditions", names}, {"before", heldOutScore(result.before)},
         {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
         {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
-        {"noiseFloor", result.noiseFloor}, {"accepted", result.accepted}, {"members", members},
-        {"bestOfUnknown", bestOfUnknown}};
+        {"overOneMoreParameter", estimate(result.overOneMore)}, {"noiseFloor", result.noiseFloor},
+        {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
+        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members}, {"bestOfUnknown", bestOfUnknown}};
 }
 
 Json runsJson(const Simulator& simulator)
@@ -261,16 +262,6 @@ Json identifiabilityJson(const Findings& findings)
 
 } // namespace
 
-std::string nameOf(const Study& study, const Explanation& explanation)
-{
-    std::string name;
-    for (const auto e : explanation.effects)
-    {
-        name += (name.empty() ? "" : " with ") + study.effects[e].name;
-    }
-    return name.empty() ? "no effect" : name;
-}
-
 Json jsonOf(const Findings& findings)
 {
     const Study& study = *findings.study;
@@ -291,11 +282,13 @@ Json jsonOf(const Findings& findings)
     json["summary"] = inWords(findings);
     json["set"] = listed(answer.set);
     json["pairsAlike"] = listed(answer.pairsAlike);
-    json["somethingElseInSet"] = answer.otherInSet;
+    json["somethingElseInSet"] = !answer.somethingElseBecause.empty();
+    json["somethingElseBecause"] = answer.somethingElseBecause;
     json["pValue"] = answer.significance.pValue;
     json["test"] = {{"omnibus", answer.significance.omnibus}, {"omnibusPValue", answer.significance.omnibusPValue},
         {"bestGain", answer.significance.bestGain}, {"bestGainPValue", answer.significance.bestGainPValue},
-        {"level", study.settings.level}, {"draws", study.settings.draws}};
+        {"noticedShape", answer.significance.noticed}, {"level", study.settings.level},
+        {"draws", study.settings.draws}};
     json["null"] = explanationJson(study, answer.null);
     json["null"]["parameterSds"] = numbers(answer.parameterSd);
     json["somethingElse"] = {{"logOdds", answer.otherLogOdds}};

@@ -32,7 +32,4 @@ nlohmann::ordered_json jsonOf(const Findings& findings);
 /// What the report takes for granted, in sentences.
 std::vector<std::string> assumptionsOf(const Findings& findings);
 
-/// "effect" or "effect with other effect"
-std::string nameOf(const Study& study, const Explanation& explanation);
-
 } // namespace clepsydra::identification

@@ -28,6 +28,17 @@ std::string withError(const Estimate& estimate)
     return text.str();
 }
 
+/// "this, and that"
+std::string joined(const std::vector<std::string>& clauses)
+{
+    std::string all;
+    for (const auto& clause : clauses)
+    {
+        all += (all.empty() ? "" : ", and ") + clause;
+    }
+    return all;
+}
+
 std::string fixed(double value)
 {
     std::ostringstream text;
@@ -110,8 +121,9 @@ std::string inWords(const Findings& findings)
                  << "). One effect of the library is left: " << nameOf(study, answer.set.front()) << '.';
             break;
         case Decision::set:
-            text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue)
-                 << "). These explain it, and the data cannot tell them apart: ";
+            text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue) << "). "
+                 << (answer.set.size() == 1 ? "This explains it, but it need not be the cause: "
+                                            : "These explain it, and the data cannot tell them apart: ");
             for (std::size_t i = 0; i < answer.set.size(); ++i)
             {
                 text << (i == 0 ? "" : "; or ") << nameOf(study, answer.set[i]);
@@ -122,16 +134,20 @@ std::string inWords(const Findings& findings)
                      << " other pairs that were not simulated, for instance "
                      << nameOf(study, answer.pairsAlike.front());
             }
-            text << (answer.otherInSet ? "; or something that is not in the library." : ".");
+            if (!answer.somethingElseBecause.empty())
+            {
+                text << "; or something that is not in the library (" << joined(answer.somethingElseBecause) << ')';
+            }
+            text << '.';
             break;
     }
     if (findings.heldOut != nullptr && findings.heldOut->after)
     {
         text << " On the held-out conditions the error went from " << withError(findings.heldOut->before.rmsLogError)
              << " to " << withError(findings.heldOut->after->rmsLogError)
-             << (findings.heldOut->accepted
-                        ? ": more than its standard error, so the effect may enter the model."
-                        : ": not more than its standard error, so the effect does not enter the model.");
+             << (findings.heldOut->accepted()
+                        ? ": the effect may enter the model."
+                        : ": it does not enter the model, for " + joined(findings.heldOut->notAcceptedBecause) + '.');
     }
     return text.str();
 }

@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -31,32 +30,37 @@ extern "C" void noteStop(int signal)
     stopSignal = signal;
 }
 
-/// While it lives, SIGINT and SIGTERM are noted instead of ending the program.
+/// While it lives, SIGINT and SIGTERM are noted instead of ending the program; one that is ignored stays so, as of a
+/// program in the background of a script.
 class StopGuard
 {
 public:
     StopGuard()
     {
-        struct sigaction action
-        {};
-        action.sa_handler = noteStop;
-        sigaction(SIGINT, &action, &before_[0]);
-        sigaction(SIGTERM, &action, &before_[1]);
+        for (auto& [signal, before] : before_)
+        {
+            sigaction(signal, nullptr, &before);
+            if (before.sa_handler != SIG_IGN)
+            {
+                struct sigaction action
+                {};
+                action.sa_handler = noteStop;
+                sigaction(signal, &action, nullptr);
+            }
+        }
     }
     ~StopGuard()
     {
-        sigaction(SIGINT, &before_[0], nullptr);
-        sigaction(SIGTERM, &before_[1], nullptr);
-        if (stopSignal != 0)
+        for (const auto& [signal, before] : before_)
         {
-            std::raise(stopSignal);
+            sigaction(signal, &before, nullptr);
         }
     }
     StopGuard(const StopGuard&) = delete;
     StopGuard& operator=(const StopGuard&) = delete;
 
 private:
-    std::array<struct sigaction, 2> before_{};
+    std::map<int, struct sigaction> before_{{SIGINT, {}}, {SIGTERM, {}}};
 };
 
 /// A group of its own, so that a whole run with its mpirun can be ended.
@@ -105,6 +109,18 @@ ProcessPool::ProcessPool(int processes, double timeLimit)
 {}
 
 void ProcessPool::run(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd)
+{
+    stopSignal = 0;
+    runUntilStopped(jobs, onEnd);
+    if (const int signal = stopSignal; signal != 0)
+    {
+        // As if the signal came only now; where that does not end the program, runs that were stopped are no failures.
+        std::raise(signal);
+        throw std::runtime_error("stopped by signal " + std::to_string(signal) + "; runs that have ended are stored");
+    }
+}
+
+void ProcessPool::runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd)
 {
     const StopGuard guard;
     std::map<pid_t, Running> running;

@@ -5,7 +5,8 @@
 namespace clepsydra::identification
 {
 
-/// Up to so many child processes at a time. SIGINT and SIGTERM end the children and then this program.
+/// Up to so many child processes at a time. SIGINT and SIGTERM end the children and then this program; where the
+/// signal's action does not end it, `run` throws std::runtime_error, for a run that was stopped has not failed.
 class ProcessPool final : public Executor
 {
 public:
@@ -20,6 +21,8 @@ public:
     }
 
 private:
+    void runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd);
+
     int processes_;
     double timeLimit_;
 };

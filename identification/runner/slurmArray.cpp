@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -68,6 +69,11 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     command += ' ' + options_ + ' ' + quoted(script.string()) + " > " + quoted(script.string() + ".log") + " 2>&1";
     // sbatch --wait ends with the largest status of all tasks: each task's own tells more.
     const int status = std::system(command.c_str());
+    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT)
+        || (WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT))
+    {
+        throw std::runtime_error("stopped while waiting for Slurm; scancel ends what is left of the job array");
+    }
     bool anyReport = false;
     for (std::size_t i = 0; i < jobs.size(); ++i)
     {

@@ -2,6 +2,7 @@
 #include "study/readStudy.h"
 
 #include <algorithm>
+#include <regex>
 
 namespace clepsydra::identification
 {
@@ -21,12 +22,25 @@ Expression formula(const YamlPlace& place)
     }
 }
 
+/// A word of a switch that is meant as a formula would reach the case as it stands, and every run with it would fail.
+void refuseFormula(const YamlPlace& place)
+{
+    static const std::regex amplitude(R"((^|[^\w.])a($|[^\w.]))");
+    const std::string word = place.text();
+    if (std::regex_search(word, amplitude) && word.find_first_of("+-*^") != std::string::npos)
+    {
+        place.fail("'" + word + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "
+                                "that the entry is to have");
+    }
+}
+
 void readEntries(const YamlPlace& place, Effect& effect)
 {
     for (const auto& [entry, value] : place.map())
     {
         if (effect.isSwitch)
         {
+            refuseFormula(value);
             effect.words[entry] = value.text();
         }
         else

@@ -1,6 +1,7 @@
 /// The program from the outside: study file to report, on the stand-in run as a program.
 #include "curves/table.h"
 #include "runner/caseRig.h"
+#include "runner/processPool.h"
 #include "standIn/standIn.h"
 #include "study/readStudy.h"
 #include "temporaryFolder.h"
@@ -11,8 +12,11 @@
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <array>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <set>
 #include <sstream>
@@ -266,6 +270,40 @@ TEST(Runner, TwoAtOnceInOneStore)
     EXPECT_EQ(results[0].failure + results[1].failure, "");
     EXPECT_NE(results[0].cached, results[1].cached);
     EXPECT_EQ(results[0].curve.value, results[1].curve.value);
+}
+
+/// A signal ends what is running, and that is no failed run: taken for one, an interrupted study would go on to an answer
+/// without any simulation. One that is ignored, as in the background of a script, is left ignored.
+TEST(Runner, StoppedIsNotFailed)
+{
+    TemporaryFolder folder;
+    ProcessPool pool(1, 0);
+    const auto runWhileSignalled = [&](int signal, void (*action)(int), const std::string& command) {
+        const auto before = std::signal(signal, action);
+        std::thread sender([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
+            kill(getpid(), signal);
+        });
+        std::vector<int> ended;
+        const auto run = [&] {
+            pool.run({{folder.path(), command}}, [&](const JobEnd& end) { ended.push_back(end.status); });
+        };
+        if (action == SIG_IGN)
+        {
+            EXPECT_NO_THROW(run());
+        }
+        else
+        {
+            EXPECT_THROW(run(), std::runtime_error);
+        }
+        sender.join();
+        std::signal(signal, before);
+        return ended;
+    };
+    EXPECT_TRUE(runWhileSignalled(
+        SIGTERM, [](int) {}, "sleep 20")
+                    .empty());
+    EXPECT_EQ(runWhileSignalled(SIGINT, SIG_IGN, "sleep 0.5"), std::vector<int>{0});
 }
 
 /// A run that fails with its seed is repeated with another, and told. The same through Slurm, played by a script that

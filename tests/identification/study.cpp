@@ -6,6 +6,7 @@
 #include "study/expression.h"
 #include "study/readStudy.h"
 #include "study/units.h"
+#include "linearRig.h"
 #include "temporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -153,6 +154,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"(1 + a)", "(1 + a", "study.yaml:13:", "')'"},
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
+        {"amplitude: [-1, 1]", "switch: true", "study.yaml:13:", "which a switch does not have"},
         {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:", "no such entry"},
         {"seed: seed", "seed: seeds", "study.yaml:", "seeds"},
         {"case: case", "case: nowhere", "study.yaml:2:", "no file"},
@@ -202,68 +204,6 @@ TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
 
 //--- The effect library ------------------------------------------------------------------------------------------------
 
-/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x + 5 y: linear in the feature, so that the library must
-/// find the columns exactly.
-class LinearRig final : public Rig
-{
-public:
-    bool scatters = false;
-    long failing = 0; // fails where y is set, if 1
-
-    Entries defaults() const override
-    {
-        return {{"friction", "0.15"}, {"x", "0"}, {"y", "0"}, {"seed", "1"}};
-    }
-    int missing(const std::vector<RunOrder>& orders) override
-    {
-        return static_cast<int>(orders.size());
-    }
-    std::vector<RunResult> run(const std::vector<RunOrder>& orders) override
-    {
-        std::vector<RunResult> results;
-        for (const auto& order : orders)
-        {
-            Entries all = order.entries;
-            const auto own = defaults();
-            all.insert(own.begin(), own.end());
-            const auto p = numbersOf(all);
-            if (failing == 1 && p.at("y") != 0.0)
-            {
-                results.push_back({{}, "y is not possible", 1.0, false});
-                continue;
-            }
-            double rate = .1 * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y"));
-            rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
-            Curve curve;
-            for (int i = 0; i <= 200; ++i)
-            {
-                curve.time.push_back(i / 200. / rate);
-                curve.value.push_back(1 - i / 200.);
-            }
-            results.push_back({curve, "", 1.0, false});
-        }
-        return results;
-    }
-};
-
-Study linearStudy(const TemporaryFolder& folder, const std::string& seed)
-{
-    folder.write("case/parameters", "friction 0.15;\nx 0;\ny 0;\nseed 1;\n");
-    return readStudy(folder.write("study.yaml", R"(study: s
-rig: { case: case, seed: )" + seed + R"( }
-observable: { file: f, value: m, features: [ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }
-conditions:
-  - { name: both, role: training, tags: { medium: water } }
-  - { name: dry, role: training, tags: { medium: air } }
-parameters:
-  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
-effects:
-  - { name: x, set: { x: "0.02*a" }, amplitude: [-1, 1] }
-  - { name: y, set: { y: "0.04*a" }, actsIn: { medium: water } }
-  - { name: clock, chain: { timeFactor: "0.01*a" } }
-)"));
-}
-
 TEST(EffectLibrary, FindsLinearEffectsExactly)
 {
     for (const std::string seed : {"seed", "none"})
@@ -290,7 +230,7 @@ TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "none");
     LinearRig rig;
-    rig.failing = 1;
+    rig.failsWithY = true;
     Simulator simulator(study, rig);
     const EffectLibrary library = makeLibrary(simulator);
     EXPECT_EQ(library.conditions[0].effectColumns(0, 1), 0);

@@ -113,7 +113,7 @@ public:
         Outcome outcome{answer.decision, answer.significance.pValue, false, false,
             answer.set.size() + answer.pairsAlike.size(), 0.0, false, heldOut.before.rmsLogError.value,
             heldOut.after ? heldOut.after->rmsLogError.value : heldOut.before.rmsLogError.value,
-            heldOut.oneMoreParameter.rmsLogError.value, heldOut.gaussianProcess.rmsLogError.value, heldOut.accepted};
+            heldOut.oneMoreParameter.rmsLogError.value, heldOut.gaussianProcess.rmsLogError.value, heldOut.accepted()};
         const bool inLibrary = !truth.effects.empty() && truth.effects.front() < study_.effects.size();
         if (inLibrary)
         {

@@ -1,0 +1,163 @@
+/// From scores to an answer: what may be a name, what may not, and what is no answer at all.
+#include "linearRig.h"
+#include "procedure/decide.h"
+#include "procedure/doubts.h"
+#include "procedure/trace.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Explanation explanation(std::size_t effect, double logOdds, double misfit = 5.0)
+{
+    Explanation one;
+    one.effects = {effect};
+    one.logOdds = logOdds;
+    one.misfit = misfit;
+    one.misfitLimit = 20.0;
+    return one;
+}
+
+constexpr double setWidth = 3.0;
+
+TEST(Decision, NamesWhatIsFarAhead)
+{
+    const Verdict verdict = decide({explanation(4, -10), explanation(2, -14)}, -30, false, setWidth);
+    EXPECT_EQ(verdict.decision, Decision::named);
+    ASSERT_EQ(verdict.set.size(), 1U);
+    EXPECT_EQ(verdict.set.front().effects, std::vector<std::size_t>{4});
+}
+
+/// Two within the set's width, or one beside which something else cannot be ruled out, are no name.
+TEST(Decision, ASetIsNotAName)
+{
+    EXPECT_EQ(decide({explanation(4, -10), explanation(2, -12)}, -30, false, setWidth).set.size(), 2U);
+    EXPECT_EQ(decide({explanation(4, -10), explanation(2, -12)}, -30, false, setWidth).decision, Decision::set);
+    EXPECT_EQ(decide({explanation(4, -10)}, -30, true, setWidth).decision, Decision::set);
+    // One that misfits is in no set, however likely the others make it look.
+    EXPECT_EQ(decide({explanation(4, -10), explanation(2, -11, 21)}, -30, false, setWidth).decision, Decision::named);
+}
+
+TEST(Decision, UnknownWhereTheBestMisfitsOrSomethingElseIsMoreLikely)
+{
+    for (const Verdict& verdict : {decide({explanation(4, -10, 21), explanation(2, -11)}, -30, false, setWidth),
+             decide({explanation(4, -10)}, -9, false, setWidth)})
+    {
+        EXPECT_EQ(verdict.decision, Decision::unknown);
+        EXPECT_THAT(verdict.set, IsEmpty());
+        ASSERT_TRUE(verdict.bestOfUnknown);
+        EXPECT_EQ(verdict.bestOfUnknown->effects.front(), 4U);
+    }
+}
+
+/// Each doubt by itself, from an explanation that has none.
+TEST(Doubts, AreTold)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    const TraceInputs inputs{simulator, study, library, {}, study.conditionsOf(Role::training)};
+    std::mt19937_64 random(1);
+    const auto doubts = [&](const Answer& answer, double nullMisfit) {
+        return doubtsAbout(explanation(0, -10), answer, nullMisfit, {}, inputs, random);
+    };
+
+    Answer answer;
+    answer.otherLogOdds = -20;
+    answer.significance.noticed = 30;
+    EXPECT_THAT(doubts(answer, 5 + 30 / .49 + 1), IsEmpty());
+    EXPECT_THAT(doubts(answer, 5 + 30 / .49 - 1), ElementsAre(HasSubstr("too small for its shape")));
+    answer.otherLogOdds = -12;
+    EXPECT_THAT(doubts(answer, 1000), ElementsAre(HasSubstr("as likely")));
+    answer.otherLogOdds = -20;
+    answer.spread.pValue = .001;
+    EXPECT_THAT(doubts(answer, 1000), ElementsAre(HasSubstr("scatter in a way of their own")));
+}
+
+/// Four times the scatter in the data, and in runs with the effect: it explains that, too. Runs that scatter like the
+/// library's do not.
+TEST(Doubts, SpreadThatTheEffectExplains)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    rig.scatters = true;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    const TraceInputs inputs{simulator, study, library, {}, study.conditionsOf(Role::training)};
+    const double usual = library.scatter.deviations().norm() / std::sqrt(library.scatter.degreesOfFreedom());
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    const auto scattered = [&](double times, Explanation& one) {
+        Scatter scatter;
+        for (const auto condition : inputs.training)
+        {
+            Eigen::MatrixXd rows(12, 1);
+            for (Eigen::Index row = 0; row < rows.rows(); ++row)
+            {
+                rows(row) = times * usual * normal(random);
+                one.simulations.push_back({condition, rows.row(row).transpose(), {}, {}, 0, false});
+            }
+            scatter.add(rows);
+        }
+        return scatter;
+    };
+    Answer answer;
+    answer.otherLogOdds = -20;
+    answer.spread.pValue = .001;
+    Explanation none;
+    const Scatter measured = scattered(10, none);
+    Explanation wide = explanation(0, -10);
+    scattered(10, wide);
+    EXPECT_THAT(doubtsAbout(wide, answer, 1000, measured, inputs, random), IsEmpty());
+    Explanation narrow = explanation(0, -10);
+    scattered(1, narrow);
+    EXPECT_THAT(doubtsAbout(narrow, answer, 1000, measured, inputs, random), ElementsAre(HasSubstr("scatter")));
+}
+
+/// Where every run at the null fit fails nothing is left to be compared, and "no residual" would be a lie.
+TEST(Trace, NoAnswerWithoutSimulations)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    rig.scatters = true;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(1);
+    }
+    std::mt19937_64 random(1);
+    EXPECT_NO_THROW(trace(simulator, library, data, random));
+    rig.failsAlways = true;
+    try
+    {
+        trace(simulator, library, data, random);
+        FAIL() << "an answer from nothing";
+    }
+    catch (const std::runtime_error& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("null fit"));
+        EXPECT_THAT(error.what(), HasSubstr("the power is off"));
+    }
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests
