@@ -66,6 +66,7 @@ observable: { file: f, value: m, features: [ { kind: logMeanRate, from: 0.9, to:
 conditions:
   - { name: both, role: training, tags: { medium: water } }
   - { name: dry, role: training, tags: { medium: air } }
+  - { name: again, role: heldOut, tags: { medium: water } }
 parameters:
   - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
 effects:

@@ -1,5 +1,7 @@
 /// From scores to an answer: what may be a name, what may not, and what is no answer at all.
+#include "heldOut/heldOut.h"
 #include "linearRig.h"
+#include "procedure/assemble.h"
 #include "procedure/decide.h"
 #include "procedure/doubts.h"
 #include "procedure/trace.h"
@@ -7,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 namespace clepsydra::identification::tests
@@ -15,6 +18,7 @@ namespace clepsydra::identification::tests
 namespace
 {
 
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -156,6 +160,55 @@ TEST(Trace, NoAnswerWithoutSimulations)
         EXPECT_THAT(error.what(), HasSubstr("null fit"));
         EXPECT_THAT(error.what(), HasSubstr("the power is off"));
     }
+}
+
+/// Data made by one effect at full size, predicted with it switched on, as a name or as a set.
+HeldOutResult heldOutOf(const std::string& truth, Decision decision)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    rig.scatters = true;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    Setting setting = simulator.plainSetting();
+    const auto effect =
+        std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == truth; });
+    const auto index = static_cast<std::size_t>(effect - study.effects.begin());
+    setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
+
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (std::size_t c = 0; c < data.size(); ++c)
+    {
+        data[c].features = featureRows(simulator.repeats({c}, setting, "measured", 4), c, study.featureCount());
+        data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+    }
+    std::mt19937_64 random(1);
+    Answer answer = trace(simulator, library, data, random);
+    answer.decision = decision;
+    answer.set = {explanation(index, 0)};
+    answer.set.front().setting = setting;
+    return evaluateHeldOut(simulator, library, answer, data, data, random);
+}
+
+/// What acts under water only, no factor of all times imitates: it may enter the model, but only as a name.
+TEST(HeldOut, AcceptsANameThatNothingElseImitates)
+{
+    const HeldOutResult named = heldOutOf("y", Decision::named);
+    EXPECT_THAT(named.notAcceptedBecause, IsEmpty());
+    EXPECT_TRUE(named.accepted());
+    EXPECT_GT(named.overOneMore.value, named.overOneMore.standardError);
+    EXPECT_LT(named.after->rmsLogError.value, named.noiseLimit);
+    EXPECT_GT(named.before.rmsLogError.value, named.noiseLimit);
+    EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
+}
+
+/// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.
+TEST(HeldOut, AcceptsNothingThatOneMoreParameterDoesAsWell)
+{
+    const HeldOutResult result = heldOutOf("x", Decision::named);
+    EXPECT_FALSE(result.accepted());
+    EXPECT_THAT(result.notAcceptedBecause, Contains(HasSubstr("one more free parameter")));
 }
 
 } // namespace
