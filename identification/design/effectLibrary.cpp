@@ -65,13 +65,13 @@ std::vector<SimulationOrder> repeatOrders(const Simulator& simulator)
         const Setting base = simulator.plainSetting();
         for (int number = 0; number < (scatters ? study.settings.repeatsBase : 1); ++number)
         {
-            orders.push_back({condition, base, "repeats", number, false});
+            orders.push_back({condition, base, "repeats", number});
             // The same seeds at a neighbouring setting: more repeats, and whether seeds have anything in common.
             if (scatters && !study.parameters.empty())
             {
                 Setting neighbour = base;
                 neighbour.parameters(0) = moved(study.parameters.front(), parameterStep);
-                orders.push_back({condition, neighbour, "repeats", number, false});
+                orders.push_back({condition, neighbour, "repeats", number});
             }
         }
     }
@@ -100,7 +100,7 @@ std::vector<SimulationOrder> plackettBurmanOrders(const Simulator& simulator, st
             setting.amplitudes(effects[k]) =
                 effect.isSwitch ? (high ? 1.0 : 0.0) : (high ? effect.bounds.upper : effect.bounds.lower);
         }
-        orders.push_back({condition, setting, "design", static_cast<int>(row), false});
+        orders.push_back({condition, setting, "design", static_cast<int>(row)});
     }
     return orders;
 }
@@ -110,7 +110,7 @@ std::vector<SimulationOrder> oneAtATimeOrders(const Simulator& simulator, std::s
     const Study& study = simulator.study();
     std::vector<SimulationOrder> orders;
     const auto add = [&](const Setting& setting) {
-        orders.push_back({condition, setting, "design", static_cast<int>(orders.size()), false});
+        orders.push_back({condition, setting, "design", static_cast<int>(orders.size())});
     };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
@@ -403,7 +403,11 @@ EffectLibrary makeLibrary(Simulator& simulator)
     auto design = designOrders(simulator);
     for (auto& order : design)
     {
-        order.commonSeed = library.commonSeeds;
+        if (library.commonSeeds)
+        {
+            order.seeds = "common";
+            order.number = 0;
+        }
     }
     const auto designed = simulator.run(design);
     for (std::size_t i = 0; i < design.size(); ++i)

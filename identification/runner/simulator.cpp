@@ -149,10 +149,9 @@ RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
     run.purpose = order.purpose + ", " + condition.name;
     if (!study_.rig.seedEntry.empty())
     {
-        const std::string own = order.seeds.empty() ? order.purpose : order.seeds;
-        const std::string seeds = order.commonSeed ? "common" : own;
+        const std::string seeds = order.seeds.empty() ? order.purpose : order.seeds;
         run.seed = seedOf(study_.settings.seed, seeds + (attempt > 0 ? "/" + std::to_string(attempt) : ""),
-            condition.name, order.commonSeed ? 0 : order.number);
+            condition.name, order.number);
         run.entries[study_.rig.seedEntry] = std::to_string(run.seed);
     }
     return run;
@@ -243,7 +242,7 @@ std::vector<Simulation> Simulator::repeats(const std::vector<std::size_t>& condi
     {
         for (int number = 0; number < repeats; ++number)
         {
-            orders.push_back({condition, setting, purpose, number, false, seeds});
+            orders.push_back({condition, setting, purpose, number, seeds});
         }
     }
     return run(orders);

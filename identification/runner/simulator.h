@@ -26,7 +26,6 @@ struct SimulationOrder
     Setting setting;
     std::string purpose;
     int number = 0;
-    bool commonSeed = false; // the same seed for all numbers
     std::string seeds = {};
 };
 
