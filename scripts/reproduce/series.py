@@ -233,9 +233,8 @@ def frictionLaw(stage):
 
     def fit(values):
         start = (values.min() - 0.1, values.max() - values.min() + 0.1, 0.15)
-        law = lambda friction, asymptote, amplitude, scale: asymptote + amplitude * np.exp(-friction / scale)
-        return optimize.curve_fit(law, frictions, values, start, sigma=errors, maxfev=5000,
-                                  bounds=([0, 0, 0.01], [np.inf, np.inf, 2]))[0]
+        deviations = lambda law: (law[0] + law[1] * np.exp(-frictions / law[2]) - values) / errors
+        return optimize.least_squares(deviations, start, bounds=([0, 0, 0.01], [np.inf, np.inf, 2])).x
 
     best = fit(means)
     spread = errors * max(1, scatterOverErrors(means - (best[0] + best[1] * np.exp(-frictions / best[2])), errors))
