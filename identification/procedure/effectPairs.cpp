@@ -42,18 +42,20 @@ std::vector<Explanation> allByColumns(
 {
     const Study& study = inputs.study;
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.effects.size()));
+    const auto anchors = null.anchors();
     std::vector<PairScore> best;
-    const ResidualProblem* problem = nullptr;
-    for (const ResidualProblem* anchor : null.anchors())
+    const ResidualProblem* problem = anchors.front();
+    for (const ResidualProblem* anchor : anchors)
     {
         auto pairs = pairScores(*anchor, noise, study.bounds(), study.fixed(), none);
-        if (problem == nullptr || pairs.front().logEvidence > best.front().logEvidence)
+        if (best.empty() || pairs.front().logEvidence > best.front().logEvidence)
         {
             best = std::move(pairs);
             problem = anchor;
         }
     }
     std::vector<Explanation> all;
+    all.reserve(best.size());
     for (const auto& pair : best)
     {
         all.push_back(byColumns(inputs, pair, *problem, test));

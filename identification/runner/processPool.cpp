@@ -120,7 +120,7 @@ void ProcessPool::run(const std::vector<Job>& jobs, const std::function<void(con
     }
 }
 
-void ProcessPool::runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd)
+void ProcessPool::runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd) const
 {
     const StopGuard guard;
     std::map<pid_t, Running> running;

@@ -21,7 +21,7 @@ public:
     }
 
 private:
-    void runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd);
+    void runUntilStopped(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd) const;
 
     int processes_;
     double timeLimit_;
