@@ -203,6 +203,26 @@ TEST(HeldOut, AcceptsANameThatNothingElseImitates)
     EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
 }
 
+/// A study may have no held-out measurements: nothing is simulated, nothing accepted.
+TEST(HeldOut, NothingWithoutMeasurements)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    Answer answer;
+    answer.decision = Decision::named;
+    answer.set = {explanation(0, 0)};
+    const int before = simulator.executed();
+    const std::vector<MeasuredCondition> none(study.conditions.size());
+    std::mt19937_64 random(1);
+    const HeldOutResult result = evaluateHeldOut(simulator, library, answer, none, none, random);
+    EXPECT_THAT(result.conditions, IsEmpty());
+    EXPECT_FALSE(result.accepted());
+    EXPECT_EQ(simulator.executed(), before);
+}
+
 /// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.
 TEST(HeldOut, AcceptsNothingThatOneMoreParameterDoesAsWell)
 {
