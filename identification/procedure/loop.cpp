@@ -6,6 +6,7 @@
 #include "report/html.h"
 #include "report/json.h"
 #include "report/planReport.h"
+#include "report/words.h"
 #include "runner/caseRig.h"
 #include "runner/runProgress.h"
 #include "study/readStudy.h"

@@ -1,6 +1,6 @@
 #include "report/html.h"
 
-#include "report/planReport.h"
+#include "report/words.h"
 #include "report/svg.h"
 
 #include <algorithm>

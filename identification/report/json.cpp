@@ -1,7 +1,7 @@
 #include "report/json.h"
 
-#include "procedure/assemble.h"
-#include "report/planReport.h"
+#include "identifiability/identifiability.h"
+#include "report/words.h"
 
 #include <clepsydra/version.h>
 
@@ -304,46 +304,6 @@ Json jsonOf(const Findings& findings)
     json["assumptions"] = assumptionsOf(findings);
     json["remarks"] = answer.remarks;
     return json;
-}
-
-std::vector<std::string> assumptionsOf(const Findings& findings)
-{
-    const Study& study = *findings.study;
-    const Answer& answer = *findings.answer;
-    std::vector<std::string> all = study.assumptions;
-    for (const auto& parameter : study.parameters)
-    {
-        all.push_back("Parameter " + parameter.name
-                      + " has one value in all conditions; an independent measurement gave " + textOf(parameter.mean)
-                      + " with a standard deviation of " + textOf(parameter.sd) + ".");
-    }
-    all.push_back("Only the " + std::to_string(study.effects.size())
-                  + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
-                    "a range are "
-                    "equally likely beforehand.");
-    all.emplace_back(
-        answer.noise.pooled
-            ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
-            : "The scatter of measurements is that of their own repeats.");
-    all.emplace_back("The scatter of a feature is the same in all conditions and close to normal.");
-    if (answer.noise.data.shrinkage > 0.0)
-    {
-        all.push_back("There are fewer than three repeats per feature: correlations between features were shrunk by "
-                      + textOf(std::round(100.0 * answer.noise.data.shrinkage)) + " %.");
-    }
-    if (study.modelError.maxCoeff() > 0.0)
-    {
-        all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");
-    }
-    for (const auto& effect : study.leftOut)
-    {
-        all.push_back("Left out, and so never named: " + effect + ".");
-    }
-    if (study.rig.seedEntry.empty())
-    {
-        all.emplace_back("Runs of the simulator do not scatter.");
-    }
-    return all;
 }
 
 } // namespace clepsydra::identification

@@ -20,25 +20,6 @@ std::string percent(double share)
     return text.str();
 }
 
-std::string withError(const Estimate& estimate)
-{
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << 100.0 * estimate.value << " +- " << 100.0 * estimate.standardError
-         << " %";
-    return text.str();
-}
-
-/// "this, and that"
-std::string joined(const std::vector<std::string>& clauses)
-{
-    std::string all;
-    for (const auto& clause : clauses)
-    {
-        all += (all.empty() ? "" : ", and ") + clause;
-    }
-    return all;
-}
-
 std::string fixed(double value)
 {
     std::ostringstream text;
@@ -91,86 +72,6 @@ void writePlan(const Study& study, const EffectLibrary& library, const Noise& no
         }
     }
     out << "collinearity index of all together: " << fixed(table.collinearityOfAll) << std::endl;
-}
-
-std::string inWords(const Findings& findings)
-{
-    const Study& study = *findings.study;
-    const Answer& answer = *findings.answer;
-    std::ostringstream text;
-    switch (answer.decision)
-    {
-        case Decision::noResidual:
-            text << "No residual beyond noise (p = " << textOf(answer.significance.pValue)
-                 << "). This does not show that nothing is missing: see the smallest detectable amplitudes.";
-            return text.str();
-        case Decision::unknown:
-            text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue)
-                 << "), and none of the effects in the library explains it: unknown.";
-            if (findings.heldOut != nullptr && findings.heldOut->bestOfUnknown)
-            {
-                text << " The nearest, which still misfits (" << textOf(answer.bestOfUnknown->misfit) << ", limit "
-                     << textOf(answer.bestOfUnknown->misfitLimit) << "), is " << nameOf(study, *answer.bestOfUnknown)
-                     << "; with it the error on the held-out conditions goes from "
-                     << withError(findings.heldOut->before.rmsLogError) << " to "
-                     << withError(findings.heldOut->bestOfUnknown->rmsLogError) << '.';
-            }
-            return text.str();
-        case Decision::named:
-            text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue)
-                 << "). One effect of the library is left: " << nameOf(study, answer.set.front()) << '.';
-            break;
-        case Decision::set:
-            text << "There is a residual beyond noise (p = " << textOf(answer.significance.pValue) << "). "
-                 << (answer.set.size() == 1 ? "This explains it, but it need not be the cause: "
-                                            : "These explain it, and the data cannot tell them apart: ");
-            for (std::size_t i = 0; i < answer.set.size(); ++i)
-            {
-                text << (i == 0 ? "" : "; or ") << nameOf(study, answer.set[i]);
-            }
-            if (!answer.pairsAlike.empty())
-            {
-                text << "; or one of " << answer.pairsAlike.size()
-                     << " other pairs that were not simulated, for instance "
-                     << nameOf(study, answer.pairsAlike.front());
-            }
-            if (!answer.somethingElseBecause.empty())
-            {
-                text << "; or something that is not in the library (" << joined(answer.somethingElseBecause) << ')';
-            }
-            text << '.';
-            break;
-    }
-    if (findings.heldOut != nullptr && findings.heldOut->after)
-    {
-        text << " On the held-out conditions the error went from " << withError(findings.heldOut->before.rmsLogError)
-             << " to " << withError(findings.heldOut->after->rmsLogError)
-             << (findings.heldOut->accepted()
-                        ? ": the effect may enter the model."
-                        : ": it does not enter the model, for " + joined(findings.heldOut->notAcceptedBecause) + '.');
-    }
-    return text.str();
-}
-
-void writeSummary(const Findings& findings, std::ostream& out)
-{
-    out << '\n' << inWords(findings) << '\n';
-    const HeldOutResult* heldOut = findings.heldOut;
-    if (heldOut != nullptr && !heldOut->conditions.empty())
-    {
-        out << "held-out rms error: before " << withError(heldOut->before.rmsLogError);
-        if (heldOut->after)
-        {
-            out << ", after " << withError(heldOut->after->rmsLogError);
-        }
-        out << ", one more parameter " << withError(heldOut->oneMoreParameter.rmsLogError) << ", Gaussian process "
-            << withError(heldOut->gaussianProcess.rmsLogError) << '\n';
-    }
-    for (const auto& failure : findings.simulator->failures())
-    {
-        out << "run failed: " << failure.purpose << ", " << failure.condition << ", seed " << failure.seed
-            << (failure.repeated ? " (repeated with another seed)" : " (excluded)") << '\n';
-    }
 }
 
 } // namespace clepsydra::identification

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "heldOut/heldOut.h"
+#include "nextExperiment/nextExperiment.h"
+#include "procedure/answer.h"
+
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Everything that is known when a report is written.
+struct Findings
+{
+    const Study* study = nullptr;
+    const EffectLibrary* library = nullptr;
+    const Answer* answer = nullptr;
+    const HeldOutResult* heldOut = nullptr; // not there before the answer is written
+    const std::vector<NextExperiment>* next = nullptr;
+    const Simulator* simulator = nullptr;
+    const std::vector<MeasuredCondition>* data = nullptr;
+};
+
+} // namespace clepsydra::identification
