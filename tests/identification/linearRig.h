@@ -17,6 +17,10 @@ namespace clepsydra::identification::tests
 class LinearRig final : public Rig
 {
 public:
+    explicit LinearRig(bool runsScatter = false)
+        : scatters(runsScatter)
+    {}
+
     bool scatters = false;
     bool failsWithY = false;
     bool failsAlways = false;

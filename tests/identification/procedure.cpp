@@ -23,6 +23,23 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
+/// The linear rig with its effect library. \param scatters  whether its runs do
+struct Bench
+{
+    explicit Bench(bool scatters = true)
+        : rig(scatters)
+    {}
+
+    TemporaryFolder folder;
+    Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    Simulator simulator{study, rig};
+    EffectLibrary library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> nothing{study.conditions.size()};
+    TraceInputs inputs{simulator, study, library, nothing, study.conditionsOf(Role::training)};
+    std::mt19937_64 random{1};
+};
+
 Explanation explanation(std::size_t effect, double logOdds, double misfit = 5.0)
 {
     Explanation one;
@@ -68,15 +85,9 @@ TEST(Decision, UnknownWhereTheBestMisfitsOrSomethingElseIsMoreLikely)
 /// Each doubt by itself, from an explanation that has none.
 TEST(Doubts, AreTold)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    const TraceInputs inputs{simulator, study, library, {}, study.conditionsOf(Role::training)};
-    std::mt19937_64 random(1);
+    Bench bench(false);
     const auto doubts = [&](const Answer& answer, double nullMisfit) {
-        return doubtsAbout(explanation(0, -10), answer, nullMisfit, {}, inputs, random);
+        return doubtsAbout(explanation(0, -10), answer, nullMisfit, {}, bench.inputs, bench.random);
     };
 
     Answer answer;
@@ -95,24 +106,18 @@ TEST(Doubts, AreTold)
 /// library's do not.
 TEST(Doubts, SpreadThatTheEffectExplains)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    rig.scatters = true;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    const TraceInputs inputs{simulator, study, library, {}, study.conditionsOf(Role::training)};
-    const double usual = library.scatter.deviations().norm() / std::sqrt(library.scatter.degreesOfFreedom());
-    std::mt19937_64 random(1);
+    Bench bench;
+    const double usual =
+        bench.library.scatter.deviations().norm() / std::sqrt(bench.library.scatter.degreesOfFreedom());
     std::normal_distribution<double> normal;
     const auto scattered = [&](double times, Explanation& one) {
         Scatter scatter;
-        for (const auto condition : inputs.training)
+        for (const auto condition : bench.inputs.training)
         {
             Eigen::MatrixXd rows(12, 1);
             for (Eigen::Index row = 0; row < rows.rows(); ++row)
             {
-                rows(row) = times * usual * normal(random);
+                rows(row) = times * usual * normal(bench.random);
                 one.simulations.push_back({condition, rows.row(row).transpose(), {}, {}, 0, false});
             }
             scatter.add(rows);
@@ -126,33 +131,28 @@ TEST(Doubts, SpreadThatTheEffectExplains)
     const Scatter measured = scattered(10, none);
     Explanation wide = explanation(0, -10);
     scattered(10, wide);
-    EXPECT_THAT(doubtsAbout(wide, answer, 1000, measured, inputs, random), IsEmpty());
+    EXPECT_THAT(doubtsAbout(wide, answer, 1000, measured, bench.inputs, bench.random), IsEmpty());
     Explanation narrow = explanation(0, -10);
     scattered(1, narrow);
-    EXPECT_THAT(doubtsAbout(narrow, answer, 1000, measured, inputs, random), ElementsAre(HasSubstr("scatter")));
+    EXPECT_THAT(
+        doubtsAbout(narrow, answer, 1000, measured, bench.inputs, bench.random), ElementsAre(HasSubstr("scatter")));
 }
 
 /// Where every run at the null fit fails nothing is left to be compared, and "no residual" would be a lie.
 TEST(Trace, NoAnswerWithoutSimulations)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    rig.scatters = true;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    std::vector<MeasuredCondition> data(study.conditions.size());
+    Bench bench;
+    std::vector<MeasuredCondition> data(bench.study.conditions.size());
     for (auto& condition : data)
     {
         condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
         condition.declaredError = Eigen::VectorXd::Zero(1);
     }
-    std::mt19937_64 random(1);
-    EXPECT_NO_THROW(trace(simulator, library, data, random));
-    rig.failsAlways = true;
+    EXPECT_NO_THROW(trace(bench.simulator, bench.library, data, bench.random));
+    bench.rig.failsAlways = true;
     try
     {
-        trace(simulator, library, data, random);
+        trace(bench.simulator, bench.library, data, bench.random);
         FAIL() << "an answer from nothing";
     }
     catch (const std::runtime_error& error)
@@ -165,30 +165,25 @@ TEST(Trace, NoAnswerWithoutSimulations)
 /// Data made by one effect at full size, predicted with it switched on, as a name or as a set.
 HeldOutResult heldOutOf(const std::string& truth, Decision decision)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    rig.scatters = true;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    Setting setting = simulator.plainSetting();
-    const auto effect =
-        std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == truth; });
-    const auto index = static_cast<std::size_t>(effect - study.effects.begin());
+    Bench bench;
+    Setting setting = bench.simulator.plainSetting();
+    const auto effect = std::find_if(
+        bench.study.effects.begin(), bench.study.effects.end(), [&](const Effect& one) { return one.name == truth; });
+    const auto index = static_cast<std::size_t>(effect - bench.study.effects.begin());
     setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
 
-    std::vector<MeasuredCondition> data(study.conditions.size());
+    std::vector<MeasuredCondition> data(bench.study.conditions.size());
     for (std::size_t c = 0; c < data.size(); ++c)
     {
-        data[c].features = featureRows(simulator.repeats({c}, setting, "measured", 4), c, study.featureCount());
-        data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+        data[c].features =
+            featureRows(bench.simulator.repeats({c}, setting, "measured", 4), c, bench.study.featureCount());
+        data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
     }
-    std::mt19937_64 random(1);
-    Answer answer = trace(simulator, library, data, random);
+    Answer answer = trace(bench.simulator, bench.library, data, bench.random);
     answer.decision = decision;
     answer.set = {explanation(index, 0)};
     answer.set.front().setting = setting;
-    return evaluateHeldOut(simulator, library, answer, data, data, random);
+    return evaluateHeldOut(bench.simulator, bench.library, answer, data, data, bench.random);
 }
 
 /// What acts under water only, no factor of all times imitates: it may enter the model, but only as a name.
@@ -206,21 +201,16 @@ TEST(HeldOut, AcceptsANameThatNothingElseImitates)
 /// A study may have no held-out measurements: nothing is simulated, nothing accepted.
 TEST(HeldOut, NothingWithoutMeasurements)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
+    Bench bench(false);
     Answer answer;
     answer.decision = Decision::named;
     answer.set = {explanation(0, 0)};
-    const int before = simulator.executed();
-    const std::vector<MeasuredCondition> none(study.conditions.size());
-    std::mt19937_64 random(1);
-    const HeldOutResult result = evaluateHeldOut(simulator, library, answer, none, none, random);
+    const int before = bench.simulator.executed();
+    const HeldOutResult result =
+        evaluateHeldOut(bench.simulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);
     EXPECT_THAT(result.conditions, IsEmpty());
     EXPECT_FALSE(result.accepted());
-    EXPECT_EQ(simulator.executed(), before);
+    EXPECT_EQ(bench.simulator.executed(), before);
 }
 
 /// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.
