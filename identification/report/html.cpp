@@ -280,7 +280,8 @@ std::string runsSection(const Json& report)
 {
     const Json& runs = report["runs"];
     std::string html = "<p>" + shown(runs["used"]) + " runs, " + shown(runs["executed"]) + " of them executed now ("
-                       + shown(runs["seconds"]) + " s of computing time), the others from the cache.</p>\n<table>";
+                       + shown(runs["seconds"]) + " s of computing time), the others from the store ("
+                       + shown(runs["secondsOfStored"]) + " s when they were made).</p>\n<table>";
     for (const auto& [purpose, count] : runs["byPurpose"].items())
     {
         html += "<tr>" + cell(escaped(purpose)) + cell(shown(count), true) + "</tr>\n";

@@ -203,7 +203,8 @@ Json runsJson(const Simulator& simulator)
         all += count;
     }
     return {{"used", all}, {"executed", simulator.executed()}, {"fromCache", all - simulator.executed()},
-        {"seconds", simulator.seconds()}, {"byPurpose", simulator.runsByPurpose()}, {"failures", failures}};
+        {"seconds", simulator.seconds()}, {"secondsOfStored", simulator.secondsOfStored()},
+        {"byPurpose", simulator.runsByPurpose()}, {"failures", failures}};
 }
 
 Json nextJson(const Findings& findings)

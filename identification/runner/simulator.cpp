@@ -206,7 +206,7 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             ++runs_[order.purpose];
             seeds_[order.purpose].push_back(runs[k].seed);
             executed_ += results[k].cached ? 0 : 1;
-            seconds_ += results[k].cached ? 0.0 : results[k].seconds;
+            (results[k].cached ? secondsOfStored_ : seconds_) += results[k].seconds;
             const std::string reason = failureOf(simulation, results[k]);
             simulation.failed = !reason.empty();
             if (simulation.failed)

@@ -101,6 +101,11 @@ public:
     {
         return seconds_;
     }
+    /// Of the runs that were stored: what they took when they were made.
+    double secondsOfStored() const
+    {
+        return secondsOfStored_;
+    }
 
 private:
     RunOrder runOrder(const SimulationOrder& order, int attempt) const;
@@ -113,6 +118,7 @@ private:
     std::vector<Failure> failures_;
     int executed_ = 0;
     double seconds_ = 0.0;
+    double secondsOfStored_ = 0.0;
 };
 
 } // namespace clepsydra::identification
