@@ -341,6 +341,18 @@ TEST(Significance, SeesAnEffect)
     EXPECT_NEAR(test.misfitLimit[0], 11.34, 2.5);
 }
 
+/// A pattern that is noticed in 80 % of the cases at the level of 1 %, with 4 degrees of freedom: by the noncentral
+/// chi-square distribution its square is 16.75.
+TEST(Significance, PatternThatIsNoticed)
+{
+    std::mt19937_64 random(6);
+    Example example;
+    example.noise.data.nu = example.noise.simulation.nu = 1000;
+    const auto test = significance(example.problem, example.noise, {Bounds{0, 1}, Bounds{0, 1}}, 4000, random);
+    EXPECT_NEAR(test.nullMisfitLimit, 13.28, 1.0);
+    EXPECT_NEAR(test.noticed, 16.75, 1.5);
+}
+
 //--- Held out -------------------------------------------------------------------------------------------------------
 
 /// Against the definition: integral of (F(x) - [x > y])^2.
