@@ -2,6 +2,7 @@
 
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
+#include "noise/draws.h"
 #include "procedure/assemble.h"
 
 #include <algorithm>
@@ -276,11 +277,10 @@ private:
         {
             right[i].mean = meanFeatures(result_.data[i].features);
         }
-        auto errors = scored(right).draws;
+        const auto errors = scored(right).draws;
         const Eigen::Map<const Eigen::ArrayXd> all(errors.data(), static_cast<Eigen::Index>(errors.size()));
         result_.noiseFloor = std::sqrt(all.square().mean());
-        std::sort(errors.begin(), errors.end());
-        result_.noiseLimit = errors[static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(errors.size()))) - 1];
+        result_.noiseLimit = quantile(errors, 0.99);
     }
 
     void judge()

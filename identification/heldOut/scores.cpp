@@ -1,5 +1,6 @@
 #include "heldOut/scores.h"
 
+#include "noise/draws.h"
 #include "study/measurements.h"
 
 #include <Eigen/Cholesky>
@@ -57,12 +58,6 @@ std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const s
     return {std::sqrt(squares / count), crps / measurements};
 }
 
-Eigen::VectorXd normals(Eigen::Index count, std::mt19937_64& random)
-{
-    std::normal_distribution<double> normal;
-    return Eigen::VectorXd::NullaryExpr(count, [&] { return normal(random); });
-}
-
 } // namespace
 
 double crpsOfNormal(double mean, double sd, double observed)
@@ -101,6 +96,7 @@ HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vecto
     std::vector<double>* samples)
 {
     std::vector<Eigen::VectorXd> none;
+    none.reserve(predictions.size());
     for (const auto& prediction : predictions)
     {
         none.emplace_back(Eigen::VectorXd::Zero(prediction.mean.size()));

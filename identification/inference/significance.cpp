@@ -1,5 +1,7 @@
 #include "inference/significance.h"
 
+#include "noise/draws.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -11,26 +13,11 @@ namespace clepsydra::identification
 namespace
 {
 
-Eigen::VectorXd normals(Eigen::Index count, std::mt19937_64& random)
-{
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd draws(count);
-    std::generate(draws.begin(), draws.end(), [&] { return normal(random); });
-    return draws;
-}
-
 /// Share of `sorted` that is at least `value`; the observation itself counts as one of the draws.
 double upperShare(const std::vector<double>& sorted, double value)
 {
     const auto above = sorted.end() - std::lower_bound(sorted.begin(), sorted.end(), value);
     return (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(sorted.size()));
-}
-
-double quantile(std::vector<double> values, double share)
-{
-    std::sort(values.begin(), values.end());
-    const auto index = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
-    return values[std::min(index, values.size() - 1)];
 }
 
 /// Share of cases in which a pattern raises the misfit above a limit. \param misfits  without it

@@ -71,8 +71,7 @@ bool step(Explanation& explanation, const TraceInputs& inputs, const NullFit& nu
     const auto first = explanation.effects[0];
     const auto second = explanation.effects[1];
     explanation.simulations = inputs.simulator.repeats(inputs.training, explanation.setting,
-        "confirmation of " + study.effects[first].name + " with " + study.effects[second].name,
-        study.settings.repeatsConfirmation, confirmationSeeds);
+        "confirmation of " + nameOf(study, explanation), study.settings.repeatsConfirmation, confirmationSeeds);
     const std::vector<Eigen::Index> columns = {static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second)};
     const ResidualProblem problem =
         problemAt(inputs, explanation.simulations, explanation.setting, explanation.effects).withEffects(columns);

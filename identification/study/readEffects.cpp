@@ -29,8 +29,9 @@ void refuseFormula(const YamlPlace& place)
     const std::string word = place.text();
     if (std::regex_search(word, amplitude) && word.find_first_of("+-*^") != std::string::npos)
     {
-        place.fail("'" + word + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "
-                                "that the entry is to have");
+        place.fail("'" + word
+                   + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "
+                     "that the entry is to have");
     }
 }
 
