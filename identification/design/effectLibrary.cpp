@@ -225,6 +225,22 @@ Eigen::MatrixXd regressors(
     return x;
 }
 
+/// With the square of every factor that was moved to both sides. Where one thing is changed at a time, curvature of one
+/// factor would otherwise shift the base, and with it every effect that goes to one side only.
+Eigen::MatrixXd withCurvature(const Eigen::MatrixXd& x, Eigen::Index firstFactor)
+{
+    Eigen::MatrixXd extended = x;
+    for (Eigen::Index column = firstFactor; column < x.cols(); ++column)
+    {
+        if (x.col(column).minCoeff() < 0.0 && x.col(column).maxCoeff() > 0.0)
+        {
+            extended.conservativeResize(Eigen::NoChange, extended.cols() + 1);
+            extended.rightCols<1>() = x.col(column).cwiseAbs2();
+        }
+    }
+    return extended;
+}
+
 /// Columns that are zero in all rows: effects whose every run has failed.
 std::vector<Eigen::Index> silentColumns(const Eigen::MatrixXd& x)
 {
@@ -273,10 +289,11 @@ std::vector<Eigen::Index> fitColumns(const Study& study, const Group& group, con
         {
             continue;
         }
-        const Eigen::MatrixXd xf = x(rows, Eigen::all);
+        const Eigen::MatrixXd linear = x(rows, Eigen::all);
+        const Eigen::MatrixXd xf = designHasBase ? withCurvature(linear, first) : linear;
         // Of least norm: what has no run left gets no change.
         const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition(xf);
-        if (decomposition.rank() + static_cast<Eigen::Index>(silent.size()) < x.cols())
+        if (decomposition.rank() + static_cast<Eigen::Index>(silent.size()) < xf.cols())
         {
             throw std::runtime_error("too many runs of the design have failed: the effects on feature '"
                                      + study.features[static_cast<std::size_t>(f)].name

@@ -46,7 +46,23 @@ double separationOf(const std::vector<PredictedOutcome>& outcomes, const Eigen::
     return sum;
 }
 
-std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer)
+Eigen::MatrixXd outcomeCovariance(const Noise& noise, const std::vector<MeasuredCondition>& measured)
+{
+    Eigen::MatrixXd covariance = noise.data.matrix + noise.simulation.matrix / seedsPerOutcome;
+    Eigen::ArrayXd declared = Eigen::ArrayXd::Zero(noise.modelError.size());
+    for (const auto& condition : measured)
+    {
+        if (condition.declaredError.size() > 0)
+        {
+            declared = declared.max(condition.declaredError.array());
+        }
+    }
+    covariance.diagonal() += noise.modelError.cwiseAbs2() + declared.square().matrix();
+    return covariance;
+}
+
+std::vector<NextExperiment> nextExperiments(
+    Simulator& simulator, const Answer& answer, const std::vector<MeasuredCondition>& measured)
 {
     const Study& study = simulator.study();
     std::vector<Explanation> left = answer.set;
@@ -63,7 +79,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
     {
         sum += std::exp(explanation.logOdds - left.front().logOdds);
     }
-    const Eigen::MatrixXd covariance = answer.noise.data.matrix + answer.noise.simulation.matrix / seedsPerOutcome;
+    const Eigen::MatrixXd covariance = outcomeCovariance(answer.noise, measured);
     std::vector<NextExperiment> all;
     for (const auto condition : study.conditionsOf(Role::candidate))
     {

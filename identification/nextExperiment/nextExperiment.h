@@ -2,6 +2,7 @@
 
 #include "procedure/answer.h"
 #include "runner/simulator.h"
+#include "study/measurements.h"
 
 #include <Eigen/Core>
 
@@ -36,8 +37,13 @@ double divergence(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eige
 /// Separation from outcomes and the covariance of one measurement against them.
 double separationOf(const std::vector<PredictedOutcome>& outcomes, const Eigen::MatrixXd& covariance);
 
+/// Covariance of one measurement against its prediction: noise of both, the simulator's own error, and what is not seen in
+/// repeats, as large as it was declared at most for the measurements so far.
+Eigen::MatrixXd outcomeCovariance(const Noise& noise, const std::vector<MeasuredCondition>& measured);
+
 /// Simulates every candidate condition with each explanation that is left, and orders them by what one measurement
 /// would decide for its cost, best first. Without a set of at least two, what is compared is no effect against the best.
-std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer);
+std::vector<NextExperiment> nextExperiments(
+    Simulator& simulator, const Answer& answer, const std::vector<MeasuredCondition>& measured);
 
 } // namespace clepsydra::identification

@@ -42,6 +42,20 @@ Rows rowsOf(const MeasuredCondition& measured, const Eigen::MatrixXd& simulated,
 
 } // namespace
 
+MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data)
+{
+    MeasuredScatter scatter;
+    for (const auto& condition : data)
+    {
+        if (condition.features.size() > 0)
+        {
+            scatter.repeats.add(condition.features);
+            scatter.declared = scatter.declared && hasDeclaredErrors(condition);
+        }
+    }
+    return scatter;
+}
+
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features)
 {
     Eigen::MatrixXd rows(std::count_if(simulations.begin(), simulations.end(),

@@ -16,6 +16,16 @@ namespace clepsydra::identification
 ResidualProblem assemble(const Study& study, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
     const std::vector<Simulation>& simulations, const Eigen::VectorXd& anchorParameters);
 
+/// Scatter of all measured repeats, and whether every number has a declared error.
+struct MeasuredScatter
+{
+    Scatter repeats;
+    bool declared = true;
+};
+
+/// \param data  by condition of the study; those without are skipped
+MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data);
+
 /// Features of the simulations of one condition, a row each.
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features);
 

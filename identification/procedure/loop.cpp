@@ -105,19 +105,17 @@ std::vector<Simulation> plannedSimulations(const Study& study, const EffectLibra
 
 Noise plannedNoise(const Study& study, const EffectLibrary& library)
 {
-    Scatter measured;
-    bool declared = true;
+    std::vector<MeasuredCondition> data;
     for (const auto c : study.conditionsOf(Role::training))
     {
         const Measurement& source = study.conditions[c].measured;
         if (!source.files.empty() || !source.numbers.empty())
         {
-            const auto data = readMeasurements(study, c);
-            measured.add(data.features);
-            declared = declared && hasDeclaredErrors(data);
+            data.push_back(readMeasurements(study, c));
         }
     }
-    return noiseModel(measured, library.scatter, study.modelError, true, declared);
+    const auto [repeats, declared] = scatterOf(data);
+    return noiseModel(repeats, library.scatter, study.modelError, true, declared);
 }
 
 } // namespace
@@ -158,7 +156,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
 
     const EffectLibrary library = makeLibrary(simulator);
     const Answer answer = trace(simulator, library, training, random);
-    const auto next = nextExperiments(simulator, answer);
+    const auto next = nextExperiments(simulator, answer, training);
     Findings findings{&study, &library, &answer, nullptr, &next, &simulator, &training};
     write(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
     out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue) << "; written to "

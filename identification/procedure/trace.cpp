@@ -1,5 +1,6 @@
 #include "procedure/trace.h"
 
+#include "procedure/assemble.h"
 #include "procedure/decide.h"
 #include "procedure/doubts.h"
 #include "procedure/effectPairs.h"
@@ -44,12 +45,8 @@ public:
 private:
     void estimateNoise()
     {
-        bool declared = true;
-        for (const auto condition : inputs_.training)
-        {
-            measured_.add(inputs_.data[condition].features);
-            declared = declared && hasDeclaredErrors(inputs_.data[condition]);
-        }
+        const auto [repeats, declared] = scatterOf(inputs_.data);
+        measured_ = repeats;
         const Scatter& simulated = inputs_.library.scatter;
         answer_.spread = compareSpread(measured_, simulated, study_.settings.draws, random_);
         const bool alike = answer_.spread.pValue > otherSpread;

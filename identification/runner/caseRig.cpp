@@ -170,7 +170,7 @@ bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& res
         result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
         for (double& value : result.curve.value)
         {
-            value += study_.valueOffset;
+            value = value * study_.valueFactor + study_.valueOffset;
         }
     }
     catch (const std::exception& error)

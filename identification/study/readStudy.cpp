@@ -86,10 +86,11 @@ Feature readFeature(const YamlPlace& place, double& modelError)
 
 void readObservable(const YamlPlace& place, Study& study, std::string& file)
 {
-    place.allow({"file", "time", "value", "offset", "features", "modelError"});
+    place.allow({"file", "time", "value", "factor", "offset", "features", "modelError"});
     file = place.at("file").text();
     study.timeColumn = place.textOr("time", "time");
     study.valueColumn = place.at("value").text();
+    study.valueFactor = place.numberOr("factor", 1.0);
     study.valueOffset = place.numberOr("offset", 0.0);
     std::vector<double> errors;
     for (const auto& each : place.at("features").list())

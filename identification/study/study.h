@@ -154,7 +154,8 @@ struct Study
     RigSpecification rig;
     std::string timeColumn;
     std::string valueColumn;
-    double valueOffset = 0.0; // added to what the simulation writes, SI units
+    double valueFactor = 1.0; // what the simulation writes, times this
+    double valueOffset = 0.0; // and then added, SI units
     std::vector<Feature> features;
     Eigen::VectorXd modelError; // by feature
     std::vector<Condition> conditions;

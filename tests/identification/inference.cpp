@@ -422,6 +422,23 @@ TEST(NextExperiment, SeparationOfOutcomes)
     EXPECT_NEAR(separationOf(outcomes, covariance), .24, 1e-12);
 }
 
+/// Numbers measured once, and a simulator without scatter: what was declared is all the noise there is. Without it every
+/// candidate would decide everything, or nothing.
+TEST(NextExperiment, DeclaredErrorsAreNoise)
+{
+    Noise noise;
+    noise.data.matrix = noise.simulation.matrix = Eigen::Matrix2d::Zero();
+    noise.modelError = Eigen::Vector2d(0, .4);
+    const std::vector<MeasuredCondition> measured = {
+        {{}, Eigen::Vector2d(.1, .3), {}}, {}, {{}, Eigen::Vector2d(.2, 0), {}}};
+    const Eigen::Matrix2d expected = Eigen::Vector2d(.04, .25).asDiagonal();
+    EXPECT_TRUE(outcomeCovariance(noise, measured).isApprox(expected));
+    noise.data.matrix = Eigen::Matrix2d::Constant(1);
+    noise.simulation.matrix = 2 * Eigen::Matrix2d::Identity();
+    EXPECT_TRUE(outcomeCovariance(noise, measured)
+                    .isApprox(expected + Eigen::Matrix2d::Constant(1) + Eigen::Matrix2d::Identity()));
+}
+
 } // namespace
 
 } // namespace clepsydra::identification::tests

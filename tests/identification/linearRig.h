@@ -12,8 +12,8 @@
 namespace clepsydra::identification::tests
 {
 
-/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x + 5 y: linear in the feature, so that the library must
-/// find the columns exactly.
+/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x + 5 y + curvature x^2: linear in the feature, where there is no
+/// curvature, so that the library must find the columns exactly.
 class LinearRig final : public Rig
 {
 public:
@@ -24,6 +24,7 @@ public:
     bool scatters = false;
     bool failsWithY = false;
     bool failsAlways = false;
+    double curvature = 0.0;
 
     Entries defaults() const override
     {
@@ -47,7 +48,8 @@ public:
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});
                 continue;
             }
-            double rate = .1 * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y"));
+            double rate = .1 * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y")
+                                      + curvature * p.at("x") * p.at("x"));
             rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
             Curve curve;
             for (int i = 0; i <= 200; ++i)

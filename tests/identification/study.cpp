@@ -224,6 +224,20 @@ TEST(EffectLibrary, FindsLinearEffectsExactly)
     }
 }
 
+/// Where one thing is changed at a time, an effect that bends strongly leaves the others as they are: a least-squares
+/// plane through all runs would give y some of what x does.
+TEST(EffectLibrary, CurvatureOfOneEffectIsNoOtherEffect)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "none");
+    LinearRig rig;
+    rig.curvature = 200;
+    Simulator simulator(study, rig);
+    const EffectLibrary library = makeLibrary(simulator);
+    EXPECT_NEAR(library.conditions[0].effectColumns(0, 0), .06, 1e-9);
+    EXPECT_NEAR(library.conditions[0].effectColumns(0, 1), .2, 1e-9);
+}
+
 /// A run that fails is tried again with other seeds, then excluded, and both is told.
 TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
 {
