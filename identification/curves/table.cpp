@@ -7,12 +7,16 @@
 #include <numeric>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 
 namespace clepsydra::identification
 {
 
 namespace
 {
+
+/// Put before the text by some spreadsheets.
+constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,13 +32,24 @@ std::string withoutUnit(const std::string& name)
     return trimmed(name.substr(0, name.find('[')));
 }
 
+bool holds(const std::string& text, const std::string& part)
+{
+    return text.find(part) != std::string::npos;
+}
+
+/// Blank: any white space. A comma beside semicolons is a decimal one.
+char separatorOf(const std::string& line)
+{
+    return holds(line, ";") ? ';' : holds(line, ",") ? ',' : holds(line, "\t\t") ? '\t' : ' ';
+}
+
 /// Fields of a line. Commas, semicolons and tabs can stand round empty fields; blanks cannot.
 std::vector<std::string> fields(std::string line)
 {
     std::replace_if(
         line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
     std::vector<std::string> found;
-    const char separator = line.find(',') != std::string::npos ? ',' : line.find(';') != std::string::npos ? ';' : ' ';
+    const char separator = separatorOf(line);
     std::istringstream words(line);
     std::string word;
     if (separator == ' ')
@@ -47,6 +62,10 @@ std::vector<std::string> fields(std::string line)
     }
     while (std::getline(words, word, separator))
     {
+        if (separator == ';')
+        {
+            std::replace(word.begin(), word.end(), ',', '.');
+        }
         found.push_back(trimmed(word));
     }
     if (line.back() == separator)
@@ -58,9 +77,9 @@ std::vector<std::string> fields(std::string line)
 
 std::vector<std::string> columnNames(const std::string& line)
 {
-    const char separator = line.find('\t') != std::string::npos ? '\t' : ',';
+    const char separator = holds(line, "\t") ? '\t' : separatorOf(line);
     std::vector<std::string> names;
-    if (line.find(separator) == std::string::npos)
+    if (separator == ' ')
     {
         names = fields(line);
     }
@@ -130,7 +149,7 @@ Table readTable(const std::filesystem::path& file)
     std::string header;
     for (int lineNumber = 1; std::getline(lines, line); ++lineNumber)
     {
-        line = trimmed(line);
+        line = trimmed(lineNumber == 1 && line.rfind(byteOrderMark, 0) == 0 ? line.substr(byteOrderMark.size()) : line);
         if (line.empty())
         {
             continue;

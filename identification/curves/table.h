@@ -20,7 +20,7 @@ struct Table
     std::size_t index(const std::string& column) const;
 };
 
-/// Reads CSV (commas, semicolons) and white-space tables; lines that begin with # are comments, the last one before
+/// Reads CSV (commas, or semicolons with points or commas in the numbers) and white-space tables; lines that begin with # are comments, the last one before
 /// the numbers may name the columns, as in OpenFOAM's files and most CSV. `(` and `)` of vectors are ignored.
 /// \throws std::runtime_error with file and line
 Table readTable(const std::filesystem::path& file);
