@@ -299,8 +299,11 @@ std::vector<Eigen::Index> fitColumns(const Study& study, const Group& group, con
                                      + study.features[static_cast<std::size_t>(f)].name
                                      + "' cannot be told apart any more");
         }
-        const Eigen::VectorXd solution =
-            decomposition.solve(Eigen::Map<const Eigen::VectorXd>(values.data(), xf.rows()));
+        const Eigen::Map<const Eigen::VectorXd> measured(values.data(), xf.rows());
+        // What changes nothing has a column of zeros, not of rounding, which any amplitude would fit.
+        const double rounding = 1e-11 * measured.cwiseAbs().maxCoeff();
+        const Eigen::VectorXd solution = decomposition.solve(measured).unaryExpr(
+            [=](double change) { return std::abs(change) < rounding ? 0.0 : change; });
         const Eigen::MatrixXd inverse = (xf.transpose() * xf).completeOrthogonalDecomposition().pseudoInverse();
         sensitivity.parameterColumns.row(f) = solution.segment(first, parameters).transpose();
         for (std::size_t k = 0; k < effects.size(); ++k)

@@ -161,6 +161,12 @@ std::string residualTable(const Json& report)
     return html.str();
 }
 
+std::string detectable(const Json& effect)
+{
+    const Json& smallest = effect["smallestDetectable"];
+    return smallest.is_null() || smallest > effect["range"][1] ? "not in range" : shown(smallest, 2);
+}
+
 std::string effectTable(const Json& report)
 {
     std::ostringstream html;
@@ -177,8 +183,7 @@ std::string effectTable(const Json& report)
                     true)
              << cell(shown(effect["misfit"]) + " (" + shown(effect["misfitLimit"]) + ")", true)
              << cell(shown(effect["logOdds"]), true) << cell(shown(effect["probability"], 2), true)
-             << cell(shown(effect["smallestDetectable"], 2), true)
-             << cell(effect["confirmed"].get<bool>() ? "yes" : "no") << "</tr>\n";
+             << cell(detectable(effect), true) << cell(effect["confirmed"].get<bool>() ? "yes" : "no") << "</tr>\n";
     }
     html << "</table>\n<p class=\"small\">Amplitude 1 is the end of the effect's plausible range. Highlighted: the set "
             "that the data cannot tell apart. Log odds of no effect: "

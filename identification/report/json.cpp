@@ -109,12 +109,14 @@ Json effectsJson(const Findings& findings)
         const Score& score = finding.score();
         const auto i = static_cast<Eigen::Index>(e);
         const double reach = intervalSds(answer.noise) * score.sd;
+        const double lower = effect.isSwitch ? 0.0 : effect.bounds.lower;
+        const double upper = effect.isSwitch ? 1.0 : effect.bounds.upper;
         list.push_back({{"name", effect.name}, {"meaning", effect.meaning},
             {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
             {"amplitude", number(score.amplitude)}, {"standardError", number(score.sd)},
-            {"interval95", {number(score.amplitude - reach), number(score.amplitude + reach)}},
-            {"range", {effect.isSwitch ? 0.0 : effect.bounds.lower, effect.isSwitch ? 1.0 : effect.bounds.upper}},
-            {"sets", entriesAt(effect, score.amplitude)}, {"misfit", number(score.misfit)},
+            {"interval95",
+                {number(std::max(lower, score.amplitude - reach)), number(std::min(upper, score.amplitude + reach))}},
+            {"range", {lower, upper}}, {"sets", entriesAt(effect, score.amplitude)}, {"misfit", number(score.misfit)},
             {"misfitLimit", finding.misfitLimit}, {"logEvidence", number(score.logEvidence)},
             {"logOdds", number(finding.logOdds)}, {"probability", number(std::exp(finding.logOdds - largest) / sum)},
             {"confirmed", finding.confirmed.has_value()}, {"parameters", parametersOf(study, finding.parameters)},
