@@ -58,8 +58,10 @@ void writePlan(const Study& study, const EffectLibrary& library, const Noise& no
            "of "
            "the cases)\n\n";
     const auto pairs = lookAlikes(table, apart);
-    out << (pairs.empty() ? "all effects that show can be told apart\n"
-                          : "cannot be told apart by these conditions:\n");
+    const bool someShow = (table.smallestDetectable.array() <= 1.0).any();
+    out << (!pairs.empty() ? "cannot be told apart by these conditions:\n"
+            : someShow     ? "all effects that show can be told apart\n"
+                           : "no effect shows at its full size\n");
     for (const auto& [i, j] : pairs)
     {
         out << "  " << study.effects[i].name << " and " << study.effects[j].name << '\n';
