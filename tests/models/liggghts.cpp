@@ -166,6 +166,26 @@ TEST(Liggghts, TakesTheAddedMassImplicitly)
         beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
 }
 
+/// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
+TEST(Liggghts, TellsThatAllBeadsAreGone)
+{
+    Beads beads;
+    beads.dem.beads = {{0.005, 0.01, 0.01}};
+    beads.dem.more = "velocity all set 0 0 1e6 units box\n";
+    LiggghtsEngine& engine = beads.start(nullptr);
+    const bool isHere = engine.beads().size() > 0;
+    try
+    {
+        engine.advance(500);
+        ADD_FAILURE() << "the bead is gone, and nothing was said";
+    }
+    catch (const DemEngineError& error)
+    {
+        const std::string message = error.what();
+        EXPECT_EQ(message.find("no bead is left of the 1") != std::string::npos, isHere) << message;
+    }
+}
+
 /// 260 beads of two sizes fall into a heap, with friction and sliding, on one rank and across the boundary between two:
 /// our contacts and LIGGGHTS' own, which any further word in the line of the contact law brings back, here one that
 /// states the default. The same to the last bit after 2000 steps and thousands of contacts; one wrong digit in one

@@ -116,6 +116,27 @@ public:
         }
     }
 
+    void run(int steps)
+    {
+        const int before = program_->atom->nlocal;
+        try
+        {
+            execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+        }
+        catch (const DemEngineError& error)
+        {
+            // What LIGGGHTS says then is about atom types. Where some are left it goes on, and the census names the others.
+            if (before > 0 && program_->atom->nlocal == 0)
+            {
+                throw DemEngineError(
+                    std::string(error.what()) + "; no bead is left of the " + std::to_string(before)
+                    + " that were here: a force has thrown them out of the box within these steps, as one "
+                      "does that is unstable with this DEM step or coupling interval");
+            }
+            throw;
+        }
+    }
+
     void addCouplingState()
     {
         // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
@@ -353,7 +374,7 @@ void LiggghtsEngine::prepare()
 
 void LiggghtsEngine::advance(int steps)
 {
-    implementation_->execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+    implementation_->run(steps);
     implementation_->changeGroups(steps * timeStep());
 }
 
