@@ -42,16 +42,13 @@ Rows rowsOf(const MeasuredCondition& measured, const Eigen::MatrixXd& simulated,
 
 } // namespace
 
-MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data)
+MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions)
 {
     MeasuredScatter scatter;
-    for (const auto& condition : data)
+    for (const auto condition : conditions)
     {
-        if (condition.features.size() > 0)
-        {
-            scatter.repeats.add(condition.features);
-            scatter.declared = scatter.declared && hasDeclaredErrors(condition);
-        }
+        scatter.repeats.add(data[condition].features);
+        scatter.declared = scatter.declared && hasDeclaredErrors(data[condition]);
     }
     return scatter;
 }

@@ -23,8 +23,8 @@ struct MeasuredScatter
     bool declared = true;
 };
 
-/// \param data  by condition of the study; those without are skipped
-MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data);
+/// \param conditions  which of them: what is held out must not tell the noise
+MeasuredScatter scatterOf(const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions);
 
 /// Features of the simulations of one condition, a row each.
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features);

@@ -105,16 +105,18 @@ std::vector<Simulation> plannedSimulations(const Study& study, const EffectLibra
 
 Noise plannedNoise(const Study& study, const EffectLibrary& library)
 {
-    std::vector<MeasuredCondition> data;
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    std::vector<std::size_t> measured;
     for (const auto c : study.conditionsOf(Role::training))
     {
         const Measurement& source = study.conditions[c].measured;
         if (!source.files.empty() || !source.numbers.empty())
         {
-            data.push_back(readMeasurements(study, c));
+            data[c] = readMeasurements(study, c);
+            measured.push_back(c);
         }
     }
-    const auto [repeats, declared] = scatterOf(data);
+    const auto [repeats, declared] = scatterOf(data, measured);
     return noiseModel(repeats, library.scatter, study.modelError, true, declared);
 }
 

@@ -45,7 +45,7 @@ public:
 private:
     void estimateNoise()
     {
-        const auto [repeats, declared] = scatterOf(inputs_.data);
+        const auto [repeats, declared] = scatterOf(inputs_.data, inputs_.training);
         measured_ = repeats;
         const Scatter& simulated = inputs_.library.scatter;
         answer_.spread = compareSpread(measured_, simulated, study_.settings.draws, random_);

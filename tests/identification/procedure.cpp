@@ -138,6 +138,27 @@ TEST(Doubts, SpreadThatTheEffectExplains)
         doubtsAbout(narrow, answer, 1000, measured, bench.inputs, bench.random), ElementsAre(HasSubstr("scatter")));
 }
 
+/// Held-out measurements may be in memory, as in checkIdentification: whatever they are, the answer is the same.
+TEST(Trace, HeldOutDataTellNothing)
+{
+    const auto answerWith = [](double heldOut) {
+        Bench bench;
+        std::vector<MeasuredCondition> data(bench.study.conditions.size());
+        for (std::size_t c = 0; c < data.size(); ++c)
+        {
+            const double scatter = bench.study.conditions[c].role == Role::heldOut ? heldOut : .01;
+            data[c].features = (Eigen::MatrixXd(3, 1) << -2.3 - scatter, -2.3, -2.3 + scatter).finished();
+            data[c].declaredError = Eigen::VectorXd::Zero(1);
+        }
+        return trace(bench.simulator, bench.library, data, bench.random);
+    };
+    const Answer one = answerWith(.01);
+    const Answer other = answerWith(1);
+    EXPECT_EQ(one.significance.pValue, other.significance.pValue);
+    EXPECT_EQ(one.noise.data.matrix(0, 0), other.noise.data.matrix(0, 0));
+    EXPECT_EQ(one.spread.pValue, other.spread.pValue);
+}
+
 /// Where every run at the null fit fails nothing is left to be compared, and "no residual" would be a lie.
 TEST(Trace, NoAnswerWithoutSimulations)
 {
