@@ -57,6 +57,9 @@ def rates():
             matching = friction == paper.MATCHING_FRICTION[stage]
             found.append(row(f"W_{stage}, mu = {friction:g}, {runs[0].fill:.0f} g", "g/s", series.startRate(stage, friction),
                              names(runs), paper.RATE[stage], paper.RATE[stage] if matching else None))
+        for run in series.startsOfPaperFill(stage):
+            found.append(row(f"W_{stage}, mu = {run.friction:g}, the start of {run.fill:.0f} g", "g/s", run.startRate,
+                             [run.name], paper.RATE[stage]))
     return found
 
 

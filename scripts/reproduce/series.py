@@ -18,6 +18,7 @@ LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the pape
 CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
+END = 0.3                   # s of a run that show whether it still flows
 LIKE_HALF_SIZE = 100        # g, that lie as many beads deep as the fill of the rig of half the size
 DRAWS = 400                 # of a fit's data, for the uncertainty of what follows from it
 
@@ -89,6 +90,9 @@ class HopperRun:
     @cached_property
     def emptyingTime(self):
         """t_c: when the flow stops. None where the run ended before."""
+        end = self.time > self.time[-1] - END
+        if -np.polyfit(self.time[end], self.mass[end], 1)[0] > STOPPED * self.startRate.mean:
+            return None
         return flow.emptyingTime(*self.padded, STOPPED * self.startRate.mean)
 
     @cached_property
@@ -255,6 +259,11 @@ def matching(stage):
     return deepest(stage, wanted if fills(stage, friction=wanted) else paper.MATCHING_FRICTION["dry"])
 
 
+def startsOfPaperFill(stage):
+    """Runs from the paper's fill that were stopped when their rate at the start was known; none where there are none yet."""
+    return [run for run in allRuns() if run.stage == stage and run.entry == "start400"]
+
+
 def variants(stage):
     """Runs that differ from one of the entry fill100 by their mesh or by how stiff the beads are, by what differs."""
     found = {}
@@ -267,8 +276,9 @@ def variants(stage):
 
 
 def halfSize(stage):
-    """Runs of the rig of half the size; none where they are not there yet."""
-    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize" and run.emptyingTime]
+    """Runs of the rig of half the size that went on until its bottom's heap showed; none where they are not there yet."""
+    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize"
+            and run.mass[-1] < CURVED[-1] * run.mass[0]]
 
 
 def asDeepAsHalfSize(stage):
