@@ -48,8 +48,9 @@ public:
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});
                 continue;
             }
-            double rate = .1 * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y")
-                                      + curvature * p.at("x") * p.at("x"));
+            double rate = .1
+                          * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y")
+                                     + curvature * p.at("x") * p.at("x"));
             rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
             Curve curve;
             for (int i = 0; i <= 200; ++i)
