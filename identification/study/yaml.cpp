@@ -17,8 +17,8 @@ std::string listed(const std::vector<std::string>& words)
     return text;
 }
 
-YamlPlace::YamlPlace(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string name)
-    : node_(std::move(node)),
+YamlPlace::YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name)
+    : node_(node),
       file_(std::move(file)),
       name_(std::move(name))
 {}
@@ -156,7 +156,7 @@ bool YamlPlace::flag() const
 
 std::string YamlPlace::oneOf(const std::vector<std::string>& words) const
 {
-    const std::string word = text();
+    std::string word = text();
     if (std::find(words.begin(), words.end(), word) == words.end())
     {
         fail("must be " + listed(words) + ", not '" + word + "'");

@@ -62,7 +62,7 @@ public:
     }
 
 private:
-    YamlPlace(YAML::Node node, std::shared_ptr<const std::filesystem::path> file, std::string name);
+    YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name);
 
     YAML::Node node_;
     std::shared_ptr<const std::filesystem::path> file_;

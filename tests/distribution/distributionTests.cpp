@@ -456,7 +456,7 @@ TEST(ConstDiffSmoothing, IsAGaussianOnAFineMesh)
     Foam::dictionary dict = properties("divided", "constDiffSmoothing");
     dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
     const Foam::scalarField heights(box.mesh().C().primitiveField().component(2));
-    const double source = (layers / 2 + 0.5) * cellSize;
+    const double source = 0.5 * (layers + 1) * cellSize; // the middle of a cell, for there is an even number
     Foam::scalarField density(heights.size(), 0.0);
     forAll (density, cell)
     {
