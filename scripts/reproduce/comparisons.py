@@ -112,7 +112,7 @@ def surgeOfSmallBeads():
     """The paper's figure 3: the surge grows as the beads get smaller. Ours: beads of 1 mm in a rig of half the size."""
     rises, found = {}, []
     for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
-        runs = runsOf("submerged")
+        runs = [run for run in runsOf("submerged") if run.endsInHeap]
         if not runs:
             raise series.MissingRuns("no submerged run with beads of 1 mm: entry halfSize")
         rises[size] = series.mean([run.rise for run in runs])

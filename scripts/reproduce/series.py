@@ -63,6 +63,11 @@ class HopperRun:
         """Whether an arch over the orifice ended the flow before it had a rate."""
         return self.mass[-1] > START[1] * self.mass[0]
 
+    @property
+    def endsInHeap(self):
+        """Whether it went on until the heap on the bottom shows; else it may tell its rate at the start only."""
+        return self.mass[-1] < CURVED[-1] * self.mass[0]
+
     @cached_property
     def startRate(self):
         """The paper's W, "at the beginning"; its error from how the rate varies meanwhile."""
@@ -276,9 +281,8 @@ def variants(stage):
 
 
 def halfSize(stage):
-    """Runs of the rig of half the size that went on until its bottom's heap showed; none where they are not there yet."""
-    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize"
-            and run.mass[-1] < CURVED[-1] * run.mass[0]]
+    """Runs of the rig of half the size; none where they are not there yet."""
+    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize"]
 
 
 def asDeepAsHalfSize(stage):
