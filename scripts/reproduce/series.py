@@ -61,7 +61,17 @@ class HopperRun:
     @cached_property
     def clogged(self):
         """Whether an arch over the orifice ended the flow before it had a rate."""
-        return self.mass[-1] > START[1] * self.mass[0]
+        return not self.hasStart and self.lastRate == 0
+
+    @property
+    def hasStart(self):
+        return self.mass[-1] < START[1] * self.mass[0]
+
+    @cached_property
+    def lastRate(self):
+        """g/s at the end of the run."""
+        end = self.time > self.time[-1] - END
+        return -np.polyfit(self.time[end], self.mass[end], 1)[0] if np.ptp(self.mass[end]) else 0
 
     @property
     def endsInHeap(self):
@@ -95,8 +105,7 @@ class HopperRun:
     @cached_property
     def emptyingTime(self):
         """t_c: when the flow stops. None where the run ended before."""
-        end = self.time > self.time[-1] - END
-        if -np.polyfit(self.time[end], self.mass[end], 1)[0] > STOPPED * self.startRate.mean:
+        if self.lastRate > STOPPED * self.startRate.mean:
             return None
         return flow.emptyingTime(*self.padded, STOPPED * self.startRate.mean)
 
@@ -135,6 +144,8 @@ def check(run):
         problems.append(f"m(t) begins with {run.mass[0]:.4g} g, the inputs say {run.fill:.4g} g")
     if record["summary"]["beads_lost"] != 0:
         problems.append(f"{record['summary']['beads_lost']} beads were lost")
+    if run.entry != "paperMesh" and not run.hasStart and not run.clogged:
+        problems.append(f"it ended before {100 - 100 * START[1]:g} % had left, without an arch")
     if np.any(np.diff(run.time) <= 0):
         problems.append("its times do not increase")
     swept = run.run.case.removeprefix(run.entry).removeprefix("-")
