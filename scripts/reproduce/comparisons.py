@@ -144,7 +144,8 @@ def emptying():
         if clogging and not series.fills(stage, friction=paper.EMPTYING_FRICTION):
             continue
         runs = series.deepest(stage, paper.EMPTYING_FRICTION)
-        times[stage] = series.mean([emptyingOf(run) for run in runs])
+        whole = [run for run in runs if run.emptyingTime] or runs     # others were stopped when their rate was known
+        times[stage] = series.mean([emptyingOf(run) for run in whole])
         found.append(row(f"time to empty {paper.EMPTYING_MASS} g, {stage}, mu = {paper.EMPTYING_FRICTION:g}"
                          + (f", extrapolated from {runs[0].fill:.0f} g" if runs[0].fill < 0.99 * paper.EMPTYING_MASS else ""),
                          "s", times[stage], names(runs), simulated=paper.EMPTYING_TIME[stage]))
