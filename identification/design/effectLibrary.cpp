@@ -97,8 +97,7 @@ std::vector<SimulationOrder> plackettBurmanOrders(const Simulator& simulator, st
         {
             const Effect& effect = study.effects[static_cast<std::size_t>(effects[k])];
             const bool high = design(row, parameters + static_cast<Eigen::Index>(k)) > 0.0;
-            setting.amplitudes(effects[k]) =
-                effect.isSwitch ? (high ? 1.0 : 0.0) : (high ? effect.bounds.upper : effect.bounds.lower);
+            setting.amplitudes(effects[k]) = high ? effect.bounds.upper : effect.bounds.lower;
         }
         orders.push_back({condition, setting, "design", static_cast<int>(row)});
     }
@@ -127,9 +126,9 @@ std::vector<SimulationOrder> oneAtATimeOrders(const Simulator& simulator, std::s
         Setting setting = simulator.plainSetting();
         for (const double amplitude : {effect.bounds.lower, effect.bounds.upper})
         {
-            if (amplitude != 0.0 && !(effect.isSwitch && amplitude != effect.bounds.upper))
+            if (amplitude != 0.0)
             {
-                setting.amplitudes(e) = effect.isSwitch ? 1.0 : amplitude;
+                setting.amplitudes(e) = amplitude;
                 add(setting);
             }
         }
@@ -344,8 +343,7 @@ void chainColumns(const Simulator& simulator, const std::vector<Simulation>& bas
                 amplitudes(static_cast<Eigen::Index>(e)) = amplitude;
                 return simulator.featuresOf(simulator.throughChain(simulation.plain, simulation.condition, amplitudes));
             };
-            const double lower = effect.isSwitch ? 0.0 : effect.bounds.lower;
-            const double upper = effect.isSwitch ? 1.0 : effect.bounds.upper;
+            const auto [lower, upper] = effect.bounds;
             changes.emplace_back((at(upper) - at(lower)) / (upper - lower));
         }
         const Eigen::VectorXd mean = meanFeatures(rowsOf(changes, study.featureCount()));

@@ -39,8 +39,7 @@ void requireMeasurements(const Study& study)
 {
     for (const auto c : study.conditionsOf(Role::training))
     {
-        const auto& measured = study.conditions[c].measured;
-        if (measured.files.empty() && measured.numbers.empty())
+        if (study.conditions[c].measured.empty())
         {
             throw std::runtime_error(study.file.string() + ": training condition '" + study.conditions[c].name
                                      + "' has no 'measured': 'traceResidual plan' is for studies without data");
@@ -109,8 +108,7 @@ Noise plannedNoise(const Study& study, const EffectLibrary& library)
     std::vector<std::size_t> measured;
     for (const auto c : study.conditionsOf(Role::training))
     {
-        const Measurement& source = study.conditions[c].measured;
-        if (!source.files.empty() || !source.numbers.empty())
+        if (!study.conditions[c].measured.empty())
         {
             data[c] = readMeasurements(study, c);
             measured.push_back(c);

@@ -109,8 +109,7 @@ Json effectsJson(const Findings& findings)
         const Score& score = finding.score();
         const auto i = static_cast<Eigen::Index>(e);
         const double reach = intervalSds(answer.noise) * score.sd;
-        const double lower = effect.isSwitch ? 0.0 : effect.bounds.lower;
-        const double upper = effect.isSwitch ? 1.0 : effect.bounds.upper;
+        const auto [lower, upper] = effect.bounds;
         list.push_back({{"name", effect.name}, {"meaning", effect.meaning},
             {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
             {"amplitude", number(score.amplitude)}, {"standardError", number(score.sd)},

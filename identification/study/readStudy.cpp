@@ -199,7 +199,7 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
             measured.numbers.push_back(readNumber(number, study));
         }
     }
-    if (measured.files.empty() && measured.numbers.empty())
+    if (measured.empty())
     {
         place.fail("needs 'files' or 'numbers'");
     }

@@ -51,7 +51,7 @@ struct Effect
     std::map<std::string, std::string> words;               // of a switch: entries as text
     std::string chainOperation;                             // empty: an effect of the simulator
     std::optional<Expression> chainSize;                    // formula in a
-    Bounds bounds;                                          // of the amplitude
+    Bounds bounds;                                          // of the amplitude; a switch keeps 0 and 1
     bool isSwitch = false;                                  // on or off
     double prior = 1.0;                                     // relative weight
     std::map<std::string, std::vector<std::string>> actsIn; // tag -> values; empty: everywhere
@@ -93,6 +93,11 @@ struct Measurement
     ColumnSpecification time;
     ColumnSpecification value;
     std::vector<MeasuredNumber> numbers;
+
+    bool empty() const
+    {
+        return files.empty() && numbers.empty();
+    }
 };
 
 struct Condition

@@ -148,7 +148,7 @@ def emptying():
         times[stage] = series.mean([emptyingOf(run) for run in whole])
         found.append(row(f"time to empty {paper.EMPTYING_MASS} g, {stage}, mu = {paper.EMPTYING_FRICTION:g}"
                          + (f", extrapolated from {runs[0].fill:.0f} g" if runs[0].fill < 0.99 * paper.EMPTYING_MASS else ""),
-                         "s", times[stage], names(runs), simulated=paper.EMPTYING_TIME[stage]))
+                         "s", times[stage], names(whole), simulated=paper.EMPTYING_TIME[stage]))
         found.append(row(f"W_{stage}, mu = {paper.EMPTYING_FRICTION:g}, {runs[0].fill:.0f} g", "g/s",
                          series.mean([run.startRate for run in runs]), names(runs),
                          simulated=paper.EMPTYING_MASS / paper.EMPTYING_TIME[stage]))
