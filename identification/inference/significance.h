@@ -2,6 +2,7 @@
 
 #include "inference/residualProblem.h"
 
+#include <algorithm>
 #include <random>
 #include <utility>
 #include <vector>
@@ -14,6 +15,12 @@ struct Bounds
 {
     double lower = 0.0;
     double upper = 1.0;
+
+    /// The largest size, to either side.
+    double reach() const
+    {
+        return std::max(upper, -lower);
+    }
 };
 
 /// Whether the residual exceeds noise.

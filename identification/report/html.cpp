@@ -1,5 +1,6 @@
 #include "report/html.h"
 
+#include "inference/significance.h"
 #include "report/words.h"
 #include "report/svg.h"
 
@@ -164,7 +165,8 @@ std::string residualTable(const Json& report)
 std::string detectable(const Json& effect)
 {
     const Json& smallest = effect["smallestDetectable"];
-    return smallest.is_null() || smallest > effect["range"][1] ? "not in range" : shown(smallest, 2);
+    const Bounds range{effect["range"][0].get<double>(), effect["range"][1].get<double>()};
+    return smallest.is_null() || smallest > range.reach() ? "not in range" : shown(smallest, 2);
 }
 
 std::string effectTable(const Json& report)

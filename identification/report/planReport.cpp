@@ -46,19 +46,22 @@ void writePlan(const Study& study, const EffectLibrary& library, const Noise& no
         << "hidden by" << std::setw(14) << "smallest\n"
         << std::left << std::setw(24) << "" << std::right << std::setw(10) << "[sd]" << std::setw(12) << "parameters"
         << std::setw(14) << "detectable\n";
+    const auto shows = [&](std::size_t e) {
+        return table.smallestDetectable(static_cast<Eigen::Index>(e)) <= study.effects[e].bounds.reach();
+    };
+    bool someShow = false;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         const auto i = static_cast<Eigen::Index>(e);
-        const double smallest = table.smallestDetectable(i);
+        someShow = someShow || shows(e);
         out << std::left << std::setw(24) << study.effects[e].name << std::right << std::setw(10)
             << fixed(table.signal(i)) << std::setw(12) << percent(table.masked(i)) << std::setw(13)
-            << (smallest > 1.0 ? "not in range" : fixed(smallest)) << '\n';
+            << (shows(e) ? fixed(table.smallestDetectable(i)) : "not in range") << '\n';
     }
     out << "(signal: what the parameters cannot imitate, at amplitude 1; smallest detectable: amplitude seen in 80 % "
            "of "
            "the cases)\n\n";
     const auto pairs = lookAlikes(table, apart);
-    const bool someShow = (table.smallestDetectable.array() <= 1.0).any();
     out << (!pairs.empty() ? "cannot be told apart by these conditions:\n"
             : someShow     ? "all effects that show can be told apart\n"
                            : "no effect shows at its full size\n");
@@ -68,7 +71,7 @@ void writePlan(const Study& study, const EffectLibrary& library, const Noise& no
     }
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        if (table.smallestDetectable(static_cast<Eigen::Index>(e)) > 1.0 && !study.effects[e].hint.empty())
+        if (!shows(e) && !study.effects[e].hint.empty())
         {
             out << "  to be measured by itself: " << study.effects[e].name << ": " << study.effects[e].hint << '\n';
         }
