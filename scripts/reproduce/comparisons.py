@@ -46,20 +46,19 @@ def ratio(above, below):
 
 
 def rates():
-    """W at the start, at the frictions that the paper finds to match."""
+    """W at the start, at the frictions that the paper finds to match, from every fill."""
     found = []
     for stage in paper.STAGES:
         for friction in sorted({paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}):
-            if friction != paper.MATCHING_FRICTION["dry"] and not series.fills(stage, friction=friction):
+            simulated = paper.RATE[stage] if friction == paper.MATCHING_FRICTION[stage] else None
+            byFill = series.byFill(stage, friction)
+            if not byFill:
                 print(f"  not run yet: {stage}, mu = {friction:g}")
-                continue
-            runs = series.deepest(stage, friction)
-            matching = friction == paper.MATCHING_FRICTION[stage]
-            found.append(row(f"W_{stage}, mu = {friction:g}, {runs[0].fill:.0f} g", "g/s", series.startRate(stage, friction),
-                             names(runs), paper.RATE[stage], paper.RATE[stage] if matching else None))
-        for run in series.startsOfPaperFill(stage):
-            found.append(row(f"W_{stage}, mu = {run.friction:g}, the start of {run.fill:.0f} g", "g/s", run.startRate,
-                             [run.name], paper.RATE[stage]))
+            for fill, runs in byFill.items():
+                found.append(row(f"W_{stage}, mu = {friction:g}, {fill} g", "g/s", series.mean([run.startRate for run in runs]),
+                                 names(runs), paper.RATE[stage], simulated))
+    if not found:
+        raise series.MissingRuns("no run at a friction that matches: entries fill100, fill200, fill400")
     return found
 
 
@@ -93,13 +92,18 @@ def matchingFriction():
 def surge():
     """How straight m(t) is: what the rate gains while half of the fill leaves."""
     friction, rises, found = paper.MATCHING_FRICTION["dry"], {}, []
-    for stage, runs in series.deepestOfBoth(friction).items():
+    runsOf = series.deepestOfBoth(friction)
+    for stage, runs in runsOf.items():
         rises[stage] = series.mean([run.rise for run in runs])
         found.append(row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-",
                          rises[stage], names(runs)))
+        late = [ratio(run.lateRate, run.rateBetween(*series.LINEAR)) for run in runs if run.lateRate]
+        if late:
+            found.append(row("W from {} to {} g over W in the upper half, {}".format(*series.LATE, stage), "-",
+                             series.mean(late), names(runs)))
     difference = Value(rises["submerged"].mean - rises["dry"].mean,
                        float(np.hypot(rises["submerged"].error, rises["dry"].error)))
-    found.append(row("rise of W, submerged less dry", "-", difference, found[0]["runs"] + found[1]["runs"]))
+    found.append(row("rise of W, submerged less dry", "-", difference, names(sum(runsOf.values(), []))))
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)

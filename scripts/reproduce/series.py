@@ -16,6 +16,7 @@ import paper
 START = (0.95, 0.75)        # of the fill: "the beginning", 380 to 300 g of 400 g
 LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the paper fits its straight line
 CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
+LATE = (150, 75)            # g: the paper sees the surge below 200 g; less than this the heap on the bottom shows
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
@@ -78,11 +79,21 @@ class HopperRun:
         """Whether it went on until the heap on the bottom shows; else it may tell its rate at the start only."""
         return self.mass[-1] < CURVED[-1] * self.mass[0]
 
+    def rateBetween(self, upper, lower):
+        """Mean rate while the hopper holds between two parts of its fill; its error from how the rate varies meanwhile."""
+        _, rates = self.rates(upper, lower, BINS_OF_START)
+        return Value(self.meanRate(upper, lower), np.std(rates, ddof=1) / np.sqrt(len(rates)))
+
     @cached_property
     def startRate(self):
-        """The paper's W, "at the beginning"; its error from how the rate varies meanwhile."""
-        _, rates = self.rates(*START, BINS_OF_START)
-        return Value(self.meanRate(*START), np.std(rates, ddof=1) / np.sqrt(len(rates)))
+        """The paper's W, "at the beginning"."""
+        return self.rateBetween(*START)
+
+    @cached_property
+    def lateRate(self):
+        """After the upper half, in which the paper finds m(t) straight; None for a fill without such a part."""
+        upper, lower = (mass / self.mass[0] for mass in LATE)
+        return self.rateBetween(upper, lower) if upper < LINEAR[1] and self.mass[-1] < LATE[1] else None
 
     @cached_property
     def rise(self):
@@ -172,22 +183,30 @@ def cloggedRuns(stage, **wanted):
     return [run for run in withClogged(stage, **wanted) if run.clogged]
 
 
+def byFill(stage, friction):
+    """{fill in g: runs}, the largest fill last."""
+    found = {}
+    for run in fills(stage, friction=friction):
+        found.setdefault(round(run.fill), []).append(run)
+    return found
+
+
 def deepest(stage, friction):
     """The runs with the largest fill there is: one or several packings."""
-    found = fills(stage, friction=friction)
+    found = byFill(stage, friction)
     if not found:
         clogged = "".join(f"; {run.name} clogged" for run in cloggedRuns(stage, friction=friction))
         raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400{clogged}")
-    return [run for run in found if isclose(run.fill, found[-1].fill)]
+    return found[max(found)]
 
 
 def deepestOfBoth(friction):
     """{stage: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the difference."""
-    common = set.intersection(*({round(run.fill) for run in fills(stage, friction=friction)} for stage in paper.STAGES))
+    found = {stage: byFill(stage, friction) for stage in paper.STAGES}
+    common = set.intersection(*map(set, found.values()))
     if not common:
         raise MissingRuns(f"no fill with a friction of {friction:g} in both: entries fill100, fill200, fill400")
-    return {stage: [run for run in fills(stage, friction=friction) if round(run.fill) == max(common)]
-            for stage in paper.STAGES}
+    return {stage: fillsOfStage[max(common)] for stage, fillsOfStage in found.items()}
 
 
 def mean(values, deviation=None):
@@ -196,10 +215,6 @@ def mean(values, deviation=None):
     within = np.hypot.reduce([value.error for value in values]) / len(values)
     between = np.std(means, ddof=1) / np.sqrt(len(means)) if len(means) > 1 else 0
     return Value(float(np.mean(means)), float(max(within, between, deviation or 0)))
-
-
-def startRate(stage, friction):
-    return mean([run.startRate for run in deepest(stage, friction)])
 
 
 def sweep(stage):
@@ -270,14 +285,10 @@ def scatterOverErrors(residuals, errors):
 
 
 def matching(stage):
-    """The deepest runs at the friction that the paper finds to match; where there are none yet, at the dry one's."""
-    wanted = paper.MATCHING_FRICTION[stage]
-    return deepest(stage, wanted if fills(stage, friction=wanted) else paper.MATCHING_FRICTION["dry"])
-
-
-def startsOfPaperFill(stage):
-    """Runs from the paper's fill that were stopped when their rate at the start was known; none where there are none yet."""
-    return [run for run in allRuns() if run.stage == stage and run.entry == "start400"]
+    """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill."""
+    frictions = {paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}
+    fillOf = {friction: max(byFill(stage, friction), default=0) for friction in frictions}
+    return deepest(stage, max(frictions, key=lambda friction: (fillOf[friction], friction == paper.MATCHING_FRICTION[stage])))
 
 
 def variants(stage):
