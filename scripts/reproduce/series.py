@@ -16,7 +16,7 @@ import paper
 START = (0.95, 0.75)        # of the fill: "the beginning", 380 to 300 g of 400 g
 LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the paper fits its straight line
 CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
-LATE = (150, 75)            # g: the paper sees the surge below 200 g; less than this the heap on the bottom shows
+LATE = (200, 100)           # g: the paper sees the surge below 200 g, the heap on the bottom shows below some 75 g
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
@@ -183,17 +183,18 @@ def cloggedRuns(stage, **wanted):
     return [run for run in withClogged(stage, **wanted) if run.clogged]
 
 
-def byFill(stage, friction):
-    """{fill in g: runs}, the largest fill last."""
+def byFill(stage, friction, whole=False):
+    """{fill in g: runs}, the largest fill last; of whole discharges only, where wanted."""
     found = {}
     for run in fills(stage, friction=friction):
-        found.setdefault(round(run.fill), []).append(run)
+        if run.emptyingTime or not whole:
+            found.setdefault(round(run.fill), []).append(run)
     return found
 
 
-def deepest(stage, friction):
+def deepest(stage, friction, whole=False):
     """The runs with the largest fill there is: one or several packings."""
-    found = byFill(stage, friction)
+    found = byFill(stage, friction, whole)
     if not found:
         clogged = "".join(f"; {run.name} clogged" for run in cloggedRuns(stage, friction=friction))
         raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400{clogged}")
@@ -209,12 +210,12 @@ def deepestOfBoth(friction):
     return {stage: fillsOfStage[max(common)] for stage, fillsOfStage in found.items()}
 
 
-def mean(values, deviation=None):
+def mean(values):
     """Of runs that differ by their packing. Few runs: the larger of their scatter and of their own errors counts."""
     means = [value.mean for value in values]
     within = np.hypot.reduce([value.error for value in values]) / len(values)
     between = np.std(means, ddof=1) / np.sqrt(len(means)) if len(means) > 1 else 0
-    return Value(float(np.mean(means)), float(max(within, between, deviation or 0)))
+    return Value(float(np.mean(means)), float(max(within, between)))
 
 
 def sweep(stage):
@@ -284,11 +285,12 @@ def scatterOverErrors(residuals, errors):
     return np.sqrt(((residuals / errors) ** 2).sum() / freedom) if freedom > 0 else 1.0
 
 
-def matching(stage):
+def matching(stage, whole=False):
     """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill."""
     frictions = {paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}
-    fillOf = {friction: max(byFill(stage, friction), default=0) for friction in frictions}
-    return deepest(stage, max(frictions, key=lambda friction: (fillOf[friction], friction == paper.MATCHING_FRICTION[stage])))
+    fillOf = {friction: max(byFill(stage, friction, whole), default=0) for friction in frictions}
+    chosen = max(frictions, key=lambda friction: (fillOf[friction], friction == paper.MATCHING_FRICTION[stage]))
+    return deepest(stage, chosen, whole)
 
 
 def variants(stage):
