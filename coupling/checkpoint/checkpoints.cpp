@@ -1,13 +1,18 @@
 #include "checkpoint/checkpoints.h"
 
+#include "checkpoint/manifest.h"
 #include "engine/demEngine.h"
 
 #include "IFstream.H"
-#include "OFstream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
 
 #include <clepsydra/version.h>
+
+#include <algorithm>
+#include <fstream>
+#include <numeric>
+#include <set>
 
 namespace clepsydra
 {
@@ -17,16 +22,15 @@ using namespace Foam;
 namespace
 {
 
-const word folderName("checkpoints");
-const word completeName("complete");
-const word beadsName("beads.restart");
-/// Holds the time of the fresh start, whose fields are the user's own.
-const word beginningName("beginning");
+namespace fs = std::filesystem;
 
-bool isComplete(const fileName& checkpoint)
-{
-    return isFile(checkpoint / completeName);
-}
+const std::string folderName("checkpoints");
+const std::string completeName("complete");
+const std::string beadsName("beads.restart");
+/// Holds the time of the fresh start, whose fields are the user's own.
+const std::string beginningName("beginning");
+/// In each time folder that this program has written: it is half of a checkpoint.
+const std::string halfName("uniform/checkpoint");
 
 /// The case's own folder and those of the ranks.
 fileNameList partsOf(const fileName& caseDirectory)
@@ -60,64 +64,294 @@ void waitForAllRanks()
     reduce(nothing, sumOp<label>());
 }
 
-void setAside(const fileName& part, const word& timeName)
+/// Of what the ranks found, the first that is not empty. Collective.
+std::string firstOfRanks(const std::string& here)
 {
-    const fileName aside = part / ("unfinished." + timeName);
-    rmDir(aside, true);
-    mv(part / timeName, aside);
+    List<string> found(Pstream::nProcs());
+    found[Pstream::myProcNo()] = here;
+    Pstream::gatherList(found);
+    Pstream::scatterList(found);
+    const auto first = std::find_if(found.begin(), found.end(), [](const string& text) { return !text.empty(); });
+    return first == found.end() ? std::string() : std::string(*first);
 }
 
-} // namespace
-
-void Checkpoints::setAsideUnfinished(const argList& args)
+/// This rank's part of the case, as names in a manifest begin: "" or "processor1/".
+std::string partPrefix()
 {
-    const fileName caseDirectory = args.globalPath();
-    const fileName folder = caseDirectory / folderName;
-    const word beginning = beginningOf(folder);
-    if (Pstream::master() && !beginning.empty())
+    return Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
+}
+
+bool startsWith(const std::string& text, const std::string& beginning)
+{
+    return text.compare(0, beginning.size(), beginning) == 0;
+}
+
+bool isBeadsFile(const Manifest::File& file)
+{
+    return startsWith(file.name, folderName + '/');
+}
+
+/// What this rank finds wrong with a checkpoint that was written on as many ranks as now.
+std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest)
+{
+    for (const Manifest::File& file : manifest.files)
     {
+        const bool mine = isBeadsFile(file) ? Pstream::master() : startsWith(file.name, partPrefix());
+        if (const std::string found = mine ? Manifest::mismatch(caseDirectory, file) : std::string(); !found.empty())
+        {
+            return found;
+        }
+    }
+    return {};
+}
+
+/// On another number of ranks the fields are those that reconstructPar or decomposePar has made: all must be there, and
+/// what is left of those that they were made from must be as it was written.
+std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Manifest& manifest)
+{
+    const std::string timeFolder = manifest.time + '/';
+    for (const Manifest::File& file : manifest.files)
+    {
+        const bool beads = isBeadsFile(file);
+        if (Pstream::master() && (beads || fs::exists(caseDirectory / file.name)))
+        {
+            if (const std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
+            {
+                return found;
+            }
+        }
+        if (!beads)
+        {
+            const std::string name = partPrefix() + file.name.substr(file.name.find(timeFolder));
+            std::error_code missing;
+            if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
+            {
+                return name + " is missing or empty (made from " + file.name + ')';
+            }
+        }
+    }
+    return {};
+}
+
+/// Why a checkpoint cannot be resumed from; empty where it can. Collective.
+std::string damageOf(const fileName& caseDirectory, const std::string& timeName)
+{
+    const fs::path folder(caseDirectory.c_str());
+    std::string found;
+    try
+    {
+        const Manifest manifest = Manifest::read(folder / folderName / timeName / completeName);
+        found = manifest.time != timeName             ? "it has the manifest of time " + manifest.time
+                : manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
+                                                      : mismatchAfterRedistribution(folder, manifest);
+    }
+    catch (const FileError& error)
+    {
+        found = error.what();
+    }
+    return firstOfRanks(found);
+}
+
+/// Times that a run has written, the latest first; without the fresh start's. Collective: the same on all ranks.
+wordList writtenTimes(const fileName& caseDirectory, const word& beginning)
+{
+    wordList names;
+    if (Pstream::master())
+    {
+        std::set<std::pair<scalar, word>> times;
         for (const fileName& part : partsOf(caseDirectory))
         {
             for (const instant& time : Time::findTimes(part))
             {
-                if (time.name() != "constant" && time.name() != beginning && !isComplete(folder / time.name()))
+                if (time.name() != "constant" && time.name() != beginning)
                 {
-                    Info << "Setting aside " << part.name() / time.name()
-                         << ": the run was ended while it wrote this time" << endl;
-                    setAside(part, time.name());
+                    times.emplace(time.value(), time.name());
                 }
+            }
+        }
+        std::for_each(times.rbegin(), times.rend(), [&](const auto& time) { names.append(time.second); });
+    }
+    Pstream::scatter(names);
+    return names;
+}
+
+void setAside(const fileName& caseDirectory, const word& timeName, const std::string& prefix)
+{
+    if (Pstream::master())
+    {
+        for (const fileName& part : partsOf(caseDirectory))
+        {
+            if (isDir(part / timeName))
+            {
+                const fileName aside = part / (prefix + timeName);
+                rmDir(aside, true);
+                mv(part / timeName, aside);
             }
         }
     }
     waitForAllRanks();
 }
 
+bool startsFromLatestTime(const fileName& caseDirectory)
+{
+    IFstream file(caseDirectory / "system/controlDict");
+    return dictionary(file).getOrDefault<word>("startFrom", "latestTime") == "latestTime";
+}
+
+/// A FoamFile ends with a line that nothing is written after: where it is missing, the disk was full.
+void requireWholeFoamFile(const fs::path& file)
+{
+    constexpr std::streamoff headerSize = 2000;
+    constexpr std::streamoff footerSize = 200;
+    std::ifstream input(file, std::ios::binary);
+    const auto size = static_cast<std::streamoff>(fs::file_size(file));
+    const auto textFrom = [&](std::streamoff start, std::streamoff length) {
+        std::string text(static_cast<std::size_t>(std::min(length, size)), '\0');
+        input.seekg(std::max<std::streamoff>(start, 0));
+        input.read(text.data(), static_cast<std::streamsize>(text.size()));
+        return text;
+    };
+    const bool isFoamFile = textFrom(0, headerSize).find("FoamFile") != std::string::npos;
+    if (size == 0 || (isFoamFile && textFrom(size - footerSize, footerSize).find("// ****") == std::string::npos))
+    {
+        throw FileError(file.string() + " was not written to its end: is the disk full?");
+    }
+}
+
+/// The lines of a manifest for what this rank has written. \throws FileError
+std::string linesOfThisRank(const fs::path& caseDirectory, const std::string& timeName)
+{
+    std::vector<std::string> names;
+    for (const auto& entry : fs::recursive_directory_iterator(caseDirectory / (partPrefix() + timeName)))
+    {
+        if (entry.is_regular_file())
+        {
+            names.push_back(fs::relative(entry.path(), caseDirectory));
+        }
+    }
+    if (Pstream::master())
+    {
+        names.push_back(folderName / timeName / beadsName);
+    }
+    std::sort(names.begin(), names.end());
+    std::string lines;
+    for (const std::string& name : names)
+    {
+        requireWholeFoamFile(caseDirectory / name);
+        flushToDisk(caseDirectory / name);
+        lines += Manifest::line({name, contentsOf(caseDirectory / name)});
+    }
+    return lines;
+}
+
+} // namespace
+
+void Checkpoints::setAsideUnusable(const argList& args)
+{
+    const fileName caseDirectory = args.globalPath();
+    const fileName folder = caseDirectory / folderName;
+    word beginning = beginningOf(folder);
+    Pstream::scatter(beginning);
+    if (beginning.empty())
+    {
+        return;
+    }
+
+    wordList usable;
+    for (const word& time : writtenTimes(caseDirectory, beginning))
+    {
+        if (returnReduce(isFile(folder / time / completeName), orOp<bool>()))
+        {
+            usable.append(time);
+            continue;
+        }
+        Info << "Setting aside time " << time << ": the run was ended while it wrote it" << endl;
+        setAside(caseDirectory, time, "unfinished.");
+    }
+    if (usable.empty() || !startsFromLatestTime(caseDirectory))
+    {
+        return;
+    }
+
+    label whole = 0;
+    std::string damages;
+    for (; whole < usable.size(); ++whole)
+    {
+        const std::string damage = damageOf(caseDirectory, usable[whole]);
+        if (damage.empty())
+        {
+            break;
+        }
+        damages += "\n    time " + usable[whole] + ": " + damage;
+    }
+    if (whole == usable.size())
+    {
+        FatalErrorInFunction << "No checkpoint of this case can be resumed from:" << damages.c_str()
+                             << "\nTo start afresh remove the folder " << folder << " and the times "
+                             << flatOutput(usable) << exit(FatalError);
+    }
+    for (label damaged = 0; damaged < whole; ++damaged)
+    {
+        setAside(caseDirectory, usable[damaged], "damaged.");
+    }
+    if (whole > 0)
+    {
+        Info << "WARNING: damaged checkpoints, set aside as damaged.<time>:" << damages.c_str()
+             << "\n    going on from the last that is whole, time " << usable[whole] << nl << endl;
+    }
+}
+
 Checkpoints::Checkpoints(const Time& time)
     : time_(time)
 {
-    const fileName folder = time.globalPath() / folderName;
-    const fileName checkpoint = folder / time.timeName();
-    if (isComplete(checkpoint))
+    if (time.controlDict().getOrDefault<label>("purgeWrite", 0) == 1)
     {
-        resumeFrom_ = (checkpoint / beadsName).c_str();
-        Info << "Resuming from the checkpoint of time " << time.timeName() << nl << endl;
+        FatalIOErrorInFunction(time.controlDict()) << "Entry 'purgeWrite' is 1; allowed: 0 for all times, or at least "
+                                                      "2, for the last one is removed before the "
+                                                   << "next is whole" << exit(FatalIOError);
+    }
+
+    const fileName folder = time.globalPath() / folderName;
+    word beginning = beginningOf(folder);
+    Pstream::scatter(beginning);
+    const word start = time.timeName();
+    if (beginning.empty() || beginning == start)
+    {
+        startAfresh();
         return;
     }
-    const word beginning = beginningOf(folder);
-    if (!beginning.empty() && beginning != time.timeName())
+    beginning_ = std::stod(beginning);
+    const std::string damage = damageOf(time.globalPath(), start);
+    if (!damage.empty())
     {
-        FatalErrorInFunction << "There is no complete checkpoint of time " << time.timeName() << " in " << folder
-                             << "; it has those of times " << flatOutput(readDir(folder, fileName::DIRECTORY))
-                             << ". Choose one of them by startTime in system/controlDict, or remove " << folder
-                             << " to start afresh" << exit(FatalError);
+        FatalErrorInFunction << "There is no whole checkpoint of time " << start << ": " << damage.c_str()
+                             << "\nThere are those of the times " << flatOutput(readDir(folder, fileName::DIRECTORY))
+                             << ": choose one by startTime in system/controlDict, or startFrom latestTime. To start "
+                             << "afresh remove the folder " << folder << " and all times after " << beginning
+                             << exit(FatalError);
     }
-    waitForAllRanks();
+    resumeFrom_ = (folder / start / beadsName).c_str();
+    Info << "Resuming from the checkpoint of time " << start << nl << endl;
+}
+
+void Checkpoints::startAfresh()
+{
+    const fileName half = time_.path() / time_.timeName() / halfName;
+    if (returnReduce(isFile(half), orOp<bool>()))
+    {
+        FatalErrorInFunction
+            << "The fields of time " << time_.timeName() << " are half of a checkpoint whose other half, "
+            << "the beads, is gone from " << time_.globalPath() / folderName
+            << ". To start afresh remove that time and all others that were written, or copy what is to "
+            << "be kept of it into a new case" << exit(FatalError);
+    }
+    beginning_ = time_.value();
     if (Pstream::master())
     {
-        mkDir(folder);
-        OFstream file(folder / beginningName);
-        file << time.timeName() << nl;
+        mkDir(time_.globalPath() / folderName);
+        writeWhole((time_.globalPath() / folderName / beginningName).c_str(), time_.timeName() + '\n');
     }
+    waitForAllRanks();
 }
 
 void Checkpoints::begin() const
@@ -130,22 +364,50 @@ void Checkpoints::begin() const
 
 void Checkpoints::complete(DemEngine& engine) const
 {
-    const fileName checkpoint = time_.globalPath() / folderName / time_.timeName();
+    const fs::path caseDirectory(time_.globalPath().c_str());
+    const std::string timeName = time_.timeName();
+    const fs::path checkpoint = caseDirectory / folderName / timeName;
     if (Pstream::master())
     {
-        mkDir(checkpoint);
+        mkDir(checkpoint.c_str());
     }
-    // Collective, and with a barrier at its end: all ranks' fields are on disk then, too.
-    engine.writeCheckpoint((checkpoint / beadsName).c_str());
-    if (Pstream::master())
+    std::string problem;
+    string lines;
+    try
     {
-        const fileName marker = checkpoint / completeName;
+        const fileName half = time_.path() / timeName / halfName;
+        mkDir(half.path());
+        writeWhole(half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
+        engine.writeCheckpoint(checkpoint / beadsName);
+        lines = linesOfThisRank(caseDirectory, timeName);
+    }
+    catch (const FileError& error)
+    {
+        problem = error.what();
+    }
+
+    List<string> linesOfRanks(Pstream::nProcs());
+    linesOfRanks[Pstream::myProcNo()] = lines;
+    Pstream::gatherList(linesOfRanks);
+    problem = firstOfRanks(problem);
+    if (problem.empty() && Pstream::master())
+    {
+        const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, {}};
+        try
         {
-            OFstream unfinished(marker + ".unfinished");
-            unfinished << "time " << time_.timeName() << nl << "ranks " << Pstream::nProcs() << nl << "commit "
-                       << gitCommit << nl;
+            writeWhole(checkpoint / completeName,
+                manifest.text(std::accumulate(linesOfRanks.begin(), linesOfRanks.end(), std::string())));
         }
-        mv(marker + ".unfinished", marker);
+        catch (const FileError& error)
+        {
+            problem = error.what();
+        }
+    }
+    problem = firstOfRanks(problem);
+    if (!problem.empty())
+    {
+        FatalErrorInFunction << "The checkpoint of time " << timeName << " could not be written: " << problem.c_str()
+                             << "\nThe same command goes on from the checkpoint before" << exit(FatalError);
     }
 }
 

@@ -12,18 +12,22 @@ class DemEngine;
 
 /// The states of a run on disk, from which `startFrom latestTime` goes on.
 ///
-/// A checkpoint of time t is OpenFOAM's fields in <t>/ (or processor*/<t>/) together with checkpoints/<t>/, which
-/// holds the beads and, written last, the file `complete`. A run that is killed while it writes leaves no `complete`;
-/// the next run sets that time aside and goes on from the checkpoint before. The beads' file does not depend on the
-/// number of ranks: to go on with another number, reconstruct and decompose the fields as ever.
+/// A checkpoint of time t is OpenFOAM's fields and the state of function objects in <t>/ (or processor*/<t>/), together
+/// with checkpoints/<t>/, which holds the beads and, written last, the manifest `complete`: every file that a resume
+/// reads, with its checksum. So a run that is killed while it writes leaves no manifest, and what is damaged later is
+/// found before it is read. With `latestTime` the run then goes on from the last checkpoint that is whole, and sets aside
+/// what is later. The beads' file does not depend on the number of ranks: to go on with another number, reconstruct and
+/// decompose the fields as ever.
 class Checkpoints
 {
 public:
-    /// Renames the time folders that a killed run left unfinished to `unfinished.<t>`, so that OpenFOAM does not take
-    /// them for the latest time. Call before Time is constructed. Collective.
-    static void setAsideUnfinished(const Foam::argList& args);
+    /// Renames time folders that a killed run left unfinished to `unfinished.<t>` and, with `startFrom latestTime`, those
+    /// of damaged checkpoints to `damaged.<t>`, so that OpenFOAM does not take them for the latest time. Call before Time
+    /// is constructed. Collective. FatalError where all checkpoints are damaged.
+    static void setAsideUnusable(const Foam::argList& args);
 
-    /// FatalError if the start time has no checkpoint although the case has checkpoints. Collective.
+    /// FatalError if the start time has no whole checkpoint although the case was run before. FatalIOError where
+    /// purgeWrite would remove the last checkpoint before the next is there. Collective.
     explicit Checkpoints(const Foam::Time& time);
 
     /// The beads to resume from; empty for a fresh start.
@@ -37,15 +41,25 @@ public:
         return !resumeFrom_.empty();
     }
 
+    /// Time of the fresh start [s].
+    double beginning() const
+    {
+        return beginning_;
+    }
+
     /// Call before the fields of a write time are written: an earlier checkpoint of the same time is no longer whole.
     void begin() const;
 
-    /// Call after the fields of a write time are written. Collective.
+    /// Call after the fields of a write time are written. Collective. FatalError where a file of the checkpoint is not
+    /// on the disk as a whole.
     void complete(DemEngine& engine) const;
 
 private:
+    void startAfresh();
+
     const Foam::Time& time_;
     std::filesystem::path resumeFrom_;
+    double beginning_ = 0;
 };
 
 } // namespace clepsydra

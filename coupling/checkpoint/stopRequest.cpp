@@ -3,7 +3,10 @@
 #include "PstreamReduceOps.H"
 #include "runTimeSelection.h"
 
+#include <unistd.h>
+
 #include <csignal>
+#include <string_view>
 
 namespace clepsydra
 {
@@ -12,11 +15,15 @@ namespace
 {
 
 // A signal handler can reach nothing else.
-volatile std::sig_atomic_t terminateCame = 0;
+volatile std::sig_atomic_t signalCame = 0;
 
-void noteTerminate(int)
+void noteSignal(int signal)
 {
-    terminateCame = 1;
+    signalCame = 1;
+    constexpr std::string_view answer =
+        "\nStopping: a checkpoint is written at the end of this coupling interval. Once more ends the run at once.\n";
+    static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
+    std::signal(signal, SIG_DFL);
 }
 
 } // namespace
@@ -28,17 +35,19 @@ StopRequest::StopRequest(const Time& time)
     {
         maxClockTime_ = positiveEntry(time.controlDict(), "maxClockTime");
     }
-    std::signal(SIGTERM, noteTerminate);
+    std::signal(SIGTERM, noteSignal);
+    std::signal(SIGINT, noteSignal);
 }
 
 StopRequest::~StopRequest()
 {
     std::signal(SIGTERM, SIG_DFL);
+    std::signal(SIGINT, SIG_DFL);
 }
 
 bool StopRequest::asked() const
 {
-    const bool here = terminateCame != 0 || time_.elapsedClockTime() > maxClockTime_;
+    const bool here = signalCame != 0 || time_.elapsedClockTime() > maxClockTime_;
     return returnReduce(here, orOp<bool>());
 }
 

@@ -5,12 +5,12 @@
 namespace clepsydra
 {
 
-/// Whether the run should write a checkpoint and end: SIGTERM came (to any rank), or the wall time of the entry
+/// Whether the run should write a checkpoint and end: SIGTERM or SIGINT came (to any rank), or the wall time of the entry
 /// `maxClockTime` [s] in system/controlDict is over.
 class StopRequest
 {
 public:
-    /// Takes SIGTERM from now on. FatalIOError where maxClockTime is not a number > 0.
+    /// Takes both signals from now on, once each: a second one ends the program. FatalIOError where maxClockTime is not a number > 0.
     explicit StopRequest(const Foam::Time& time);
     ~StopRequest();
     StopRequest(const StopRequest&) = delete;

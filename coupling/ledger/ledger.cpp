@@ -1,13 +1,13 @@
 #include "ledger/ledger.h"
 
+#include "files/wholeFile.h"
+
 #include "IOmanip.H"
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "runTimeSelection.h"
 
 #include <nlohmann/json.hpp>
-
-#include <fstream>
 
 namespace clepsydra
 {
@@ -113,7 +113,7 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
         {"pressureForceError", pressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
         {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
-    std::ofstream(folder / "summary.json") << summary.dump(2) << '\n';
+    writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');
 }
 
 } // namespace clepsydra

@@ -91,6 +91,7 @@ void BeadHeight::sample()
     Ostream& os = file();
     writeCurrentTime(os);
     os << tab << setw(charWidth()) << height << tab << setw(charWidth()) << velocity << endl;
+    requireWritten(os);
 
     if (height < stopBelow_)
     {

@@ -22,6 +22,8 @@ constexpr double sameTime = 1e-6;
 
 const word countEntry = "beadsInHopper";
 const word lastDepartureEntry = "lastDeparture";
+/// Times and masses in turn.
+const word samplesEntry = "samples";
 
 } // namespace
 
@@ -44,11 +46,38 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     writeTabbed(os, "rate [kg/s]");
     os << endl;
 
+    resume();
     // OpenFOAM executes function objects after the first step only; the curve should start at the start.
-    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    if (lastSample_ < 0 && mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
     {
         sample();
     }
+}
+
+void MassInHopper::resume()
+{
+    scalarList values;
+    if (!getProperty(samplesEntry, values) || values.size() < 2)
+    {
+        return;
+    }
+    std::deque<TrailingRate::Sample> samples;
+    for (label i = 0; i + 1 < values.size(); i += 2)
+    {
+        samples.push_back({values[i], values[i + 1]});
+    }
+    getProperty(countEntry, lastBeads_);
+    // A row of this very time has been dropped from its table, and is written again.
+    const scalar lastSample = samples.back().time;
+    if (lastSample > time_.value() - sameTime * time_.deltaTValue())
+    {
+        samples.pop_back();
+    }
+    else
+    {
+        lastSample_ = lastSample;
+    }
+    rate_->resume(std::move(samples));
 }
 
 bool MassInHopper::read(const dictionary& dict)
@@ -134,12 +163,21 @@ void MassInHopper::sample()
     writeCurrentTime(os);
     os << tab << setw(charWidth()) << mass << tab << setw(charWidth()) << count << tab << setw(charWidth())
        << rate_->add(now, mass) << endl;
+    requireWritten(os);
 
     if (count < lastBeads_)
     {
         setProperty(lastDepartureEntry, now);
     }
     setResult(countEntry, count);
+    setProperty(countEntry, count);
+    scalarList samples;
+    for (const TrailingRate::Sample& past : rate_->samples())
+    {
+        samples.append(past.time);
+        samples.append(past.amount);
+    }
+    setProperty(samplesEntry, samples);
     lastBeads_ = count;
     lastSample_ = now;
 }

@@ -27,7 +27,7 @@ namespace clepsydra
 ///
 /// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], mass [kg], beads [-], rate [kg/s] (positive when
 /// the hopper empties). Which beads are in the hopper: see HopperCylinder. A restart continues in a folder of its
-/// own start time; the time of the last departure survives it.
+/// own start time, with the rows that it would have written had it not been stopped.
 ///
 /// FatalIOError where the mesh has no such patch (its patches are listed) or an entry is out of range.
 class MassInHopper : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
@@ -56,6 +56,8 @@ public:
     static Foam::label lastCount(const Foam::Time& time);
 
 private:
+    /// Takes up the state that the checkpoint holds, if there is one.
+    void resume();
     void sample();
     void stopIfFlowStopped();
 

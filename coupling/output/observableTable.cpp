@@ -3,6 +3,7 @@
 #include "OSspecific.H"
 #include "Time.H"
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -18,27 +19,29 @@ namespace
 /// Half the last digit of a time's name would do; times of rows are that far apart at least.
 constexpr scalar sameTime = 1e-9;
 
+/// Cuts the table where they begin. Rows before are not touched, so a full disk cannot harm them.
 void dropRowsFrom(scalar time, const fileName& table)
 {
-    std::ostringstream kept;
+    std::ifstream lines(table);
+    std::uintmax_t kept = 0;
+    std::string line;
+    // A line without its end is the one that the run was killed in.
+    while (std::getline(lines, line) && !lines.eof())
     {
-        std::ifstream lines(table);
-        std::string line;
-        // A line without its end is the one that the run was killed in.
-        while (std::getline(lines, line) && !lines.eof())
+        std::istringstream columns(line);
+        scalar rowTime = 0;
+        if (columns >> rowTime && rowTime >= time - sameTime)
         {
-            std::istringstream columns(line);
-            scalar rowTime = 0;
-            const bool isRow = static_cast<bool>(columns >> rowTime);
-            if (!isRow || rowTime < time - sameTime)
-            {
-                kept << line << '\n';
-            }
+            break;
         }
+        kept += line.size() + 1;
     }
-    const fileName unfinished = table + ".unfinished";
-    std::ofstream(unfinished) << kept.str();
-    mv(unfinished, table);
+    if (lines.bad())
+    {
+        FatalErrorInFunction << "Cannot read " << table << exit(FatalError);
+    }
+    lines.close();
+    std::filesystem::resize_file(table.c_str(), kept);
 }
 
 } // namespace
@@ -64,6 +67,15 @@ void makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
         {
             mvBak(file, "bak");
         }
+    }
+}
+
+void requireWritten(const Ostream& table)
+{
+    // FatalIOError: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
+    if (!table.good())
+    {
+        FatalIOErrorInFunction(table) << "Cannot write a row: is the disk full?" << exit(FatalIOError);
     }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "Ostream.H"
 #include "fileName.H"
 #include "scalar.H"
 
@@ -13,5 +14,8 @@ namespace clepsydra
 /// \param folder  postProcessing/<name>
 /// \param table  <name>.dat
 void makeRoomFrom(Foam::scalar startTime, const Foam::fileName& folder, const Foam::word& table);
+
+/// FatalIOError where rows have not reached their table.
+void requireWritten(const Foam::Ostream& table);
 
 } // namespace clepsydra

@@ -14,7 +14,7 @@ namespace clepsydra
 
 using namespace Foam;
 
-RunOutput::RunOutput(Time& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
     DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints)
     : time_(time),
       mesh_(mesh),
@@ -91,25 +91,26 @@ void RunOutput::checkDemStepOnce()
 bool RunOutput::afterInterval()
 {
     const PhaseTimers::Scope timing = interval_.timers().time("output");
-    const bool stop = stopRequest_.asked();
-    if (time_.writeTime() || stop)
-    {
-        checkpoints_.begin();
-    }
-    if (stop)
+    if (stopRequest_.asked())
     {
         Info << "Asked to stop: writing a checkpoint" << endl;
-        time_.writeAndEnd();
+        stopped_ = true;
+        time_.endHere();
     }
-    else
+    else if (time_.atEnd())
     {
-        // Ends the run, too, where a function object asked for it.
-        time_.write();
+        time_.writeHere();
     }
     const bool atWriteTime = time_.writeTime();
     if (atWriteTime)
     {
-        checkpoints_.complete(engine_);
+        checkpoints_.begin();
+    }
+    // Their state is part of the checkpoint.
+    time_.functionObjects().execute();
+    if (atWriteTime)
+    {
+        writeCheckpoint();
         progress_.clear();
         if (beadWriter_)
         {
@@ -122,9 +123,21 @@ bool RunOutput::afterInterval()
     return atWriteTime;
 }
 
+void RunOutput::writeCheckpoint()
+{
+    if (!time_.write())
+    {
+        FatalErrorInFunction << "The fields of time " << time_.timeName() << " could not be written to "
+                             << time_.timePath() << ": is the disk full? The same command goes on from the checkpoint "
+                             << "before" << exit(FatalError);
+    }
+    checkpoints_.complete(engine_);
+}
+
 void RunOutput::finish()
 {
     progress_.clear();
+    time_.functionObjects().end();
     interval_.ledger().report();
 
     const PhaseTimers& timers = interval_.timers();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "checkpoint/checkpoints.h"
+#include "checkpoint/runTime.h"
 #include "checkpoint/stopRequest.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
@@ -18,9 +19,8 @@ class RunOutput
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     /// \param models  null in a dry run
-    RunOutput(Foam::Time& time, const Foam::fvMesh& mesh, const CouplingSettings& settings,
-        const FluidProperties& fluid, DemEngine& engine, const FluidModels* models, CouplingInterval& interval,
-        const Checkpoints& checkpoints);
+    RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+        DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints);
 
     /// Starts the function objects and writes the first beads. Collective; once all fields exist.
     void start();
@@ -31,19 +31,26 @@ public:
         return progress_.isTerminal();
     }
 
-    /// Collective; after each interval, when the fluid is solved.
+    /// Collective; after each interval, when the fluid is solved. The state at the end of the run is a checkpoint, too.
     /// \return true if a checkpoint was written: the run must restart in place.
     bool afterInterval();
+
+    /// True where the run was asked to stop before its end.
+    bool stopped() const
+    {
+        return stopped_;
+    }
 
     /// Collective; after the last interval: the table of phases, and the ledger's summary.
     void finish();
 
 private:
     void checkDemStepOnce();
+    void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
     void printEstimate(double beads, bool withFluid) const;
 
-    Foam::Time& time_;
+    RunTime& time_;
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
@@ -54,6 +61,7 @@ private:
     StopRequest stopRequest_;
     /// False while there are no beads yet: pouring starts without.
     bool demStepChecked_ = false;
+    bool stopped_ = false;
 };
 
 } // namespace clepsydra

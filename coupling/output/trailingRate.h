@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <utility>
 
 namespace clepsydra
 {
@@ -30,13 +31,24 @@ public:
         return samples_.size() > 1 ? (first.amount - amount) / (time - first.time) : 0.0;
     }
 
-private:
     struct Sample
     {
         double time;
         double amount;
     };
 
+    /// Those that later rates need: the state that a resumed run goes on with.
+    const std::deque<Sample>& samples() const
+    {
+        return samples_;
+    }
+
+    void resume(std::deque<Sample> samples)
+    {
+        samples_ = std::move(samples);
+    }
+
+private:
     double window_;
     std::deque<Sample> samples_;
 };

@@ -1,12 +1,14 @@
 #include "output/vtkSeries.h"
 
+#include "files/wholeFile.h"
+
 #include <vtkNew.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLDataParser.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -70,9 +72,7 @@ void VtkSeries::add(double time, const std::filesystem::path& dataFile)
 
 void VtkSeries::write() const
 {
-    std::filesystem::path temporary = file_;
-    temporary += ".new";
-    std::ofstream out(temporary);
+    std::ostringstream out;
     out.precision(std::numeric_limits<double>::digits10);
     out << R"(<?xml version="1.0"?>
 <VTKFile type="Collection" version="0.1">
@@ -83,12 +83,7 @@ void VtkSeries::write() const
         out << R"(<DataSet timestep=")" << time << R"(" part="0" file=")" << dataFile.string() << "\"/>\n";
     }
     out << "</Collection>\n</VTKFile>\n";
-    out.close();
-    if (!out)
-    {
-        throw std::runtime_error("Cannot write " + temporary.string());
-    }
-    std::filesystem::rename(temporary, file_);
+    writeWhole(file_, out.str());
 }
 
 } // namespace clepsydra

@@ -3,6 +3,8 @@
 
 #include "checkpoint/caseLock.h"
 #include "checkpoint/checkpoints.h"
+#include "checkpoint/runTime.h"
+#include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
 #include "output/runOutput.h"
@@ -53,6 +55,20 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
     }
 }
 
+/// The beads for other runs, with a checksum that the engine holds them against.
+void writeFinalBeads(DemEngine& engine, const std::filesystem::path& file)
+{
+    if (Pstream::master())
+    {
+        std::filesystem::remove(checksumName(file));
+    }
+    engine.writeCheckpoint(file);
+    if (Pstream::master())
+    {
+        writeChecksum(file);
+    }
+}
+
 /// Silences the solvers' lines on a terminal, where they would break the progress bar. In a log they stay.
 class QuietOnTerminal
 {
@@ -78,7 +94,7 @@ private:
 };
 
 void runWithFluid(
-    Time& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
+    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
 {
     pimpleControl pimple(mesh);
 #include "createFields.H"
@@ -109,7 +125,7 @@ void runWithFluid(
     }
 }
 
-void runDry(Time& runTime, CouplingInterval& interval, RunOutput& output)
+void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
 {
     output.start();
     while (runTime.loop())
@@ -131,9 +147,9 @@ int main(int argc, char* argv[])
     const MpiSession mpi;
     chDir(args.globalPath());
     const CaseLock lock(args.globalPath());
-    Checkpoints::setAsideUnfinished(args);
+    Checkpoints::setAsideUnusable(args);
 
-#include "createTime.H"
+    RunTime runTime(args);
 #include "createMesh.H"
 
     const CouplingSettings settings(runTime);
@@ -141,6 +157,7 @@ int main(int argc, char* argv[])
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     const Checkpoints checkpoints(runTime);
+    runTime.countWriteTimesFrom(checkpoints.beginning());
     try
     {
         LiggghtsEngine engine(settings.engineSetup(checkpoints.beads()));
@@ -161,15 +178,21 @@ int main(int argc, char* argv[])
         }
 
         output.finish();
-        if (!settings.finalRestart().empty())
+        // What comes after takes the beads for those of the end.
+        if (!output.stopped() && !settings.finalRestart().empty())
         {
-            engine.writeCheckpoint(settings.finalRestart().c_str());
+            writeFinalBeads(engine, settings.finalRestart().c_str());
         }
     }
     catch (const DemEngineError& error)
     {
         FatalErrorInFunction << error.what() << nl << nl
                              << "file: " << settings.demDict().get<fileName>("script").c_str() << exit(FatalError);
+    }
+
+    catch (const FileError& error)
+    {
+        FatalErrorInFunction << error.what() << exit(FatalError);
     }
 
     Info << "End\n" << endl;

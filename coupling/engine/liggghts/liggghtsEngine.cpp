@@ -3,6 +3,7 @@
 #include "engine/liggghts/hertzPairStyle.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/script.h"
+#include "files/wholeFile.h"
 
 #include <atom.h>
 #include <comm.h>
@@ -24,6 +25,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
 
 namespace clepsydra
 {
@@ -208,6 +212,20 @@ public:
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
 
+    /// A fix that has inserted all its beads has no next insertion, which LIGGGHTS writes as step 0. When it is read
+    /// again, 0 is taken for "not known", and the fix tries at once and then stands in the way of every `run`.
+    void keepFinishedInsertionsFinished()
+    {
+        constexpr lmp::bigint never = lmp::bigint(1) << 52;
+        lmp::Modify& modify = *program_->modify;
+        std::for_each(modify.fix, modify.fix + modify.nfix, [](lmp::Fix* fix) {
+            if (std::string(fix->style).rfind("insert/", 0) == 0 && fix->next_reneighbor == 0)
+            {
+                fix->next_reneighbor = never;
+            }
+        });
+    }
+
     void keepMemory(int numbers)
     {
         memorySize_ = numbers;
@@ -302,6 +320,7 @@ private:
         {
             if (resumeFrom.empty() || !makesBeads(command.text))
             {
+                requireUndamagedInput(command);
                 execute(command.text, command.where);
             }
             else if (!boxMade_)
@@ -310,6 +329,41 @@ private:
                 boxMade_ = true;
             }
         }
+    }
+
+    /// LIGGGHTS goes round for ever in a restart file that has been cut.
+    void requireUndamagedInput(const ScriptCommand& command)
+    {
+        std::istringstream words(withVariables(command.text));
+        std::string name;
+        std::string file;
+        if (words >> name >> file && name == "read_restart" && file.find_first_of("*%") == std::string::npos)
+        {
+            try
+            {
+                requireUndamaged(file);
+            }
+            catch (const FileError& error)
+            {
+                throw DemEngineError(command.where + ": " + error.what());
+            }
+        }
+    }
+
+    /// A command as LIGGGHTS reads it, the values of its variables put in.
+    std::string withVariables(const std::string& command) const
+    {
+        constexpr int flagOfScripts = 0;
+        int size = static_cast<int>(command.size()) + 1;
+        int workSize = size;
+        auto* text = static_cast<char*>(std::malloc(command.size() + 1));
+        auto* work = static_cast<char*>(std::malloc(command.size() + 1));
+        std::copy_n(command.c_str(), command.size() + 1, text);
+        program_->input->substitute(text, work, size, workSize, flagOfScripts);
+        std::string result = text;
+        std::free(text);
+        std::free(work);
+        return result;
     }
 
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
@@ -423,13 +477,17 @@ std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 
 void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
 {
-    std::filesystem::path unfinished = file;
-    unfinished += ".unfinished";
-    implementation_->execute("write_restart " + unfinished.string(), "checkpoint");
-    MPI_Barrier(implementation_->program().world);
+    implementation_->keepFinishedInsertionsFinished();
+    // The first rank writes what all send to it.
+    std::optional<FileThroughPipe> received;
     if (implementation_->program().comm->me == 0)
     {
-        std::filesystem::rename(unfinished, file);
+        received.emplace(file);
+    }
+    implementation_->execute("write_restart " + (received ? received->entrance() : file).string(), "checkpoint");
+    if (received)
+    {
+        received->finish();
     }
     MPI_Barrier(implementation_->program().world);
 }

@@ -1,0 +1,57 @@
+#include "checkpoint/runTime.h"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+RunTime::RunTime(const argList& args)
+    : Time(Time::controlDictName, args),
+      beginning_(startTime_)
+{}
+
+void RunTime::countWriteTimesFrom(double beginning)
+{
+    beginning_ = beginning;
+    writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
+}
+
+bool RunTime::loop()
+{
+    if (atEnd())
+    {
+        return false;
+    }
+    readModifiedObjects();
+    operator++();
+    return true;
+}
+
+Time& RunTime::operator++()
+{
+    // Time counts write times from startTime_, and names folders of observables by it.
+    const scalar resumedAt = startTime_;
+    startTime_ = beginning_;
+    Time::operator++();
+    startTime_ = resumedAt;
+    return *this;
+}
+
+void RunTime::endHere()
+{
+    stopAt_ = saWriteNow;
+    endTime_ = value();
+    writeTime_ = true;
+}
+
+void RunTime::writeHere()
+{
+    writeTime_ = true;
+}
+
+bool RunTime::atEnd() const
+{
+    return value() >= endTime_ - 0.5 * deltaT_;
+}
+
+} // namespace clepsydra

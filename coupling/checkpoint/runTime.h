@@ -1,0 +1,41 @@
+#pragma once
+
+#include "Time.H"
+#include "argList.H"
+
+namespace clepsydra
+{
+
+/// OpenFOAM's Time for a run that may be stopped and resumed at any step.
+///
+/// Write times are counted from the fresh start, wherever the run was resumed: a run that was stopped between two of them
+/// writes the same ones as if it had not been. Function objects are not executed by loop(), which would be after the
+/// checkpoint that holds their state, but where the program calls them.
+class RunTime : public Foam::Time
+{
+public:
+    explicit RunTime(const Foam::argList& args);
+
+    /// \param beginning  time of the fresh start [s]
+    void countWriteTimesFrom(double beginning);
+
+    /// The next step, until the end time.
+    bool loop() override;
+
+    Foam::Time& operator++() override;
+    using Foam::Time::operator++;
+
+    /// Makes this step a write time and the last.
+    void endHere();
+
+    /// Makes this step a write time.
+    void writeHere();
+
+    /// True if this step is the last.
+    bool atEnd() const;
+
+private:
+    double beginning_;
+};
+
+} // namespace clepsydra
