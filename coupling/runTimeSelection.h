@@ -3,8 +3,11 @@
 #include "FlatOutput.H"
 #include "autoPtr.H"
 #include "dictionary.H"
+#include "knownEntries.h"
 #include "runTimeSelectionTables.H"
 #include "wordList.H"
+
+#include <cmath>
 
 namespace clepsydra
 {
@@ -19,21 +22,37 @@ inline word selectedModel(const dictionary& dict, const word& entry, const wordL
     word name = dict.get<word>(entry);
     if (!known.found(name))
     {
-        FatalIOErrorInFunction(dict) << "Unknown " << entry << " '" << name << "'; allowed: " << flatOutput(known)
-                                     << exit(FatalIOError);
+        FatalIOErrorInFunction(dict) << "Unknown " << entry << " '" << name << "'" << didYouMean(name, known).c_str()
+                                     << "; allowed: " << flatOutput(known) << exit(FatalIOError);
     }
     return name;
 }
 
-/// A number that must be positive (or not negative, with `zeroAllowed`); FatalIOError with file and entry otherwise.
+/// Whether a quantity in SI units may have this size: with one that is larger, or smaller and not zero, products of a
+/// few leave the range of numbers. Not so NaN and infinity.
+inline bool isOfUsableSize(double value)
+{
+    constexpr double largest = 1e60;
+    return value == 0 || (std::abs(value) <= largest && std::abs(value) >= 1 / largest);
+}
+
+/// FatalIOError with file and entry for a number that is not positive (or negative, with `zeroAllowed`), or of no
+/// usable size.
+inline void requirePositive(const dictionary& dict, const word& entry, double value, bool zeroAllowed = false)
+{
+    if (!(value > 0 || (zeroAllowed && value == 0)) || !isOfUsableSize(value))
+    {
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is " << value << "; allowed: a number "
+                                     << (zeroAllowed ? ">= 0" : "> 0") << (value > 1 ? ", at most 1e60" : "")
+                                     << exit(FatalIOError);
+    }
+}
+
+/// A number that requirePositive() lets pass.
 inline double positiveEntry(const dictionary& dict, const word& entry, bool zeroAllowed = false)
 {
     const double value = dict.get<double>(entry);
-    if (!(value > 0 || (zeroAllowed && value == 0)))
-    {
-        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is " << value << "; allowed: a number "
-                                     << (zeroAllowed ? ">= 0" : "> 0") << exit(FatalIOError);
-    }
+    requirePositive(dict, entry, value, zeroAllowed);
     return value;
 }
 

@@ -28,13 +28,7 @@ public:
           series_(chebyshevExponential(
               0.5 * diffusion_.largestEigenvalue() * smoothingLength_ * smoothingLength_ / 4, tolerance))
     {
-        if (coefficients.found("nSteps"))
-        {
-            FatalIOErrorInFunction(coefficients)
-                << "Entry 'nSteps' has no meaning: the diffusion is exact in pseudo-time, as with nSteps -> infinity; "
-                   "allowed: no such entry"
-                << exit(FatalIOError);
-        }
+        requireKnownEntries(coefficients, {"smoothingLength"});
     }
 
     void nearTo(const std::vector<Foam::label>& cells) override

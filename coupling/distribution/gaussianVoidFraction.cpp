@@ -26,7 +26,9 @@ public:
     Gaussian(const Foam::dictionary& coefficients, const CellSlabs& cells)
         : VoidFractionModel(cells),
           bandwidth_(positiveEntry(coefficients, "bandwidth"))
-    {}
+    {
+        requireKnownEntries(coefficients, {"bandwidth", "alphaMin"});
+    }
 
     double reach(const VisitingBead& bead) const override
     {

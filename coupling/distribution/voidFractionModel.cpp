@@ -25,9 +25,11 @@ class Divided : public VoidFractionModel
 public:
     TypeName("divided");
 
-    Divided(const Foam::dictionary&, const CellSlabs& cells)
+    Divided(const Foam::dictionary& coefficients, const CellSlabs& cells)
         : VoidFractionModel(cells)
-    {}
+    {
+        requireKnownEntries(coefficients, {"alphaMin"});
+    }
 
     double reach(const VisitingBead& bead) const override
     {
@@ -51,9 +53,11 @@ class Centre : public VoidFractionModel
 public:
     TypeName("centre");
 
-    Centre(const Foam::dictionary&, const CellSlabs& cells)
+    Centre(const Foam::dictionary& coefficients, const CellSlabs& cells)
         : VoidFractionModel(cells)
-    {}
+    {
+        requireKnownEntries(coefficients, {"alphaMin"});
+    }
 
     double reach(const VisitingBead& bead) const override
     {

@@ -20,7 +20,9 @@ public:
           factor_(coefficients.found("factor") ? positiveEntry(coefficients, "factor") : 1),
           walls_(coefficients.subOrEmptyDict("wallCorrection")),
           law_(dragOfMany(Law::name))
-    {}
+    {
+        requireKnownEntries(coefficients, {"factor"}, {"wallCorrection"});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {

@@ -15,8 +15,10 @@ class PressureGradientForce : public ForceModel
 public:
     TypeName("gradPForce");
 
-    PressureGradientForce(const Foam::dictionary&, const FluidProperties&)
-    {}
+    PressureGradientForce(const Foam::dictionary& coefficients, const FluidProperties&)
+    {
+        requireKnownEntries(coefficients, {});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {
@@ -43,8 +45,10 @@ class ViscousForce : public ForceModel
 public:
     TypeName("viscForce");
 
-    ViscousForce(const Foam::dictionary&, const FluidProperties&)
-    {}
+    ViscousForce(const Foam::dictionary& coefficients, const FluidProperties&)
+    {
+        requireKnownEntries(coefficients, {});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {
@@ -71,9 +75,11 @@ class Archimedes : public ForceModel
 public:
     TypeName("Archimedes");
 
-    Archimedes(const Foam::dictionary&, const FluidProperties& fluid)
+    Archimedes(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : weightDensity_(fluid.density * fluid.gravity)
-    {}
+    {
+        requireKnownEntries(coefficients, {});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {

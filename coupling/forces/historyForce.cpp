@@ -38,6 +38,7 @@ public:
     HistoryForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluid_(fluid)
     {
+        requireKnownEntries(coefficients, {"law"});
         if (!coefficients.found("law") || selectedModel(coefficients, "law", {"Basset", "MeiAdrian"}) == "MeiAdrian")
         {
             share_ = std::make_unique<closures::MeiAdrianShare>();

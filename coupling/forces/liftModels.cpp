@@ -13,9 +13,11 @@ template<class Law>
 class Lift : public ForceModel
 {
 public:
-    Lift(const Foam::dictionary&, const FluidProperties& fluid)
+    Lift(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluid_(fluid)
-    {}
+    {
+        requireKnownEntries(coefficients, {});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {

@@ -32,7 +32,9 @@ public:
           roughness_(positiveEntry(coefficients, "roughness")),
           reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
           walls_(readWallPlanes(coefficients))
-    {}
+    {
+        requireKnownEntries(coefficients, {"roughness", "reach", "walls"});
+    }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
     {

@@ -21,6 +21,7 @@ public:
     VirtualMassForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluidDensity_(fluid.density)
     {
+        requireKnownEntries(coefficients, {"law", "Cadd"});
         if (coefficients.found("law"))
         {
             zuber_ = selectedModel(coefficients, "law", {"constant", "Zuber"}) == "Zuber";

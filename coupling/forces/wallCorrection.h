@@ -23,6 +23,7 @@ public:
     /// FatalIOError for an unknown law and for a tube or walls that are missing.
     explicit WallCorrection(const Foam::dictionary& dict)
     {
+        requireKnownEntries(dict, {"law", "tubeDiameter", "walls"});
         const Foam::word law =
             dict.found("law") ? selectedModel(dict, "law", {"none", "DiFelice1996", "Faxen"}) : Foam::word("none");
         if (law == "DiFelice1996")

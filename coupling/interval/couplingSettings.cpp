@@ -1,5 +1,9 @@
 #include "interval/couplingSettings.h"
 
+#include "distribution/smoothingModel.h"
+#include "distribution/voidFractionModel.h"
+#include "forces/forceModel.h"
+
 #include "OSspecific.H"
 #include "runTimeSelection.h"
 
@@ -18,18 +22,36 @@ namespace
 constexpr double sameTime = 1e-6;
 
 /// A value as LIGGGHTS is to read it, every digit kept.
-std::string exactText(const token& value)
+std::string exactText(const dictionary& variables, const word& name)
 {
+    const ITstream& values = variables.lookup(name);
+    if (values.size() != 1)
+    {
+        FatalIOErrorInFunction(variables) << "Entry '" << name << "' of DEM/variables has " << values.size()
+                                          << " values; allowed: one number, word or \"text\"" << exit(FatalIOError);
+    }
+    const token& value = values[0];
     if (value.isLabel())
     {
         return std::to_string(value.labelToken());
     }
     if (value.isNumber())
     {
+        if (!isOfUsableSize(value.number()))
+        {
+            FatalIOErrorInFunction(variables)
+                << "Entry '" << name << "' of DEM/variables is " << value.number()
+                << "; allowed: 0, or a number of a size from 1e-60 to 1e60" << exit(FatalIOError);
+        }
         std::ostringstream text;
         text.precision(std::numeric_limits<double>::max_digits10);
         text << value.number();
         return text.str();
+    }
+    if (!value.isWord() && !value.isString())
+    {
+        FatalIOErrorInFunction(variables) << "Entry '" << name << "' of DEM/variables is " << value.info()
+                                          << "; allowed: one number, word or \"text\"" << exit(FatalIOError);
     }
     return value.isString() ? value.stringToken() : value.wordToken();
 }
@@ -55,6 +77,21 @@ void checkMaterialValues(const dictionary& variables)
     }
 }
 
+/// The names, and <model>Props of every model: those of one that is not chosen may stay in the file.
+wordList coefficientsOfModels(wordList names)
+{
+    for (const wordList& models : {ForceModel::dictionaryConstructorTablePtr_->sortedToc(),
+             VoidFractionModel::dictionaryConstructorTablePtr_->sortedToc(),
+             SmoothingModel::dictionaryConstructorTablePtr_->sortedToc()})
+    {
+        for (const word& model : models)
+        {
+            names.append(model + "Props");
+        }
+    }
+    return names;
+}
+
 /// \param changes  the dictionary DEM/groupChanges, a sub-dictionary each.
 std::vector<GroupChange> readGroupChanges(const dictionary& changes)
 {
@@ -68,6 +105,7 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
                 << "name { from <group>; to <group>; below <z>; }" << exit(FatalIOError);
         }
         const dictionary& dict = item.dict();
+        requireKnownEntries(dict, {"from", "to", "below", "slowerThan", "during"});
         GroupChange change{item.keyword(), dict.get<word>("from"), dict.get<word>("to"), dict.get<double>("below"), {}};
         if (dict.found("slowerThan"))
         {
@@ -84,6 +122,13 @@ CouplingSettings::CouplingSettings(const Time& time)
     : time_(time),
       dict_(IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE))
 {
+    requireKnownEntries(dict_,
+        {"fluid", "couplingInterval", "modelType", "voidFractionModel", "smoothingModel", "selfDisturbance",
+            "forceModels", "momCoupleModels", "useDDTvoidfraction"},
+        coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "beadOutput", "ledger"}));
+    requireKnownEntries(dict_.subDict("DEM"), {"engine", "script", "writeRestart", "maxRayleighFraction"},
+        {"variables", "groupChanges"});
+    requireKnownEntries(dict_.subOrEmptyDict("beadOutput"), {"writeVtk"});
     readChoices();
     checkTimeStep();
 }
@@ -100,6 +145,7 @@ void CouplingSettings::readChoices()
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
     const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");
+    requireKnownEntries(ddtProps, {"smoothingTime"});
     if (ddtProps.found("smoothingTime"))
     {
         ddtSmoothingTime_ = positiveEntry(ddtProps, "smoothingTime", true);
@@ -173,7 +219,7 @@ LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeF
     const dictionary variables = dem.subOrEmptyDict("variables");
     for (const word& name : variables.toc())
     {
-        setup.variables.emplace_back(name, exactText(variables.lookup(name)[0]));
+        setup.variables.emplace_back(name, exactText(variables, name));
     }
     checkMaterialValues(variables);
     setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));

@@ -29,7 +29,9 @@ Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
       clippedVolumeTolerance_(tolerance(tolerances_, "clippedVolumeTolerance", 1e-3)),
       momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
       startTime_(time.timeName())
-{}
+{
+    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance"});
+}
 
 void Ledger::countBeads(const BeadsView& beads)
 {

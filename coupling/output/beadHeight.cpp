@@ -41,6 +41,7 @@ bool BeadHeight::read(const dictionary& dict)
 {
     fvMeshFunctionObject::read(dict);
     writeFile::read(dict);
+    requireKnownEntries(dict, functionObjectEntries({"bead", "axis", "stopBelow"}));
 
     const auto axis = dict.getOrDefault<vector>("axis", vector(0, 0, 1));
     if (mag(axis) < SMALL)

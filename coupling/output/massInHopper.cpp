@@ -84,6 +84,8 @@ bool MassInHopper::read(const dictionary& dict)
 {
     fvMeshFunctionObject::read(dict);
     writeFile::read(dict);
+    requireKnownEntries(
+        dict, functionObjectEntries({"patch", "axis", "rateWindow", "stopWhenFlowStops", "sampleInterval"}));
 
     const word patchName = dict.get<word>("patch");
     const label patch = mesh_.boundaryMesh().findPatchID(patchName);

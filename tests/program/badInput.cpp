@@ -173,8 +173,63 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
     expectEntryRefused("modelType", "C", {"'C'", "(A"});
     expectEntryRefused("momCoupleModels", "(implicit)", {"'implicit'", "implicitCouple", "explicitCouple"});
-    expectEntryRefused("constDiffSmoothingProps/nSteps", "4", {"'nSteps'", "no such entry"});
+    expectEntryRefused("constDiffSmoothingProps/nSteps", "4", {"'nSteps'", "smoothingLength"});
     expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
+}
+
+/// A keyword that nobody reads is refused, with the known one that it may stand for: the user waits for its effect in
+/// vain. A program that looks up what it knows and no more would run to its end.
+TEST(BadInput, EntriesThatNobodyReads)
+{
+    expectRefused(
+        [](TestCase& test) { test.coupling().set("selfDisturbence", "Oseen").set("dividdProps/alphaMin", "0.2"); },
+        {couplingProperties, "'selfDisturbence' is read by nobody (did you mean 'selfDisturbance'?)",
+            "'dividdProps' is read by nobody (did you mean 'dividedProps'?)", "allowed:"},
+        SeenBy::dictionaries);
+    expectEntryRefused("DiFeliceDragProps/facotr", "2", {"did you mean 'factor'?"});
+    expectEntryRefused("dividedProps/minimumAlpha", "0.2", {"'minimumAlpha' is read by nobody", "alphaMin"});
+    expectEntryRefused("DEM/maxRaleighFraction", "0.2", {"did you mean 'maxRayleighFraction'?"});
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; slowerThen 2; }");
+        },
+        {couplingProperties, "'slowerThen'", "did you mean 'slowerThan'?"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.coupling().set("ledger/momentumTollerance", "1e-6"); },
+        {couplingProperties, "did you mean 'momentumTolerance'?"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/stopWhenFlowEnds", "0.3"); },
+        {controlDict, "'stopWhenFlowEnds'", "did you mean 'stopWhenFlowStops'?"}, SeenBy::engine);
+}
+
+/// What helps to write couplingProperties is no mistake: a word that it uses as $word, what an included file holds, and
+/// coefficients of models that are not chosen. A check that knew the program's own keywords alone would refuse it.
+TEST(BadInput, EntriesThatOthersReadAreNoMistake)
+{
+    TestCase test;
+    fillIn(test);
+    test.extraFiles["constant/lengths"] = "bead 2e-3; coarse { cell 5e-3; }\n";
+    test.coupling()
+        .remove("forceModels")
+        .remove("constDiffSmoothingProps/smoothingLength")
+        .set("#include \"lengths\"\nlift", "SaffmanLiftForce")
+        .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes $lift)")
+        .set("constDiffSmoothingProps/length", "6e-3")
+        .set("constDiffSmoothingProps/smoothingLength", "$length")
+        .set("\".*DragProps\"/factor", "1")
+        .set("GaussianProps/bandwidth", "$bead");
+    const Outcome outcome = test.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// A dictionary in the place of a value, no value, two values, and numbers beyond all sense. The program ended by
+/// SIGABRT and SIGSEGV at the first ones, without a word about the entry, and took the first of two values.
+TEST(BadInput, ValuesOfTheWrongKind)
+{
+    expectEntryRefused("momCoupleModels", "{ a 1; }", {"is a dictionary", "allowed: a value"});
+    expectEntryRefused("DEM/variables", "5", {"is a value", "allowed: a dictionary"});
+    expectEntryRefused("DEM/variables/friction", "", {"has 0 values", "one number, word or"});
+    expectEntryRefused("DEM/variables/friction", "0.1 0.2", {"has 2 values", "one number, word or"});
+    expectEntryRefused("DEM/variables/friction", "1e200", {"1e+200", "1e60"});
+    expectEntryRefused("constDiffSmoothingProps/smoothingLength", "1e200", {"1e+200", "a number > 0, at most 1e60"});
 }
 
 /// The correction for a bead's own disturbance is for beads that are smeared over more than their size: elsewhere its

@@ -1,0 +1,128 @@
+#include "knownEntries.h"
+
+#include "FlatOutput.H"
+#include "HashSet.H"
+#include "IStringStream.H"
+#include "OSspecific.H"
+#include "Pstream.H"
+#include "nearestWord.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <regex>
+#include <set>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+/// The file that a dictionary, or the dictionary that it is a part of, was read from; empty where it is none.
+fileName fileOf(const dictionary& dict)
+{
+    std::string name = dict.name();
+    while (!name.empty() && !isFile(fileName(name)))
+    {
+        const std::size_t end = name.find_last_of("./:");
+        name.erase(end == std::string::npos ? 0 : end);
+    }
+    return name;
+}
+
+std::string textOf(const fileName& file)
+{
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+/// All words of a text's `$word`, `${word}`, `$scope.word`.
+std::set<std::string> macrosIn(const std::string& text)
+{
+    static const std::regex macro(R"(\$[{:.\w]+)");
+    static const std::regex word(R"(\w+)");
+    std::set<std::string> words;
+    for (std::sregex_iterator found(text.begin(), text.end(), macro), end; found != end; ++found)
+    {
+        const std::string path = found->str();
+        for (std::sregex_iterator part(path.begin(), path.end(), word); part != end; ++part)
+        {
+            words.insert(part->str());
+        }
+    }
+    return words;
+}
+
+/// The keywords that stand in a file itself, not in those that it includes.
+wordHashSet keywordsIn(const std::string& text)
+{
+    static const std::regex directive(R"((^|\n)[ \t]*#(s?include|if|else|endif|remove|inputMode)[^\n]*)");
+    const int before = entry::disableFunctionEntries;
+    entry::disableFunctionEntries = 1;
+    const dictionary raw(IStringStream(std::regex_replace(text, directive, "\n"))());
+    entry::disableFunctionEntries = before;
+    return wordHashSet(raw.toc());
+}
+
+/// Also for a pattern such as ".*DragProps".
+bool isAmong(const keyType& name, const wordList& names)
+{
+    return std::any_of(names.begin(), names.end(), [&](const word& known) { return name.match(known); });
+}
+
+} // namespace
+
+std::string didYouMean(const std::string& word, const wordList& known)
+{
+    const std::string nearest = nearestWord(word, {known.begin(), known.end()});
+    return nearest.empty() ? std::string() : " (did you mean '" + nearest + "'?)";
+}
+
+wordList functionObjectEntries(const wordList& own)
+{
+    wordList all(own);
+    all.append(wordList({"type", "libs", "functionObjectLibs", "enabled", "log", "region", "timeStart", "timeEnd",
+        "nStepsToStartTimeChange", "controlMode", "triggerStart", "triggerEnd", "executeControl", "executeInterval",
+        "writeControl", "writeInterval", "outputControl", "outputInterval", "writePrecision", "writeToFile",
+        "useUserTime"}));
+    return all;
+}
+
+void requireKnownEntries(const dictionary& dict, const wordList& values, const wordList& dictionaries)
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+    const fileName file = fileOf(dict);
+    const std::string text = textOf(file);
+    const std::set<std::string> macros = macrosIn(text);
+    const bool mayInclude = !file.empty() && file == dict.name();
+    const wordHashSet own = mayInclude ? keywordsIn(text) : wordHashSet();
+    wordList known(values);
+    known.append(dictionaries);
+    string faults;
+    for (const entry& item : dict)
+    {
+        const keyType& name = item.keyword();
+        if (!isAmong(name, known))
+        {
+            const bool helps = macros.count(name) > 0 || (mayInclude && !own.found(name));
+            faults += helps ? "" : "Entry '" + name + "' is read by nobody" + didYouMean(name, known) + '\n';
+        }
+        else if (!isAmong(name, item.isDict() ? dictionaries : values))
+        {
+            faults += "Entry '" + name + "' is a " + (item.isDict() ? "dictionary" : "value") + "; allowed: a "
+                      + (item.isDict() ? "value" : "dictionary") + '\n';
+        }
+    }
+    if (!faults.empty())
+    {
+        FatalIOErrorInFunction(dict) << faults.c_str() << "allowed: " << flatOutput(known) << exit(FatalIOError);
+    }
+}
+
+} // namespace clepsydra
