@@ -1,5 +1,7 @@
 #include "checkpoint/runTime.h"
 
+#include "IOdictionary.H"
+
 namespace clepsydra
 {
 
@@ -10,8 +12,11 @@ RunTime::RunTime(const argList& args)
       beginning_(startTime_)
 {}
 
-void RunTime::countWriteTimesFrom(double beginning)
+void RunTime::resume(double beginning)
 {
+    const IOdictionary written(
+        IOobject("time", timeName(), "uniform", *this, IOobject::MUST_READ, IOobject::NO_WRITE, false));
+    value() = written.get<scalar>("value");
     beginning_ = beginning;
     writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
 }

@@ -16,8 +16,9 @@ class RunTime : public Foam::Time
 public:
     explicit RunTime(const Foam::argList& args);
 
+    /// Goes on from the time that a run has written, to the last digit: the sum of the steps, not its name.
     /// \param beginning  time of the fresh start [s]
-    void countWriteTimesFrom(double beginning);
+    void resume(double beginning);
 
     /// The next step, until the end time.
     bool loop() override;

@@ -157,7 +157,10 @@ int main(int argc, char* argv[])
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     const Checkpoints checkpoints(runTime);
-    runTime.countWriteTimesFrom(checkpoints.beginning());
+    if (checkpoints.resumed())
+    {
+        runTime.resume(checkpoints.beginning());
+    }
     try
     {
         LiggghtsEngine engine(settings.engineSetup(checkpoints.beads()));

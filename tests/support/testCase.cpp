@@ -13,6 +13,7 @@
 #include <iostream>
 #include <memory>
 #include <numeric>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -49,9 +50,9 @@ void writeText(const std::filesystem::path& file, const std::string& text)
     }
 }
 
-std::string quoted(const std::string& word)
+std::string quoted(const std::string& text)
 {
-    return "'" + word + "'";
+    return '\'' + std::regex_replace(text, std::regex("'"), R"('\'')") + '\'';
 }
 
 } // namespace

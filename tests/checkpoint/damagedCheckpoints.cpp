@@ -1,0 +1,165 @@
+// Whatever happens to the files of a checkpoint on disk, a resumed run either is the run that was never stopped, to the
+// last bit, or ends with an error that names the file. It never gives another result.
+
+#include "checkpoint/pilingBeads.h"
+
+#include <gtest/gtest.h>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+/// Checkpoints at .01, .02 and .03 s.
+void threeCheckpoints(TestCase& test, double endTime)
+{
+    pilingBeads(test, true);
+    test.dem.dumpEvery = 0;
+    test.setTimes(endTime, interval, 0.01);
+}
+
+struct Damage
+{
+    /// Done in the case's folder, between a run that ends at .02 s and one that is to end at .03 s.
+    std::string command;
+    std::string namedFile;
+};
+
+/// Changes one bit in the middle of a file.
+std::string flipBit(const std::string& file)
+{
+    return "python3 -c \"import sys; b = bytearray(open(sys.argv[1], 'rb').read()); b[len(b)//2] ^= 1; "
+           "open(sys.argv[1], 'wb').write(b)\" "
+           + file;
+}
+
+Outcome inCopy(TestCase& test, const std::string& command)
+{
+    return test.runCommand("copy=$(mktemp -d) && cp -r . $copy && cd $copy && { " + command
+                           + "\n}; status=$?; rm -rf $copy; exit $status");
+}
+
+std::vector<Damage> damages()
+{
+    const std::string beads = "checkpoints/0.02/beads.restart";
+    std::vector<Damage> all = {
+        {": > " + beads, beads},
+        {"truncate -s -1 " + beads, beads},
+        {flipBit(beads), beads},
+        {"cp checkpoints/0.01/beads.restart " + beads, beads},
+        {"rm " + beads, beads},
+        {": > checkpoints/0.02/complete", "checkpoints/0.02/complete"},
+        {"truncate -s 200 checkpoints/0.02/complete", "checkpoints/0.02/complete"},
+        {"cp checkpoints/0.01/complete checkpoints/0.02", "manifest of time 0.01"},
+        {"rm -r 0.02/uniform/functionObjects", "0.02/uniform/functionObjects"},
+        {": > 0.02/uniform/time", "0.02/uniform/time"},
+    };
+    for (const char* field :
+        {"U", "p", "phi", "voidFraction", "outstandingMomentum", "voidFractionInContinuity", "fluidAcceleration"})
+    {
+        const std::string file = "0.02/" + std::string(field);
+        all.push_back({": > " + file, file});
+        all.push_back({"rm " + file, file});
+    }
+    all.push_back({flipBit("0.02/U"), "0.02/U"});
+    all.push_back({flipBit("0.02/p"), "0.02/p"});
+    return all;
+}
+
+} // namespace
+
+// The last of two checkpoints is damaged: the run names the file, goes on from the one before, and ends as the run that
+// was never stopped. A program that believes its files ends with another result, or does not end.
+TEST(DamagedCheckpoint, IsNamedAndTheOneBeforeIsTaken)
+{
+    TestCase through;
+    threeCheckpoints(through, 0.03);
+    const Outcome whole = through.run();
+    ASSERT_TRUE(whole.succeeded()) << whole.output;
+    TestCase stopped;
+    threeCheckpoints(stopped, 0.02);
+    const Outcome first = stopped.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+
+    for (const Damage& damage : damages())
+    {
+        // The manifest of .03 s holds the checksums of all that the run has come to.
+        const Outcome outcome = inCopy(stopped,
+            damage.command
+                + " && echo 'endTime 0.03;' >> system/controlDict && timeout 60 $SOLVER && ls -d damaged.0.02 && "
+                  "cmp checkpoints/0.03/complete "
+                + (through.path() / "checkpoints/0.03/complete").string());
+        EXPECT_TRUE(outcome.succeeded()) << damage.command << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says(damage.namedFile)) << damage.command << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << damage.command << '\n'
+                                                                               << outcome.output;
+    }
+}
+
+// Every checkpoint is damaged, or the one asked for by startTime, or the beads' half of all is gone: an error, and nothing
+// is moved or written. A run that takes the fields of .02 s and the beads of 0 s goes on with status 0.
+TEST(DamagedCheckpoint, IsAnErrorWhereNoneCanBeTaken)
+{
+    TestCase test;
+    threeCheckpoints(test, 0.02);
+    ASSERT_TRUE(test.run().succeeded());
+    const std::string andNothingMoved = "; status=$?; [ -f 0.01/U ] && [ -f 0.02/U ] && exit $status";
+
+    const Outcome all = inCopy(test, ": > 0.01/U; : > 0.02/p; $SOLVER" + andNothingMoved);
+    EXPECT_EQ(all.status, 1) << all.output;
+    EXPECT_TRUE(all.says("0.01/U") && all.says("0.02/p") && all.says("To start afresh")) << all.output;
+
+    const Outcome asked = inCopy(test, ": > 0.02/p; echo 'startFrom startTime; startTime 0.02;' >> system/controlDict; "
+                                       "$SOLVER"
+                                           + andNothingMoved);
+    EXPECT_EQ(asked.status, 1) << asked.output;
+    EXPECT_TRUE(asked.says("0.02/p")) << asked.output;
+
+    const Outcome half = inCopy(test, "rm -r checkpoints; $SOLVER" + andNothingMoved);
+    EXPECT_EQ(half.status, 1) << half.output;
+    EXPECT_TRUE(half.says("half of a checkpoint")) << half.output;
+}
+
+// On two ranks each rank's fields are held against the manifest, too.
+TEST(DamagedCheckpoint, IsFoundOnEachRank)
+{
+    TestCase test;
+    threeCheckpoints(test, 0.02);
+    ASSERT_TRUE(test.run(2).succeeded());
+    const Outcome outcome =
+        test.runCommand(": > processor1/0.02/phi && echo 'endTime 0.022;' >> system/controlDict && "
+                        "mpirun -np 2 $SOLVER -parallel && ls -d processor0/damaged.0.02 processor1/damaged.0.02");
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_TRUE(outcome.says("processor1/0.02/phi")) << outcome.output;
+    EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << outcome.output;
+}
+
+// The beads that a run leaves for others are damaged: the other run names the file. LIGGGHTS goes round in it for ever.
+TEST(FinalBeads, AreHeldAgainstTheirChecksum)
+{
+    TestCase pour;
+    pilingBeads(pour, false);
+    pour.coupling().set("DEM/writeRestart", "\"packing.restart\"");
+    pour.setTimes(0.005, interval, 1);
+    ASSERT_TRUE(pour.run().succeeded());
+    const std::string packing = (pour.path() / "packing.restart").string();
+    EXPECT_TRUE(pour.runCommand("sha256sum --check packing.restart.sha256").succeeded());
+
+    TestCase drain;
+    pilingBeads(drain, false);
+    drain.dem.readRestart = packing;
+    drain.dem.more = "fix integrate all nve/sphere\n";
+    drain.coupling().remove("DEM/groupChanges");
+    drain.setTimes(0.002, interval, 1);
+    ASSERT_TRUE(drain.makeMesh().succeeded());
+    for (const std::string& damage : {flipBit(""), std::string(": > ")})
+    {
+        ASSERT_TRUE(pour.runCommand(damage + packing).succeeded());
+        const Outcome outcome = drain.runCommand("timeout 20 $SOLVER");
+        EXPECT_EQ(outcome.status, 1) << outcome.output;
+        EXPECT_TRUE(outcome.says(packing)) << outcome.output;
+    }
+}
+
+} // namespace clepsydra::tests
