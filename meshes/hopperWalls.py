@@ -57,11 +57,11 @@ def exitProfile(p):
 def check(p):
     """What is wrong with the dimensions, in words; empty if nothing."""
     for name in ("orificeDiameter", "hopperDiameter", "hopperHeight", "tankDiameter", "tankDepth", "waterAboveRim", "cellSize"):
-        if not p[name] > 0:
-            return f"{name} is {p[name]:g}; allowed: a length > 0"
+        if not (isinstance(p.get(name), float) and p[name] > 0):
+            return f"{name} is {p.get(name, 'missing')}; allowed: a length > 0 [m]"
     for name in ("landHeight", "bevelHeight", "wallThickness"):
-        if not p[name] >= 0:
-            return f"{name} is {p[name]:g}; allowed: a length, or 0"
+        if not (isinstance(p.get(name), float) and p[name] >= 0):
+            return f"{name} is {p.get(name, 'missing')}; allowed: a length [m], or 0"
     if not p["orificeDiameter"] < p["hopperDiameter"] < p["tankDiameter"]:
         return "orificeDiameter < hopperDiameter < tankDiameter must hold"
     if p["orificeDiameter"] / 2 + p["bevelHeight"] >= p["hopperDiameter"] / 2:

@@ -5,36 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-
-ENTRY = re.compile(r"^(\s*)(\w+)(\s+)([^;]+);", re.MULTILINE)
-
-
-def parameters(path):
-    """The entries "name value;" of a flat OpenFOAM dictionary, $name replaced."""
-    return parametersIn(Path(path).read_text())
-
-
-def parametersIn(text):
-    found = {}
-    for _, name, _, value in ENTRY.findall(re.sub(r"//.*", "", text)):
-        found[name] = found[value[1:]] if value.startswith("$") else number(value)
-    return found
-
-
-def withParameters(text, values):
-    """The dictionary's text with other values of entries that it has."""
-    missing = set(values) - set(parametersIn(text))
-    if missing:
-        raise KeyError(", ".join(sorted(missing)))
-    return ENTRY.sub(lambda entry: entry[1] + entry[2] + entry[3] + values.get(entry[2], entry[4]) + ";", text)
-
-
-def number(text):
-    try:
-        return float(text)
-    except ValueError:
-        return text
-
+from parameterFile import ParameterError, parameters, parametersIn, withParameters     # so that users need this module only
 
 def startDirectories(case, name):
     """postProcessing/<name>/<startTime>, in order of start time."""

@@ -1,8 +1,10 @@
-"""Values of the closed formulas in coupling/closures, from the program `closures` (needs scripts/environment)."""
+"""Values of the closed formulas in coupling/closures, from the program `closures`."""
 
 import subprocess
 
 import numpy as np
+
+import environment
 
 
 def value(formula, **options):
@@ -12,10 +14,13 @@ def value(formula, **options):
 
 def values(formula, **options):
     """An array, for options that take several numbers: values("drag", ..., slipSpeed=[.1, .2])."""
-    command = ["closures", formula]
+    command = [str(environment.program("closures")), formula]
     for name, given in options.items():
         command += [f"--{name}"] + [str(one) for one in np.atleast_1d(given)]
-    found = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    try:
+        found = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    except OSError as problem:
+        raise SystemExit(f"{command[0]}: {problem.strerror}; run scripts/setup") from None
     if found.returncode != 0:
         raise SystemExit(f"{' '.join(command)} failed")
     return np.array([float(line) for line in found.stdout.split()])

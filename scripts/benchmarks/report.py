@@ -6,6 +6,8 @@ import os
 import platform
 from pathlib import Path
 
+import wholeFiles
+
 
 def table(figures):
     """Figures by name; a text in place of a figure is the reason why there is none."""
@@ -20,8 +22,8 @@ def table(figures):
 
 
 def write(file, figures, options):
-    file.write_text(json.dumps({"machine": machine(), "quick": options.quick, "realTime": options.realTime,
-                                "entries": {name: entry(figure) for name, figure in figures.items()}}, indent=2) + "\n")
+    wholeFiles.write(file, json.dumps({"machine": machine(), "quick": options.quick, "realTime": options.realTime,
+                                       "entries": {name: entry(figure) for name, figure in figures.items()}}, indent=2) + "\n")
 
 
 def entry(figure):

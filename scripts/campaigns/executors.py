@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 
+import wholeFiles
 from campaigns.plan import CampaignError
 
 COMMAND = os.path.abspath(sys.argv[0])
@@ -20,8 +21,8 @@ def local(campaign, cores):
     for name, task in campaign.tasks.items():
         rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
                   # exec: the signals of make must reach the task, not a shell before it
-                  "\t@exec " + shlex.join([COMMAND, "task", str(campaign.path), name]) + " 2>&1"]
-    makefile.write_text("\n".join(rules) + "\n")
+                  "\t@exec " + shlex.join([COMMAND, "task", str(campaign.path), name]).replace("$", "$$") + " 2>&1"]
+    wholeFiles.write(makefile, "\n".join(rules) + "\n")
     # without make's own words on what failed: the tasks say it themselves
     make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
                             cwd=campaign.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -54,8 +55,8 @@ def submit(campaign, names, ranks, before, options):
     """One job array. Its tasks find their names by the line of a list."""
     number = len(list(campaign.work.glob("slurm.*.list")))
     listed = campaign.work / f"slurm.{number}.list"
-    listed.write_text("\n".join(names) + "\n")
-    name = f'$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})'
+    wholeFiles.write(listed, "\n".join(names) + "\n")
+    name = f'"$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})"'
     # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
     script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(campaign.path)])} {name}\n"
     command = ["sbatch", "--parsable", f"--job-name={campaign.path.stem}", f"--array=1-{len(names)}", "--nodes=1",

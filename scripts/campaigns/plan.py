@@ -5,6 +5,7 @@ parameters replaced. What runs have in common (the mesh, the packing) is a task 
 """
 
 import hashlib
+import importlib
 import itertools
 import re
 from dataclasses import dataclass
@@ -13,12 +14,17 @@ from pathlib import Path
 
 import yaml
 
-import caseFiles
+import arithmetic
+import parameterFile
+import rules
 
 CAMPAIGN_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
                     "stages": "of each run", "packings": "values of the template's seed",
                     "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
+TEMPLATE_ENTRIES = ("shared", "stages", "seed", "summary", "derived", "rules")
+RULES = ("hopper", "singleBead")        # modules of scripts/rules
+REPOSITORY = Path(__file__).resolve().parents[2]
 RUN_ENTRIES = ("sweep", "parameters", "pour", "stages", "packings", "ranks")
 
 
@@ -46,12 +52,19 @@ class Campaign:
 
     def __init__(self, path, only=None):
         self.path = Path(path).resolve()
+        try:
+            self._read(only)
+        except parameterFile.ParameterError as problem:
+            raise CampaignError(problem) from None
+
+    def _read(self, only):
         self.settings = readYaml(self.path, CAMPAIGN_ENTRIES, required=())
         if "base" in self.settings:
             base = readYaml(self._folder("base"), CAMPAIGN_ENTRIES, required=())
             parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
             # paths are relative to the file that has them
-            base |= {name: str(self._folder("base").parent / base[name]) for name in ("case", "work", "results") if name in base}
+            base |= {name: str(found(base[name], self._folder("base").parent))
+                     for name in ("case", "work", "results") if name in base}
             self.settings = {**base, **self.settings, "parameters": parameters}
         for name in ("case", "stages", "runs"):
             if name not in self.settings:
@@ -61,10 +74,11 @@ class Campaign:
         self.frozenCase = self.work / "case"
         self.case = self.frozenCase if self.frozenCase.exists() else self._folder("case")
         self.results = self._folder("results", "results")
-        self.template = readYaml(self.case / "template.yaml", ("shared", "stages", "seed", "summary", "derived"),
+        requirePlain(self.work, REPOSITORY)
+        self.template = readYaml(self.case / "template.yaml", TEMPLATE_ENTRIES,
                                  required=("shared", "stages", "seed", "summary"))
         self.derived = self.template.get("derived", {})
-        self.defaults = caseFiles.parameters(self.case / "parameters")
+        self.defaults = parameterFile.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
         self.common = self._derive(self.given)
         self.tasks = self._plan(only)
@@ -79,10 +93,29 @@ class Campaign:
 
     def parameterText(self, task):
         """The task's file `parameters`."""
-        return caseFiles.withParameters((self.case / "parameters").read_text(), dict(task.overrides))
+        return self._text(dict(task.overrides))
 
     def parameters(self, task):
-        return caseFiles.parametersIn(self.parameterText(task))
+        return self._resolved(dict(task.overrides))
+
+    def check(self):
+        """{name: what is known of it} of all tasks; CampaignError where the template's rules refuse the parameters of any."""
+        if "rules" not in self.template:
+            return {}
+        if self.template["rules"] not in RULES:
+            raise CampaignError(f"{self.case}/template.yaml: entry 'rules' is {self.template['rules']!r}; allowed: {', '.join(RULES)}")
+        case = importlib.import_module(f"rules.{self.template['rules']}")
+        known, seen, problems = {}, {}, []
+        for name, task in self.tasks.items():
+            # runs of one set of parameters are checked once
+            key = task.overrides, task.ranks, task.part
+            if key not in seen:
+                seen[key] = rules.check(case, self.parameterText(task), self.case, task.ranks, task.part, f"{self.path}: {name}")
+            known[name] = seen[key]
+            problems += [problem for problem in known[name].problems if problem not in problems]
+        if problems:
+            raise CampaignError("\n".join(problems))
+        return known
 
     def folder(self, task):
         return self.work / task.name
@@ -93,7 +126,7 @@ class Campaign:
         return name and float(self.parameters(task)[name])
 
     def _folder(self, entry, default=None):
-        return (self.path.parent / str(self.settings.get(entry, default))).resolve()
+        return found(self.settings.get(entry, default), self.path.parent)
 
     def _error(self, entry, value, allowed):
         return CampaignError(f"{self.path}: entry '{entry}' is {value!r}; allowed: {allowed}")
@@ -104,17 +137,21 @@ class Campaign:
             raise self._error(entry, given, "a list of `name: value`")
         for name in given or {}:
             if name not in self.defaults and name not in self.derived:
-                raise self._error(entry, name, "the template's parameters, which are "
-                                  + ", ".join([*self.defaults, *self.derived]))
+                known = [*self.defaults, *self.derived]
+                raise self._error(entry, name, f"the template's parameters{parameterFile.meant(str(name), known)}, which are "
+                                  + ", ".join(known))
         return {name: parameterValue(value) for name, value in (given or {}).items()}
 
     def _derive(self, overrides):
         """The parameters that follow from what the campaign says in their place."""
         plain = {name: value for name, value in overrides.items() if name not in self.derived}
-        known = self._resolved(plain) | {"pi": pi, "round": round, "__builtins__": {}}
+        known = self._resolved(plain) | {"pi": pi}
         for name in overrides.keys() - plain.keys():
             rule = self.derived[name]
-            plain[rule["sets"]] = str(eval(rule["to"], known | {name: float(overrides[name])}))
+            try:
+                plain[rule["sets"]] = str(arithmetic.evaluate(rule["to"], known | {name: float(overrides[name])}))
+            except ValueError as problem:
+                raise CampaignError(f"{self.path}: '{name}' is {overrides[name]!r}, and {rule['to']!r} {problem}") from None
         return plain
 
     def _plan(self, only):
@@ -123,7 +160,7 @@ class Campaign:
             raise self._error("runs", runs, "a list of `name: { ... }`")
         unknown = [name for name in only or [] if name not in runs]
         if unknown:
-            raise CampaignError(f"{self.path}: no run '{unknown[0]}'; there are: {', '.join(map(str, runs))}")
+            raise CampaignError(f"{self.path}: no run '{unknown[0]}'{parameterFile.meant(unknown[0], runs)}; there are: {', '.join(map(str, runs))}")
         for name, entry in runs.items():
             if only and name not in only:
                 continue
@@ -185,22 +222,48 @@ class Campaign:
         return tuple((made, task.name) for made in self.template["shared"][task.part]["makes"])
 
     def _resolved(self, overrides):
-        text = (self.case / "parameters").read_text()
-        return caseFiles.parametersIn(caseFiles.withParameters(text, overrides))
+        return parameterFile.parametersIn(self._text(overrides), self.case / "parameters")
+
+    def _text(self, overrides):
+        path = self.case / "parameters"
+        return parameterFile.withParameters(parameterFile.read(path), overrides, path)
+
+
+def found(path, folder):
+    """Where a path of a campaign's file leads. It is relative to the file's folder, and may begin with $CLEPSYDRA."""
+    return (folder / str(path).replace("$CLEPSYDRA", str(REPOSITORY))).resolve()
+
+
+def requirePlain(*folders):
+    for folder in folders:
+        if re.search(r"[\s\"']", str(folder)):
+            raise CampaignError(f"'{folder}' has a space or a quote in it, which OpenFOAM cannot bear; move it")
+
+
+class OnceEach(yaml.SafeLoader):
+    """YAML in which no key may be there twice: the first would be ignored in silence."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [key.value for key, _ in node.value]
+        for key, _ in node.value:
+            if keys.count(key.value) > 1:
+                raise yaml.constructor.ConstructorError(None, None, f"entry '{key.value}' is there twice", key.start_mark)
+        return super().construct_mapping(node, deep)
 
 
 def readYaml(path, allowed, required):
     try:
-        found = yaml.safe_load(path.read_text())
+        found = yaml.load(path.read_text(), OnceEach)
     except OSError as problem:
         raise CampaignError(f"{path}: {problem.strerror}") from None
-    except yaml.YAMLError as problem:
-        raise CampaignError(f"{path} is not YAML: {problem}") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as problem:
+        raise CampaignError(f"{path} is not YAML: {' '.join(str(problem).split())}") from None
     if not isinstance(found, dict):
         raise CampaignError(f"{path}: must be a list of `entry: value`; allowed entries: {', '.join(allowed)}")
     for name in found:
         if name not in allowed:
-            raise CampaignError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}")
+            raise CampaignError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}"
+                                + parameterFile.meant(str(name), allowed))
     for name in required:
         if name not in found:
             raise CampaignError(f"{path}: entry '{name}' is missing")

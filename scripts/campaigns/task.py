@@ -17,6 +17,8 @@ import time
 from pathlib import Path
 
 import caseFiles
+import wholeFiles
+from campaigns.plan import CampaignError
 
 # What a template's outputs are called, which must not be copied with it.
 OUTPUTS = ("stages", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
@@ -34,6 +36,7 @@ def execute(campaign, task):
         return 0
     makeFolder(campaign, task)
     with locked(folder / "attempts") as attempts:
+        dropHalfLine(attempts)
         (folder / "failed").unlink(missing_ok=True)
         status = 0 if hasEnded(folder) else attempt(campaign, task, attempts)
         if status == STOPPED:
@@ -44,9 +47,9 @@ def execute(campaign, task):
             if task.publish:
                 publish(campaign, task)
         except (Exception, SystemExit) as problem:  # whatever it is, the other runs go on, and status shows it
-            (folder / "failed").write_text(f"{problem}\n")
+            wholeFiles.write(folder / "failed", f"{problem}\n")
             return 1
-        (folder / "done").touch()
+        wholeFiles.write(folder / "done", "")
     return 0
 
 
@@ -76,6 +79,7 @@ def makeFolder(campaign, task):
     for made, maker in task.links:
         (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
         (unfinished / made).symlink_to(campaign.work / maker / made)
+    wholeFiles.settleTree(unfinished)
     unfinished.rename(folder)
 
 
@@ -92,7 +96,7 @@ def copyCase(case, folder):
 
 @contextlib.contextmanager
 def locked(path):
-    with open(path, "a") as file:
+    with open(path, "a+") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except BlockingIOError:
@@ -103,6 +107,18 @@ def locked(path):
 def note(attempts, event):
     attempts.write(json.dumps(event) + "\n")
     attempts.flush()
+    os.fsync(attempts.fileno())
+
+
+def dropHalfLine(attempts):
+    """What a kill, or a full disk, has left at the end."""
+    attempts.seek(0)
+    text = attempts.read()
+    whole = text.rfind("\n") + 1
+    if whole < len(text):
+        print(f"campaign: {attempts.name}: dropped half a line at its end, which a kill has left", flush=True)
+        attempts.truncate(len(text[:whole].encode()))
+    attempts.seek(0, os.SEEK_END)
 
 
 def runAllrun(campaign, task):
@@ -156,7 +172,7 @@ def publish(campaign, task):
     stage = stageFolder(campaign, task)
     columns = caseFiles.columns(stage, "massInHopper")
     rows = columns.T[::-(-columns.shape[1] // MOST_ROWS)]
-    with replacing(campaign.results / f"{task.publish}.csv") as file:
+    with wholeFiles.replacing(campaign.results / f"{task.publish}.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "mass [kg]", "beads [-]"])
         table.writerows((f"{t:.6g}", f"{m:.7g}", int(beads)) for t, m, beads, *_ in rows)
@@ -168,18 +184,7 @@ def publish(campaign, task):
               "seed": parameters[campaign.template["seed"]], "parameters": parameters,
               "packing": packing(campaign, task), "code": codeVersions(stage / "log.pimpleDemFoam"),
               "cost": cost(campaign, task), "summary": json.loads(text)}
-    with replacing(campaign.results / f"{task.publish}.json") as file:
-        json.dump(record, file, indent=2)
-        file.write("\n")
-
-
-@contextlib.contextmanager
-def replacing(path):
-    """A file that is there whole or as it was before."""
-    unfinished = path.with_name(path.name + ".unfinished")
-    with open(unfinished, "w") as file:
-        yield file
-    unfinished.rename(path)
+    wholeFiles.write(campaign.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
 
 
 def packing(campaign, task):
@@ -196,8 +201,23 @@ def codeVersions(log):
 
 
 def events(folder):
+    """Starts and ends of attempts; half a line at the end, which a kill leaves, is not counted."""
     path = folder / "attempts"
-    return [json.loads(line) for line in path.read_text().splitlines()] if path.exists() else []
+    if not path.exists():
+        return []
+    found = []
+    for number, line in enumerate(path.read_text(errors="replace").split("\n")[:-1], 1):
+        try:
+            event = json.loads(line)
+            # a start has a time and a number of ranks; an end, a time and a status, and comes after a start
+            numbers = (event["start"], event["ranks"]) if "start" in event else (event["end"], event["status"], found[-1]["start"])
+            if not all(isinstance(one, (int, float)) for one in numbers):
+                raise ValueError
+        except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+            raise CampaignError(f"{path}:{number}: {line[:60]!r} is no start or end of an attempt, as JSON; remove that line: "
+                                "only the time that was spent gets lost") from None
+        found.append(event)
+    return found
 
 
 def attemptsOf(folder):

@@ -1,0 +1,215 @@
+"""cases/hopperQuick/Allrun as its user meets it: stops, changed parameters, mistakes. The solver is a stand-in; seconds."""
+
+import contextlib
+import re
+import shutil
+import signal
+import subprocess
+import unittest
+
+from hopperCase import HopperCase
+
+import parameterFile
+
+
+class Stops(HopperCase):
+    def testCtrlCAndSigtermWriteACheckpointAndThePlainCommandGoesOn(self):
+        """Stopped in the pour by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked, the status tells
+        which, and the plain `Allrun` goes on: no row is lost or doubled and the pour is not done again. An Allrun that
+        wipes first would start the pour three times; one that knows no SIGINT would end with another status and no word."""
+        status, said = self.interrupted(by=signal.SIGINT, stage="pour")
+        self.assertEqual(status, 130, said)
+        self.assertIn("stopped; the same command goes on", said)
+        self.assertIn("Asked to stop", (self.case / "stages/pour/log.pimpleDemFoam").read_text())
+        status, said = self.interrupted(by=signal.SIGTERM, stage="dry") if self.pourIsDone() else (None, "no pour")
+        self.assertEqual(status, 143, said)
+        self.succeeds()
+        self.assertEqual(sorted(self.starts()), ["dry", "dry", "pour", "pour", "submerged", "submerged"])
+        self.assertEqual([self.rows(stage) for stage in ("pour", "dry", "submerged")], [20, 20, 20])
+
+    def pourIsDone(self):
+        self.succeeds("pour")
+        return True
+
+    def testAStoppedPourIsNotDrained(self):
+        """All beads lie in the hopper, yet the pour was stopped: draining must be refused, with the command that goes on."""
+        self.interrupted("mesh", "pour", by=signal.SIGTERM, stage="pour")
+        said = self.refuses("dry")
+        self.assertIn("the pour has not come to its end: './Allrun pour' goes on with it", said)
+        self.assertEqual(self.starts(), ["pour"])
+        self.succeeds("pour", "dry")
+        self.assertEqual(self.starts(), ["pour", "pour", "dry"])
+
+    def testAPackingOfAnEarlierPourDoesNotCount(self):
+        """A pour that goes on, for its time was raised, and is stopped leaves no packing, though one was there before."""
+        self.succeeds("mesh", "pour")
+        table = self.case / "stages/pour/postProcessing/massInHopper/0/massInHopper.dat"
+        table.write_text("".join(table.read_text().splitlines(keepends=True)[:5]))
+        self.set(pourTime=2)
+        self.interrupted("pour", by=signal.SIGTERM, stage="pour")
+        self.assertIn("the pour has not come to its end", self.refuses("dry"))
+
+    def testDoneIsNotDoneAgainUnlessAskedTo(self):
+        self.succeeds()
+        (self.case / "results" / "mine").touch()
+        self.assertIn("dry: done before", self.succeeds())
+        self.assertEqual(len(self.starts()), 3)
+        self.assertTrue((self.case / "results" / "mine").exists())
+        self.succeeds("-fresh")
+        self.assertEqual(len(self.starts()), 6)
+        self.assertFalse((self.case / "results" / "mine").exists())
+
+    def testChangedParametersAreNotMixedIntoAStoppedRun(self):
+        """Named with both ways out, and nothing is touched; what only says how long or how often may change."""
+        self.interrupted(by=signal.SIGINT, stage="pour")
+        self.set(friction=0.3)
+        for arguments in ([], ["pour"]):
+            said = self.refuses(*arguments)
+            self.assertIn("friction 0.15 -> 0.3", said)
+            self.assertIn("Put them back and the same command goes on", said)
+            self.assertIn("./Allrun -fresh", said)
+        self.assertEqual(self.starts(), ["pour"])
+        self.assertEqual(self.rows("pour"), 10)
+        self.set(friction=0.15, dryTime=5)
+        self.succeeds()
+        self.assertEqual(self.rows("pour"), 20)
+
+    def testAnotherMeshOrPackingThanTheParametersSayIsNotUsed(self):
+        """A friction of the discharge's own is allowed: one packing serves all frictions. Other beads or cells are not."""
+        self.succeeds("mesh", "pour")
+        self.set(friction=0.3)
+        self.succeeds("dry")
+        self.set(beadDiameter=1.9e-3)
+        self.assertIn("beadDiameter 0.002 -> 0.0019", self.refuses("submerged"))
+        self.set(beadDiameter=2e-3, cellSize=2e-3)
+        self.assertIn("'./Allrun mesh' makes another", self.refuses("submerged"))
+
+
+class Mistakes(HopperCase):
+    """Each must be told in a line that names file and entry, and what is allowed, before anything is made."""
+
+    def expectRefused(self, *words, arguments=()):
+        before = sorted(self.case.rglob("*"))
+        said = self.refuses(*arguments)
+        for word in words:
+            self.assertIn(word, said)
+        self.assertEqual(sorted(self.case.rglob("*")), before)
+
+    @contextlib.contextmanager
+    def otherParameters(self, change):
+        path = self.case / "parameters"
+        text = path.read_text()
+        path.write_text(change(text))
+        try:
+            with self.subTest():
+                yield
+        finally:
+            path.write_text(text)
+
+    @staticmethod
+    def otherLine(name, line):
+        return lambda text: re.sub(rf"(?m)^{name} .*$", lambda _: line, text)
+
+    def testMistypedEntries(self):
+        for name, line, words in (
+                ("friction", "friction ;", ["parameters:14: entry 'friction' has no value"]),
+                ("friction", "friction 0.15", ["parameters:14: 'friction 0.15' is no entry; allowed: one `name value;` a line"]),
+                ("friction", "friction 0.15; friction 0.2;", ["parameters:14: entry 'friction' is there twice"]),
+                ("friction", "", ["entry 'frictionWall' is $friction, which refers to no entry above it",
+                                  "entry 'friction' is missing"]),
+                ("friction", "friction 0.15; fricton 0.2;", ["'fricton' is read by nobody (is 'friction' meant?)"]),
+                ("friction", "friction nan;", ["entry 'friction' is nan; allowed: a number from 0 to 10"]),
+                ("friction", "friction 1e400;", ["entry 'friction' is 1e400; allowed: numbers up to"]),
+                ("beadDiameter", "beadDiameter 25mm;", ["entry 'beadDiameter' is 25mm, which has a unit; allowed: a number", "[m]"]),
+                ("beadDiameter", "beadDiameter 2;", ["entry 'beadDiameter' is 2; allowed: a number from 1e-05 to 0.1 [m]"]),
+                ("beadDensity", "beadDensity 1e308;", ["entry 'beadDensity' is 1e+308; allowed"]),
+                ("mesher", "mesher ../../bin/sh;", ["entry 'mesher' is ../../bin/sh; allowed: hopperInTank, hopperBySnappy"]),
+                ("seed", "seed 100004;", ["entry 'seed' is 100004; allowed: a prime"])):
+            with self.otherParameters(self.otherLine(name, line)):
+                self.expectRefused("parameters", *words)
+        with self.otherParameters(self.otherLine("friction", "friction x;")):
+            for arguments in (["check"], ["mesh"], ["pour"], ["dry"]):
+                self.expectRefused("entry 'friction' is x; allowed: a number from 0 to 10", arguments=arguments)
+
+    def testSizesAgainstEachOther(self):
+        for values, words in (
+                ({"orificeDiameter": 1.5e-3}, ["beads (0.002 m) cannot pass orificeDiameter 0.0015 m"]),
+                ({"hopperDiameter": 25, "orificeDiameter": 10}, ["entry 'hopperDiameter' is 25; allowed", "[m]"]),
+                ({"hopperDiameter": 0.25, "tankDiameter": 0.7, "tankDepth": 0.4, "hopperHeight": 0.65, "cellSize": 1e-5},
+                 ["cells, which need", "Are all lengths in metres?"]),
+                ({"demStep": 1e-4}, ["demStep 0.0001 s is 0.83 of the Rayleigh time"]),
+                ({"couplingInterval": 0.2}, ["couplingInterval 0.2 s", "cells in it; allowed: 10"]),
+                ({"couplingInterval": 1.99e-3}, ["is 49.75 demSteps of 4e-05 s; allowed: a whole number"]),
+                ({"smoothingLength": 6}, ["smoothingLength 6 m; allowed: at most hopperDiameter"]),
+                ({"beadCount": 30000}, ["beadCount 30000 beads lie at least"])):
+            with self.otherParameters(lambda text: parameterFile.withParameters(
+                    text, {name: str(value) for name, value in values.items()})):
+                self.expectRefused("parameters", *words)
+
+    def testFarTooManyRanks(self):
+        for ranks, word in (("20000", "20000 ranks; allowed: 1 to"), ("0", "not '0'"), ("two", "not 'two'"), ("-1", "not '-1'")):
+            self.assertIn(word, self.refuses("-np", ranks, "mesh"))
+
+    def testNothingInParametersIsRun(self):
+        """A value that the old scripts handed to sed, to awk or to a shell as code, which then made the file."""
+        made = self.folder / "made"
+        for value in (f"x $(touch {made})|e #", f"0.1|e touch {made}", f"`touch {made}`", f'system("touch {made}")'):
+            with self.otherParameters(self.otherLine("friction", f"friction {value};")):
+                self.refuses("mesh")
+                functions = f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; "
+                for use in (f"setParameter stage.dry stageEndTime {chr(39)}{value}{chr(39)}",
+                            "cp parameters other; parameterFile merge other parameters", "at \"$(parameter friction)\""):
+                    subprocess.run(["bash", "-c", functions + use], env=self.environment, capture_output=True)
+                self.assertFalse(made.exists())
+
+    def testAnAbsentProgramIsNamed(self):
+        """And not the end of the log that it left when it was there."""
+        self.succeeds("mesh", "pour")
+        log = self.case / "stages" / "dry" / "log.pimpleDemFoam"
+        self.interrupted("dry", by=signal.SIGTERM, stage="dry")
+        before = log.read_text()
+        (self.folder / "bin" / "pimpleDemFoam").unlink()
+        said = self.refuses("dry")
+        self.assertIn("there is no program 'pimpleDemFoam' here: run", said)
+        self.assertNotIn("Asked to stop", said)
+        self.assertEqual(log.read_text(), before)
+        (self.case / "log.noMesher").write_text("an old log\n")
+        outcome = subprocess.run(["bash", "-c", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; logged noMesher"],
+                                 env=self.environment, capture_output=True, text=True)
+        self.assertNotEqual(outcome.returncode, 0)
+        self.assertIn("there is no program 'noMesher' here: run", outcome.stderr)
+        self.assertNotIn("an old log", outcome.stderr)
+
+    def testASpaceInThePath(self):
+        self.layOut(self.folder / "with space")
+        said = self.refuses("mesh")
+        self.assertIn("has a space or a quote in it, which OpenFOAM cannot bear; move it", said)
+        self.assertFalse((self.case / "stages").exists())
+
+    def testCheckMakesNothing(self):
+        before = sorted(self.case.rglob("*"))
+        said = self.succeeds("check")
+        self.assertIn("3000 of 2 mm", said)
+        self.assertIn("cells (hopperInTank); memory: some", said)
+        self.assertEqual(sorted(self.case.rglob("*")), before)
+        self.succeeds("mesh", "pour")
+        before = sorted(self.case.rglob("*"))
+        self.assertIn("stage submerged", self.succeeds("check"))
+        self.assertEqual(sorted(self.case.rglob("*")), before)
+
+
+class Copies(HopperCase):
+    """Cases that were copied out of the repository."""
+
+    def testACopyElsewhereFindsClepsydraOrSaysHow(self):
+        elsewhere = self.folder / "far" / "away" / "copy"
+        shutil.copytree(self.case, elsewhere)
+        self.case = elsewhere
+        self.assertIn("source its scripts/environment first", self.refuses("mesh"))
+        self.environment["CLEPSYDRA"] = str(self.folder)
+        self.succeeds("mesh", "pour")
+        self.assertEqual(self.starts(), ["pour"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,94 @@
+"""cases/hopperQuick in a copy of the repository's layout, with stand-ins for setup, solver, mesh programs and pictures."""
+
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+STAND_IN = Path(__file__).resolve().parent / "standIn"
+MESH_PROGRAMS = ("blockMesh", "topoSet", "createBaffles", "checkMesh")
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(REPOSITORY / "scripts"))
+import parameterFile
+
+
+class HopperCase(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-scripts-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.layOut(self.folder)
+
+    def layOut(self, root):
+        self.case = root / "cases" / "hopperQuick"
+        shutil.copytree(REPOSITORY / "cases" / "hopperQuick", self.case,
+                        ignore=shutil.ignore_patterns("stages", "results", "polyMesh", "*.png"))
+        (root / "meshes").symlink_to(REPOSITORY / "meshes")
+        (root / "scripts").mkdir()
+        for path in (REPOSITORY / "scripts").iterdir():
+            (root / "scripts" / path.name).symlink_to(path)
+        for name in ("setup", "plotFlow", "renderBeads"):
+            self.program(root / "scripts" / name, "#!/bin/sh\n")
+        self.program(self.case / "summarise", "#!/bin/sh\nmkdir -p results; touch results/summary.json\n")
+        for name in MESH_PROGRAMS:
+            self.program(root / "bin" / name, (STAND_IN / "meshTool").read_text())
+        self.program(root / "bin" / "pimpleDemFoam", (STAND_IN / "pimpleDemFoam").read_text())
+        self.program(root / "bin" / "xvfb-run", "#!/bin/sh\n")
+        etc = root / "dependencies" / "openfoam-1912" / "etc"
+        etc.mkdir(parents=True)
+        (etc / "controlDict").touch()
+        # only what a machine has, and the stand-ins
+        self.environment = {"PATH": "/usr/bin:/bin", "CLEPSYDRA_BUILD": str(root), "CLEPSYDRA_DEPENDENCIES": str(etc.parents[1])}
+
+    @staticmethod
+    def program(path, text):
+        path.parent.mkdir(exist_ok=True)
+        path.unlink(missing_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def allrun(self, *arguments):
+        return subprocess.run([self.case / "Allrun", *arguments], env=self.environment, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=60)
+
+    def succeeds(self, *arguments):
+        outcome = self.allrun(*arguments)
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        return outcome.stdout
+
+    def refuses(self, *arguments):
+        """What it says; it must end with a failure, without a traceback."""
+        outcome = self.allrun(*arguments)
+        said = outcome.stdout + outcome.stderr
+        self.assertGreater(outcome.returncode, 0, said)
+        self.assertNotIn("Traceback", said)
+        return said
+
+    def interrupted(self, *arguments, by, stage):
+        """Its exit status and words, after a signal, in the midst of a stage, to all that a terminal would send it to."""
+        (self.case / "hold").touch()
+        process = subprocess.Popen([self.case / "Allrun", *arguments], env=self.environment, text=True, start_new_session=True,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        table = self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat"
+        end = time.time() + 30
+        while not (table.exists() and table.read_text().count("\n") >= 10):
+            self.assertLess(time.time(), end, f"stage {stage} did not come to its midst")
+            time.sleep(0.05)
+        os.killpg(process.pid, by) if by == signal.SIGINT else process.send_signal(by)
+        said, _ = process.communicate(timeout=30)
+        (self.case / "hold").unlink()
+        return process.returncode, said
+
+    def set(self, **values):
+        parameterFile.change(self.case / "parameters", {name: str(value) for name, value in values.items()})
+
+    def starts(self):
+        return (self.case / "starts").read_text().split()
+
+    def rows(self, stage):
+        return len((self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines())
