@@ -1,0 +1,125 @@
+#!/usr/bin/python3
+"""scripts/validate on two stand-ins of cases, which write the rows that a test asks for.
+
+A finding is a row that is known not to agree with its reference. It holds while it is found again, and only then: a
+table that let every finding hold, as it once did, passes neither of the tests of a change.
+"""
+
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
+ALLRUN = """#!/usr/bin/python3
+import json, os, sys
+from pathlib import Path
+sys.dont_write_bytecode = True
+os.chdir(Path(__file__).parent)
+sys.path.insert(0, "../../../scripts")
+import validation
+asked = json.loads(Path("asked.json").read_text())
+if isinstance(asked, int):
+    sys.exit(asked)
+validation.write([validation.row("v", "m/s", 2, "a formula", "computed", **asked)] if asked else [])
+"""
+# 10 % above the reference of 2, known to .5 % of it from one repeat to the next
+FINDING = {"ours": 2.2, "uncertainty": 0.3, "repeats": 0.01, "tolerancePercent": 5, "finding": "soft beads"}
+AGREEING = {"ours": 2.01, "uncertainty": 0.01, "tolerancePercent": 5}
+
+
+class Findings(unittest.TestCase):
+    def setUp(self):
+        root = Path(tempfile.mkdtemp(prefix="clepsydra-validation-"))
+        self.addCleanup(shutil.rmtree, root)
+        self.cases = root / "cases" / "validation"
+        (root / "scripts").mkdir()
+        for name in ("validate", "validation.py"):
+            shutil.copy(SCRIPTS / name, root / "scripts")
+        self.program = root / "scripts" / "validate"
+        for name in ("one", "other"):
+            (self.cases / name).mkdir(parents=True)
+            (self.cases / name / "Allrun").write_text(ALLRUN)
+            (self.cases / name / "Allrun").chmod(0o755)
+        self.ask(one=FINDING, other=AGREEING)
+
+    def ask(self, **rows):
+        for case, asked in rows.items():
+            (self.cases / case / "asked.json").write_text(json.dumps(asked))
+
+    def validate(self, *arguments):
+        return subprocess.run([self.program, "--quick", *arguments], capture_output=True, text=True)
+
+    def record(self):
+        outcome = self.validate("--record")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
+    def assertFails(self, pattern):
+        outcome = self.validate()
+        self.assertEqual(outcome.returncode, 1, outcome.stdout)
+        self.assertRegex(outcome.stderr, pattern)
+
+    def testAFindingHoldsOnceItIsRecorded(self):
+        self.assertFails(r"one, v: \+10\.00 % is more than the 5 % allowed, and this finding is not recorded")
+        self.record()
+        again = self.validate()
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertRegex(again.stdout, r"one +v .*\+10\.00 \+- 2\.121 +finding")
+        self.assertRegex(again.stdout, r"other +v .*\+0\.00 \+- 5 +yes")
+
+    def testAFindingThatChangesIsNews(self):
+        """By three standard errors of the two repeats, 2.1 %, and not of the reference, which would allow 60 %."""
+        self.record()
+        self.ask(one=FINDING | {"ours": 2.24})
+        self.assertEqual(self.validate().returncode, 0)
+        for changed in (2.25, 2.15, 3, 1):
+            self.ask(one=FINDING | {"ours": changed})
+            self.assertFails(r"one, v: .* % is not the finding that is recorded, \+10\.00 \+- 2\.12 %")
+
+    def testAFindingThatAgreesAtLastIsNews(self):
+        self.record()
+        self.ask(one=FINDING | {"ours": 2})
+        self.assertFails(r"one, v: \+0\.00 % is not the finding")
+
+    def testARowThatNoLongerAgreesFails(self):
+        self.record()
+        self.ask(other=AGREEING | {"ours": 2.2})
+        self.assertFails("other, v: .* nothing explains it")
+        self.ask(other=FINDING)
+        self.assertFails("other, v: .* this finding is not recorded")
+
+    def testARowThatIsNoLongerComparedIsMissed(self):
+        self.record()
+        self.ask(other={})
+        self.assertFails("other, v: is recorded, but was not compared")
+
+    def testWhatNothingExplainsIsNotRecorded(self):
+        self.ask(other=AGREEING | {"ours": 3})
+        self.assertEqual(self.validate("--record").returncode, 1)
+        self.assertFalse((self.cases / "quickResults.json").exists())
+
+    def testTheRecordOfACaseThatDidNotRunStays(self):
+        self.record()
+        self.ask(one=77)
+        self.assertEqual(self.validate("--record").returncode, 0)
+        self.ask(one=FINDING)
+        self.assertEqual(self.validate().returncode, 0)
+
+    def testACaseThatFailsFailsAndOneLeftOutDoesNot(self):
+        self.ask(one=77)
+        self.assertEqual(self.validate().returncode, 0)
+        self.assertEqual(self.validate("one").returncode, 77)
+        self.ask(one=1)
+        self.assertFails("one did not run to its end")
+
+    def testWhatIsCommittedExplainsEachRowThatDoesNotAgree(self):
+        for name in ("results.json", "quickResults.json"):
+            for found in json.loads((SCRIPTS.parent / "cases" / "validation" / name).read_text()):
+                self.assertTrue(found["holds"] and (found["agrees"] or "finding" in found), (name, found["quantity"]))
+                self.assertEqual(found["agrees"], abs(found["errorPercent"]) <= found["tolerancePercent"], found["quantity"])
+
+
+unittest.main()
