@@ -244,4 +244,7 @@ def killTree(process):
 
 if __name__ == "__main__":
     sys.dont_write_bytecode = True
-    unittest.main()
+    result = unittest.main(exit=False).result
+    # 77 is ctest's SKIP_RETURN_CODE
+    nothingRan = len(result.skipped) == result.testsRun
+    sys.exit(1 if not result.wasSuccessful() else 77 if nothingRan else 0)
