@@ -1,4 +1,5 @@
 /// From a measured residual to a named effect. See README.md beside this file.
+#include "files/wholeFile.h"
 #include "procedure/loop.h"
 
 #include <CLI/CLI.hpp>
@@ -13,6 +14,7 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using namespace clepsydra::identification;
 
 struct Arguments
 {
@@ -31,7 +33,11 @@ void showReport(const fs::path& study, const fs::path& folder)
 {
     try
     {
-        clepsydra::identification::reportAgain(study, folder);
+        reportAgain(study, folder);
+    }
+    catch (const clepsydra::FileError&)
+    {
+        throw;
     }
     catch (const std::exception& error)
     {
@@ -39,11 +45,13 @@ void showReport(const fs::path& study, const fs::path& folder)
                   << error.what() << "\n\n";
     }
     std::ifstream file(folder / "report.json");
-    if (!file)
+    const auto report = nlohmann::json::parse(file, nullptr, false);
+    if (!report.is_object() || !report.contains("summary"))
     {
-        throw std::runtime_error((folder / "report.json").string() + ": not there; 'traceResidual run' makes it");
+        throw std::runtime_error((folder / "report.json").string() + (file.is_open() ? ": damaged" : ": not there")
+                                 + "; 'traceResidual run' makes it");
     }
-    std::cout << nlohmann::json::parse(file).at("summary").get<std::string>() << '\n'
+    std::cout << report.at("summary").get<std::string>() << '\n'
               << "for people: " << (folder / "report.html").string() << '\n';
 }
 
@@ -51,7 +59,6 @@ void showReport(const fs::path& study, const fs::path& folder)
 
 int main(int argc, char** argv)
 {
-    using namespace clepsydra::identification;
     Arguments arguments;
     CLI::App app("From a measured residual to a named effect: what the model lacks, and the error before and after");
     app.require_subcommand(1);

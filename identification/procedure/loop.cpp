@@ -1,5 +1,6 @@
 #include "procedure/loop.h"
 
+#include "files/wholeFile.h"
 #include "identifiability/identifiability.h"
 #include "nextExperiment/nextExperiment.h"
 #include "procedure/assemble.h"
@@ -12,7 +13,6 @@
 #include "study/readStudy.h"
 
 #include <algorithm>
-#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -45,14 +45,6 @@ void requireMeasurements(const Study& study)
                                      + "' has no 'measured': 'traceResidual plan' is for studies without data");
         }
     }
-}
-
-/// Wholly there or not at all: a report that is read must not be half of one.
-void write(const std::filesystem::path& file, const std::string& text)
-{
-    const std::filesystem::path unfinished = file.string() + ".unfinished";
-    std::ofstream(unfinished) << text;
-    std::filesystem::rename(unfinished, file);
 }
 
 /// Runs after the library: at the null fit, confirmations, held-out conditions, candidates.
@@ -158,7 +150,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     const Answer answer = trace(simulator, library, training, random);
     const auto next = nextExperiments(simulator, answer, training);
     Findings findings{&study, &library, &answer, nullptr, &next, &simulator, &training};
-    write(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
+    writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
     out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue) << "; written to "
         << (folder / "answer.json").string() << ", held-out data are opened now" << std::endl;
 
@@ -166,8 +158,8 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, training, heldOutData, random);
     findings.heldOut = &heldOut;
     const auto report = jsonOf(findings);
-    write(folder / "report.json", report.dump(1) + '\n');
-    write(folder / "report.html", htmlOf(findings, report));
+    writeWhole(folder / "report.json", report.dump(1) + '\n');
+    writeWhole(folder / "report.html", htmlOf(findings, report));
     writeSummary(findings, out);
     out << "reports: " << (folder / "report.json").string() << ", " << (folder / "report.html").string() << std::endl;
 }

@@ -2,8 +2,8 @@
 
 #include "curves/table.h"
 #include "runner/runProgress.h"
-#include "runner/sha256.h"
 #include "runner/storeLock.h"
+#include "runner/storedFiles.h"
 
 #include <nlohmann/json.hpp>
 
@@ -86,6 +86,40 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     return sha256(all);
 }
 
+/// A record says of itself whether it is whole: its checksum is over all else in it.
+std::string checksumOf(nlohmann::json record)
+{
+    record.erase("checksum");
+    return sha256(record.dump());
+}
+
+/// Empty where there is no record that is whole.
+nlohmann::json readRecord(const fs::path& stored)
+{
+    std::ifstream file(stored / recordFile);
+    auto record = nlohmann::json::parse(file, nullptr, false);
+    const bool whole = record.is_object() && record.value("checksum", nlohmann::json()) == checksumOf(record);
+    return whole ? record : nlohmann::json();
+}
+
+/// What is wrong with a stored run, or nothing.
+std::string damageOf(const fs::path& stored, const nlohmann::json& record)
+{
+    if (record.is_null() || record.at("key") != stored.filename().string())
+    {
+        return recordFile;
+    }
+    for (const auto& [name, checksum] : record.at("files").items())
+    {
+        const fs::path file = stored / name;
+        if (!fs::is_regular_file(file) || sha256OfPath(file) != checksum)
+        {
+            return name;
+        }
+    }
+    return "";
+}
+
 /// A link that points elsewhere is replaced: the store may have been made in another checkout.
 void link(const fs::path& target, const fs::path& place)
 {
@@ -97,6 +131,27 @@ void link(const fs::path& target, const fs::path& place)
     if (!fs::exists(fs::symlink_status(place)))
     {
         fs::create_symlink(target, place, error);
+    }
+}
+
+/// A folder that ignores itself, wherever it is.
+void ignoreByGit(const fs::path& folder)
+{
+    const fs::path file = folder / ".gitignore";
+    try
+    {
+        if (!fs::exists(file))
+        {
+            writeWhole(file, "*\n");
+        }
+    }
+    catch (const FileError&)
+    {
+        // Another process may have been faster.
+        if (!fs::exists(file))
+        {
+            throw;
+        }
     }
 }
 
@@ -125,8 +180,7 @@ CaseRig::CaseRig(const Study& study, std::ostream& progress)
       progress_(progress)
 {
     fs::create_directories(cache_);
-    // The folder ignores itself, wherever it is.
-    std::ofstream(study.work / ".gitignore") << "*\n";
+    ignoreByGit(study.work);
     mirrorSurroundings();
 }
 
@@ -159,9 +213,21 @@ std::string CaseRig::keyOf(const RunOrder& order) const
 
 bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& result) const
 {
-    std::ifstream file(stored / recordFile);
-    const auto record = nlohmann::json::parse(file, nullptr, false);
-    if (record.is_discarded() || filesMatching(stored / order.file).empty())
+    if (!fs::exists(stored))
+    {
+        return false;
+    }
+    const auto record = readRecord(stored);
+    if (const std::string damage = damageOf(stored, record); !damage.empty())
+    {
+        if (damaged_.insert(stored).second)
+        {
+            progress_ << (stored / damage).string() << ": damaged, or of an older version; the run is made anew"
+                      << std::endl;
+        }
+        return false;
+    }
+    if (filesMatching(stored / order.file).empty())
     {
         return false;
     }
@@ -177,7 +243,7 @@ bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& res
     {
         result.failure = error.what();
     }
-    result.seconds = record.value("seconds", 0.0);
+    result.seconds = record.at("seconds");
     result.cached = true;
     return true;
 }
@@ -202,18 +268,21 @@ void CaseRig::store(const RunOrder& order, const fs::path& folder, const fs::pat
 {
     const fs::path unfinished = stored.string() + ".unfinished";
     fs::remove_all(unfinished);
+    nlohmann::json checksums;
     for (const auto& file : filesMatching(folder / order.file))
     {
-        const fs::path place = unfinished / fs::relative(file, folder);
-        fs::create_directories(place.parent_path());
-        fs::copy_file(file, place);
+        const fs::path name = fs::relative(file, folder);
+        const std::string content = textOf(file);
+        fs::create_directories((unfinished / name).parent_path());
+        writeWhole(unfinished / name, content);
+        checksums[name.string()] = sha256(content);
     }
-    nlohmann::json record = {{"purpose", order.purpose}, {"command", order.command}, {"seed", order.seed},
-        {"entries", order.entries}, {"case", caseFolder_.string()}, {"fingerprint", fingerprint_},
-        {"seconds", seconds}};
-    std::ofstream(unfinished / recordFile) << record.dump(1) << '\n';
-    fs::remove_all(stored);
-    fs::rename(unfinished, stored);
+    nlohmann::json record = {{"key", stored.filename().string()}, {"purpose", order.purpose},
+        {"command", order.command}, {"seed", order.seed}, {"entries", order.entries}, {"case", caseFolder_.string()},
+        {"fingerprint", fingerprint_}, {"seconds", seconds}, {"files", checksums}};
+    record["checksum"] = checksumOf(record);
+    writeWhole(unfinished / recordFile, record.dump(1) + '\n');
+    renameWhole(unfinished, stored);
 }
 
 int CaseRig::missing(const std::vector<RunOrder>& orders)
@@ -277,6 +346,8 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         const auto& [key, places] = wanted[end.job];
         const RunOrder& order = orders[places.front()];
         const fs::path folder = copyOf(key);
+        // Programs seldom look whether what they wrote was written.
+        requireRoom(tree_, "the run of " + order.purpose + " does not count");
         RunResult result;
         if (end.status != 0)
         {
@@ -314,11 +385,10 @@ double CaseRig::secondsPerRun() const
     double count = 0.0;
     for (const auto& entry : fs::directory_iterator(cache_))
     {
-        std::ifstream file(entry.path() / recordFile);
-        const auto record = nlohmann::json::parse(file, nullptr, false);
-        if (!record.is_discarded() && record.value("fingerprint", "") == fingerprint_)
+        const auto record = readRecord(entry.path());
+        if (!record.is_null() && record.at("fingerprint") == fingerprint_)
         {
-            sum += record.value("seconds", 0.0);
+            sum += record.at("seconds").get<double>();
             count += 1.0;
         }
     }

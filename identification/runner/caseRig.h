@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <memory>
 #include <ostream>
+#include <set>
 #include <string>
 
 namespace clepsydra::identification
@@ -15,7 +16,7 @@ namespace clepsydra::identification
 /// A case directory and its command. A run is a copy of the directory with other entries; what it has written is kept
 /// under a key of everything that entered it, and never computed twice:
 ///
-///     work/cache/<key>/    entries, observable, and how it went
+///     work/cache/<key>/    entries, observable, and how it went, with checksums: what is damaged is made anew
 ///     work/tree/<...>      copies while they run; those that failed stay for people to look at
 ///
 /// Relative paths that lead out of the case (../../scripts) work in a copy as well: the folders round it are mirrored
@@ -51,6 +52,7 @@ private:
     std::string fingerprint_; // of the case's files, what it depends on, and the version
     std::unique_ptr<Executor> executor_;
     std::ostream& progress_;
+    mutable std::set<std::filesystem::path> damaged_; // stored runs that people have been told of
 };
 
 } // namespace clepsydra::identification

@@ -1,5 +1,7 @@
 #include "runner/entries.h"
 
+#include "files/wholeFile.h"
+
 #include <fstream>
 #include <iomanip>
 #include <regex>
@@ -76,7 +78,7 @@ void replaceEntries(const std::filesystem::path& file, const Entries& changes)
             throw std::runtime_error(file.string() + ": has no entry '" + name + "' to be set to " + value);
         }
     }
-    std::ofstream(file) << changed.str();
+    writeWhole(file, changed.str());
 }
 
 Expression::Variables numbersOf(const Entries& entries)

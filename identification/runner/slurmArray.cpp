@@ -1,12 +1,15 @@
 #include "runner/slurmArray.h"
 
-#include <sys/wait.h>
+#include "runner/processTree.h"
+#include "runner/stopSignals.h"
+#include "runner/storedFiles.h"
 
 #include <cmath>
-#include <csignal>
-#include <cstdlib>
 #include <fstream>
+#include <regex>
+#include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 namespace clepsydra::identification
@@ -17,6 +20,8 @@ namespace
 
 constexpr const char* statusFile = "status.run";
 constexpr int statusOfNoReport = 125; // the task never came to its end
+constexpr std::chrono::milliseconds betweenLooks{200};
+constexpr std::chrono::seconds grace{5};
 
 std::string quoted(const std::string& text)
 {
@@ -31,7 +36,7 @@ std::string quoted(const std::string& text)
 /// Each task reads its folder and its command from a list, and leaves its status and seconds beside its log.
 void writeScript(const std::filesystem::path& script, const std::vector<Job>& jobs, double timeLimit)
 {
-    std::ofstream text(script);
+    std::ostringstream text;
     text << "#!/bin/bash\n#SBATCH --job-name=traceResidual\n#SBATCH --output=/dev/null\n";
     if (timeLimit > 0.0)
     {
@@ -45,11 +50,34 @@ void writeScript(const std::filesystem::path& script, const std::vector<Job>& jo
     }
     text << "esac\nbegin=$SECONDS\nsh -c \"$command\" > " << jobLog << " 2>&1 < /dev/null\n"
          << "echo $? $((SECONDS - begin)) > " << statusFile << '\n';
+    writeWhole(script, text.str());
+}
+
+/// Waits for a command of Slurm. No shell reads its words. \return its status
+int waitFor(const std::vector<std::string>& words, const std::filesystem::path& log, bool untilStopped)
+{
+    ProcessTree command(words, log.parent_path(), log, grace);
+    while (!command.status() && !(untilStopped && StopSignals::noted() != 0))
+    {
+        std::this_thread::sleep_for(betweenLooks);
+    }
+    return command.status().value_or(statusOfNoReport);
+}
+
+/// The array that sbatch has told of, if it came that far.
+void cancel(const std::filesystem::path& logOfSbatch)
+{
+    const std::string said = textOf(logOfSbatch);
+    std::smatch parts;
+    if (std::regex_search(said, parts, std::regex(R"(Submitted batch job (\d+))")))
+    {
+        waitFor({"scancel", parts[1]}, logOfSbatch.string() + ".scancel", false);
+    }
 }
 
 } // namespace
 
-SlurmArray::SlurmArray(int processes, std::string options, std::filesystem::path work, double timeLimit)
+SlurmArray::SlurmArray(int processes, std::vector<std::string> options, std::filesystem::path work, double timeLimit)
     : processes_(processes),
       options_(std::move(options)),
       work_(std::move(work)),
@@ -64,15 +92,18 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     }
     const auto script = work_ / "slurmArray";
     writeScript(script, jobs, timeLimit_);
-    std::string command = "sbatch --wait --array=0-" + std::to_string(jobs.size() - 1);
-    command += processes_ > 0 ? "%" + std::to_string(processes_) : "";
-    command += ' ' + options_ + ' ' + quoted(script.string()) + " > " + quoted(script.string() + ".log") + " 2>&1";
+    const std::filesystem::path log = script.string() + ".log";
+    std::vector<std::string> words = {"sbatch", "--wait",
+        "--array=0-" + std::to_string(jobs.size() - 1) + (processes_ > 0 ? "%" + std::to_string(processes_) : "")};
+    words.insert(words.end(), options_.begin(), options_.end());
+    words.push_back(script.string());
+    StopSignals signals;
     // sbatch --wait ends with the largest status of all tasks: each task's own tells more.
-    const int status = std::system(command.c_str());
-    if ((WIFSIGNALED(status) && WTERMSIG(status) == SIGINT)
-        || (WIFEXITED(status) && WEXITSTATUS(status) == 128 + SIGINT))
+    const int status = waitFor(words, log, true);
+    if (StopSignals::noted() != 0)
     {
-        throw std::runtime_error("stopped while waiting for Slurm; scancel ends what is left of the job array");
+        cancel(log);
+        signals.passOn();
     }
     bool anyReport = false;
     for (std::size_t i = 0; i < jobs.size(); ++i)
@@ -84,7 +115,7 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     }
     if (status != 0 && !anyReport)
     {
-        throw std::runtime_error("sbatch failed: see " + script.string() + ".log");
+        throw std::runtime_error("sbatch failed: see " + log.string());
     }
 }
 

@@ -12,7 +12,7 @@ namespace clepsydra::identification
 {
 
 StoreLock::StoreLock(const std::filesystem::path& store, std::ostream& progress)
-    // Closed on exec: a run that outlives this process must not hold the lock on.
+    // Closed on exec: a run must not hold the lock on. Those that watch over runs (ProcessTree) do until these have ended.
     : file_(open((store / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
 {
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0)

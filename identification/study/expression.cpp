@@ -1,9 +1,12 @@
 #include "study/expression.h"
 
+#include "study/nearestWord.h"
+
+#include <muParser.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -11,231 +14,108 @@
 namespace clepsydra::identification
 {
 
-struct Expression::Node
-{
-    std::function<double(const Variables&)> value;
-};
-
 namespace
 {
 
-using Value = std::function<double(const Expression::Variables&)>;
+constexpr const char* allowed =
+    "allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, cos, min(a, b) and max(a, b)";
 
-/// Recursive descent: sum -> product -> power -> sign -> atom.
-class Parser
+[[noreturn]] void fail(const std::string& formula, const std::string& what)
 {
-public:
-    explicit Parser(const std::string& text)
-        : text_(text)
-    {}
+    constexpr std::size_t longest = 80;
+    const bool isLong = formula.size() > longest;
+    throw std::invalid_argument(
+        "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowed);
+}
 
-    Value all()
+/// muParser's other operators (assignment, comparison, a choice by ?) and text are none of ours.
+void refuseOtherCharacters(const std::string& formula)
+{
+    const auto isOurs = [](unsigned char c) {
+        return std::isalnum(c) != 0 || std::isspace(c) != 0
+               || std::string("_.+-*/^(),").find(static_cast<char>(c)) != std::string::npos;
+    };
+    const auto other = std::find_if_not(formula.begin(), formula.end(), isOurs);
+    if (other != formula.end())
     {
-        Value value = sum();
-        skipBlanks();
-        if (at_ != text_.size())
-        {
-            fail("nothing more");
-        }
-        return value;
+        fail(formula, ", at character " + std::to_string(other - formula.begin() + 1) + ": not understood");
     }
-
-private:
-    [[noreturn]] void fail(const std::string& expected) const
-    {
-        throw std::invalid_argument(
-            "in the formula '" + text_ + "', at character " + std::to_string(at_ + 1) + ": expected " + expected);
-    }
-
-    void skipBlanks()
-    {
-        while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0)
-        {
-            ++at_;
-        }
-    }
-
-    bool take(char wanted)
-    {
-        skipBlanks();
-        const bool found = at_ < text_.size() && text_[at_] == wanted;
-        at_ += found ? 1 : 0;
-        return found;
-    }
-
-    Value sum()
-    {
-        Value left = product();
-        while (true)
-        {
-            if (take('+'))
-            {
-                left = [left, right = product()](const auto& v) { return left(v) + right(v); };
-            }
-            else if (take('-'))
-            {
-                left = [left, right = product()](const auto& v) { return left(v) - right(v); };
-            }
-            else
-            {
-                return left;
-            }
-        }
-    }
-
-    Value product()
-    {
-        Value left = sign();
-        while (true)
-        {
-            if (take('*'))
-            {
-                left = [left, right = sign()](const auto& v) { return left(v) * right(v); };
-            }
-            else if (take('/'))
-            {
-                left = [left, right = sign()](const auto& v) { return left(v) / right(v); };
-            }
-            else
-            {
-                return left;
-            }
-        }
-    }
-
-    Value sign()
-    {
-        if (take('-'))
-        {
-            return [value = sign()](const auto& v) { return -value(v); };
-        }
-        return take('+') ? sign() : power();
-    }
-
-    Value power()
-    {
-        Value base = atom();
-        if (!take('^'))
-        {
-            return base;
-        }
-        return [base, exponent = sign()](const auto& v) { return std::pow(base(v), exponent(v)); };
-    }
-
-    Value atom()
-    {
-        if (take('('))
-        {
-            Value inner = sum();
-            return take(')') ? inner : (fail("')'"), inner);
-        }
-        skipBlanks();
-        if (at_ < text_.size() && (std::isdigit(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '.'))
-        {
-            return numberAtom();
-        }
-        const std::string name = word();
-        return take('(') ? call(name) : variable(name);
-    }
-
-    Value numberAtom()
-    {
-        std::size_t length = 0;
-        try
-        {
-            const double number = std::stod(text_.substr(at_), &length);
-            at_ += length;
-            return [number](const auto&) { return number; };
-        }
-        catch (const std::logic_error&)
-        {
-            fail("a number");
-        }
-    }
-
-    std::string word()
-    {
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && (std::isalnum(static_cast<unsigned char>(text_[at_])) != 0 || text_[at_] == '_'))
-        {
-            ++at_;
-        }
-        if (begin == at_)
-        {
-            fail("a number, a name or '('");
-        }
-        return text_.substr(begin, at_ - begin);
-    }
-
-    Value variable(const std::string& name)
-    {
-        return [name, text = text_](const Expression::Variables& v) {
-            const auto found = v.find(name);
-            if (found == v.end())
-            {
-                std::string known;
-                for (const auto& [each, value] : v)
-                {
-                    known += ' ' + each;
-                }
-                throw std::invalid_argument(
-                    "in the formula '" + text + "': unknown name '" + name + "'; known:" + known);
-            }
-            return found->second;
-        };
-    }
-
-    Value call(const std::string& name)
-    {
-        static const std::map<std::string, double (*)(double)> functions = {
-            {"exp", [](double x) { return std::exp(x); }},
-            {"round", [](double x) { return std::round(x); }},
-            {"log", [](double x) { return std::log(x); }},
-            {"sqrt", [](double x) { return std::sqrt(x); }},
-            {"abs", [](double x) { return std::abs(x); }},
-            {"sin", [](double x) { return std::sin(x); }},
-            {"cos", [](double x) { return std::cos(x); }},
-        };
-        Value first = sum();
-        if (name == "min" || name == "max")
-        {
-            if (!take(','))
-            {
-                fail("','");
-            }
-            first = [first, second = sum(), smaller = name == "min"](const auto& v) {
-                return smaller ? std::min(first(v), second(v)) : std::max(first(v), second(v));
-            };
-        }
-        else if (const auto found = functions.find(name); found != functions.end())
-        {
-            first = [first, function = found->second](const auto& v) { return function(first(v)); };
-        }
-        else
-        {
-            fail("one of exp log sqrt abs round sin cos min max, found '" + name + "'");
-        }
-        if (!take(')'))
-        {
-            fail("')'");
-        }
-        return first;
-    }
-
-    const std::string& text_;
-    std::size_t at_ = 0;
-};
+}
 
 } // namespace
 
+/// The parser, and the values of the names in the formula, which it points to.
+struct Expression::Parsed
+{
+    explicit Parsed(const std::string& formula)
+    {
+        using Function = double (*)(double);
+        refuseOtherCharacters(formula);
+        parser.ClearConst();
+        parser.ClearFun();
+        for (const auto& [name, function] : std::map<std::string, Function>{{"exp", std::exp}, {"log", std::log},
+                 {"sqrt", std::sqrt}, {"abs", std::abs}, {"round", std::round}, {"sin", std::sin}, {"cos", std::cos}})
+        {
+            parser.DefineFun(name, function);
+        }
+        parser.DefineFun(
+            "min", +[](double a, double b) { return std::min(a, b); });
+        parser.DefineFun(
+            "max", +[](double a, double b) { return std::max(a, b); });
+        parser.SetVarFactory(&Parsed::variable, this);
+        try
+        {
+            parser.SetExpr(formula);
+            int results = 0;
+            parser.Eval(results);
+            if (results != 1)
+            {
+                fail(formula, ": more than one value");
+            }
+        }
+        catch (const mu::ParserError& error)
+        {
+            fail(formula, ", at character " + std::to_string(std::max(error.GetPos(), 0) + 1) + ": " + error.GetMsg());
+        }
+    }
+    Parsed(const Parsed&) = delete;
+    Parsed& operator=(const Parsed&) = delete;
+    ~Parsed() = default;
+
+    static double* variable(const char* name, void* self)
+    {
+        if (std::isdigit(static_cast<unsigned char>(*name)) != 0)
+        {
+            throw mu::ParserError("'" + std::string(name) + "' is neither a number nor a name");
+        }
+        // A neutral value until there is one.
+        return &static_cast<Parsed*>(self)->values.emplace(name, 1.0).first->second;
+    }
+
+    mu::Parser parser;
+    mutable Variables values; // a map, so that pointers to its values stay good
+};
+
 Expression::Expression(std::string text)
     : text_(std::move(text)),
-      root_(std::make_shared<const Node>(Node{Parser(text_).all()}))
+      parsed_(std::make_shared<const Parsed>(text_))
 {}
 
 double Expression::operator()(const Variables& variables) const
 {
-    return root_->value(variables);
+    for (auto& [name, value] : parsed_->values)
+    {
+        const auto given = variables.find(name);
+        if (given == variables.end())
+        {
+            std::vector<std::string> known(variables.size());
+            std::transform(
+                variables.begin(), variables.end(), known.begin(), [](const auto& each) { return each.first; });
+            fail(text_, ": unknown name '" + name + "'" + didYouMean(name, known) + "; names are " + listed(known));
+        }
+        value = given->second;
+    }
+    return parsed_->parser.Eval();
 }
 
 } // namespace clepsydra::identification

@@ -25,11 +25,11 @@ public:
         return text_;
     }
 
-    struct Node;
-
 private:
+    struct Parsed;
+
     std::string text_;
-    std::shared_ptr<const Node> root_;
+    std::shared_ptr<const Parsed> parsed_;
 };
 
 } // namespace clepsydra::identification

@@ -458,7 +458,18 @@ ExecutorSpecification readExecutor(const YamlPlace& place)
     ExecutorSpecification executor;
     executor.kind = place.has("kind") ? place.at("kind").oneOf({"pool", "slurm"}) : executor.kind;
     executor.processes = place.countOr("processes", 0, 1);
-    executor.options = place.textOr("options", "");
+    if (place.has("options"))
+    {
+        for (const auto& word : place.at("options").oneOrMore())
+        {
+            executor.options.push_back(word.text());
+            if (executor.options.back().find_first_of(" \t\n") != std::string::npos)
+            {
+                word.fail("holds blanks; allowed: a list of words, each given to sbatch as it is: "
+                          "[--partition=short, --mem=4G]");
+            }
+        }
+    }
     return executor;
 }
 

@@ -124,9 +124,9 @@ enum class DesignKind
 
 struct ExecutorSpecification
 {
-    std::string kind = "pool"; // or slurm
-    int processes = 0;         // 0: one per core
-    std::string options;       // of sbatch
+    std::string kind = "pool";        // or slurm
+    int processes = 0;                // 0: one per core
+    std::vector<std::string> options; // words for sbatch
 };
 
 struct Settings

@@ -7,16 +7,6 @@
 namespace clepsydra::identification
 {
 
-std::string listed(const std::vector<std::string>& words)
-{
-    std::string text;
-    for (std::size_t i = 0; i < words.size(); ++i)
-    {
-        text += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + words[i];
-    }
-    return text;
-}
-
 YamlPlace::YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name)
     : node_(node),
       file_(std::move(file)),

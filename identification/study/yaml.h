@@ -1,5 +1,7 @@
 #pragma once
 
+#include "study/nearestWord.h"
+
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
@@ -68,8 +70,5 @@ private:
     std::shared_ptr<const std::filesystem::path> file_;
     std::string name_;
 };
-
-/// Words as they are listed in an error: "a, b or c".
-std::string listed(const std::vector<std::string>& words);
 
 } // namespace clepsydra::identification

@@ -1,7 +1,7 @@
 /// The program from the outside: study file to report, on the stand-in run as a program.
 #include "curves/table.h"
 #include "runner/caseRig.h"
-#include "runner/processPool.h"
+#include "runner/storedFiles.h"
 #include "standIn/standIn.h"
 #include "study/readStudy.h"
 #include "temporaryFolder.h"
@@ -16,8 +16,8 @@
 
 #include <array>
 #include <chrono>
-#include <csignal>
 #include <cstdlib>
+#include <functional>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -30,6 +30,11 @@ namespace
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+
+std::string replaced(std::string text, const std::string& old, const std::string& by)
+{
+    return text.replace(text.find(old), old.size(), by);
+}
 
 /// A copy of the stand-in's case and study, with measurements made by the stand-in itself.
 class Workshop
@@ -245,6 +250,73 @@ TEST(Program, SaysWhatIsWrongAndWritesNothing)
     EXPECT_FALSE(fs::exists(workshop.path() / "results"));
 }
 
+/// A disk that is full when the reports are written: the old ones stay whole, the error names the file, and both `run` and
+/// `report` say so with their status. Written unchecked, half a report would take the old one's place.
+TEST(Program, FullDiskLeavesTheOldReports)
+{
+    Workshop workshop;
+    workshop.measure({});
+    ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
+    const auto before = sha256OfPath(workshop.path() / "results");
+    const std::string noLargeFiles = "ulimit -f 16; trap '' XFSZ; ";
+    for (const std::string command : {"run", "report"})
+    {
+        EXPECT_NE(workshop.run(command, noLargeFiles), 0) << workshop.output;
+        EXPECT_THAT(workshop.output, HasSubstr("answer.json.unfinished: File too large"));
+        EXPECT_EQ(sha256OfPath(workshop.path() / "results"), before);
+    }
+    std::ofstream(workshop.path() / "results/report.json") << "{ \"summary\": \"half";
+    workshop.append("nonsense: 1\n");
+    EXPECT_NE(workshop.run("report"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("report.json: damaged"));
+}
+
+/// A stored run that is damaged in any of its parts is not believed: it is told, and made anew with the same result.
+/// Without checksums all of these but the empty record give another curve without a word.
+TEST(Runner, DamagedStore)
+{
+    Workshop workshop;
+    workshop.measure({});
+    const Study study = readStudy(workshop.path() / "study.yaml");
+    std::ostringstream progress;
+    const auto orderOf = [&](long seed) {
+        return RunOrder{"./Allrun", study.conditions[0].file, {{"seed", std::to_string(seed)}}, seed, "test"};
+    };
+    const RunOrder order = orderOf(10007);
+    CaseRig rig(study, progress);
+    const auto results = rig.run({order, orderOf(10009)});
+    const fs::path stored = study.work / "cache" / rig.keyOf(order);
+    const fs::path table = stored / "postProcessing/massInHopper/0/massInHopper.dat";
+    const fs::path record = stored / "record.json";
+    const std::vector<std::function<void()>> damages = {
+        [&] { fs::resize_file(table, fs::file_size(table) / 2); },
+        [&] { fs::resize_file(table, 0); },
+        [&] { fs::remove(table); },
+        [&] { writeWhole(table, replaced(contentOf(table), "0.1", "0.2")); },
+        [&] { fs::resize_file(record, 0); },
+        [&] { fs::resize_file(record, fs::file_size(record) - 3); },
+        [&] { writeWhole(record, "[]"); },
+        [&] { writeWhole(record, replaced(contentOf(record), "seconds\": ", "seconds\": 1")); },
+        [&] { fs::remove(record); },
+        [&] {
+            fs::remove_all(stored);
+            fs::copy(study.work / "cache" / rig.keyOf(orderOf(10009)), stored, fs::copy_options::recursive);
+        },
+    };
+    for (std::size_t i = 0; i < damages.size(); ++i)
+    {
+        damages[i]();
+        std::ostringstream told;
+        CaseRig again(study, told);
+        EXPECT_EQ(again.missing({order}), 1) << i;
+        const RunResult result = again.run({order})[0];
+        EXPECT_FALSE(result.cached) << i;
+        EXPECT_EQ(result.curve.value, results[0].curve.value) << i;
+        EXPECT_THAT(told.str(), HasSubstr("damaged")) << i;
+        EXPECT_EQ(again.missing({order}), 0) << i;
+    }
+}
+
 /// Two studies of one store that want the same run at the same time: one makes it, the other waits and finds it there.
 /// Without a lock both make it in the same folder, each under the other's feet.
 TEST(Runner, TwoAtOnceInOneStore)
@@ -270,40 +342,6 @@ TEST(Runner, TwoAtOnceInOneStore)
     EXPECT_EQ(results[0].failure + results[1].failure, "");
     EXPECT_NE(results[0].cached, results[1].cached);
     EXPECT_EQ(results[0].curve.value, results[1].curve.value);
-}
-
-/// A signal ends what is running, and that is no failed run: taken for one, an interrupted study would go on to an answer
-/// without any simulation. One that is ignored, as in the background of a script, is left ignored.
-TEST(Runner, StoppedIsNotFailed)
-{
-    TemporaryFolder folder;
-    ProcessPool pool(1, 0);
-    const auto runWhileSignalled = [&](int signal, void (*action)(int), const std::string& command) {
-        const auto before = std::signal(signal, action);
-        std::thread sender([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(200));
-            kill(getpid(), signal);
-        });
-        std::vector<int> ended;
-        const auto run = [&] {
-            pool.run({{folder.path(), command}}, [&](const JobEnd& end) { ended.push_back(end.status); });
-        };
-        if (action == SIG_IGN)
-        {
-            EXPECT_NO_THROW(run());
-        }
-        else
-        {
-            EXPECT_THROW(run(), std::runtime_error);
-        }
-        sender.join();
-        std::signal(signal, before);
-        return ended;
-    };
-    EXPECT_TRUE(runWhileSignalled(
-        SIGTERM, [](int) {}, "sleep 20")
-                    .empty());
-    EXPECT_EQ(runWhileSignalled(SIGINT, SIG_IGN, "sleep 0.5"), std::vector<int>{0});
 }
 
 /// A run that fails with its seed is repeated with another, and told. The same through Slurm, played by a script that

@@ -2,7 +2,6 @@
 #include "design/plackettBurman.h"
 #include "design/seeds.h"
 #include "runner/entries.h"
-#include "runner/sha256.h"
 #include "study/expression.h"
 #include "study/readStudy.h"
 #include "study/units.h"
@@ -27,11 +26,48 @@ TEST(Expression, Formulas)
     EXPECT_DOUBLE_EQ(value("-2^2 + 3*4/6 - 1e-1"), -2.1);
     EXPECT_DOUBLE_EQ(value("4^a"), 2);
     EXPECT_DOUBLE_EQ(value("max(a, 2)*round(2.6) + min(1, a) + cos(0)"), 7.5);
-    for (const std::string bad : {"2*", "(1", "sinus(1)", "1 2", "*3", ""})
+    EXPECT_DOUBLE_EQ(value("2^3^2 - 2*-a + 2^-1"), 513.5);
+    EXPECT_DOUBLE_EQ(value(" sqrt(abs(-4)) +\n.5 "), 2.5);
+    for (const std::string bad : {"2*", "(1", "sinus(1)", "1 2", "*3", "", "1e", "1e999", "0x10", "1,2", "a = 3",
+             "a == 1", "a ? 1 : 2", "\"a\"", "min(1)", "exp()", "()", "2(3)", "a && 1", "rnd(1)", "\xff"})
     {
         EXPECT_THROW(Expression{bad}, std::invalid_argument) << bad;
     }
     EXPECT_THROW(value("nobody"), std::invalid_argument);
+    EXPECT_THROW(value("_pi"), std::invalid_argument);
+    try
+    {
+        value("2*beadDiametre");
+        ADD_FAILURE();
+    }
+    catch (const std::invalid_argument& error)
+    {
+        EXPECT_NE(std::string(error.what()).find("did you mean 'beadDiameter'?"), std::string::npos) << error.what();
+    }
+}
+
+/// What is nested without end is an error, not the end of the stack.
+TEST(Expression, ManyBrackets)
+{
+    const auto nested = [](std::size_t times, const std::string& open, const std::string& close) {
+        std::string text;
+        for (std::size_t i = 0; i < times; ++i)
+        {
+            text += open;
+        }
+        text += '1';
+        for (std::size_t i = 0; i < times; ++i)
+        {
+            text += close;
+        }
+        return text;
+    };
+    EXPECT_DOUBLE_EQ(Expression(nested(1000, "(", ")"))({}), 1);
+    EXPECT_DOUBLE_EQ(Expression(nested(800, "abs(", ")"))({}), 1);
+    for (const std::string open : {"(", "-", "exp(", "2^", "1+"})
+    {
+        EXPECT_THROW(Expression(nested(20000, open, open.back() == '(' ? ")" : "")), std::invalid_argument) << open;
+    }
 }
 
 TEST(Units, AreFactorsOfSi)
@@ -50,15 +86,6 @@ TEST(Entries, AreReplacedInPlace)
     EXPECT_EQ(contentOf(file), "// beads\nfriction      0.2;   // between beads\nwall $friction;\n");
     EXPECT_DOUBLE_EQ(numbersOf(readEntries(file)).at("wall"), .2);
     EXPECT_THROW(replaceEntries(file, {{"cohesion", "1"}}), std::runtime_error);
-}
-
-/// FIPS 180-4's own examples.
-TEST(Sha256, KnownDigests)
-{
-    EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-    EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-        "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
 TEST(Seeds, ArePrimesAndDiffer)
@@ -151,7 +178,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"role: training", "role: train", "study.yaml:9:", "training, heldOut or candidate"},
         {"sd: 0.02", "sd: -1", "study.yaml:11:", "above 0"},
         {"sd: 0.02", "sigma: 1", "study.yaml:11:", "mean or sd"},
-        {"(1 + a)", "(1 + a", "study.yaml:13:", "')'"},
+        {"(1 + a)", "(1 + a", "study.yaml:13:", "Missing parenthesis"},
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
         {"amplitude: [-1, 1]", "switch: true", "study.yaml:13:", "which a switch does not have"},

@@ -1,0 +1,81 @@
+#include "runner/storedFiles.h"
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+namespace fs = std::filesystem;
+
+std::string sha256OfPath(const fs::path& path, const std::string& leaveOut)
+{
+    if (!fs::is_directory(path))
+    {
+        return contentsOf(path).sha256;
+    }
+    std::vector<std::string> lines;
+    for (auto entry = fs::recursive_directory_iterator(path); entry != fs::recursive_directory_iterator(); ++entry)
+    {
+        const auto name = entry->path().filename().string();
+        if (!leaveOut.empty() && name == leaveOut)
+        {
+            entry.disable_recursion_pending();
+            continue;
+        }
+        const std::string place = fs::relative(entry->path(), path).string();
+        if (entry->is_symlink())
+        {
+            lines.push_back(place + " -> " + fs::read_symlink(entry->path()).string());
+        }
+        else if (entry->is_regular_file())
+        {
+            lines.push_back(place + ' ' + contentsOf(entry->path()).sha256);
+        }
+    }
+    std::sort(lines.begin(), lines.end());
+    std::string all;
+    for (const auto& line : lines)
+    {
+        all += line + '\n';
+    }
+    return sha256(all);
+}
+
+std::string textOf(const fs::path& file)
+{
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream all;
+    all << in.rdbuf();
+    // An empty file gives no character, which a stream takes for a failure to write.
+    if (!in || (all.fail() && (!fs::is_regular_file(file) || fs::file_size(file) > 0)))
+    {
+        throw FileError::ofSystem("Cannot read", file);
+    }
+    return all.str();
+}
+
+void renameWhole(const fs::path& folder, const fs::path& name)
+{
+    flushToDisk(folder);
+    std::error_code error;
+    fs::remove_all(name, error);
+    fs::rename(folder, name, error);
+    if (error)
+    {
+        throw FileError("Cannot rename " + folder.string() + " to " + name.string() + ": " + error.message());
+    }
+    flushToDisk(name.parent_path());
+}
+
+void requireRoom(const fs::path& folder, const std::string& doing)
+{
+    if (fs::space(folder).available < leastRoom)
+    {
+        throw FileError("The disk of " + folder.string() + " is full; " + doing + ". Make room and start again");
+    }
+}
+
+} // namespace clepsydra::identification

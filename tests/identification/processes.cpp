@@ -1,0 +1,226 @@
+/// Runs as processes: what ends them, and what no process survives.
+#include "runner/processPool.h"
+#include "runner/slurmArray.h"
+#include "temporaryFolder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sys/prctl.h>
+#include <sys/wait.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <thread>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using std::chrono_literals::operator""ms;
+
+/// A run that starts a child that ignores SIGTERM, one more that has left its group and session and whose parent is gone,
+/// and then waits for ever itself, ignoring SIGTERM. All write down who they are.
+const std::string stubborn = "trap '' TERM\n"
+                             "sleep 1000 & echo $! >> pids\n"
+                             "(setsid sh -c 'sleep 1000 & echo $! >> pids; echo $$ >> pids; wait' &)\n"
+                             "echo $$ >> pids\n"
+                             "while :; do sleep 1000; done";
+constexpr std::size_t stubbornProcesses = 4;
+
+std::vector<pid_t> processesOf(const fs::path& folder)
+{
+    std::ifstream file(folder / "pids");
+    std::vector<pid_t> found;
+    for (pid_t process = 0; file >> process;)
+    {
+        found.push_back(process);
+    }
+    return found;
+}
+
+std::size_t alive(const std::vector<pid_t>& processes)
+{
+    return static_cast<std::size_t>(std::count_if(processes.begin(), processes.end(), [](pid_t process) {
+        std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+        std::string status;
+        return std::getline(file, status) && status.find(") Z") == std::string::npos;
+    }));
+}
+
+/// Waits, but not for ever.
+template<class Condition>
+bool soon(const Condition& condition)
+{
+    for (int look = 0; look < 1000 && !condition(); ++look)
+    {
+        std::this_thread::sleep_for(20ms);
+    }
+    return condition();
+}
+
+/// What is over its time limit is gone with all its children when the run is told to have ended. Signals to the shell or
+/// its group alone leave the sleepers.
+TEST(Processes, NoneOutlivesTheTimeLimit)
+{
+    const TemporaryFolder folder;
+    std::vector<int> ended;
+    std::size_t left = stubbornProcesses;
+    ProcessPool(1, 1.0, 100ms).run({{folder.path(), stubborn}}, [&](const JobEnd& end) {
+        ended.push_back(end.status);
+        left = alive(processesOf(folder.path()));
+    });
+    EXPECT_THAT(ended, ElementsAre(124));
+    EXPECT_EQ(processesOf(folder.path()).size(), stubbornProcesses);
+    EXPECT_EQ(left, 0U);
+}
+
+/// What a run leaves in the background ends with it, and its status stays its own.
+TEST(Processes, NoneOutlivesItsRun)
+{
+    const TemporaryFolder folder;
+    std::vector<int> ended;
+    ProcessPool(2, 0, 100ms)
+        .run({{folder.path(), "setsid sh -c 'trap \"\" TERM; echo $$ >> pids; while :; do sleep 1000; done' &\n"
+                              "while [ ! -s pids ]; do sleep 0.02; done; exit 3"},
+                 {folder.path(), "kill -9 $$"}},
+            [&](const JobEnd& end) { ended.push_back(end.status); });
+    EXPECT_THAT(ended, testing::UnorderedElementsAre(3, 128 + 9));
+    EXPECT_EQ(processesOf(folder.path()).size(), 1U);
+    EXPECT_EQ(alive(processesOf(folder.path())), 0U);
+}
+
+/// However the program itself ends, by a signal that it sees, by one that it does not, or by an error while it takes in
+/// another run's result, no process of its runs is left.
+TEST(Processes, NoneOutlivesTheProgram)
+{
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGKILL, 0})
+    {
+        const TemporaryFolder folder;
+        const pid_t program = fork();
+        if (program == 0)
+        {
+            try
+            {
+                ProcessPool(2, 0, 100ms)
+                    .run({{folder.path(), stubborn}, {folder.path(), "while [ ! -e fail ]; do sleep 0.02; done"}},
+                        [](const JobEnd&) { throw std::runtime_error("the disk is full"); });
+            }
+            catch (const std::exception&)
+            {
+                _exit(1);
+            }
+            _exit(0);
+        }
+        EXPECT_TRUE(soon([&] { return processesOf(folder.path()).size() == stubbornProcesses; }));
+        if (signal == 0)
+        {
+            folder.write("fail", "");
+        }
+        else
+        {
+            kill(program, signal);
+        }
+        int status = 0;
+        waitpid(program, &status, 0);
+        EXPECT_EQ(WIFSIGNALED(status) ? WTERMSIG(status) : 0, signal);
+        EXPECT_TRUE(soon([&] { return alive(processesOf(folder.path())) == 0; })) << "after signal " << signal;
+    }
+}
+
+/// A signal ends what is running, and that is no failed run: taken for one, an interrupted study would go on to an answer
+/// without any simulation. One that is ignored, as in the background of a script, is left ignored.
+TEST(Processes, StoppedIsNotFailed)
+{
+    const TemporaryFolder folder;
+    ProcessPool pool(1, 0);
+    const auto runWhileSignalled = [&](int signal, void (*action)(int), const std::string& command) {
+        const auto before = std::signal(signal, action);
+        std::thread sender([&] {
+            std::this_thread::sleep_for(200ms);
+            kill(getpid(), signal);
+        });
+        std::vector<int> ended;
+        const auto run = [&] {
+            pool.run({{folder.path(), command}}, [&](const JobEnd& end) { ended.push_back(end.status); });
+        };
+        if (action == SIG_IGN)
+        {
+            EXPECT_NO_THROW(run());
+        }
+        else
+        {
+            EXPECT_THROW(run(), std::runtime_error);
+        }
+        sender.join();
+        std::signal(signal, before);
+        return ended;
+    };
+    EXPECT_TRUE(runWhileSignalled(
+        SIGTERM, [](int) {}, "sleep 20")
+                    .empty());
+    EXPECT_EQ(runWhileSignalled(SIGINT, SIG_IGN, "sleep 0.5"), std::vector<int>{0});
+}
+
+/// Slurm, played by scripts that are found before it.
+class PlayedSlurm
+{
+public:
+    /// \param sbatch, scancel  what these do, as shell
+    PlayedSlurm(const TemporaryFolder& folder, const std::string& sbatch, const std::string& scancel = "")
+        : path_(std::getenv("PATH"))
+    {
+        for (const auto& [name, text] : {std::pair("sbatch", sbatch), std::pair("scancel", scancel)})
+        {
+            fs::permissions(
+                folder.write(std::string("bin/") + name, "#!/bin/bash\n" + text + '\n'), fs::perms::owner_all);
+        }
+        setenv("PATH", ((folder.path() / "bin").string() + ':' + path_).c_str(), 1);
+    }
+    ~PlayedSlurm()
+    {
+        setenv("PATH", path_.c_str(), 1);
+    }
+    PlayedSlurm(const PlayedSlurm&) = delete;
+    PlayedSlurm& operator=(const PlayedSlurm&) = delete;
+
+private:
+    std::string path_;
+};
+
+/// Options reach sbatch word by word; a shell that read them would make the file.
+TEST(Slurm, OptionsAreNoShell)
+{
+    const TemporaryFolder folder;
+    const PlayedSlurm slurm(folder, "printf '%s\\n' \"$@\" > " + (folder.path() / "words").string());
+    const std::string hostile = "--comment=;touch " + (folder.path() / "executed").string() + ";$(touch executed)";
+    SlurmArray(0, {hostile}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {});
+    EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr('\n' + hostile + '\n'));
+    EXPECT_FALSE(fs::exists(folder.path() / "executed"));
+    EXPECT_FALSE(fs::exists("executed"));
+}
+
+/// A job array does not go on when nobody waits for it any more.
+TEST(Slurm, IsCancelledWhenStopped)
+{
+    const TemporaryFolder folder;
+    const auto told = folder.path() / "told";
+    const PlayedSlurm slurm(folder,
+        "echo Submitted batch job 4711\nkill -TERM " + std::to_string(getpid()) + "\nsleep 1000",
+        "echo \"$@\" > " + told.string());
+    const auto before = std::signal(SIGTERM, [](int) {});
+    EXPECT_THROW(
+        SlurmArray(0, {}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {}), std::runtime_error);
+    std::signal(SIGTERM, before);
+    EXPECT_EQ(contentOf(told), "4711\n");
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests
