@@ -8,12 +8,14 @@ import sys
 
 import wholeFiles
 from campaigns.plan import CampaignError
+from campaigns.task import onStop
 
 COMMAND = os.path.abspath(sys.argv[0])
 
 
 def local(campaign, cores):
-    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns its status."""
+    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal that asked
+    it to stop, or None."""
     slots = max(1, cores // max(task.ranks for task in campaign.tasks.values()))
     makefile = campaign.work / "Makefile"
     targets = {name: f"{name}/done" for name in campaign.tasks}
@@ -26,10 +28,17 @@ def local(campaign, cores):
     # without make's own words on what failed: the tasks say it themselves
     make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
                             cwd=campaign.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
-    signal.signal(signal.SIGTERM, lambda *_: make.send_signal(signal.SIGTERM))
-    signal.signal(signal.SIGINT, lambda *_: None)
-    return make.wait()
+    received = []
+
+    def stop(number, _):
+        received.append(number)
+        # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
+        if number != signal.SIGINT:
+            make.send_signal(signal.SIGTERM)
+
+    onStop(stop)
+    make.wait()
+    return received[0] if received else None
 
 
 def slurm(campaign, options):

@@ -131,8 +131,7 @@ def runAllrun(campaign, task):
         process = subprocess.Popen(["nice", "-n", NICENESS, "./Allrun", "-np", str(task.ranks), task.part], cwd=folder,
                                    env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
                                    start_new_session=True)
-    for stop in (signal.SIGTERM, signal.SIGINT):
-        signal.signal(stop, lambda *_: process.send_signal(signal.SIGTERM))
+    onStop(lambda *_: process.send_signal(signal.SIGTERM))
     nextPruning = time.time() + BETWEEN_PRUNINGS
     while process.poll() is None:
         time.sleep(BETWEEN_LOOKS)
@@ -141,6 +140,13 @@ def runAllrun(campaign, task):
             nextPruning = time.time() + BETWEEN_PRUNINGS
     prune(campaign, task)
     return process.returncode
+
+
+def onStop(handler):
+    """Calls it on SIGTERM, Ctrl-C and the end of a terminal; what nohup has switched off stays so."""
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, handler)
 
 
 def prune(campaign, task):

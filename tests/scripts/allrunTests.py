@@ -180,6 +180,12 @@ class Mistakes(HopperCase):
         self.assertIn("there is no program 'noMesher' here: run", outcome.stderr)
         self.assertNotIn("an old log", outcome.stderr)
 
+    def testAMeshThatCheckMeshHasNotSeenIsNotUsed(self):
+        """What an interrupted `Allrun mesh` leaves."""
+        (self.case / "constant" / "polyMesh").mkdir()
+        for part in ("pour", "dry"):
+            self.assertIn("there is no whole mesh here: './Allrun mesh' makes it", self.refuses(part))
+
     def testASpaceInThePath(self):
         self.layOut(self.folder / "with space")
         said = self.refuses("mesh")
