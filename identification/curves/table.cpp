@@ -95,6 +95,10 @@ std::vector<std::string> columnNames(const std::string& line)
     return names;
 }
 
+/// Larger ones are no measurement, and their squares would be no numbers.
+constexpr double largest = 1e30;
+
+/// Neither inf nor nan, nor a number so large that it must be a mistake; nor hexadecimal, which strtod would take.
 bool isNumber(const std::string& text, double& number)
 {
     if (text.empty() || text == "NA" || text == "na" || text == "-")
@@ -102,9 +106,32 @@ bool isNumber(const std::string& text, double& number)
         number = missing;
         return true;
     }
+    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos)
+    {
+        return false;
+    }
     char* end = nullptr;
     number = std::strtod(text.c_str(), &end);
-    return end == text.c_str() + text.size();
+    return end == text.c_str() + text.size() && std::abs(number) <= largest;
+}
+
+/// A row of which one field is a number, and every other one or what should have been one: inf, nan, 1e308.
+bool isNearlyNumbers(const std::vector<std::string>& words)
+{
+    double value = 0.0;
+    const auto isFinite = [&](const std::string& word) { return isNumber(word, value) && std::isfinite(value); };
+    const auto wasMeant = [&](const std::string& word) {
+        char* end = nullptr;
+        std::strtod(word.c_str(), &end);
+        return end == word.c_str() + word.size();
+    };
+    return std::any_of(words.begin(), words.end(), isFinite) && std::all_of(words.begin(), words.end(), wasMeant);
+}
+
+std::string shortened(const std::string& text)
+{
+    constexpr std::size_t longest = 40;
+    return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
 double number(const std::filesystem::path& path)
@@ -161,19 +188,28 @@ Table readTable(const std::filesystem::path& file)
         }
         const auto words = fields(line);
         std::vector<double> row(words.size());
-        const bool numbers =
-            std::equal(words.begin(), words.end(), row.begin(), [](auto& w, double& r) { return isNumber(w, r); });
-        if (!numbers && table.columns.empty())
+        const auto wrong = std::mismatch(words.begin(), words.end(), row.begin(), [](auto& w, double& r) {
+            return isNumber(w, r);
+        }).first;
+        // Above the numbers there may be names and other text, but no row of numbers of which one is none.
+        if (wrong != words.end() && table.columns.empty() && !isNearlyNumbers(words))
         {
             header = line;
             continue;
         }
-        if (!numbers || (!table.columns.empty() && row.size() != table.columns.size()))
+        const std::string where = file.string() + ":" + std::to_string(lineNumber) + ": ";
+        if (wrong != words.end())
         {
-            throw std::runtime_error(file.string() + ":" + std::to_string(lineNumber) + ": expected "
-                                     + (table.columns.empty() ? "" : std::to_string(table.columns.size()) + " ")
-                                     + "numbers, found '" + line + "'");
+            throw std::runtime_error(
+                where + "'" + shortened(*wrong)
+                + "' is no number from -1e30 to 1e30; allowed for a missing one: nothing, NA or -");
         }
+        if (!table.columns.empty() && row.size() != table.columns.size())
+        {
+            throw std::runtime_error(where + "expected " + std::to_string(table.columns.size()) + " numbers, found "
+                                     + std::to_string(row.size()));
+        }
+        table.lines.push_back(lineNumber);
         table.columns.resize(row.size());
         for (std::size_t i = 0; i < row.size(); ++i)
         {

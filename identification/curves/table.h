@@ -14,6 +14,7 @@ struct Table
 {
     std::vector<std::string> names; // without units; empty where the file names none
     std::vector<std::vector<double>> columns;
+    std::vector<int> lines; // of the file, by row
 
     /// Index of a column by its name, or by its number counted from 1.
     /// \throws std::runtime_error that lists the columns

@@ -26,6 +26,12 @@ struct FeatureKind
     std::string meaning;
     std::vector<Parameter> parameters;
     double (*value)(const Curve& curve, const Parameters& parameters); // NaN where the curve does not have it
+
+    /// By its name's beginning.
+    bool isLog() const
+    {
+        return name.rfind("log", 0) == 0;
+    }
 };
 
 /// All kinds by name.

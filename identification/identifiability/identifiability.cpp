@@ -64,6 +64,11 @@ Identifiability identifiability(
             used.push_back(column);
         }
     }
+    if (used.empty())
+    {
+        table.collinearityOfAll = 1.0;
+        return table;
+    }
     const Eigen::MatrixXd kept = all(Eigen::all, used);
     const Eigen::MatrixXd gram = kept.transpose() * kept;
     const double smallest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(gram).eigenvalues().minCoeff();

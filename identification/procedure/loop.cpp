@@ -4,6 +4,7 @@
 #include "identifiability/identifiability.h"
 #include "nextExperiment/nextExperiment.h"
 #include "procedure/assemble.h"
+#include "procedure/magnitudes.h"
 #include "report/html.h"
 #include "report/json.h"
 #include "report/planReport.h"
@@ -94,15 +95,13 @@ std::vector<Simulation> plannedSimulations(const Study& study, const EffectLibra
     return simulations;
 }
 
-Noise plannedNoise(const Study& study, const EffectLibrary& library)
+Noise plannedNoise(const Study& study, const EffectLibrary& library, const std::vector<MeasuredCondition>& data)
 {
-    std::vector<MeasuredCondition> data(study.conditions.size());
     std::vector<std::size_t> measured;
     for (const auto c : study.conditionsOf(Role::training))
     {
         if (!study.conditions[c].measured.empty())
         {
-            data[c] = readMeasurements(study, c);
             measured.push_back(c);
         }
     }
@@ -115,9 +114,12 @@ Noise plannedNoise(const Study& study, const EffectLibrary& library)
 void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& out)
 {
     const Study study = readStudy(studyFile);
+    checkMeasurements(study, out);
+    const auto measured = measurementsOf(study, Role::training);
     CaseRig rig(study, out);
     Simulator simulator(study, rig);
     sayCost(study, rig, simulator, out);
+    checkMagnitudes(simulator, measured, execute);
     if (!execute && simulator.missing(libraryOrders(simulator)) > 0)
     {
         out << "what is detectable needs the library: 'traceResidual plan --execute' makes its runs" << std::endl;
@@ -125,7 +127,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
     }
     std::mt19937_64 random(study.settings.seed);
     const EffectLibrary library = makeLibrary(simulator);
-    const Noise noise = plannedNoise(study, library);
+    const Noise noise = plannedNoise(study, library, measured);
     const ResidualProblem problem = assemble(study, library, plannedData(study, library),
         plannedSimulations(study, library), simulator.plainSetting().parameters);
     const Significance test = significance(problem, noise, study.bounds(), study.settings.draws, random);
@@ -139,11 +141,13 @@ namespace
 void run(const Study& study, const std::filesystem::path& folder, std::ostream& out)
 {
     requireMeasurements(study);
+    checkMeasurements(study, out);
+    const auto training = measurementsOf(study, Role::training);
     CaseRig rig(study, out);
     Simulator simulator(study, rig);
     sayCost(study, rig, simulator, out);
-    const auto training = measurementsOf(study, Role::training);
     std::filesystem::create_directories(folder);
+    checkMagnitudes(simulator, training, true);
     std::mt19937_64 random(study.settings.seed);
 
     const EffectLibrary library = makeLibrary(simulator);
@@ -152,7 +156,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     Findings findings{&study, &library, &answer, nullptr, &next, &simulator, &training};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
     out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue) << "; written to "
-        << (folder / "answer.json").string() << ", held-out data are opened now" << std::endl;
+        << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);
     const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, training, heldOutData, random);

@@ -3,8 +3,11 @@
 #include "curves/table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -28,12 +31,28 @@ std::vector<double> converted(const Table& table, const ColumnSpecification& col
     return values;
 }
 
+void requireOrder(const Table& table, const std::vector<double>& time)
+{
+    double before = -std::numeric_limits<double>::infinity();
+    for (std::size_t row = 0; row < time.size(); ++row)
+    {
+        if (time[row] < before)
+        {
+            throw std::runtime_error("in line " + std::to_string(table.lines[row])
+                                     + " the time goes back; allowed are rows in order of time");
+        }
+        before = std::isfinite(time[row]) ? time[row] : before;
+    }
+}
+
 Curve readFile(const std::filesystem::path& file, const Measurement& measured)
 {
     try
     {
         const Table table = readTable(file);
-        Curve curve = tidied({converted(table, measured.time), converted(table, measured.value)});
+        std::vector<double> time = converted(table, measured.time);
+        requireOrder(table, time);
+        Curve curve = tidied({std::move(time), converted(table, measured.value)});
         if (curve.time.size() < 3)
         {
             throw std::runtime_error("fewer than three rows with a time and a value");
@@ -47,7 +66,56 @@ Curve readFile(const std::filesystem::path& file, const Measurement& measured)
     }
 }
 
+/// Of a training condition: what people look at to see that columns and units are right.
+std::string rangesOf(const Curve& curve)
+{
+    const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
+    return std::to_string(curve.time.size()) + " rows, time " + textOf(curve.time.front()) + " to "
+           + textOf(curve.time.back()) + " s, value " + textOf(*lowest) + " to " + textOf(*highest) + " (SI units)";
+}
+
+/// \return whether the curve has any of the features
+bool sayFeatures(const Study& study, const Curve& curve, std::ostream& out)
+{
+    bool any = false;
+    for (const auto& feature : study.features)
+    {
+        const double value = feature(curve);
+        out << ", " << feature.name << ' ' << (std::isfinite(value) ? textOf(value) : "none");
+        any = any || std::isfinite(value);
+    }
+    out << std::endl;
+    return any;
+}
+
 } // namespace
+
+void checkMeasurements(const Study& study, std::ostream& out)
+{
+    for (const auto& condition : study.conditions)
+    {
+        bool any = condition.measured.files.empty() || !condition.measured.numbers.empty();
+        for (const auto& file : condition.measured.files)
+        {
+            const Curve curve = readFile(file, condition.measured);
+            out << condition.name << ", " << file.filename().string() << ": ";
+            if (condition.role == Role::heldOut)
+            {
+                out << "can be read (held out: its values are not looked at yet)" << std::endl;
+                any = true;
+                continue;
+            }
+            out << rangesOf(curve);
+            any = sayFeatures(study, curve, out) || any;
+        }
+        if (!any)
+        {
+            throw std::runtime_error(study.file.string() + ": the files of condition '" + condition.name
+                                     + "' have none of the features. Are their columns and units right ('measured'), "
+                                       "and the features within their ranges ('observable.features')?");
+        }
+    }
+}
 
 MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
 {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <ostream>
 #include <vector>
 
 namespace clepsydra::identification
@@ -16,6 +17,11 @@ struct MeasuredCondition
     Eigen::VectorXd declaredError; // standard error of the mean beyond the scatter of repeats, by feature
     std::vector<Curve> curves;     // as measured, SI
 };
+
+/// Looks at every measured file before anything is run: its columns, numbers, and that time does not go back. Of training
+/// files rows, range and features are told. Of held-out ones the form alone is looked at: no value is kept or told.
+/// \throws std::runtime_error that names file, and column or row; or a training condition that has none of the features
+void checkMeasurements(const Study& study, std::ostream& out);
 
 /// Reads the measurements of one condition.
 /// \throws std::runtime_error that names file, and column or row

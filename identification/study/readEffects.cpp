@@ -42,6 +42,7 @@ void readEntries(const YamlPlace& place, Effect& effect)
         if (effect.isSwitch)
         {
             refuseFormula(value);
+            requireEntryValue(value);
             effect.words[entry] = value.text();
         }
         else
@@ -125,6 +126,18 @@ Effect readEffect(const YamlPlace& place)
 }
 
 } // namespace
+
+void requireEntryValue(const YamlPlace& value)
+{
+    const std::string text = value.text();
+    const std::string forbidden = ";{}#`\"'\\|&<>\n\r";
+    if (text.find_first_of(forbidden) != std::string::npos || text.find("$(") != std::string::npos)
+    {
+        value.fail("'" + text
+                   + "' is no value of an entry; allowed is a number, words, or $name, without ; { } # ` | & < > "
+                     "$( quotes, backslashes or line breaks");
+    }
+}
 
 std::vector<Effect> readEffects(const YamlPlace& list)
 {

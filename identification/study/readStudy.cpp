@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
 namespace clepsydra::identification
 {
@@ -22,6 +24,15 @@ Entries readWords(const YamlPlace& place)
     return words;
 }
 
+Entries readValues(const YamlPlace& place)
+{
+    for (const auto& [entry, value] : place.map())
+    {
+        requireEntryValue(value);
+    }
+    return readWords(place);
+}
+
 RigSpecification readRig(const YamlPlace& place)
 {
     place.allow({"case", "command", "entriesFile", "set", "seed", "dependsOn", "version", "costPerRun", "timeLimit",
@@ -37,7 +48,7 @@ RigSpecification readRig(const YamlPlace& place)
     rig.timeLimit = place.has("timeLimit") ? place.at("timeLimit").positive() : 0.0;
     if (place.has("set"))
     {
-        rig.entries = readWords(place.at("set"));
+        rig.entries = readValues(place.at("set"));
     }
     if (place.has("dependsOn"))
     {
@@ -155,7 +166,7 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     const std::string name = place.at("feature").oneOf(names);
     MeasuredNumber number;
     number.feature = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-    const bool isLog = study.features[number.feature].kind->name.rfind("log", 0) == 0;
+    const bool isLog = study.features[number.feature].kind->isLog();
     for (const auto& value : place.at("values").oneOrMore())
     {
         number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
@@ -223,7 +234,7 @@ Condition readCondition(const YamlPlace& place, const Study& study, const std::s
     condition.cost = place.has("cost") ? place.at("cost").positive() : 1.0;
     if (place.has("set"))
     {
-        condition.entries = readWords(place.at("set"));
+        condition.entries = readValues(place.at("set"));
     }
     if (place.has("tags"))
     {
@@ -238,6 +249,12 @@ Condition readCondition(const YamlPlace& place, const Study& study, const std::s
     }
     if (place.has("measured"))
     {
+        if (condition.role == Role::candidate)
+        {
+            place.at("measured")
+                .fail("nobody reads it: a candidate is not measured yet; with role: training or heldOut "
+                      "it would be read");
+        }
         condition.measured = readMeasurement(place.at("measured"), study, root);
     }
     return condition;
@@ -245,6 +262,10 @@ Condition readCondition(const YamlPlace& place, const Study& study, const std::s
 
 void readConditions(const YamlPlace& root, Study& study, const std::string& file)
 {
+    if (root.has("measured"))
+    {
+        root.at("measured").allow({"time", "value"});
+    }
     for (const auto& place : root.at("conditions").list())
     {
         study.conditions.push_back(readCondition(place, study, file, root));
@@ -433,6 +454,10 @@ void readSettings(const YamlPlace& root, Settings& settings)
         place.allow({"level", "draws", "setWidth", "confirmations", "rounds", "pairs", "pairPenalty", "otherWeight",
             "oneMoreParameter"});
         settings.level = place.has("level") ? place.at("level").positive() : settings.level;
+        if (settings.level >= 1.0)
+        {
+            place.at("level").fail("must be below 1, not " + place.at("level").text() + ": .05 for 5 %");
+        }
         settings.draws = place.countOr("draws", settings.draws, 100);
         settings.setWidth = place.has("setWidth") ? place.at("setWidth").positive() : settings.setWidth;
         settings.confirmations = place.countOr("confirmations", settings.confirmations, 1);
@@ -481,7 +506,10 @@ void checkEntries(const YamlPlace& root, const Study& study)
     const auto check = [&](const std::string& entry, const std::string& where) {
         if (known.count(entry) == 0)
         {
-            root.fail(where + " sets '" + entry + "', but " + file.string() + " has no such entry");
+            std::vector<std::string> names(known.size());
+            std::transform(known.begin(), known.end(), names.begin(), [](const auto& each) { return each.first; });
+            root.fail(where + " sets '" + entry + "', but " + file.string() + " has no such entry"
+                      + didYouMean(entry, names));
         }
     };
     for (const auto& [entry, value] : study.rig.entries)
@@ -515,6 +543,107 @@ void checkEntries(const YamlPlace& root, const Study& study)
     }
 }
 
+/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be told.
+void checkTags(const YamlPlace& root, const Study& study)
+{
+    std::map<std::string, std::set<std::string>> asked;
+    for (const auto& effect : study.effects)
+    {
+        for (const auto& [tag, values] : effect.actsIn)
+        {
+            asked[tag].insert(values.begin(), values.end());
+        }
+    }
+    const std::string file = study.file.string();
+    for (const auto& [tag, values] : asked)
+    {
+        std::vector<std::string> without;
+        std::vector<std::string> known;
+        for (const auto& condition : study.conditions)
+        {
+            if (condition.tags.count(tag) == 0)
+            {
+                without.push_back(condition.name);
+            }
+            for (const auto& [name, value] : condition.tags)
+            {
+                known.push_back(name);
+            }
+        }
+        if (!without.empty() && without.size() < study.conditions.size())
+        {
+            root.at("conditions")
+                .fail("effects act by the tag '" + tag + "', which some conditions have, but not " + listed(without));
+        }
+        if (!without.empty())
+        {
+            const std::string near = didYouMean(tag, known);
+            if (!near.empty())
+            {
+                root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
+            }
+        }
+    }
+    for (const auto& condition : study.conditions)
+    {
+        for (const auto& [tag, value] : condition.tags)
+        {
+            const auto values = asked.find(tag);
+            if (values != asked.end() && values->second.count(value) == 0)
+            {
+                const std::string near = didYouMean(value, {values->second.begin(), values->second.end()});
+                if (!near.empty())
+                {
+                    root.at("conditions")
+                        .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '"
+                              + value + "'" + near);
+                }
+            }
+        }
+    }
+}
+
+/// Names in formulas that are no entries would be found only when the first run starts.
+void checkFormulas(const YamlPlace& root, const Study& study)
+{
+    Entries all = study.rig.entries;
+    const Entries known = readEntries(study.rig.caseFolder / study.rig.entriesFile);
+    all.insert(known.begin(), known.end());
+    for (const auto& condition : study.conditions)
+    {
+        all.insert(condition.entries.begin(), condition.entries.end());
+    }
+    const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
+                           const std::string& variable, double value) {
+        auto variables = numbersOf(all);
+        variables[variable] = value;
+        for (const auto& [entry, formula] : formulas)
+        {
+            try
+            {
+                formula(variables);
+            }
+            catch (const std::invalid_argument& error)
+            {
+                root.fail(where + ", entry '" + entry + "': " + error.what());
+            }
+        }
+    };
+    for (const auto& parameter : study.parameters)
+    {
+        check("parameter '" + parameter.name + "'", parameter.entries, parameter.name, parameter.mean);
+    }
+    for (const auto& effect : study.effects)
+    {
+        check("effect '" + effect.name + "'", effect.entries, "a", effect.bounds.upper);
+        if (effect.chainSize)
+        {
+            check(
+                "effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, "a", effect.bounds.upper);
+        }
+    }
+}
+
 } // namespace
 
 Study readStudy(const std::filesystem::path& file)
@@ -522,7 +651,7 @@ Study readStudy(const std::filesystem::path& file)
     const YamlPlace root = YamlPlace::fileAt(file);
     root.allow({"study", "about", "rig", "observable", "measured", "conditions", "parameters", "effectsFrom", "effects",
         "onlyEffects", "withoutEffects", "budget", "seed", "repeats", "failures", "design", "inference", "executor",
-        "work", "assumptions"});
+        "work", "assumptions", "magnitudeLimit"});
     Study study;
     study.file = file;
     study.name = root.at("study").text();
@@ -535,6 +664,13 @@ Study readStudy(const std::filesystem::path& file)
         for (const auto& place : root.at("parameters").list())
         {
             study.parameters.push_back(readParameter(place));
+            const auto& name = study.parameters.back().name;
+            if (std::count_if(study.parameters.begin(), study.parameters.end(),
+                    [&](const Parameter& parameter) { return parameter.name == name; })
+                > 1)
+            {
+                place.at("name").fail("there are two parameters named '" + name + "'");
+            }
         }
     }
     readAllEffects(root, study);
@@ -552,7 +688,14 @@ Study readStudy(const std::filesystem::path& file)
             study.assumptions.push_back(place.text());
         }
     }
+    study.magnitudeLimit = root.numberOr("magnitudeLimit", study.magnitudeLimit);
+    if (study.magnitudeLimit <= 1.0)
+    {
+        root.at("magnitudeLimit").fail("must be above 1");
+    }
     checkEntries(root, study);
+    checkFormulas(root, study);
+    checkTags(root, study);
     return study;
 }
 

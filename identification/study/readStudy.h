@@ -12,6 +12,10 @@ namespace clepsydra::identification
 /// \throws StudyError that names file, line, key and what is allowed
 Study readStudy(const std::filesystem::path& file);
 
+/// A value of an entry goes into a file that the case reads: more than a value would be code there.
+/// \throws StudyError if it holds what ends an entry or begins a command
+void requireEntryValue(const YamlPlace& value);
+
 /// The effects of a library file, in its order.
 std::vector<Effect> readEffects(const YamlPlace& list);
 

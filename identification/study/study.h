@@ -159,8 +159,9 @@ struct Study
     RigSpecification rig;
     std::string timeColumn;
     std::string valueColumn;
-    double valueFactor = 1.0; // what the simulation writes, times this
-    double valueOffset = 0.0; // and then added, SI units
+    double valueFactor = 1.0;     // what the simulation writes, times this
+    double valueOffset = 0.0;     // and then added, SI units
+    double magnitudeLimit = 30.0; // by which factor measured and simulated may differ before units are doubted
     std::vector<Feature> features;
     Eigen::VectorXd modelError; // by feature
     std::vector<Condition> conditions;

@@ -17,7 +17,16 @@ YamlPlace YamlPlace::fileAt(const std::filesystem::path& file)
 {
     try
     {
-        return {YAML::LoadFile(file.string()), std::make_shared<const std::filesystem::path>(file), ""};
+        const auto documents = YAML::LoadAllFromFile(file.string());
+        if (documents.size() != 1)
+        {
+            throw StudyError(file.string() + ": holds " + std::to_string(documents.size())
+                             + " documents (parts between lines '---'); allowed is one");
+        }
+        YamlPlace place(documents.front(), std::make_shared<const std::filesystem::path>(file), "");
+        int places = 0;
+        place.checkKeys(0, places);
+        return place;
     }
     catch (const YAML::BadFile&)
     {
@@ -26,6 +35,42 @@ YamlPlace YamlPlace::fileAt(const std::filesystem::path& file)
     catch (const YAML::ParserException& error)
     {
         throw StudyError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": no valid YAML: " + error.msg);
+    }
+}
+
+void YamlPlace::checkKeys(int depth, int& places) const
+{
+    // Anchors can make a place hold itself, or a few lines a file of any size.
+    constexpr int deepest = 50;
+    constexpr int most = 100000;
+    if (depth > deepest || ++places > most)
+    {
+        fail("the file is nested too deeply, too large, or holds itself by way of an anchor");
+    }
+    if (node_.IsSequence())
+    {
+        for (const auto& each : list())
+        {
+            each.checkKeys(depth + 1, places);
+        }
+    }
+    if (!node_.IsMap())
+    {
+        return;
+    }
+    std::map<std::string, int> lines;
+    for (const auto& [key, value] : map())
+    {
+        const auto [first, isNew] = lines.emplace(key, value.node_.Mark().line + 1);
+        if (!isNew)
+        {
+            value.fail("given twice, in line " + std::to_string(first->second) + " already");
+        }
+        if (value.node_.IsNull())
+        {
+            value.fail("has no value; give one, or leave the key out");
+        }
+        value.checkKeys(depth + 1, places);
     }
 }
 
@@ -42,7 +87,7 @@ void YamlPlace::allow(const std::vector<std::string>& allowed) const
     {
         if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
         {
-            value.fail("unknown key; allowed here: " + listed(allowed));
+            value.fail("unknown key" + didYouMean(key, allowed) + "; allowed here: " + listed(allowed));
         }
     }
 }
@@ -89,7 +134,11 @@ std::vector<std::pair<std::string, YamlPlace>> YamlPlace::map() const
     std::vector<std::pair<std::string, YamlPlace>> places;
     for (const auto& entry : node_)
     {
-        const auto key = entry.first.as<std::string>();
+        if (!entry.first.IsScalar())
+        {
+            fail("a key must be a word");
+        }
+        const auto& key = entry.first.Scalar();
         places.emplace_back(key, YamlPlace(entry.second, file_, name_.empty() ? key : name_ + '.' + key));
     }
     return places;
@@ -149,7 +198,8 @@ std::string YamlPlace::oneOf(const std::vector<std::string>& words) const
     std::string word = text();
     if (std::find(words.begin(), words.end(), word) == words.end())
     {
-        fail("must be " + listed(words) + ", not '" + word + "'");
+        fail("must be " + (words.empty() ? "left out" : listed(words)) + ", not '" + word + "'"
+             + didYouMean(word, words));
     }
     return word;
 }

@@ -26,7 +26,7 @@ public:
 class YamlPlace
 {
 public:
-    /// \throws StudyError if the file cannot be read or is no YAML
+    /// \throws StudyError if the file cannot be read, is no YAML, or has a key twice or without a value anywhere
     static YamlPlace fileAt(const std::filesystem::path& file);
 
     /// \throws StudyError naming the line of the first key that is not among `allowed`, or if this is no map
@@ -64,6 +64,7 @@ public:
     }
 
 private:
+    void checkKeys(int depth, int& places) const;
     YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name);
 
     YAML::Node node_;

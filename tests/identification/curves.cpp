@@ -158,6 +158,34 @@ TEST(MeasuringChain, OthersOnARamp)
     EXPECT_NEAR(at("lead", .2, 1), 3.6, 1e-12);
 }
 
+/// Numbers that are none, or none of a measurement, are errors that name line and field: above 1e30 squares overflow, and
+/// inf or nan would be rows that are silently left out.
+TEST(Table, RefusesWhatIsNoNumber)
+{
+    const TemporaryFolder folder;
+    for (const std::string bad : {"inf", "-inf", "nan", "1e308", "1e999", "0x1p3", "1..2", "mm", "infinity"})
+    {
+        for (const std::string before : {"t,m\n0,1\n", "t,m\n"})
+        {
+            const auto file = folder.write("measured.csv", before + "1," + bad + "\n2,3\n");
+            if (before == "t,m\n" && (bad == "mm" || bad == "1..2"))
+            {
+                continue; // a line of text before the numbers
+            }
+            try
+            {
+                readTable(file);
+                ADD_FAILURE() << "accepted: " << bad;
+            }
+            catch (const std::runtime_error& error)
+            {
+                EXPECT_NE(std::string(error.what()).find("measured.csv:"), std::string::npos) << error.what();
+                EXPECT_NE(std::string(error.what()).find('\'' + bad + '\''), std::string::npos) << error.what();
+            }
+        }
+    }
+}
+
 } // namespace
 
 } // namespace clepsydra::identification::tests

@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
 
 namespace clepsydra::identification::tests
@@ -187,6 +188,25 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"case: case", "case: nowhere", "study.yaml:2:", "no file"},
         {"study: s", "study: s\nbudgets: 3", "study.yaml:2:", "budget"},
         {"study: s", "study: [", "study.yaml:", "YAML"},
+        {"role: training", "role: traning", "study.yaml:9:", "did you mean 'training'?"},
+        {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "did you mean 'amplitude'?"},
+        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:", "did you mean 'beadDiameter'?"},
+        {"\"beadDiameter*", "\"beadDiametre*", "study.yaml:", "did you mean 'beadDiameter'?"},
+        {"study: s", "study: s\nseed: 1\nseed: 2", "study.yaml:3:", "given twice, in line 2"},
+        {"sd: 0.02", "sd: 0.02, mean: 0.2", "study.yaml:11:", "given twice"},
+        {"set: { friction: 0.2 }", "set: { friction: 0.2, friction: 0.3 }", "study.yaml:9:", "given twice"},
+        {"study: s", "study: s\nbudget:", "study.yaml:", "has no value"},
+        {"study: s", "study: s\nassumptions: &me [*me]", "study.yaml:", "holds itself"},
+        {"effects:\n", "effects:\n  - { name: size, chain: { gain: a }, actsIn: { medum: air } }\n",
+            "study.yaml:", "size"},
+        {"set: { friction: 0.2 }", "set: { friction: '0.2; seed 3' }", "study.yaml:9:", "no value of an entry"},
+        {"set: { friction: 0.2 }", "set: { friction: '$(touch executed)' }", "study.yaml:9:", "no value of an entry"},
+        {"set: { friction: 0.2 }", "measuring: {}", "study.yaml:9:", "did you mean 'measured'?"},
+        {"study: s", "study: s\nmagnitudeLimit: 0.5", "study.yaml:", "above 1"},
+        {"study: s", "study: s\nexecutor: { kind: slurm, options: '--mem=4G; touch executed' }",
+            "study.yaml:2:", "list of words"},
+        {"study: s", "study: s\nmeasured: { tme: { column: t, unit: s } }", "study.yaml:2:", "did you mean 'time'?"},
+        {"parameters:\n", "---\nparameters:\n", "study.yaml", "2 documents"},
     };
     for (const auto& mistake : mistakes)
     {
@@ -200,6 +220,26 @@ TEST(StudyFile, MistakesNameTheirLine)
         {
             EXPECT_NE(std::string(error.what()).find(mistake.where), std::string::npos) << error.what();
             EXPECT_NE(std::string(error.what()).find(mistake.what), std::string::npos) << error.what();
+        }
+    }
+}
+
+/// A misspelt tag would switch an effect off without a word.
+TEST(StudyFile, MisspeltTags)
+{
+    const std::string effect = "  - { name: drag, set: { friction: friction + a }, actsIn: { medium: air } }\n";
+    for (const auto& [tags, told] : std::map<std::string, std::string>{
+             {"tags: { medum: air }", "did you mean 'medum'?"}, {"tags: { medium: aire }", "did you mean 'air'?"}})
+    {
+        const TemporaryFolder folder;
+        try
+        {
+            studyOf(folder, replaced(goodStudy, "role: training", "role: training, " + tags) + effect);
+            ADD_FAILURE() << "accepted: " << tags;
+        }
+        catch (const StudyError& error)
+        {
+            EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
         }
     }
 }
