@@ -301,7 +301,7 @@ void Checkpoints::setAsideUnusable(const argList& args)
     }
 }
 
-Checkpoints::Checkpoints(const Time& time)
+Checkpoints::Checkpoints(const Time& time, bool writes)
     : time_(time)
 {
     if (time.controlDict().getOrDefault<label>("purgeWrite", 0) == 1)
@@ -317,7 +317,7 @@ Checkpoints::Checkpoints(const Time& time)
     const word start = time.timeName();
     if (beginning.empty() || beginning == start)
     {
-        startAfresh();
+        startAfresh(writes);
         return;
     }
     beginning_ = std::stod(beginning);
@@ -334,7 +334,7 @@ Checkpoints::Checkpoints(const Time& time)
     Info << "Resuming from the checkpoint of time " << start << nl << endl;
 }
 
-void Checkpoints::startAfresh()
+void Checkpoints::startAfresh(bool writes)
 {
     const fileName half = time_.path() / time_.timeName() / halfName;
     if (returnReduce(isFile(half), orOp<bool>()))
@@ -346,7 +346,7 @@ void Checkpoints::startAfresh()
             << "be kept of it into a new case" << exit(FatalError);
     }
     beginning_ = time_.value();
-    if (Pstream::master())
+    if (writes && Pstream::master())
     {
         mkDir(time_.globalPath() / folderName);
         writeWhole((time_.globalPath() / folderName / beginningName).c_str(), time_.timeName() + '\n');

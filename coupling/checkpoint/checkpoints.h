@@ -28,7 +28,8 @@ public:
 
     /// FatalError if the start time has no whole checkpoint although the case was run before. FatalIOError where
     /// purgeWrite would remove the last checkpoint before the next is there. Collective.
-    explicit Checkpoints(const Foam::Time& time);
+    /// \param writes  false where the case must stay as it is
+    explicit Checkpoints(const Foam::Time& time, bool writes = true);
 
     /// The beads to resume from; empty for a fresh start.
     const std::filesystem::path& beads() const
@@ -55,7 +56,7 @@ public:
     void complete(DemEngine& engine) const;
 
 private:
-    void startAfresh();
+    void startAfresh(bool writes);
 
     const Foam::Time& time_;
     std::filesystem::path resumeFrom_;

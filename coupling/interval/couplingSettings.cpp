@@ -203,7 +203,7 @@ std::vector<std::string> CouplingSettings::descriptions() const
         "drag in DEM    at every step, from the bead's own velocity and the frozen fluid"};
 }
 
-LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeFrom) const
+LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeFrom, bool writesNothing) const
 {
     const dictionary& dem = dict_.subDict("DEM");
     selectedModel(dem, "engine", {"liggghts"});
@@ -223,7 +223,8 @@ LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeF
     }
     checkMaterialValues(variables);
     setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));
-    setup.logFile = "log.liggghts";
+    setup.logFile = writesNothing ? "/dev/null" : "log.liggghts";
+    setup.writesNothing = writesNothing;
     setup.resumeFrom = resumeFrom;
     return setup;
 }

@@ -71,7 +71,8 @@ public:
 
     /// The engine's script and variables, paths made absolute for a decomposed case.
     /// \param resumeFrom  the beads' part of a checkpoint, empty for a fresh start.
-    LiggghtsSetup engineSetup(const std::filesystem::path& resumeFrom) const;
+    /// \param writesNothing  the engine leaves no files, its log neither
+    LiggghtsSetup engineSetup(const std::filesystem::path& resumeFrom, bool writesNothing = false) const;
 
     /// The file that the beads are written to at the end of the run, empty for none.
     Foam::fileName finalRestart() const;

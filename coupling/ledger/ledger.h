@@ -26,6 +26,12 @@ public:
     /// Counts the beads; see BeadCensus.
     void countBeads(const BeadsView& beads);
 
+    /// Over all ranks, when they were counted last.
+    long beads() const
+    {
+        return census_.now();
+    }
+
     /// The solid volume of all beads, what the cells hold of it before clipping, and what clipping cut off [m3].
     /// All are sums over the ranks. \param worstCell  words for the error.
     void bookSolidVolume(double beads, double cells, double clipped, const Foam::string& worstCell);

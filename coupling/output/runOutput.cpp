@@ -1,11 +1,15 @@
 #include "output/runOutput.h"
 
+#include "output/caseSizes.h"
 #include "output/costModel.h"
 #include "output/massInHopper.h"
 #include "output/startReport.h"
+#include "output/unreadFields.h"
 
 #include "IOmanip.H"
+#include "functionObject.H"
 #include "globalMeshData.H"
+#include "memInfo.H"
 
 #include <cstdlib>
 
@@ -15,7 +19,8 @@ namespace clepsydra
 using namespace Foam;
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints)
+    DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints,
+    bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
@@ -24,7 +29,18 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
       checkpoints_(checkpoints),
       stopRequest_(time)
 {
+    if (dryRun)
+    {
+        scratch_ = std::make_unique<ScratchFolder>();
+    }
+    intervals_ = (time_.endTime().value() - time_.value()) / settings_.couplingInterval();
     printReport(fluid, models);
+    if (models)
+    {
+        const double smoothingLength = models->distribution.smoothingModel().bandwidth();
+        checkCaseSizes(mesh_, engine_.beads(), smoothingLength, settings_.dict());
+        runChecks_ = std::make_unique<RunChecks>(mesh_, settings_, smoothingLength);
+    }
 }
 
 void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* models)
@@ -69,8 +85,22 @@ void RunOutput::printEstimate(double beads, bool withFluid) const
 
 void RunOutput::start()
 {
+    if (!checkpoints_.resumed())
+    {
+        reportUnreadFields(mesh_);
+    }
+    if (scratch_)
+    {
+        // Without a check for letters that no word should have: this one leads out of the case.
+        functionObject::outputPrefix =
+            word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
+    }
     // They check their entries now, before anything of an earlier run is replaced.
     time_.functionObjects().start();
+    if (scratch_)
+    {
+        return;
+    }
     if (settings_.writeVtk())
     {
         beadWriter_ = std::make_unique<BeadWriter>(time_);
@@ -80,7 +110,7 @@ void RunOutput::start()
 
 void RunOutput::checkDemStepOnce()
 {
-    if (!demStepChecked_)
+    if (!demStepChecked_ && interval_.ledger().beads() > 0)
     {
         const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), nullptr, mesh_);
         checkDemStep(scales, settings_.demDict());
@@ -91,6 +121,16 @@ void RunOutput::checkDemStepOnce()
 bool RunOutput::afterInterval()
 {
     const PhaseTimers::Scope timing = interval_.timers().time("output");
+    checkDemStepOnce();
+    if (runChecks_)
+    {
+        runChecks_->afterInterval(engine_.beads());
+    }
+    if (scratch_)
+    {
+        time_.endHere();
+        return false;
+    }
     if (stopRequest_.asked())
     {
         Info << "Asked to stop: writing a checkpoint" << endl;
@@ -117,7 +157,6 @@ bool RunOutput::afterInterval()
             beadWriter_->write(engine_.beads(), time_.value());
         }
         interval_.ledger().report();
-        checkDemStepOnce();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), atWriteTime);
     return atWriteTime;
@@ -137,8 +176,15 @@ void RunOutput::writeCheckpoint()
 void RunOutput::finish()
 {
     progress_.clear();
-    time_.functionObjects().end();
+    if (!scratch_)
+    {
+        time_.functionObjects().end();
+    }
     interval_.ledger().report();
+    if (runChecks_)
+    {
+        runChecks_->report();
+    }
 
     const PhaseTimers& timers = interval_.timers();
     double total = 0;
@@ -154,6 +200,15 @@ void RunOutput::finish()
              << nl;
     }
     Info << endl;
+    if (scratch_)
+    {
+        const memInfo memory;
+        const scalar mebibytes = returnReduce(scalar(memory.peak()), sumOp<scalar>()) / 1024;
+        Info << "Dry run: one interval took " << total << " s, so the " << round(intervals_) << " to "
+             << "endTime take about " << round(intervals_ * total) << " s as long as they are like it; memory "
+             << round(mebibytes) << " MiB in all. The case would start; nothing was written" << nl << endl;
+        return;
+    }
     const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
     interval_.ledger().writeSummary(timers, returnReduce(sent, sumOp<scalar>()));
 }

@@ -6,6 +6,8 @@
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
 #include "output/progress.h"
+#include "output/runChecks.h"
+#include "output/scratchFolder.h"
 
 #include <memory>
 
@@ -13,14 +15,16 @@ namespace clepsydra
 {
 
 /// What a run prints and writes: the report at its start, progress, and at write times OpenFOAM's fields, the beads
-/// for ParaView and the ledger's line.
+/// for ParaView and the ledger's line. Or, of a run that only tries the case (`-dryRun`), the report and what one
+/// interval has taken; files of function objects then go to a scratch folder.
 class RunOutput
 {
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     /// \param models  null in a dry run
     RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints);
+        DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints,
+        bool dryRun = false);
 
     /// Starts the function objects and writes the first beads. Collective; once all fields exist.
     void start();
@@ -59,6 +63,10 @@ private:
     std::unique_ptr<BeadWriter> beadWriter_;
     Progress progress_;
     StopRequest stopRequest_;
+    std::unique_ptr<RunChecks> runChecks_;
+    /// Empty unless the run only tries the case.
+    std::unique_ptr<ScratchFolder> scratch_;
+    double intervals_ = 0;
     /// False while there are no beads yet: pouring starts without.
     bool demStepChecked_ = false;
     bool stopped_ = false;

@@ -7,7 +7,9 @@
 #include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
 #include "mpiSession.h"
+#include "output/caseSizes.h"
 #include "output/runOutput.h"
+#include "runTimeSelection.h"
 #include "vectors.h"
 
 #include "constrainHbyA.H"
@@ -21,6 +23,21 @@ namespace
 
 using namespace clepsydra;
 
+/// What OpenFOAM's other solvers read here would be without effect.
+void requireLaminar(const Time& runTime, const dictionary& transportProperties)
+{
+    if (transportProperties.found("transportModel"))
+    {
+        selectedModel(transportProperties, "transportModel", {"Newtonian"});
+    }
+    const IOdictionary turbulence(
+        IOobject("turbulenceProperties", runTime.constant(), runTime, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE));
+    if (turbulence.found("simulationType"))
+    {
+        selectedModel(turbulence, "simulationType", {"laminar"});
+    }
+}
+
 FluidProperties readFluidProperties(const Time& runTime)
 {
     const IOdictionary transportProperties(
@@ -28,13 +45,10 @@ FluidProperties readFluidProperties(const Time& runTime)
     const uniformDimensionedVectorField g(
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
+    requireLaminar(runTime, transportProperties);
     const auto positive = [&](const word& entry, const dimensionSet& dimensions) {
         const dimensionedScalar value(entry, dimensions, transportProperties);
-        if (!(value.value() > 0))
-        {
-            FatalIOErrorInFunction(transportProperties)
-                << "Entry '" << entry << "' is " << value.value() << "; allowed: a number > 0" << exit(FatalIOError);
-        }
+        requirePositive(transportProperties, entry, value.value());
         return value.value();
     };
     const double density = positive("rho", dimDensity);
@@ -143,33 +157,41 @@ void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
 int main(int argc, char* argv[])
 {
     argList::addNote("Grains in water: PIMPLE with LIGGGHTS beads, coupled by constant/couplingProperties");
+    // OpenFOAM's own -dry-run puts a column of cells in the mesh's place; this tries the case as it is.
+    argList::addBoolOption("dryRun", "Check the case as a start does, solve one interval, write nothing");
 #include "setRootCase.H"
+    const bool dryRun = args.found("dryRun");
     const MpiSession mpi;
     chDir(args.globalPath());
-    const CaseLock lock(args.globalPath());
-    Checkpoints::setAsideUnusable(args);
+    std::unique_ptr<CaseLock> lock;
+    if (!dryRun)
+    {
+        lock = std::make_unique<CaseLock>(args.globalPath());
+        Checkpoints::setAsideUnusable(args);
+    }
 
     RunTime runTime(args);
 #include "createMesh.H"
 
     const CouplingSettings settings(runTime);
+    requireBeadsWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
-    const Checkpoints checkpoints(runTime);
+    const Checkpoints checkpoints(runTime, !dryRun);
     if (checkpoints.resumed())
     {
         runTime.resume(checkpoints.beginning());
     }
     try
     {
-        LiggghtsEngine engine(settings.engineSetup(checkpoints.beads()));
+        LiggghtsEngine engine(settings.engineSetup(checkpoints.beads(), dryRun));
         if (models)
         {
             requireSameGravity(fluid, engine);
         }
         CouplingInterval interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints);
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints, dryRun);
 
         if (models)
         {
@@ -182,7 +204,7 @@ int main(int argc, char* argv[])
 
         output.finish();
         // What comes after takes the beads for those of the end.
-        if (!output.stopped() && !settings.finalRestart().empty())
+        if (!dryRun && !output.stopped() && !settings.finalRestart().empty())
         {
             writeFinalBeads(engine, settings.finalRestart().c_str());
         }

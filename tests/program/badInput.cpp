@@ -340,7 +340,8 @@ TEST(BadInput, DemScript)
     expectLineRefused("pear_style gran model hertz", "Unknown command");
     expectLineRefused("timestep ${demStep}", "demStep");
     expectLineRefused("fix m all mesh/surface file DEM/none.stl type 1", "DEM/none.stl");
-    expectLineRefused("read_restart DEM/none.restart", "read_restart");
+    expectRefused([](TestCase& test) { test.dem.more = "read_restart DEM/none.restart"; },
+        {script + " line ", "Cannot open DEM/none.restart"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.dem.more = "include DEM/in.${none}"; },
         {script + " line ", "DEM/in.${none}", "allowed", "DEM/variables"}, SeenBy::engine);
     // What LIGGGHTS sees only when all lines are read.
@@ -350,6 +351,104 @@ TEST(BadInput, DemScript)
         {"LIGGGHTS stopped", "coefficientRestitution <= 1", script}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.dem.more = "unfix friction"; },
         {"LIGGGHTS stopped", "coefficientFriction", script}, SeenBy::engine);
+}
+
+/// Beads that LIGGGHTS leaves out without a word, divides by zero for (SIGFPE, no bead named), or lets explode out of
+/// the box ("the DEM box is too small"): each is named with its place.
+TEST(BadInput, PlacesOfBeads)
+{
+    const auto withBeadAt = [](const Eigen::Vector3d& place) {
+        return [=](TestCase& test) { test.dem.beads.push_back(place); };
+    };
+    expectRefused(
+        withBeadAt({0.0101, 0.0099, 0.02}), {"bead 2 is at the same place", "0.0099 0.02) m", script}, SeenBy::engine);
+    expectRefused(withBeadAt({0, 0.01, 0.03}),
+        {"bead 2 at (0 0.01 0.03) m is not a finite number", "exactly on a wall"}, SeenBy::engine);
+    expectRefused(
+        withBeadAt({0.1, 0.01, 0.03}), {script + " line ", "made no bead", "the box, (-0.002"}, SeenBy::engine);
+    expectRefused(
+        withBeadAt({0.0101, 0.0099, 0.0208}), {"Beads 1 and 2 at", "overlap by 0.0012 m", "allowed"}, SeenBy::engine);
+}
+
+/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0. What LIGGGHTS says of a command
+/// with variables comes with their values.
+TEST(BadInput, RunAndVariablesInDemScript)
+{
+    expectRefused([](TestCase& test) { test.dem.more = "run 10"; }, {script + " line ", "'run 10'", "without 'run'"},
+        SeenBy::engine);
+    expectRefused(
+        [](TestCase& test) {
+            test.dem.more = "variable inside equal -0.5\nregion mouth cylinder z 0 0 ${inside} 0 1 units box";
+        },
+        {script + " line ", "(region mouth cylinder z 0 0 -0.5 0 1 units box)", "Illegal region"}, SeenBy::engine);
+}
+
+/// Sizes that cannot go together, as lengths in mm do not, a model that other solvers know, a field by CFDEMcoupling's
+/// name: refused, where the program ran, or began a smoothing of thousands of sweeps.
+TEST(BadInput, SizesAndFilesThatNobodyReads)
+{
+    expectEntryRefused("DEM/variables/beadDiameter", "2", {"2 m", "the mesh spans"});
+    expectEntryRefused("DEM/variables/youngsModulus", "1e200", {"1e+200"});
+    expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/smoothingLength", "0.1"); },
+        {couplingProperties, "'smoothingLength' is 0.1 m", "the mesh spans"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationType", "RAS"); },
+        {"turbulenceProperties", "'RAS'", "laminar"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.file("0/voidfraction") = test.file("0/p"); },
+        {"0/voidfraction", "did you mean 'voidFraction'?", "allowed:"}, SeenBy::engine);
+}
+
+/// A pressure solver that stops at maxIter is told once, counted at the end, and ends a run that goes on like that. The
+/// program went on in silence.
+TEST(BadInput, UnconvergedPressure)
+{
+    TestCase test;
+    fillIn(test);
+    test.extraFiles.clear();
+    const std::string stopsEarly = "{ solver PCG; preconditioner DIC; tolerance 1e-10; relTol 0; maxIter 1; }";
+    test.solution().set("solvers/p", stopsEarly).set("solvers/pFinal", stopsEarly);
+    const Outcome few = test.run();
+    EXPECT_TRUE(few.succeeded()) << few.output;
+    EXPECT_TRUE(few.says("DICPCG stopped after 1 iterations")) << few.output;
+    EXPECT_TRUE(few.says("WARNING: the pressure was not solved to its tolerance in 4 of 4 intervals")) << few.output;
+
+    test.control().set("endTime", "0.2").set("startFrom", "latestTime");
+    test.write();
+    expectRefused(test.runCommand("$SOLVER"), {"DICPCG stopped after 1 iterations", "in the last 50 intervals"});
+}
+
+/// An interval in which a bead crosses many cells: warned of with the figure. A hundredfold deltaT went unnoticed.
+TEST(BadInput, LongInterval)
+{
+    TestCase test;
+    fillIn(test);
+    test.extraFiles.clear();
+    test.setTimes(0.05, 0.05, 0.05);
+    const Outcome outcome = test.run();
+    EXPECT_TRUE(outcome.says("in a coupling interval of 0.05 s")) << outcome.output;
+    EXPECT_TRUE(outcome.says("WARNING: beads moved farther")) << outcome.output;
+}
+
+/// `-dryRun` refuses what a start refuses, writes nothing (no table of function objects, no dump, no lock), replaces
+/// nothing of an earlier run, and prints what a run will take. One that only read the dictionaries would pass the
+/// second case.
+TEST(BadInput, DryRun)
+{
+    TestCase test;
+    fillIn(test);
+    test.dem.dumpEvery = 10;
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    const Files before = filesIn(test.path());
+    const Outcome outcome = test.runCommand("$SOLVER -dryRun");
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_TRUE(outcome.says("Dry run: one interval took")) << outcome.output;
+    EXPECT_TRUE(outcome.says("MiB")) << outcome.output;
+    EXPECT_EQ(before, filesIn(test.path()));
+
+    test.dem.beads.emplace_back(0.01, 0.01, 0.0412);
+    test.write();
+    const Files wrong = filesIn(test.path());
+    expectRefused(test.runCommand("$SOLVER -dryRun"), {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"});
+    EXPECT_EQ(wrong, filesIn(test.path()));
 }
 
 /// The same on two ranks: the message comes through and the program ends. An error that one rank alone reports would
@@ -364,7 +463,7 @@ TEST(BadInput, OnTwoRanks)
             test.dem.readRestart = "DEM/none.restart";
             test.dem.beads.clear();
         },
-        {script + " line ", "Cannot open restart file DEM/none.restart"}, SeenBy::engine, 2);
+        {script + " line ", "Cannot open DEM/none.restart"}, SeenBy::engine, 2);
     expectRefused([](TestCase& test) { test.dem.beads.emplace_back(0.01, 0.01, 0.0412); },
         {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"}, SeenBy::engine, 2);
 }

@@ -1,5 +1,6 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
+#include "engine/liggghts/floatingPointTraps.h"
 #include "engine/liggghts/hertzPairStyle.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/script.h"
@@ -7,6 +8,7 @@
 
 #include <atom.h>
 #include <comm.h>
+#include <domain.h>
 #include <error.h>
 #include <fix_external.h>
 #include <fix_gravity.h>
@@ -25,6 +27,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <sstream>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
@@ -40,6 +44,13 @@ namespace lmp = LAMMPS_NS;
 constexpr const char* stateFixId = "clepsydraState";
 constexpr const char* forceFixId = "clepsydraForce";
 constexpr const char* memoryFixId = "clepsydraMemory";
+
+std::string placeText(const double* place)
+{
+    std::ostringstream text;
+    text << '(' << place[0] << ' ' << place[1] << ' ' << place[2] << ") m";
+    return text.str();
+}
 
 /// First element of a LIGGGHTS array of rows, which its memory manager allocates in one piece.
 template<class T>
@@ -86,6 +97,7 @@ public:
             execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
         runScript(setup);
+        fresh_ = setup.resumeFrom.empty();
         for (const GroupChange& change : setup.groupChanges)
         {
             groupChangers_.emplace_back(*program_, change);
@@ -104,19 +116,106 @@ public:
     /// One LIGGGHTS command; \param where  named in the error.
     void execute(const std::string& command, const std::string& where)
     {
+        const FloatingPointTraps none(0);
+        trapsOutside_ = none.before();
         try
         {
             program_->input->one(command.c_str());
         }
+        catch (const DemEngineError&)
+        {
+            failed_ = true;
+            throw;
+        }
         catch (const LiggghtsStopped& stopped)
         {
             failed_ = true;
-            std::string message = where + ": LIGGGHTS stopped at '" + command + "': " + stopped.what();
+            std::string message =
+                where + ": LIGGGHTS stopped at '" + command + "'" + valuesIn(command) + ": " + stopped.what();
             if (stopped.onOneRankOnly())
             {
                 message += " (reported by one rank)";
             }
             throw DemEngineError(message);
+        }
+    }
+
+    /// A command of the script. LIGGGHTS makes no bead that is outside the box, and says nothing.
+    void executeOfScript(const ScriptCommand& command)
+    {
+        const auto before = program_->atom->natoms;
+        execute(command.text, command.where);
+        if (isCommand(command.text, "create_atoms") && program_->atom->natoms == before)
+        {
+            throw DemEngineError(command.where + ": '" + command.text + "'" + valuesIn(command.text)
+                                 + " made no bead; allowed: places in " + boxText());
+        }
+    }
+
+    /// LIGGGHTS forgets beads outside the box without a word.
+    void checkBeadsAreInBox() const
+    {
+        const lmp::Domain& domain = *program_->domain;
+        const lmp::Atom& atom = *program_->atom;
+        for (int bead = 0; bead < atom.nlocal; ++bead)
+        {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+                const double x = atom.x[bead][axis];
+                if (domain.periodicity[axis] == 0 && !(x >= domain.boxlo[axis] && x <= domain.boxhi[axis]))
+                {
+                    throw DemEngineError("Bead " + std::to_string(atom.tag[bead]) + " at " + placeText(atom.x[bead])
+                                         + " lies outside the DEM box; allowed: places in " + boxText());
+                }
+            }
+        }
+    }
+
+    /// Beads that start deep in each other fly apart as from an explosion.
+    void checkOverlaps()
+    {
+        constexpr double largestPart = 0.1;
+        const BeadPairs near = pairs();
+        for (Eigen::Index pair = 0; fresh_ && pair < near.list.cols(); ++pair)
+        {
+            const int i = near.list(0, pair);
+            const int j = near.list(1, pair);
+            const double smaller = 2 * std::min(near.radius[i], near.radius[j]);
+            const double overlap =
+                near.radius[i] + near.radius[j] - (near.position.col(i) - near.position.col(j)).norm();
+            if (overlap > largestPart * smaller)
+            {
+                const lmp::Atom& atom = *program_->atom;
+                std::ostringstream message;
+                message << "Beads " << atom.tag[i] << " and " << atom.tag[j] << " at " << placeText(atom.x[i])
+                        << " and " << placeText(atom.x[j]) << " overlap by " << overlap << " m, " << overlap / smaller
+                        << " of the smaller one's diameter; allowed at the start: at most " << largestPart;
+                throw DemEngineError(message.str());
+            }
+        }
+    }
+
+    /// Where all else but the fluid has given a bead a force (or a place) that is no number.
+    void checkFinite() const
+    {
+        const lmp::Atom& atom = *program_->atom;
+        const FloatingPointTraps none(0);
+        const Eigen::Index count = 3L * atom.nlocal;
+        if (atom.nlocal == 0
+            || std::isfinite(ConstView<double>(firstElement(atom.f), count).sum()
+                             + ConstView<double>(firstElement(atom.x), count).sum()))
+        {
+            return;
+        }
+        for (int bead = 0; bead < atom.nlocal; ++bead)
+        {
+            const double* const x = atom.x[bead];
+            const double* const f = atom.f[bead];
+            if (!std::isfinite(f[0] + f[1] + f[2] + x[0] + x[1] + x[2]))
+            {
+                throw DemEngineError("The force on bead " + std::to_string(atom.tag[bead]) + " at " + placeText(x)
+                                     + " is not a finite number" + causeOf(bead));
+            }
         }
     }
 
@@ -126,6 +225,7 @@ public:
         try
         {
             execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+            checkFinite();
         }
         catch (const DemEngineError& error)
         {
@@ -313,15 +413,46 @@ private:
         }
     }
 
+    /// The same command with its variables' values, for its error; nothing where it has none.
+    std::string valuesIn(const std::string& command) const
+    {
+        const std::string text = withVariables(command);
+        return text == command ? std::string() : " (" + text + ')';
+    }
+
+    std::string boxText() const
+    {
+        return "the box, " + placeText(program_->domain->boxlo) + " to " + placeText(program_->domain->boxhi);
+    }
+
+    /// Why a bead may have a force that is no number.
+    std::string causeOf(int bead) const
+    {
+        const lmp::Atom& atom = *program_->atom;
+        for (int other = 0; other < atom.nlocal + atom.nghost; ++other)
+        {
+            if (other != bead && std::equal(atom.x[bead], atom.x[bead] + 3, atom.x[other]))
+            {
+                return ": bead " + std::to_string(atom.tag[other]) + " is at the same place; allowed: beads apart";
+            }
+        }
+        return ": as where a bead's centre lies exactly on a wall, on an edge or a corner of one, or where the DEM "
+               "step is too long; allowed: beads beside walls, at most touching them";
+    }
+
     void runScript(const LiggghtsSetup& setup)
     {
         const std::filesystem::path& resumeFrom = setup.resumeFrom;
         for (const ScriptCommand& command : readScript(setup.script, setup.variables))
         {
+            if (setup.writesNothing && writesFiles(command.text))
+            {
+                continue;
+            }
             if (resumeFrom.empty() || !makesBeads(command.text))
             {
                 requireUndamagedInput(command);
-                execute(command.text, command.where);
+                executeOfScript(command);
             }
             else if (!boxMade_)
             {
@@ -334,6 +465,10 @@ private:
     /// LIGGGHTS goes round for ever in a restart file that has been cut.
     void requireUndamagedInput(const ScriptCommand& command)
     {
+        if (!isCommand(command.text, "read_restart"))
+        {
+            return;
+        }
         std::istringstream words(withVariables(command.text));
         std::string name;
         std::string file;
@@ -359,7 +494,14 @@ private:
         auto* text = static_cast<char*>(std::malloc(command.size() + 1));
         auto* work = static_cast<char*>(std::malloc(command.size() + 1));
         std::copy_n(command.c_str(), command.size() + 1, text);
-        program_->input->substitute(text, work, size, workSize, flagOfScripts);
+        try
+        {
+            program_->input->substitute(text, work, size, workSize, flagOfScripts);
+        }
+        catch (const LiggghtsStopped&)
+        {
+            // A variable that is not there: LIGGGHTS says so when it executes the command.
+        }
         std::string result = text;
         std::free(text);
         std::free(work);
@@ -369,6 +511,8 @@ private:
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
     {
         auto& engine = *static_cast<Implementation*>(self);
+        engine.checkFinite();
+        const FloatingPointTraps asOutside(engine.trapsOutside_);
         const BeadsView own = engine.beads();
         const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
             own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{},
@@ -386,6 +530,8 @@ private:
     int memorySize_ = 0;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
+    int trapsOutside_ = 0;
+    bool fresh_ = true;
     bool boxMade_ = false;
     bool failed_ = false;
 };
@@ -418,12 +564,15 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     implementation_->checkMaterials();
     // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
     implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
+    implementation_->checkBeadsAreInBox();
     prepare();
+    implementation_->checkOverlaps();
 }
 
 void LiggghtsEngine::prepare()
 {
     implementation_->execute("run 0 post no", "preparing");
+    implementation_->checkFinite();
 }
 
 void LiggghtsEngine::advance(int steps)

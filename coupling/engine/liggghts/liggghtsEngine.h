@@ -19,6 +19,8 @@ struct LiggghtsSetup
     /// Become `variable <name> equal|string <value>` before the first line of the script.
     std::vector<std::pair<std::string, std::string>> variables;
     std::filesystem::path logFile;
+    /// Leaves out the script's commands that write files.
+    bool writesNothing = false;
     /// A checkpoint to go on from; empty: the script's own beginning. With a checkpoint the script's first
     /// `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or changes beads
     /// (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.

@@ -70,6 +70,11 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
         {
             throw DemEngineError(where + ": '" + name + "' is not supported, the script is run line by line");
         }
+        if (name == "run" || name == "rerun" || name == "minimize")
+        {
+            throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
+                                 + "', for the coupling runs LIGGGHTS, from interval to interval");
+        }
         if (name == "include")
         {
             const std::vector<ScriptCommand> included =
@@ -83,6 +88,18 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
         text.clear();
     }
     return commands;
+}
+
+bool isCommand(const std::string& command, const std::string& name)
+{
+    return word(command, 0) == name;
+}
+
+bool writesFiles(const std::string& command)
+{
+    static const std::set<std::string> commands = {
+        "dump", "dump_modify", "undump", "restart", "write_restart", "write_data", "write_dump", "log", "shell"};
+    return commands.count(word(command, 0)) > 0;
 }
 
 bool makesBeads(const std::string& command)

@@ -23,6 +23,12 @@ struct ScriptCommand
 /// \throws DemEngineError where a file cannot be read, a file's name has another variable, or a command jumps.
 std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
+/// True for the command of this name.
+bool isCommand(const std::string& command, const std::string& name);
+
+/// True for the commands that write files, now or while LIGGGHTS runs, and do nothing else.
+bool writesFiles(const std::string& command);
+
 /// True for the commands whose result a checkpoint holds: those that make, read or change beads.
 bool makesBeads(const std::string& command);
 

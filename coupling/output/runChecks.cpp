@@ -1,0 +1,110 @@
+#include "output/runChecks.h"
+
+#include "PstreamReduceOps.H"
+#include "globalMeshData.H"
+#include "solverPerformance.H"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+/// As many intervals in a row without convergence end a run.
+constexpr long mostUnconvergedInRow = 50;
+
+/// So many lengths over which the fluid changes in one interval end a run.
+constexpr double farthestTravel = 10;
+
+} // namespace
+
+RunChecks::RunChecks(const fvMesh& mesh, const CouplingSettings& settings, double smoothingLength)
+    : mesh_(mesh),
+      interval_(settings.couplingInterval()),
+      reach_(std::max(smoothingLength, std::cbrt(gSum(mesh.cellVolumes()) / mesh.globalData().nTotalCells())))
+{}
+
+void RunChecks::afterInterval(const BeadsView& beads)
+{
+    ++intervals_;
+    checkConvergence();
+    checkTravel(beads);
+}
+
+void RunChecks::checkConvergence()
+{
+    // Of the velocity OpenFOAM does not keep whether it has converged.
+    List<solverPerformance> solutions;
+    if (!mesh_.solverPerformanceDict().readIfPresent("p", solutions) || solutions.empty()
+        || solutions.last().converged())
+    {
+        unconvergedInRow_ = 0;
+        return;
+    }
+    const solverPerformance& last = solutions.last();
+    ++unconverged_;
+    ++unconvergedInRow_;
+    std::ostringstream text;
+    text << "The pressure is not solved to its tolerance: " << last.solverName() << " stopped after "
+         << last.nIterations() << " iterations at a residual of " << last.finalResidual()
+         << ". More iterations (maxIter) or a larger tolerance in system/fvSolution, or a mesh of better quality";
+    const std::string message = text.str();
+    if (unconvergedInRow_ >= mostUnconvergedInRow)
+    {
+        FatalErrorInFunction << message.c_str() << " is needed; this was so in the last " << label(unconvergedInRow_)
+                             << " intervals" << exit(FatalError);
+    }
+    if (unconverged_ == 1 && Pstream::master())
+    {
+        WarningInFunction << message.c_str() << " may be needed. This is said once, and counted" << endl;
+    }
+}
+
+void RunChecks::checkTravel(const BeadsView& beads)
+{
+    Eigen::Index fastest = 0;
+    const double here = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff(&fastest) : 0;
+    const double speed = returnReduce(here, maxOp<scalar>());
+    const double travel = speed * interval_ / reach_;
+    if (travel <= 1)
+    {
+        return;
+    }
+    ++fast_;
+    std::ostringstream text;
+    text << "moves " << speed << " m/s, hence " << speed * interval_ << " m in a coupling interval of " << interval_
+         << " s. That is " << travel << " times the length over which the fluid changes (smoothing length or cell), "
+         << reach_ << " m, and the fluid at a bead is frozen for an interval";
+    if (travel > farthestTravel && here == speed)
+    {
+        FatalErrorInFunction << "Bead " << beads.id[fastest] << ' ' << text.str().c_str() << "; allowed: at most "
+                             << farthestTravel << " times, by a shorter couplingInterval (and deltaT), "
+                             << farthestTravel * reach_ / speed << " s here" << exit(FatalError);
+    }
+    if (fast_ == 1 && Pstream::master())
+    {
+        WarningInFunction << "A bead " << text.str().c_str() << ". This is said once, and counted" << endl;
+    }
+}
+
+void RunChecks::report() const
+{
+    if (unconverged_ > 0)
+    {
+        Info << "WARNING: the pressure was not solved to its tolerance in " << label(unconverged_) << " of "
+             << label(intervals_) << " intervals" << nl;
+    }
+    if (fast_ > 0)
+    {
+        Info << "WARNING: beads moved farther than the fluid's length of change in " << label(fast_) << " of "
+             << label(intervals_) << " intervals: couplingInterval is long" << nl;
+    }
+}
+
+} // namespace clepsydra

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "interval/couplingSettings.h"
+
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+/// What is looked at after every interval of a run with fluid: whether the pressure was solved to its tolerance,
+/// and whether beads move on little enough in an interval for the fluid at them to be taken as frozen.
+///
+/// Both are warnings at first, and counted; a run that goes on like that is ended by a FatalError.
+class RunChecks
+{
+public:
+    /// \param smoothingLength  [m], 0 without smoothing
+    RunChecks(const Foam::fvMesh& mesh, const CouplingSettings& settings, double smoothingLength);
+
+    /// Collective; when the fluid is solved.
+    void afterInterval(const BeadsView& beads);
+
+    /// How often there was reason to warn, where there was.
+    void report() const;
+
+private:
+    void checkConvergence();
+    void checkTravel(const BeadsView& beads);
+
+    const Foam::fvMesh& mesh_;
+    double interval_;
+    /// Over which the fluid at a bead changes [m].
+    double reach_;
+    long intervals_ = 0;
+    long unconverged_ = 0;
+    long unconvergedInRow_ = 0;
+    long fast_ = 0;
+};
+
+} // namespace clepsydra
