@@ -1,5 +1,7 @@
 #include "interval/couplingInterval.h"
 
+#include "vectors.h"
+
 #include <algorithm>
 
 namespace clepsydra
@@ -10,6 +12,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     : engine_(engine),
       stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
       interval_(settings.couplingInterval()),
+      fluidDensity_(fluid.density),
       timers_(timers),
       ledger_(settings.dict(), mesh.time()),
       observedBeads_(mesh, engine)
@@ -41,13 +44,15 @@ void CouplingInterval::start(const Foam::volVectorField& U, const Foam::volScala
 }
 
 void CouplingInterval::advance(
-    const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<void()>& solveFluid)
+    const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<Foam::vector()>& solveFluid)
 {
     advanceBeads();
     fluid_->beadsToFluid(interval_);
-    forgetGiven();
-    solveFluid();
+    const Foam::vector given = forgetGiven();
+    const Foam::vector received =
+        fluidDensity_ * interval_ * returnReduce(solveFluid(), Foam::sumOp<Foam::vector>());
     fluid_->carryMomentum(U, interval_);
+    ledger_.bookMomentum(given, -received, fluid_->momentumOutstanding());
     fluid_->updateAcceleration(U, interval_);
     fluid_->fluidToBeads(U, p);
 }
@@ -71,10 +76,15 @@ void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam:
     start(U, p);
 }
 
-void CouplingInterval::forgetGiven()
+Foam::vector CouplingInterval::forgetGiven()
 {
     const BeadsView beads = engine_.beads();
-    std::for_each(beads.state, beads.state + beads.size(), [](CouplingState& state) { state.given = GivenToFluid(); });
+    Vector3d sum = Vector3d::Zero();
+    std::for_each(beads.state, beads.state + beads.size(), [&](CouplingState& state) {
+        sum += state.given.impulse;
+        state.given = GivenToFluid();
+    });
+    return returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>());
 }
 
 void CouplingInterval::advanceBeads()

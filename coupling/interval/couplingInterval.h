@@ -23,8 +23,12 @@ public:
     /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
     void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// A run with fluid. \param solveFluid  solves the fluid's equations over the interval with fluid().
-    void advance(const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<void()>& solveFluid);
+    /// A run with fluid.
+    /// \param solveFluid  solves the fluid's equations over the interval with fluid(). It returns the integral over this
+    ///                    rank's cells of the beads' source as the solved momentum equation holds it [m4/s2], with which
+    ///                    the ledger compares what the beads were given.
+    void advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
+        const std::function<Foam::vector()>& solveFluid);
 
     /// A dry run.
     void advance();
@@ -51,11 +55,13 @@ public:
 
 private:
     void advanceBeads();
-    void forgetGiven();
+    /// \return its sum over the beads of all ranks [N s], taken from the beads themselves.
+    Foam::vector forgetGiven();
 
     DemEngine& engine_;
     const int stepsPerInterval_;
     const double interval_;
+    const double fluidDensity_;
     PhaseTimers& timers_;
     Ledger ledger_;
     ObservedBeads observedBeads_;

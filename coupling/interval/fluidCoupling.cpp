@@ -8,6 +8,7 @@
 #include "fvcDdt.H"
 #include "fvcGrad.H"
 #include "fvcLaplacian.H"
+#include "fvmSup.H"
 #include "zeroGradientFvPatchFields.H"
 
 #include <mpi.h>
@@ -250,25 +251,18 @@ void FluidCoupling::updateDdtVoidFraction(double interval)
     ddtVoidFraction_.primitiveFieldRef() = change / interval;
 }
 
-tmp<volVectorField> FluidCoupling::momentumSource(const volVectorField& U) const
+tmp<fvVectorMatrix> FluidCoupling::momentumSource(volVectorField& U) const
 {
     const dimensionedScalar interval("interval", dimTime, settings_.couplingInterval());
-    return beadSource_ + outstanding_ / interval + implicitCoefficient_ * U.oldTime();
+    return beadSource_ + outstanding_ / interval + implicitCoefficient_ * U.oldTime()
+           - fvm::Sp(implicitCoefficient_, U);
 }
 
 void FluidCoupling::carryMomentum(const volVectorField& U, double interval)
 {
-    const scalarField mass(fluid_.density * mesh_.V().field());
-    const vectorField demanded(interval * beadSource_.primitiveField() + outstanding_.primitiveField());
-    const vectorField excess(
-        interval * implicitCoefficient_.primitiveField() * (U.primitiveField() - U.oldTime().primitiveField()));
-    outstanding_.primitiveFieldRef() = excess;
+    outstanding_.primitiveFieldRef() =
+        interval * implicitCoefficient_.primitiveField() * (U.primitiveField() - U.oldTime().primitiveField());
     outstanding_.correctBoundaryConditions();
-
-    // The beads received minus what their sources ask of the fluid.
-    const vector beadsReceived = -gSum(vectorField(mass * interval * beadSource_.primitiveField()));
-    const vector fluidLost = -gSum(vectorField(mass * (demanded - excess)));
-    ledger_.bookMomentum(beadsReceived, fluidLost, momentumOutstanding());
 }
 
 void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
@@ -339,6 +333,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     const Eigen::MatrixXd atBeads = exchange_.sumAtHome(distribution_.sample(inCells));
     const BeadsView beads = engine_.beads();
     vector pressureForceOnBeads = vector::zero;
+    scalar pressureForceTurnover = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         FluidAtBead& fluid = beads.state[bead].fluid;
@@ -361,12 +356,15 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         {
             fluid.vorticity = atBeads.block<3, 1>(vorticity, bead);
         }
-        pressureForceOnBeads -= sphereVolume(beads.radius[bead]) * toFoam(fluid.pressureGradient);
+        const vector pressureForce = -sphereVolume(beads.radius[bead]) * toFoam(fluid.pressureGradient);
+        pressureForceOnBeads += pressureForce;
+        pressureForceTurnover += mag(pressureForce);
     }
     // In model B no bead feels it, and the fluid's equation holds no reaction to it.
     if (modelType_ == ModelType::A)
     {
-        ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid);
+        ledger_.bookPressureForce(returnReduce(pressureForceOnBeads, sumOp<vector>()), pressureForceInFluid,
+            returnReduce(pressureForceTurnover, sumOp<scalar>()));
     }
 }
 

@@ -8,6 +8,7 @@
 #include "ledger/ledger.h"
 #include "output/phaseTimers.h"
 
+#include "fvMatrices.H"
 #include "volFields.H"
 
 namespace clepsydra
@@ -18,7 +19,7 @@ namespace clepsydra
 /// Model A of Anderson & Jackson's equations, divided by the fluid's density:
 ///
 ///     d(eps)/dt + div(eps U) = 0
-///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource - implicitCoefficient U
+///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource
 ///
 /// p is kinematic and without its hydrostatic part. In model B grad p stands without eps, see ModelType.
 ///
@@ -41,7 +42,7 @@ public:
     /// \param interval  time over which they were given [s]; 0 at the start: void fraction only.
     void beadsToFluid(double interval);
 
-    /// Books what the implicit part of the source gave beyond the beads' impulse, to be made good next time.
+    /// Carries over what the implicit part of the source gave beyond the beads' impulse, to be made good next time.
     void carryMomentum(const Foam::volVectorField& U, double interval);
 
     /// DU/Dt over the interval that has just been solved, where a force needs it. It is kept as a field, so that a
@@ -68,14 +69,12 @@ public:
         return ddtVoidFraction_;
     }
 
-    /// Explicit part of the beads' source [m/s2], the compensation of the implicit part included.
-    Foam::tmp<Foam::volVectorField> momentumSource(const Foam::volVectorField& U) const;
+    /// The beads' source in the momentum equation [m/s2 times volume]: the impulse of the last interval, and with
+    /// `implicitCouple` what the drag on the fluid's own change of velocity adds, which is made good next time.
+    Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const;
 
-    /// Implicit part: coefficient of -U [1/s]; zero with `explicitCouple`.
-    const Foam::volScalarField& implicitCoefficient() const
-    {
-        return implicitCoefficient_;
-    }
+    /// What the beads' impulses ask of the fluid and it has not received yet [N s]; sum over the ranks. Collective.
+    Foam::vector momentumOutstanding() const;
 
     const BeadExchange& exchange() const
     {
@@ -83,8 +82,6 @@ public:
     }
 
 private:
-    /// Sum over the ranks [N s].
-    Foam::vector momentumOutstanding() const;
     void findCells(const BeadsView& beads);
     /// What the beads put into the cells, smoothed: rows as in GivenRow.
     Eigen::MatrixXd densitiesOfBeads();

@@ -28,9 +28,10 @@ Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
       solidVolumeTolerance_(tolerance(tolerances_, "solidVolumeTolerance", 1e-9)),
       clippedVolumeTolerance_(tolerance(tolerances_, "clippedVolumeTolerance", 1e-3)),
       momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
+      pressureForceTolerance_(tolerance(tolerances_, "pressureForceTolerance", 1e-9)),
       startTime_(time.timeName())
 {
-    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance"});
+    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance"});
 }
 
 void Ledger::countBeads(const BeadsView& beads)
@@ -80,9 +81,16 @@ void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, 
     }
 }
 
-void Ledger::bookPressureForce(const vector& onBeads, const vector& inFluid)
+void Ledger::bookPressureForce(const vector& onBeads, const vector& inFluid, double turnover)
 {
-    pressureForceError_ = mag(onBeads - inFluid) / max(mag(onBeads), SMALL);
+    pressureForceError_ = mag(onBeads - inFluid) / max(turnover, VSMALL);
+    largestPressureForceError_ = max(largestPressureForceError_, pressureForceError_);
+    if (pressureForceError_ > pressureForceTolerance_)
+    {
+        FatalErrorInFunction << "The pressure gradient gives the beads " << onBeads << " N, and the fluid's equation "
+                             << "holds the reaction to " << inFluid << " N: relative error " << pressureForceError_
+                             << ", pressureForceTolerance is " << pressureForceTolerance_ << exit(FatalError);
+    }
 }
 
 double Ledger::momentumError() const
@@ -112,7 +120,7 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
-        {"pressureForceError", pressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
+        {"pressureForceError", largestPressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
         {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
     writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');

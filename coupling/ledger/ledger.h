@@ -18,6 +18,7 @@ namespace clepsydra
 ///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads
 ///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / beads, at any one time
 ///     momentumTolerance       1e-9;   // |handed over - received - outstanding| / sum of |handed over|
+///     pressureForceTolerance  1e-9;   // |on beads - in fluid| / sum of |on a bead|
 class Ledger
 {
 public:
@@ -39,13 +40,15 @@ public:
     /// What an earlier process of this run had left outstanding [N s]; sum over the ranks.
     void openMomentum(const Foam::vector& outstanding);
 
-    /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, what the fluid's
-    /// equation took from the fluid, and what of the difference waits for the next interval.
+    /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, as they themselves
+    /// have it; what the beads' source took from the fluid, as it stood in the equation that was solved; and what of the
+    /// difference waits for the next interval. Each from a place of its own, so that what is lost between them is found.
     void bookMomentum(
         const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
 
     /// The force of the fluid's pressure gradient on all beads, and the reaction that the fluid's equation holds [N].
-    void bookPressureForce(const Foam::vector& onBeads, const Foam::vector& inFluid);
+    /// \param turnover  sum of the forces' magnitudes
+    void bookPressureForce(const Foam::vector& onBeads, const Foam::vector& inFluid, double turnover);
 
     /// One line to the log.
     void report() const;
@@ -62,6 +65,7 @@ private:
     const double solidVolumeTolerance_;
     const double clippedVolumeTolerance_;
     const double momentumTolerance_;
+    const double pressureForceTolerance_;
     const Foam::word startTime_;
 
     BeadCensus census_;
@@ -76,6 +80,7 @@ private:
     Foam::vector outstanding_ = Foam::vector::zero;
     double momentumTurnover_ = 0;
     double pressureForceError_ = 0;
+    double largestPressureForceError_ = 0;
 };
 
 } // namespace clepsydra

@@ -121,6 +121,7 @@ void runWithFluid(
     while (runTime.loop())
     {
         interval.advance(U, p, [&] {
+            vector ofBeads = vector::zero;
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
             while (pimple.loop())
@@ -130,7 +131,9 @@ void runWithFluid(
                 {
 #include "pEqn.H"
                 }
+                ofBeads = sum(mesh.V().field() * (beadSource & U)().primitiveField());
             }
+            return ofBeads;
         });
         if (output.afterInterval())
         {
