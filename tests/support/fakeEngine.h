@@ -11,7 +11,7 @@ namespace clepsydra::tests
 
 /// An engine without contacts: beads fall and feel the fluid. Each rank keeps the beads that it was given; none moves
 /// to another rank. Steps are explicit: velocity first, then position with the new velocity.
-class FakeEngine final : public DemEngine
+class FakeEngine : public DemEngine
 {
 public:
     explicit FakeEngine(double timeStep, const Vector3d& gravity = {0, 0, -9.81})
