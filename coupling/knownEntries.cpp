@@ -8,10 +8,13 @@
 #include "nearestWord.h"
 
 #include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iterator>
-#include <regex>
 #include <set>
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace clepsydra
 {
@@ -39,30 +42,57 @@ std::string textOf(const fileName& file)
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+// By hand and not by std::regex, which dies of lines of some 100 kB.
+
+bool isOfWord(char c)
+{
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
 /// All words of a text's `$word`, `${word}`, `$scope.word`.
 std::set<std::string> macrosIn(const std::string& text)
 {
-    static const std::regex macro(R"(\$[{:.\w]+)");
-    static const std::regex word(R"(\w+)");
     std::set<std::string> words;
-    for (std::sregex_iterator found(text.begin(), text.end(), macro), end; found != end; ++found)
+    for (auto at = std::find(text.begin(), text.end(), '$'); at != text.end(); at = std::find(at, text.end(), '$'))
     {
-        const std::string path = found->str();
-        for (std::sregex_iterator part(path.begin(), path.end(), word); part != end; ++part)
+        ++at;
+        while (at != text.end() && (isOfWord(*at) || *at == '{' || *at == ':' || *at == '.'))
         {
-            words.insert(part->str());
+            const auto end = std::find_if_not(at, text.end(), isOfWord);
+            if (end != at)
+            {
+                words.emplace(at, end);
+            }
+            at = end == at ? at + 1 : end;
         }
     }
     return words;
 }
 
+/// Whether a line is an #include, #ifeq and the like, and no entry.
+bool isDirective(const std::string& line)
+{
+    const auto at = line.find_first_not_of(" \t");
+    const std::vector<std::string> directives = {
+        "#include", "#sinclude", "#if", "#else", "#endif", "#remove", "#inputMode"};
+    return at != std::string::npos
+           && std::any_of(directives.begin(), directives.end(),
+               [&](const std::string& directive) { return line.compare(at, directive.size(), directive) == 0; });
+}
+
 /// The keywords that stand in a file itself, not in those that it includes.
 wordHashSet keywordsIn(const std::string& text)
 {
-    static const std::regex directive(R"((^|\n)[ \t]*#(s?include|if|else|endif|remove|inputMode)[^\n]*)");
+    std::istringstream lines(text);
+    std::string entries;
+    for (std::string line; std::getline(lines, line);)
+    {
+        entries += isDirective(line) ? "\n" : line + '\n';
+    }
     const int before = entry::disableFunctionEntries;
     entry::disableFunctionEntries = 1;
-    const dictionary raw(IStringStream(std::regex_replace(text, directive, "\n"))());
+    IStringStream stream(entries);
+    const dictionary raw(stream);
     entry::disableFunctionEntries = before;
     return wordHashSet(raw.toc());
 }

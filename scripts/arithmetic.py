@@ -7,7 +7,8 @@ import operator
 OPERATORS = {ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
              ast.Pow: operator.pow, ast.USub: operator.neg, ast.UAdd: operator.pos}
 FUNCTIONS = {"sqrt": math.sqrt, "pow": math.pow, "exp": math.exp, "log": math.log, "sin": math.sin, "cos": math.cos,
-             "tan": math.tan, "mag": abs, "min": min, "max": max, "round": round, "pi": lambda: math.pi}
+             "tan": math.tan, "mag": abs, "min": min, "max": max, "pi": lambda: math.pi,
+             "round": lambda value: float(round(value))}  # a float: powers of whole numbers may take for ever
 MOST_CHARACTERS = 1000
 
 

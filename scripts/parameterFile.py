@@ -21,7 +21,8 @@ import wholeFiles
 
 VALUE = r'(?:[^;\n"/{}#]|"[^"\n]*"|/(?![/*])|\$\{\w+\}|\#eval[ \t]*\{[^;\n{}#]*\})*'
 PIECE = re.compile(r"(?P<between>\s+|//[^\n]*|/\*.*?\*/|FoamFile\s*\{[^{}]*\}|\#include\w*[ \t]+\"[^\"\n]*\")"
-                   rf"|(?P<name>[A-Za-z_]\w*)(?P<gap>(?:[ \t]+(?={VALUE};)|(?=;)))(?P<value>{VALUE});", re.DOTALL)
+                   # All of the blanks or none: to try each number of them would take for ever on a long line.
+                   rf"|(?P<name>[A-Za-z_]\w*)(?P<gap>[ \t]+(?![ \t])(?={VALUE};)|(?=;))(?P<value>{VALUE});", re.DOTALL)
 EVALUATED = re.compile(r"#eval[ \t]*\{(.*)\}")
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 

@@ -3,6 +3,7 @@
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
 #include "forces/forceModel.h"
+#include "interval/dictionaryText.h"
 
 #include "OSspecific.H"
 #include "runTimeSelection.h"
@@ -116,11 +117,19 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
     return read;
 }
 
+/// A file that is not there is refused by the IOdictionary that is made from this.
+IOobject couplingProperties(const Time& time)
+{
+    IOobject object("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
+    checkDictionaryText(typeFilePath<IOdictionary>(object));
+    return object;
+}
+
 } // namespace
 
 CouplingSettings::CouplingSettings(const Time& time)
     : time_(time),
-      dict_(IOobject("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE))
+      dict_(couplingProperties(time))
 {
     requireKnownEntries(dict_,
         {"fluid", "couplingInterval", "modelType", "voidFractionModel", "smoothingModel", "selfDisturbance",

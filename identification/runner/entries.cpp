@@ -2,9 +2,11 @@
 
 #include "files/wholeFile.h"
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <iomanip>
-#include <regex>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -15,16 +17,39 @@ namespace clepsydra::identification
 namespace
 {
 
-const std::regex& entryLine()
+/// Parts of a line `name value; anything`.
+struct EntryLine
 {
-    static const std::regex pattern(R"(^(\s*)(\w+)(\s+)([^;/{}]+);(.*)$)");
-    return pattern;
-}
+    std::string before; // blanks, name, blanks
+    std::string name;
+    std::string value;
+    std::string after; // from the semicolon on
+};
+
+constexpr const char* blanks = " \t\r\f\v";
 
 std::string stripped(const std::string& text)
 {
     const auto end = text.find_last_not_of(" \t\r");
     return end == std::string::npos ? "" : text.substr(0, end + 1);
+}
+
+/// Character by character: std::regex dies of a line of some 100 kB, by a call for each character.
+std::optional<EntryLine> entryLine(const std::string& line)
+{
+    const auto isOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+    const auto name = std::min(line.find_first_not_of(blanks), line.size());
+    const auto nameEnd = static_cast<std::size_t>(
+        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(name), line.end(), isOfWord) - line.begin());
+    const auto value = line.find_first_not_of(blanks, nameEnd);
+    const auto valueEnd = line.find_first_of(";/{}", nameEnd);
+    if (name == nameEnd || value == nameEnd || valueEnd == std::string::npos || line[valueEnd] != ';'
+        || value >= valueEnd)
+    {
+        return std::nullopt;
+    }
+    return EntryLine{line.substr(0, value), line.substr(name, nameEnd - name),
+        stripped(line.substr(value, valueEnd - value)), line.substr(valueEnd)};
 }
 
 } // namespace
@@ -37,12 +62,11 @@ Entries readEntries(const std::filesystem::path& file)
         throw std::runtime_error(file.string() + ": cannot be read");
     }
     Entries entries;
-    std::smatch parts;
     for (std::string line; std::getline(lines, line);)
     {
-        if (std::regex_match(line, parts, entryLine()))
+        if (const auto entry = entryLine(line))
         {
-            entries[parts[2]] = stripped(parts[4]);
+            entries[entry->name] = entry->value;
         }
     }
     return entries;
@@ -57,15 +81,14 @@ void replaceEntries(const std::filesystem::path& file, const Entries& changes)
     }
     std::ostringstream changed;
     std::set<std::string> done;
-    std::smatch parts;
     for (std::string line; std::getline(lines, line);)
     {
-        if (std::regex_match(line, parts, entryLine()))
+        if (const auto entry = entryLine(line))
         {
-            if (const auto change = changes.find(parts[2]); change != changes.end())
+            if (const auto change = changes.find(entry->name); change != changes.end())
             {
                 done.insert(change->first);
-                line = parts[1].str() + change->first + parts[3].str() + change->second + ';' + parts[5].str();
+                line = entry->before + change->second + entry->after;
             }
         }
         changed << line << '\n';

@@ -2,7 +2,7 @@
 #include "study/readStudy.h"
 
 #include <algorithm>
-#include <regex>
+#include <cctype>
 
 namespace clepsydra::identification
 {
@@ -22,12 +22,27 @@ Expression formula(const YamlPlace& place)
     }
 }
 
+/// Whether the amplitude a stands in the text by itself, as it does in a formula.
+bool namesTheAmplitude(const std::string& text)
+{
+    const auto isOfName = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+    };
+    for (auto at = text.find('a'); at != std::string::npos; at = text.find('a', at + 1))
+    {
+        if ((at == 0 || !isOfName(text[at - 1])) && (at + 1 == text.size() || !isOfName(text[at + 1])))
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// A word of a switch that is meant as a formula would reach the case as it stands, and every run with it would fail.
 void refuseFormula(const YamlPlace& place)
 {
-    static const std::regex amplitude(R"((^|[^\w.])a($|[^\w.]))");
     const std::string word = place.text();
-    if (std::regex_search(word, amplitude) && word.find_first_of("+-*^") != std::string::npos)
+    if (namesTheAmplitude(word) && word.find_first_of("+-*^") != std::string::npos)
     {
         place.fail("'" + word
                    + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "

@@ -1,11 +1,39 @@
 #include "study/yaml.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
 #include <utility>
 
 namespace clepsydra::identification
 {
+
+namespace
+{
+
+/// A line `---` or `...` ends a document wherever it stands. YAML::LoadAll never returns from some texts, as `,a`.
+void refuseMoreDocuments(const std::filesystem::path& file)
+{
+    std::ifstream lines(file);
+    bool content = false;
+    bool ended = false;
+    for (std::string line; std::getline(lines, line);)
+    {
+        const bool isMark = (line.rfind("---", 0) == 0 || line.rfind("...", 0) == 0)
+                            && (line.size() == 3 || std::isspace(static_cast<unsigned char>(line[3])) != 0);
+        const auto first = line.find_first_not_of(" \t\r", isMark ? 3 : 0);
+        ended = ended || (isMark && content);
+        const bool isContent = first != std::string::npos && line[first] != '#' && line[first] != '%';
+        if (isContent && ended)
+        {
+            throw StudyError(file.string() + ": holds several documents (parts between lines '---'); allowed is one");
+        }
+        content = content || isContent;
+    }
+}
+
+} // namespace
 
 YamlPlace::YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name)
     : node_(node),
@@ -17,13 +45,8 @@ YamlPlace YamlPlace::fileAt(const std::filesystem::path& file)
 {
     try
     {
-        const auto documents = YAML::LoadAllFromFile(file.string());
-        if (documents.size() != 1)
-        {
-            throw StudyError(file.string() + ": holds " + std::to_string(documents.size())
-                             + " documents (parts between lines '---'); allowed is one");
-        }
-        YamlPlace place(documents.front(), std::make_shared<const std::filesystem::path>(file), "");
+        refuseMoreDocuments(file);
+        YamlPlace place(YAML::LoadFile(file.string()), std::make_shared<const std::filesystem::path>(file), "");
         int places = 0;
         place.checkKeys(0, places);
         return place;

@@ -206,7 +206,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"study: s", "study: s\nexecutor: { kind: slurm, options: '--mem=4G; touch executed' }",
             "study.yaml:2:", "list of words"},
         {"study: s", "study: s\nmeasured: { tme: { column: t, unit: s } }", "study.yaml:2:", "did you mean 'time'?"},
-        {"parameters:\n", "---\nparameters:\n", "study.yaml", "2 documents"},
+        {"parameters:\n", "---\nparameters:\n", "study.yaml", "several documents"},
     };
     for (const auto& mistake : mistakes)
     {

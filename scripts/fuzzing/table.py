@@ -1,0 +1,36 @@
+"""The numbers of runs, as text and as a file that sums them up."""
+
+import datetime
+import json
+import subprocess
+
+from .builds import REPOSITORY
+
+#: What is added up where the same target was run at the same commit before.
+SUMMED = ("executions", "seconds", "findings")
+
+
+def text(rows):
+    lines = [f"{'target':20}{'executions':>12}{'seconds':>9}{'edges':>14}{'former finds':>14}{'findings':>10}"]
+    for row in rows:
+        lines.append(f"{row['target']:20}{row['executions']:12d}{row['seconds']:9d}"
+                     f"{row['edgesReached']:7d}/{row['edges']:6d}{row['formerFinds']:14d}{row['findings']:10d}")
+    return "\n".join(lines)
+
+
+def addTo(file, rows):
+    known = json.loads(file.read_text())["runs"] if file.exists() else []
+    for row in rows:
+        row = {**row, "commit": commit(), "date": datetime.date.today().isoformat()}
+        same = next((old for old in known if (old["target"], old["commit"]) == (row["target"], row["commit"])), None)
+        if same:
+            row.update({key: same[key] + row[key] for key in SUMMED})
+            known.remove(same)
+        known.append(row)
+    total = {key: sum(row[key] for row in known) for key in SUMMED}
+    file.write_text(json.dumps({"total": total, "runs": known}, indent=1) + "\n")
+
+
+def commit():
+    command = ["git", "-C", REPOSITORY, "describe", "--always", "--dirty", "--abbrev=12", "--exclude=*"]
+    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True).stdout.strip()
