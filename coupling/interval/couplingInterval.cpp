@@ -44,15 +44,17 @@ void CouplingInterval::start(const Foam::volVectorField& U, const Foam::volScala
 }
 
 void CouplingInterval::advance(
-    const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<Foam::vector()>& solveFluid)
+    const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<SolvedFluid()>& solveFluid)
 {
     advanceBeads();
     fluid_->beadsToFluid(interval_);
     const Foam::vector given = forgetGiven();
-    const Foam::vector received =
-        fluidDensity_ * interval_ * returnReduce(solveFluid(), Foam::sumOp<Foam::vector>());
+    const SolvedFluid solved = solveFluid();
     fluid_->carryMomentum(U, interval_);
-    ledger_.bookMomentum(given, -received, fluid_->momentumOutstanding());
+    ledger_.bookMomentum(given,
+        -fluidDensity_ * interval_ * returnReduce(solved.sourceOfBeads, Foam::sumOp<Foam::vector>()),
+        fluid_->momentumOutstanding());
+    ledger_.bookContinuity(interval_ * solved.continuityError());
     fluid_->updateAcceleration(U, interval_);
     fluid_->fluidToBeads(U, p);
 }

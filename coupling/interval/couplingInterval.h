@@ -10,6 +10,15 @@
 namespace clepsydra
 {
 
+/// What the ledger asks of the fluid's equations as they were solved.
+struct SolvedFluid
+{
+    /// Integral over this rank's cells of the beads' source in the momentum equation [m4/s2].
+    Foam::vector sourceOfBeads;
+    /// d(eps)/dt + div(eps U) [1/s]: what is left of the continuity equation.
+    Foam::tmp<Foam::volScalarField> continuityError;
+};
+
 /// One coupling interval from start to end: the only place where the order of its steps is written.
 class CouplingInterval
 {
@@ -23,12 +32,9 @@ public:
     /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
     void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// A run with fluid.
-    /// \param solveFluid  solves the fluid's equations over the interval with fluid(). It returns the integral over this
-    ///                    rank's cells of the beads' source as the solved momentum equation holds it [m4/s2], with which
-    ///                    the ledger compares what the beads were given.
-    void advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
-        const std::function<Foam::vector()>& solveFluid);
+    /// A run with fluid. \param solveFluid  solves the fluid's equations over the interval with fluid().
+    void advance(
+        const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<SolvedFluid()>& solveFluid);
 
     /// A dry run.
     void advance();

@@ -31,7 +31,8 @@ Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
       pressureForceTolerance_(tolerance(tolerances_, "pressureForceTolerance", 1e-9)),
       startTime_(time.timeName())
 {
-    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance"});
+    requireKnownEntries(
+        tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance"});
 }
 
 void Ledger::countBeads(const BeadsView& beads)
@@ -93,6 +94,13 @@ void Ledger::bookPressureForce(const vector& onBeads, const vector& inFluid, dou
     }
 }
 
+void Ledger::bookContinuity(const volScalarField& error)
+{
+    localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
+    globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
+    cumulativeContinuityError_ += globalContinuityError_;
+}
+
 double Ledger::momentumError() const
 {
     return momentumTurnover_ > 0
@@ -105,7 +113,9 @@ void Ledger::report() const
     Info << "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (lost " << census_.lost()
          << "), solid volume " << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
          << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", outstanding "
-         << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_ << endl;
+         << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_
+         << ", continuity error local " << localContinuityError_ << ", global " << globalContinuityError_
+         << ", cumulative " << cumulativeContinuityError_ << endl;
 }
 
 void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) const
@@ -120,9 +130,10 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
-        {"pressureForceError", largestPressureForceError_}, {"wallSeconds", time_.elapsedClockTime()},
-        {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
-        {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
+        {"pressureForceError", largestPressureForceError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
+        {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()},
+        {"phaseSeconds", timers.wallSeconds()}, {"phaseProcessorSeconds", timers.processorSeconds()},
+        {"exchangedBytes", exchangedBytes}};
     writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');
 }
 

@@ -6,6 +6,7 @@
 #include "Time.H"
 #include "dictionary.H"
 #include "vector.H"
+#include "volFields.H"
 
 #include <string>
 
@@ -50,6 +51,10 @@ public:
     /// \param turnover  sum of the forces' magnitudes
     void bookPressureForce(const Foam::vector& onBeads, const Foam::vector& inFluid, double turnover);
 
+    /// One interval's error of the continuity equation times the interval [-], which OpenFOAM's solvers print: fluid made
+    /// of nothing, per volume.
+    void bookContinuity(const Foam::volScalarField& error);
+
     /// One line to the log.
     void report() const;
 
@@ -80,6 +85,10 @@ private:
     Foam::vector outstanding_ = Foam::vector::zero;
     double momentumTurnover_ = 0;
     double pressureForceError_ = 0;
+    /// Mean magnitude, mean, and sum of the means over the intervals.
+    double localContinuityError_ = 0;
+    double globalContinuityError_ = 0;
+    double cumulativeContinuityError_ = 0;
     double largestPressureForceError_ = 0;
 };
 

@@ -133,7 +133,8 @@ void runWithFluid(
                 }
                 ofBeads = sum(mesh.V().field() * (beadSource & U)().primitiveField());
             }
-            return ofBeads;
+            return SolvedFluid{
+                ofBeads, beadsOnFluid.ddtVoidFraction() + fvc::div(fvc::interpolate(voidFraction) * phi)};
         });
         if (output.afterInterval())
         {

@@ -96,7 +96,8 @@ public:
             fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
             solved(source);
             solve(fvm::ddt(*U_) == source);
-            return sum(mesh_->V().field() * (source & *U_)().primitiveField());
+            return SolvedFluid{sum(mesh_->V().field() * (source & *U_)().primitiveField()),
+                tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction())};
         });
     }
 
