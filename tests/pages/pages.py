@@ -1,0 +1,152 @@
+#!/usr/bin/python3
+"""Runs the commands of the pages (every *.md of the repository) as a reader does who has just opened a shell.
+
+usage: pages.py table BUILD                 each command of the pages has its row in commands.yaml, each row its command,
+                                            and the tests that rows name are tests of BUILD
+       pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
+
+A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with one of
+PROGRAMS. It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLE = Path(__file__).with_name("commands.yaml")
+PROGRAMS = (".", "Allrun", "closures", "cmake", "ctest", "mpirun", "pimpleDemFoam", "touch", "traceResidual")
+KINDS = ("run", "long", "test")
+PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+
+
+def main():
+    if len(sys.argv) == 3 and sys.argv[1] == "table":
+        checkTable(Path(sys.argv[2]))
+    elif len(sys.argv) in (5, 6) and sys.argv[1] == "run":
+        runPage(sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4]), "long" if sys.argv[5:] == ["--long"] else "run")
+    else:
+        sys.exit(__doc__)
+
+
+def pages():
+    """Path in the repository -> text."""
+    made = re.compile(r"\.dependencies/|build[^/]*/|.*/(work|runs|stages)/")
+    found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
+    return {page: (ROOT / page).read_text() for page in found if not made.match(page)}
+
+
+def commands(page, text):
+    """Of a page, in its order: the lines of its indented blocks, then what stands in backquotes."""
+    plain = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+    indented = re.sub(r" *\\\n *", " ", "\n".join(re.findall(r"^    .*$", plain, flags=re.M)))
+    lines = [re.sub(r"^ *(\$ )?|\s+#.*$", "", line) for line in indented.splitlines()]
+    spans = re.findall(r"`([^`]+)`", re.sub(r"^    .*$", "", plain, flags=re.M))
+    typed = [" ".join(line.split()) for line in lines + spans]
+    return list(dict.fromkeys(line for line in typed if isCommand(page, line)))
+
+
+def isCommand(page, line):
+    """A program by its name alone is only spoken of."""
+    first, *arguments = line.split() or [""]
+    if first.startswith("./"):
+        return True
+    places = [place / first for place in (ROOT, (ROOT / page).parent)]
+    program = first in PROGRAMS or any(place.is_file() and os.access(place, os.X_OK) for place in places)
+    return program and not first.startswith("build/") and ("/" in first or bool(arguments))
+
+
+def readTable():
+    table = yaml.safe_load(TABLE.read_text())
+    for page, rows in table.items():
+        for command, row in rows.items():
+            if len(set(row) & set(KINDS)) != 1:
+                raise SystemExit(f"commands.yaml: {page}: '{command}' needs one of {', '.join(KINDS)}")
+    return table
+
+
+def checkTable(build):
+    table, wrong = readTable(), []
+    registered = registeredTests(build)
+    for page, text in pages().items():
+        found, rows = commands(page, text), table.pop(page, {})
+        wrong += [f"{page}: '{command}' has no row" for command in found if command not in rows]
+        wrong += [f"{page}: '{command}' is not on the page" for command in rows if command not in found]
+        wrong += [f"{page}: '{command}': there is no test '{test}'" for command, row in rows.items()
+                  for test in row.get("test", []) if test not in registered]
+    wrong += [f"{page}: is no page" for page in table]
+    if wrong:
+        raise SystemExit("commands.yaml:\n  " + "\n  ".join(wrong))
+
+
+def registeredTests(build):
+    shown = subprocess.run(["ctest", "--test-dir", build, "--show-only=json-v1"], check=True, capture_output=True, text=True)
+    return {test["name"] for test in json.loads(shown.stdout)["tests"]}
+
+
+def runPage(page, build, headers, kind):
+    rows = readTable()[page]
+    with tempfile.TemporaryDirectory(prefix="clepsydra-pages-") as folder:
+        home = copyRepository(Path(folder) / "clepsydra")
+        linkBuild(home / "build", build)
+        (home / ".dependencies").symlink_to(headers)
+        failed = [command for command, row in rows.items() if kind in row and not works(command, row, kind, home, page)]
+    if failed:
+        raise SystemExit(f"{page}: as documented, these fail: " + "; ".join(failed))
+
+
+def copyRepository(home):
+    """The files as they are now, without what git ignores, and a git of their own: some commands ask it what is committed."""
+    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], check=True,
+                            capture_output=True, text=True).stdout.split("\0")
+    subprocess.run(["git", "clone", "--quiet", "--shared", "--no-checkout", ROOT, home], check=True)
+    subprocess.run(["git", "-C", home, "reset", "--quiet"], check=True)
+    for name in filter(None, listed):
+        if os.path.lexists(ROOT / name):
+            (home / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(ROOT / name, home / name, follow_symlinks=False)
+    return home
+
+
+def linkBuild(folder, build):
+    """What was built, as a build that is up to date: scripts/setup must not build anew beneath the other tests."""
+    folder.mkdir()
+    for part in ("bin", "lib"):
+        (folder / part).symlink_to(build / part)
+    (folder / "CMakeCache.txt").write_text("CMAKE_PROJECT_NAME:STATIC=clepsydra\nCMAKE_GENERATOR:INTERNAL=Ninja\n"
+                                           f"CMAKE_MAKE_PROGRAM:FILEPATH={shutil.which('ninja')}\n")
+    (folder / "build.ninja").write_text("build all: phony\n")
+    (folder / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
+
+
+def works(command, row, kind, home, page):
+    """Runs one command: `run`/`long` is the script to run, `{}` in it the command with its `words` replaced."""
+    typed = command
+    for word, by in row.get("words", {}).items():
+        if word not in typed:
+            raise SystemExit(f"commands.yaml: {page}: no '{word}' in '{command}'")
+        typed = typed.replace(word, by)
+    script = row[kind].replace("{}", typed)
+    print(f"--- {page}: {command}\n{script}", flush=True)
+    outcome = subprocess.run(["bash", "-c", "set -e\n" + script], cwd=home / row.get("in", "."), text=True,
+                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                             env={"HOME": os.environ["HOME"], "PATH": PATH, "TERM": "dumb"})
+    print(outcome.stdout, flush=True)
+    if outcome.returncode != row.get("status", 0):
+        print(f"exit status {outcome.returncode}, not {row.get('status', 0)}")
+        return False
+    if not re.search(row.get("says", ""), outcome.stdout):
+        print(f"nothing it says matches '{row['says']}'")
+        return False
+    return True
+
+
+main()
