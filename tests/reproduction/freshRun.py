@@ -19,6 +19,10 @@ import campaignResults
 import flow
 
 DRY, SUBMERGED = 0.8, 0.6       # s
+WINDOW = (0.95, 0.85)           # of the fill, which is four beads deep: hence not the rates of the paper's
+# g/s in WINDOW: mean and standard deviation of three packings (100003, 100019, 100043). Other rounding is another packing.
+RATES = {"dry": (7.21, 0.21), "submerged": (5.46, 0.46)}
+OF_ONE_MORE = 3 * np.sqrt(1 + 1 / 3)    # deviations that one packing more may be from the mean of three
 
 
 class FreshRun(unittest.TestCase):
@@ -51,6 +55,14 @@ class FreshRun(unittest.TestCase):
         print(f"left in 0.5 s: dry {left['dry']:.2f} g, submerged {left['submerged']:.2f} g")
         self.assertGreater(left["submerged"], 1)
         self.assertLess(left["submerged"], 0.9 * left["dry"])
+
+    def testRates(self):
+        """A law of drag or friction that is not the case's moves them by more than packings differ."""
+        for stage, (expected, deviation) in RATES.items():
+            run = self.runs[stage]
+            rate = 1e3 * flow.meanRate(run.time, run.mass, *WINDOW)
+            print(f"{stage}: {rate:.2f} g/s, expected {expected} +- {OF_ONE_MORE * deviation:.2f}")
+            self.assertAlmostEqual(rate, expected, delta=OF_ONE_MORE * deviation, msg=stage)
 
     def testNoBeadIsFasterThanItCanFall(self):
         """Beads that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
