@@ -5,7 +5,7 @@
 #include "IStringStream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
-#include "nearestWord.h"
+#include "words/nearestWord.h"
 
 #include <algorithm>
 #include <cctype>

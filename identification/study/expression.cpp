@@ -1,6 +1,6 @@
 #include "study/expression.h"
 
-#include "study/nearestWord.h"
+#include "study/didYouMean.h"
 
 #include <muParser.h>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/nearestWord.h"
+#include "study/didYouMean.h"
 
 #include <yaml-cpp/yaml.h>
 

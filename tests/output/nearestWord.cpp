@@ -1,4 +1,4 @@
-#include "nearestWord.h"
+#include "words/nearestWord.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "nearestWord.h"
+#include "words/nearestWord.h"
 
 #include <algorithm>
 #include <cctype>
@@ -45,7 +45,13 @@ std::size_t editDistance(const std::string& from, const std::string& to)
 
 std::string nearestWord(const std::string& word, const std::vector<std::string>& known)
 {
+    // Longer ones are no misspelling of anything, and cost time.
+    constexpr std::size_t longest = 60;
     std::string nearest;
+    if (word.size() > longest)
+    {
+        return nearest;
+    }
     std::size_t smallest = word.size() + 1;
     for (const std::string& candidate : known)
     {
