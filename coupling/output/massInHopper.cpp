@@ -8,6 +8,9 @@
 #include "addToRunTimeSelectionTable.H"
 #include "fvMesh.H"
 
+#include <limits>
+#include <sstream>
+
 namespace clepsydra
 {
 
@@ -22,8 +25,35 @@ constexpr double sameTime = 1e-6;
 
 const word countEntry = "beadsInHopper";
 const word lastDepartureEntry = "lastDeparture";
-/// Times and masses in turn.
-const word samplesEntry = "samples";
+/// Times and masses in turn, as text: OpenFOAM would write numbers with the fields' digits, and the rate would differ.
+const word samplesEntry = "samplesOfRate";
+const word rowsEntry = "rows";
+
+stringList textOf(const std::deque<TrailingRate::Sample>& samples)
+{
+    stringList numbers;
+    for (const TrailingRate::Sample& sample : samples)
+    {
+        for (const double number : {sample.time, sample.amount})
+        {
+            std::ostringstream text;
+            text.precision(std::numeric_limits<double>::max_digits10);
+            text << number;
+            numbers.append(text.str());
+        }
+    }
+    return numbers;
+}
+
+std::deque<TrailingRate::Sample> samplesIn(const stringList& numbers)
+{
+    std::deque<TrailingRate::Sample> samples;
+    for (label i = 0; i + 1 < numbers.size(); i += 2)
+    {
+        samples.push_back({std::stod(numbers[i]), std::stod(numbers[i + 1])});
+    }
+    return samples;
+}
 
 } // namespace
 
@@ -33,7 +63,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
 {
     // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
     MassInHopper::read(dict);
-    makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
+    const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
 
     Ostream& os = file();
@@ -46,7 +76,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     writeTabbed(os, "rate [kg/s]");
     os << endl;
 
-    resume();
+    resume(rowsThatStay);
     // OpenFOAM executes function objects after the first step only; the curve should start at the start.
     if (lastSample_ < 0 && mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
     {
@@ -54,30 +84,30 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     }
 }
 
-void MassInHopper::resume()
+void MassInHopper::resume(label rowsThatStay)
 {
-    scalarList values;
-    if (!getProperty(samplesEntry, values) || values.size() < 2)
+    stringList numbers;
+    getProperty(samplesEntry, numbers);
+    std::deque<TrailingRate::Sample> samples = samplesIn(numbers);
+    if (samples.empty())
     {
         return;
     }
-    std::deque<TrailingRate::Sample> samples;
-    for (label i = 0; i + 1 < values.size(); i += 2)
-    {
-        samples.push_back({values[i], values[i + 1]});
-    }
+    getProperty(rowsEntry, rows_);
     getProperty(countEntry, lastBeads_);
     // A row of this very time has been dropped from its table, and is written again.
     const scalar lastSample = samples.back().time;
     if (lastSample > time_.value() - sameTime * time_.deltaTValue())
     {
         samples.pop_back();
+        --rows_;
     }
     else
     {
         lastSample_ = lastSample;
     }
     rate_->resume(std::move(samples));
+    warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
 }
 
 bool MassInHopper::read(const dictionary& dict)
@@ -173,13 +203,8 @@ void MassInHopper::sample()
     }
     setResult(countEntry, count);
     setProperty(countEntry, count);
-    scalarList samples;
-    for (const TrailingRate::Sample& past : rate_->samples())
-    {
-        samples.append(past.time);
-        samples.append(past.amount);
-    }
-    setProperty(samplesEntry, samples);
+    setProperty(samplesEntry, textOf(rate_->samples()));
+    setProperty(rowsEntry, ++rows_);
     lastBeads_ = count;
     lastSample_ = now;
 }

@@ -57,7 +57,8 @@ public:
 
 private:
     /// Takes up the state that the checkpoint holds, if there is one.
-    void resume();
+    /// \param rowsThatStay  in tables of earlier start times
+    void resume(Foam::label rowsThatStay);
     void sample();
     void stopIfFlowStopped();
 
@@ -67,6 +68,8 @@ private:
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::label lastBeads_ = -1;
+    /// In all tables, since the fresh start.
+    Foam::label rows_ = 0;
     bool stopping_ = false;
 };
 

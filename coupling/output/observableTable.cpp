@@ -20,19 +20,25 @@ namespace
 constexpr scalar sameTime = 1e-9;
 
 /// Cuts the table where they begin. Rows before are not touched, so a full disk cannot harm them.
-void dropRowsFrom(scalar time, const fileName& table)
+/// \return how many those are.
+label dropRowsFrom(scalar time, const fileName& table)
 {
     std::ifstream lines(table);
     std::uintmax_t kept = 0;
+    label rows = 0;
     std::string line;
     // A line without its end is the one that the run was killed in.
     while (std::getline(lines, line) && !lines.eof())
     {
         std::istringstream columns(line);
         scalar rowTime = 0;
-        if (columns >> rowTime && rowTime >= time - sameTime)
+        if (columns >> rowTime)
         {
-            break;
+            if (rowTime >= time - sameTime)
+            {
+                break;
+            }
+            ++rows;
         }
         kept += line.size() + 1;
     }
@@ -42,15 +48,17 @@ void dropRowsFrom(scalar time, const fileName& table)
     }
     lines.close();
     std::filesystem::resize_file(table.c_str(), kept);
+    return rows;
 }
 
 } // namespace
 
-void makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
+label makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
 {
+    label stayed = 0;
     if (!Pstream::master())
     {
-        return;
+        return stayed;
     }
     for (const instant& start : Time::findTimes(folder))
     {
@@ -61,12 +69,22 @@ void makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
         }
         if (start.value() < startTime - sameTime)
         {
-            dropRowsFrom(startTime, file);
+            stayed += dropRowsFrom(startTime, file);
         }
         else
         {
             mvBak(file, "bak");
         }
+    }
+    return stayed;
+}
+
+void warnOfLostRows(label stayed, label written, const word& table)
+{
+    if (Pstream::master() && stayed != written)
+    {
+        Info << "WARNING: " << table << " has " << stayed << " rows of before this checkpoint in place of the "
+             << written << " that were written: cut, edited or removed since then?" << nl << endl;
     }
 }
 

@@ -13,7 +13,11 @@ namespace clepsydra
 /// or doubled, whenever the run was killed. Done by the master rank only.
 /// \param folder  postProcessing/<name>
 /// \param table  <name>.dat
-void makeRoomFrom(Foam::scalar startTime, const Foam::fileName& folder, const Foam::word& table);
+/// \return how many rows stay; 0 on other ranks.
+Foam::label makeRoomFrom(Foam::scalar startTime, const Foam::fileName& folder, const Foam::word& table);
+
+/// Says so where other than the rows that were written have stayed: somebody has cut, edited or removed a table.
+void warnOfLostRows(Foam::label stayed, Foam::label written, const Foam::word& table);
 
 /// FatalIOError where rows have not reached their table.
 void requireWritten(const Foam::Ostream& table);
