@@ -1,0 +1,192 @@
+"""Files of a checkpoint that are not what the run wrote."""
+
+import functools
+import shutil
+
+from faultKinds.bench import BEFORE_STOPPED, STOPPED, differences, rows, sha256
+from faultKinds.kinds import Wrong, fault
+
+NAMED = "names the file, goes on from the checkpoint before to the same end"
+
+
+def empty(file):
+    file.write_bytes(b"")
+
+
+def delete(file):
+    file.unlink()
+
+
+def cut(file):
+    file.write_bytes(file.read_bytes()[:file.stat().st_size * 2 // 3])
+
+
+def flipBit(file):
+    """One bit of a value: in the middle, where a field has its numbers."""
+    content = bytearray(file.read_bytes())
+    content[len(content) // 2] ^= 1
+    file.write_bytes(content)
+
+
+def olderInstead(file):
+    shutil.copyfile(str(file).replace(STOPPED, BEFORE_STOPPED), file)
+
+
+def otherKind(damage, done, inQuick):
+    def tries(bench):
+        names = bench.stopped().manifest(STOPPED)
+        if damage is olderInstead:
+            # what is the same at both times is no other file
+            names = [name for name in names if name not in ("0.06/uniform/checkpoint",)]
+        return [functools.partial(damageCheckpoint, bench, damage, [name]) for name in bench.some(names, quick=2)]
+    tries.__name__ = damage.__name__ + "OfCheckpoint"
+    return fault(done, NAMED, inQuick)(tries)
+
+
+otherKind(empty, "a file of the last checkpoint has 0 bytes; each in turn", True)
+otherKind(delete, "a file of the last checkpoint is gone; each in turn", False)
+otherKind(cut, "a file of the last checkpoint is cut; each in turn", False)
+otherKind(flipBit, "one bit flipped in a file of the last checkpoint; each in turn", True)
+otherKind(olderInstead, "a file of the last checkpoint is that of the checkpoint before; each in turn", True)
+
+
+def damageCheckpoint(bench, damage, names):
+    case = bench.stopped()
+    for name in names:
+        damage(case.folder / name)
+    outcome = case.settle()
+    for name in names[:1]:
+        if not outcome.says(name):
+            raise Wrong(f"{name} is not named: {outcome.output[:600]}")
+    if not outcome.says(f"Resuming from the checkpoint of time {BEFORE_STOPPED}"):
+        raise Wrong("did not go on from the checkpoint before")
+    return "named; from the checkpoint before to the same end"
+
+
+@fault("the manifest of the last checkpoint emptied, cut, gone, a bit flipped, that of another time",
+       "says so, goes on from the checkpoint before to the same end", inQuick=False)
+def manifestDamaged(bench):
+    return [functools.partial(damageManifest, bench, damage) for damage in (empty, delete, cut, flipBit, olderInstead)]
+
+
+def damageManifest(bench, damage):
+    case = bench.stopped()
+    damage(case.folder / "checkpoints" / STOPPED / "complete")
+    outcome = case.settle()
+    if not outcome.says(f"Resuming from the checkpoint of time {BEFORE_STOPPED}") or not outcome.says(f"time {STOPPED}"):
+        raise Wrong("did not say so: " + outcome.output[:400])
+    return "said so; from the checkpoint before to the same end"
+
+
+@fault("two of three checkpoints damaged", "goes on from the one that is whole, to the same end", inQuick=False)
+def twoDamaged(bench):
+    def both():
+        case = bench.stopped()
+        flipBit(case.folder / STOPPED / "U")
+        empty(case.folder / "checkpoints" / BEFORE_STOPPED / "beads.restart")
+        outcome = case.settle()
+        if not outcome.says("Resuming from the checkpoint of time 0.02"):
+            raise Wrong("did not go on from .02 s")
+        return "from the whole one to the same end"
+    return [both]
+
+
+@fault("all checkpoints damaged", "refuses and names a file of each; nothing is changed")
+def allDamaged(bench):
+    return [functools.partial(damageAll, bench, damage) for damage in bench.some([flipBit, empty, cut], quick=1)]
+
+
+def damageAll(bench, damage):
+    case = bench.stopped()
+    times = ("0.02", BEFORE_STOPPED, STOPPED)
+    for time in times:
+        damage(case.folder / time / "p")
+    return refusal(case, [f"{time}/p" for time in times])
+
+
+@fault("the folder checkpoints is gone, or all that is in it, or the name of the beginning",
+       "refuses with a message; nothing is changed, and with the folder back the same end")
+def checkpointsGone(bench):
+    return [functools.partial(loseCheckpoints, bench, *what) for what in bench.some(
+        [("checkpoints", None), ("checkpoints/beginning", None), ("checkpoints/beginning", empty)], quick=1)]
+
+
+def loseCheckpoints(bench, what, damage):
+    case = bench.stopped()
+    file, kept = case.folder / what, case.folder / "kept"
+    (shutil.copytree if file.is_dir() else shutil.copyfile)(file, kept)
+    if damage:
+        damage(file)
+    else:
+        shutil.rmtree(file) if file.is_dir() else file.unlink()
+    said = refusal(case, [])
+    shutil.rmtree(file) if file.is_dir() else file.unlink(missing_ok=True)
+    kept.rename(file)
+    case.settle()
+    return said + "; put back, the same end"
+
+
+def refusal(case, names):
+    before = state(case)
+    outcome = case.run()
+    if outcome.status == 0 or not outcome.explained:
+        raise Wrong(f"not refused: status {outcome.status}, {outcome.lastWords}")
+    for name in names:
+        if not outcome.says(name):
+            raise Wrong(f"{name} is not named")
+    if state(case) != before:
+        raise Wrong("changed by a run that refused: " + ", ".join(sorted(set(before.items()) ^ set(state(case).items()))[0]))
+    return "refused, nothing changed"
+
+
+def state(case):
+    """Content of all that a run writes, but its logs and lock."""
+    return {str(file.relative_to(case.folder)): sha256(file) for file in case.folder.rglob("*")
+            if file.is_file() and not file.name.startswith(("log.", ".pimple"))}
+
+
+@fault("the table of m(t) cut in the middle of a line, emptied, gone, a line of it damaged",
+       "says that rows are missing or not those that were written; the states are those undisturbed", inQuick=False)
+def tableDamaged(bench):
+    return [functools.partial(damageTable, bench, damage) for damage in (cut, empty, delete, dropLine)]
+
+
+def dropLine(file):
+    lines = file.read_text().splitlines(keepends=True)
+    file.write_text("".join(lines[:20] + lines[21:]))
+
+
+def damageTable(bench, damage):
+    case = bench.stopped()
+    damage(case.folder / "postProcessing/massInHopper/0/massInHopper.dat")
+    outcome = case.run()
+    if outcome.status != 0 or not outcome.says("WARNING: massInHopper.dat has"):
+        raise Wrong(f"{damage.__name__}: m(t) has {len(rows(case.folder))} rows in place of {len(rows(bench.reference()))}, "
+                    f"and nothing is said; status {outcome.status}")
+    others = [name for name in differences(case.folder, bench.reference()) if not name.startswith("m(t)")]
+    if others:
+        raise Wrong(", ".join(others[:3]))
+    return "said; the states are the same"
+
+
+@fault("the table of m(t) goes on behind the checkpoint, its last line half written, as a kill leaves it",
+       "what is later is written again: the same end")
+def tableAhead(bench):
+    def ahead():
+        case = bench.stopped()
+        with open(case.folder / "postProcessing/massInHopper/0/massInHopper.dat", "a") as table:
+            table.write("".join(f"{step * 1e-3:.10g}\t8e-4\t80\t0\n" for step in range(61, 70)) + "0.07\t8.37")
+        case.settle()
+        return "same end"
+    return [ahead]
+
+
+@fault("a checkpoint is asked for by startTime that is damaged or was never written",
+       "refuses and names the times that there are; nothing is changed", inQuick=False)
+def wrongStartTime(bench):
+    def ask(time, damage):
+        case = bench.stopped(startFrom="startTime", startTime=time)
+        if damage:
+            flipBit(case.folder / time / "U")
+        return refusal(case, [time])
+    return [functools.partial(ask, STOPPED, True), functools.partial(ask, "0.05", False)]

@@ -1,0 +1,153 @@
+"""Disks that are full, fail or refuse to be written."""
+
+import functools
+import shutil
+import subprocess
+
+from faultKinds.bench import Case
+from faultKinds.kinds import Skipped, Wrong, fault
+
+STOPS = "stops with a message and loses nothing; with room again the same command goes on to the same end"
+
+
+def mount(bench, folder, *options):
+    if not bench.mayMount:
+        raise Skipped("the system allows no mounts here (neither as root nor by unshare)")
+    subprocess.run(["mount", *options, folder], check=True)
+
+
+def onSmallDisk(bench, case, part, kibibytes):
+    """Puts a folder of the case (or all of it) on a disk with so much room left."""
+    folder = case.folder / part
+    kept = bench.freshFolder("kept")
+    if folder.exists():
+        shutil.copytree(folder, kept, dirs_exist_ok=True)
+    folder.mkdir(exist_ok=True)
+    mount(bench, folder, "-t", "tmpfs", "-o", "size=64m", "none")
+    shutil.copytree(kept, folder, dirs_exist_ok=True)
+    used = int(subprocess.run(["df", "--output=used", folder], stdout=subprocess.PIPE, text=True).stdout.split()[1])
+    # at least a page: no size at all means no limit
+    mount(bench, folder, "-o", f"remount,size={max(4, used + kibibytes)}k")
+    return folder
+
+
+def roomAgain(bench, folder):
+    mount(bench, folder, "-o", "remount,size=64m")
+
+
+def fill(bench, part, kibibytes, fresh=False):
+    case = bench.pile() if fresh else bench.stopped()
+    disk = onSmallDisk(bench, case, part, kibibytes)
+    outcome = case.run()
+    said = judged(outcome)
+    roomAgain(bench, disk)
+    case.settle()
+    return said
+
+
+def judged(outcome):
+    """What a run that met a fault has done, short of a silent wrong."""
+    if outcome.status == 0:
+        return "had room; same end"     # that it is the same is seen when it has gone on
+    if outcome.status < 0 or not outcome.explained:
+        raise Wrong(f"status {outcome.status} without a message: {outcome.lastWords}")
+    return "stopped with a message, then the same end"
+
+
+@fault("the disk of the case is full after so many KiB, between a resume and the end", STOPS)
+def diskFull(bench):
+    return [functools.partial(fill, bench, ".", room) for room in bench.some(range(0, 640, 16), quick=5)]
+
+
+@fault("the disk of the case is full after so many KiB of a fresh run", STOPS, inQuick=False)
+def diskFullFromStart(bench):
+    return [functools.partial(fill, bench, ".", room, True) for room in bench.some(range(0, 1500, 100), quick=1)]
+
+
+@fault("the disk is full where the beads' checkpoints are", STOPS)
+def diskFullForBeads(bench):
+    return [functools.partial(fill, bench, "checkpoints", room) for room in bench.some(range(0, 196, 14), quick=2)]
+
+
+@fault("the disk is full where the tables (m(t), ledger) are", STOPS)
+def diskFullForTables(bench):
+    return [functools.partial(fill, bench, "postProcessing", room) for room in bench.some(range(0, 20, 2), quick=2)]
+
+
+@fault("the disk is full where the drawings of the beads are", STOPS)
+def diskFullForDrawings(bench):
+    return [functools.partial(fill, bench, "VTK", room) for room in bench.some(range(0, 48, 4), quick=2)]
+
+
+@fault("the output goes to a full disk (/dev/full)", "ends with the same states, or stops with the same end after it", inQuick=False)
+def diskFullForLog(bench):
+    def run():
+        case = bench.pile()
+        with open("/dev/full", "w") as full:
+            process = case.start(stdout=full, stderr=full)
+        status = process.wait()
+        case.settle()
+        return f"status {status}, same end"
+    return [run]
+
+
+@fault("the case is read-only when a run starts", "refuses with a message, changes nothing; writable, the same end", inQuick=False)
+def readOnly(bench):
+    def run(case):
+        mount(bench, case.folder, "--bind", case.folder)
+        mount(bench, case.folder, "-o", "remount,bind,ro")
+        outcome = case.run()
+        subprocess.run(["umount", "--lazy", case.folder], check=True)
+        if outcome.status == 0 or not outcome.explained:
+            raise Wrong(f"status {outcome.status}: {outcome.lastWords}")
+        case.settle()
+        return "refused, then the same end"
+    return [lambda: run(bench.pile()), lambda: run(bench.stopped())]
+
+
+@fault("the case becomes read-only in the midst of a run, as a disk with errors does", STOPS)
+def readOnlyInTheMidst(bench):
+    return [functools.partial(becomeReadOnly, bench) for _ in bench.times(1, 4)]
+
+
+def becomeReadOnly(bench):
+    case = bench.pile()
+    inside = case.folder / "disk"
+    inside.mkdir()
+    mount(bench, inside, "-t", "tmpfs", "none")
+    for entry in ("0", "constant", "system", "DEM"):
+        shutil.copytree(case.folder / entry, inside / entry)
+    moved = Case(bench, inside, 1, log=case.log)
+    process = moved.start()
+    moved.waitFor(f"\nTime = {bench.random.randrange(5, 70) * 1e-3:.8g}\n", process)
+    # a file that is open keeps the whole file system writable, so each is asked by force
+    refused = subprocess.run(["mount", "-o", "remount,ro", inside], stderr=subprocess.DEVNULL).returncode
+    if refused:
+        subprocess.run(["mount", "-o", "remount,size=4k,nr_inodes=1", inside], stderr=subprocess.DEVNULL)
+    outcome = bench.finished(process, moved.log)
+    said = judged(outcome)
+    roomAgain(bench, inside)
+    subprocess.run(["mount", "-o", "remount,rw,nr_inodes=0", inside], check=True)
+    moved.settle()
+    return said
+
+
+@fault("the case folder is moved away in the midst of a run", "stops with a message; moved back, the same end", inQuick=False)
+def folderMoved(bench):
+    return [functools.partial(moveFolder, bench) for _ in bench.times(1, 3)]
+
+
+def moveFolder(bench):
+    case = bench.pile()
+    process = case.start()
+    case.waitFor(f"\nTime = {bench.random.randrange(5, 70) * 1e-3:.8g}\n", process)
+    away = case.folder.with_name(case.folder.name + ".away")
+    case.folder.rename(away)
+    outcome = bench.finished(process, case.log)
+    madeAnew = case.folder.exists()
+    shutil.rmtree(case.folder, ignore_errors=True)
+    away.rename(case.folder)
+    if outcome.status == 0 or not outcome.explained:
+        raise Wrong(f"status {outcome.status}{', a folder was made anew' if madeAnew else ''}: {outcome.lastWords}")
+    case.settle()
+    return "stopped with a message, then the same end"

@@ -1,0 +1,43 @@
+"""The rows of scripts/faults, as lines, as JSON and as the page's table."""
+
+import json
+import subprocess
+from pathlib import Path
+
+PAGE = Path(__file__).resolve().parent / "README.md"
+BEGIN, END = "<!-- table of faults: written by `scripts/faults --page` -->\n", "<!-- end of the table -->\n"
+
+
+def row(kind, seen, wrong, seconds, skipped=None):
+    observed = [f"{count} x {words}" for words, count in sorted(seen.items(), key=lambda entry: -entry[1])]
+    observed += [f"WRONG: {words}" for words in wrong]
+    return {"fault": kind.name, "done": kind.done, "tries": sum(seen.values()) + len(wrong), "expected": kind.expected,
+            "observed": f"skipped: {skipped}" if skipped else "; ".join(observed),
+            "holds": None if skipped else not wrong, "seconds": round(seconds, 1)}
+
+
+def line(found):
+    verdict = {True: "holds", False: "DOES NOT HOLD", None: "skipped"}[found["holds"]]
+    return f"{found['fault']:24}{verdict:14}{found['tries']:4} tries {found['seconds']:6.1f} s  {found['observed']}"
+
+
+def summary(rows):
+    held = sum(found["holds"] is True for found in rows)
+    skipped = sum(found["holds"] is None for found in rows)
+    return f"{held} of {len(rows)} kinds of fault hold, {skipped} skipped; {sum(found['tries'] for found in rows)} tries"
+
+
+def write(file, rows):
+    file.write_text(json.dumps(rows, indent=1) + "\n")
+
+
+def writePage(results):
+    """The table of the page, from the results of a run."""
+    rows = json.loads(results.read_text())
+    text = PAGE.read_text()
+    before, rest = text.split(BEGIN)
+    after = rest.split(END)[1]
+    commit = subprocess.run(["git", "-C", PAGE.parent, "describe", "--always"], capture_output=True, text=True).stdout.strip()
+    table = [f"{summary(rows)}; commit {commit}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
+    table += [f"| `{found['fault']}` | {found['done']} | {found['observed']} | {found['tries']} |\n" for found in rows]
+    PAGE.write_text(before + BEGIN + "".join(table) + END + after)
