@@ -358,6 +358,12 @@ void Checkpoints::begin() const
 {
     if (Pstream::master())
     {
+        // OpenFOAM would make the folders anew, and the run would end where nobody looks for it.
+        if (!isFile(time_.globalPath() / folderName / beginningName))
+        {
+            FatalErrorInFunction << "There is no " << time_.globalPath() / folderName / beginningName
+                                 << " any more: was the case moved or removed while it runs?" << exit(FatalError);
+        }
         rm(time_.globalPath() / folderName / time_.timeName() / completeName);
     }
 }

@@ -49,6 +49,7 @@ public:
     }
 
     /// Call before the fields of a write time are written: an earlier checkpoint of the same time is no longer whole.
+    /// FatalError where the case has gone from its place.
     void begin() const;
 
     /// Call after the fields of a write time are written. Collective. FatalError where a file of the checkpoint is not

@@ -1,5 +1,7 @@
 #include "output/vtkBeads.h"
 
+#include "files/wholeFile.h"
+
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
 #include <vtkIntArray.h>
@@ -55,14 +57,16 @@ void writeVtp(const std::filesystem::path& file, const DrawnBeads& beads)
     data.AddArray(vtkArray<vtkDoubleArray>("speed", beads.velocity.colwise().norm().eval()));
 
     vtkNew<vtkXMLPolyDataWriter> writer;
-    writer->SetFileName(file.c_str());
+    // VTK does not see every write that fails.
+    writer->WriteToOutputStringOn();
     writer->SetInputData(drawn);
     writer->SetDataModeToAppended();
     writer->EncodeAppendedDataOff();
     if (writer->Write() != 1)
     {
-        throw std::runtime_error("Cannot write " + file.string());
+        throw std::runtime_error("VTK cannot make " + file.string());
     }
+    writeWhole(file, writer->GetOutputString());
 }
 
 } // namespace clepsydra

@@ -4,7 +4,6 @@ import functools
 import shutil
 import subprocess
 
-from faultKinds.bench import Case
 from faultKinds.kinds import Skipped, Wrong, fault
 
 STOPS = "stops with a message and loses nothing; with room again the same command goes on to the same end"
@@ -79,15 +78,17 @@ def diskFullForDrawings(bench):
     return [functools.partial(fill, bench, "VTK", room) for room in bench.some(range(0, 48, 4), quick=2)]
 
 
-@fault("the output goes to a full disk (/dev/full)", "ends with the same states, or stops with the same end after it", inQuick=False)
+@fault("the output goes to a full disk (/dev/full)", STOPS, inQuick=False)
 def diskFullForLog(bench):
     def run():
         case = bench.pile()
         with open("/dev/full", "w") as full:
-            process = case.start(stdout=full, stderr=full)
-        status = process.wait()
+            process = case.start(stdout=full, stderr=subprocess.PIPE, text=True)
+            said = process.communicate()[1]
         case.settle()
-        return f"status {status}, same end"
+        if "FATAL" not in said:
+            raise Wrong(f"status {process.returncode} without a message")
+        return "stopped with a message, then the same end"
     return [run]
 
 
@@ -103,33 +104,6 @@ def readOnly(bench):
         case.settle()
         return "refused, then the same end"
     return [lambda: run(bench.pile()), lambda: run(bench.stopped())]
-
-
-@fault("the case becomes read-only in the midst of a run, as a disk with errors does", STOPS)
-def readOnlyInTheMidst(bench):
-    return [functools.partial(becomeReadOnly, bench) for _ in bench.times(1, 4)]
-
-
-def becomeReadOnly(bench):
-    case = bench.pile()
-    inside = case.folder / "disk"
-    inside.mkdir()
-    mount(bench, inside, "-t", "tmpfs", "none")
-    for entry in ("0", "constant", "system", "DEM"):
-        shutil.copytree(case.folder / entry, inside / entry)
-    moved = Case(bench, inside, 1, log=case.log)
-    process = moved.start()
-    moved.waitFor(f"\nTime = {bench.random.randrange(5, 70) * 1e-3:.8g}\n", process)
-    # a file that is open keeps the whole file system writable, so each is asked by force
-    refused = subprocess.run(["mount", "-o", "remount,ro", inside], stderr=subprocess.DEVNULL).returncode
-    if refused:
-        subprocess.run(["mount", "-o", "remount,size=4k,nr_inodes=1", inside], stderr=subprocess.DEVNULL)
-    outcome = bench.finished(process, moved.log)
-    said = judged(outcome)
-    roomAgain(bench, inside)
-    subprocess.run(["mount", "-o", "remount,rw,nr_inodes=0", inside], check=True)
-    moved.settle()
-    return said
 
 
 @fault("the case folder is moved away in the midst of a run", "stops with a message; moved back, the same end", inQuick=False)

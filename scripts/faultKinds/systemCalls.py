@@ -116,5 +116,28 @@ def killedAtCalls(bench):
     return [functools.partial(inject, bench, "signal=KILL", *call, killed) for call in bench.some(calls, quick=4)]
 
 
+@fault("from the n-th call on all writes, openings, renames and fsyncs fail (EIO, EROFS): the disk dies", EXPECTED, inQuick=False)
+def dyingDisk(bench):
+    return [functools.partial(die, bench, call, error, number) for call in ("openat", "writev", "fsync", "mkdir")
+            for error in ("EIO", "EROFS") for number in bench.some((1, 2, 3, 5, 8, 13), quick=1)]
+
+
+def die(bench, call, error, number):
+    """The calls are counted by kind: the one named begins to fail at its n-th, the others at their third."""
+    files = sorted({file for _, file, writing in callsOn(bench) if not file.startswith("log.")})
+    case = bench.stopped(endTime=NEXT)
+    wrapper = ["strace", "-f", "-o", "/dev/null", "-e", "trace=openat,write,writev,fsync,rename,mkdir"]
+    for file in files:
+        wrapper += ["-P", case.folder / file]
+    for other in ("openat", "write", "writev", "fsync", "rename", "mkdir"):
+        # reading goes well in the beginning
+        first = len(files) if other == "openat" else 3
+        wrapper += ["-e", f"inject={other}:error={error}:when={first + number if other == call else first + 13}+"]
+    outcome = case.run(wrapper)
+    said = judged(outcome)
+    case.set(endTime=END).settle()
+    return said
+
+
 def killed(outcome):
     return "same end" if outcome.status else "had ended before"
