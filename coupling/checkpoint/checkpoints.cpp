@@ -145,7 +145,7 @@ std::string damageOf(const fileName& caseDirectory, const std::string& timeName)
                 : manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
                                                       : mismatchAfterRedistribution(folder, manifest);
     }
-    catch (const FileError& error)
+    catch (const std::runtime_error& error)
     {
         found = error.what();
     }
@@ -387,7 +387,7 @@ void Checkpoints::complete(DemEngine& engine) const
         engine.writeCheckpoint(checkpoint / beadsName);
         lines = linesOfThisRank(caseDirectory, timeName);
     }
-    catch (const FileError& error)
+    catch (const std::runtime_error& error) // FileError, or of std::filesystem
     {
         problem = error.what();
     }

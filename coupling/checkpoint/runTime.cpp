@@ -16,6 +16,11 @@ void RunTime::resume(double beginning)
 {
     const IOdictionary written(
         IOobject("time", timeName(), "uniform", *this, IOobject::MUST_READ, IOobject::NO_WRITE, false));
+    if (timeIndex() != written.get<label>("index"))
+    {
+        // Time itself does without, where it could not read the file.
+        FatalIOErrorInFunction(written) << "The number of the time step was not read" << exit(FatalIOError);
+    }
     value() = written.get<scalar>("value");
     beginning_ = beginning;
     writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);

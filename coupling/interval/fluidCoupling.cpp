@@ -33,14 +33,20 @@ enum GivenRow : Eigen::Index
     givenRowCount = 5
 };
 
-/// A field of the coupling: read where the run was stopped, otherwise uniform.
+/// A field of the coupling: read where the run was stopped, otherwise uniform. Not READ_IF_PRESENT, which takes a file
+/// that cannot be opened for one that is not there.
 template<class Type>
 GeometricField<Type, fvPatchField, volMesh> couplingField(
     const word& name, const fvMesh& mesh, const dimensionSet& dimensions, const Type& value)
 {
-    return GeometricField<Type, fvPatchField, volMesh>(
-        IOobject(name, mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), mesh,
-        dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
+    using Field = GeometricField<Type, fvPatchField, volMesh>;
+    IOobject file(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    {
+        return Field(file, mesh);
+    }
+    file.readOpt() = IOobject::NO_READ;
+    return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
 }
 
 MPI_Comm duplicateWorld()

@@ -1,5 +1,6 @@
 #include "output/observableTable.h"
 
+#include "IFstream.H"
 #include "OSspecific.H"
 #include "Time.H"
 
@@ -26,8 +27,17 @@ label dropRowsFrom(scalar time, const fileName& table)
     std::ifstream lines(table);
     std::uintmax_t kept = 0;
     label rows = 0;
+    // FatalIOError: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
+    const auto requireReadable = [&] {
+        if (!lines.is_open() || lines.bad())
+        {
+            FatalIOErrorInFunction(IFstream(table)) << "Cannot read the table" << exit(FatalIOError);
+        }
+    };
+    requireReadable();
     std::string line;
     // A line without its end is the one that the run was killed in.
+    std::error_code problem;
     while (std::getline(lines, line) && !lines.eof())
     {
         std::istringstream columns(line);
@@ -42,12 +52,13 @@ label dropRowsFrom(scalar time, const fileName& table)
         }
         kept += line.size() + 1;
     }
-    if (lines.bad())
-    {
-        FatalErrorInFunction << "Cannot read " << table << exit(FatalError);
-    }
+    requireReadable();
     lines.close();
-    std::filesystem::resize_file(table.c_str(), kept);
+    std::filesystem::resize_file(table.c_str(), kept, problem);
+    if (problem)
+    {
+        FatalIOErrorInFunction(IFstream(table)) << "Cannot cut: " << problem.message() << exit(FatalIOError);
+    }
     return rows;
 }
 
@@ -90,7 +101,6 @@ void warnOfLostRows(label stayed, label written, const word& table)
 
 void requireWritten(const Ostream& table)
 {
-    // FatalIOError: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
     if (!table.good())
     {
         FatalIOErrorInFunction(table) << "Cannot write a row: is the disk full?" << exit(FatalIOError);

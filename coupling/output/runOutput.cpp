@@ -96,7 +96,11 @@ void RunOutput::start()
             word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
     }
     // They check their entries now, before anything of an earlier run is replaced.
-    time_.functionObjects().start();
+    if (!time_.functionObjects().start())
+    {
+        // OpenFOAM itself would only warn, and the run would end without that table.
+        FatalErrorInFunction << "A function object could not be started: see the warning above" << exit(FatalError);
+    }
     if (scratch_)
     {
         return;

@@ -56,16 +56,13 @@ class Bench:
         self.environment = sourced(REPOSITORY / "scripts" / "environment")
         self.wall = {}
         self._made = {}
+        self._kept = set()
         self._count = 0
         self._mark = f"{os.getpid()}"
 
     def some(self, candidates, quick=2, full=None):
         """As many of the candidates as this run of the bench has time for, evenly spread."""
-        most = quick if self.quick else full or len(candidates)
-        candidates = list(candidates)
-        if len(candidates) <= most:
-            return candidates
-        return [candidates[round(i * (len(candidates) - 1) / max(1, most - 1))] for i in range(most)]
+        return spread(list(candidates), quick if self.quick else full or len(candidates))
 
     def times(self, quick, full):
         return range(quick if self.quick else full)
@@ -104,9 +101,13 @@ class Bench:
         folder.mkdir()
         return folder
 
+    def keep(self, folder):
+        """Beyond the try that has made it."""
+        self._kept.add(folder)
+
     def clean(self):
         """Removes the folders of a try; what is made once stays."""
-        kept = set(self._made.values())
+        kept = set(self._made.values()) | self._kept
         for entry in self.folder.iterdir():
             if entry.is_file():
                 entry.unlink()
@@ -246,6 +247,13 @@ class Case:
     def manifest(self, timeName):
         """Names of the files of a checkpoint."""
         return sorted(files(self.folder / "checkpoints" / timeName / "complete"))
+
+
+def spread(candidates, most):
+    """At most so many of a list, from its beginning to its end."""
+    if len(candidates) <= most:
+        return candidates
+    return [candidates[round(i * (len(candidates) - 1) / max(1, most - 1))] for i in range(most)]
 
 
 def mountsBelow(folder):

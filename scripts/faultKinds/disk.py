@@ -15,15 +15,14 @@ def mount(bench, folder, *options):
     subprocess.run(["mount", *options, folder], check=True)
 
 
-def onSmallDisk(bench, case, part, kibibytes):
-    """Puts a folder of the case (or all of it) on a disk with so much room left."""
-    folder = case.folder / part
+def onSmallDiskAt(bench, folder, kibibytes):
+    """Puts what is in a folder on a disk with so much room left. Returns the folder."""
     kept = bench.freshFolder("kept")
     if folder.exists():
-        shutil.copytree(folder, kept, dirs_exist_ok=True)
+        shutil.copytree(folder, kept, symlinks=True, dirs_exist_ok=True)
     folder.mkdir(exist_ok=True)
     mount(bench, folder, "-t", "tmpfs", "-o", "size=64m", "none")
-    shutil.copytree(kept, folder, dirs_exist_ok=True)
+    shutil.copytree(kept, folder, symlinks=True, dirs_exist_ok=True)
     used = int(subprocess.run(["df", "--output=used", folder], stdout=subprocess.PIPE, text=True).stdout.split()[1])
     # at least a page: no size at all means no limit
     mount(bench, folder, "-o", f"remount,size={max(4, used + kibibytes)}k")
@@ -36,7 +35,7 @@ def roomAgain(bench, folder):
 
 def fill(bench, part, kibibytes, fresh=False):
     case = bench.pile() if fresh else bench.stopped()
-    disk = onSmallDisk(bench, case, part, kibibytes)
+    disk = onSmallDiskAt(bench, case.folder / part, kibibytes)
     outcome = case.run()
     said = judged(outcome)
     roomAgain(bench, disk)

@@ -32,13 +32,22 @@ def killAtRandom(bench, how):
     kills = 0
     for _ in range(3):
         process = case.start()
-        time.sleep(bench.random.uniform(0.1, 1) * bench.wallSeconds())
+        atRandomMoment(case, process)
         if process.poll() is None:
             process.send_signal(how)
             kills += 1
         process.wait()
     case.settle()
     return f"same end after {kills} kills"
+
+
+def atRandomMoment(case, process):
+    """While it starts or resumes, in a third of all; otherwise in some interval or while it writes."""
+    random = case.bench.random
+    if random.random() < 1 / 3:
+        time.sleep(random.uniform(0, 0.3))
+    elif case.waitFor(f"\nTime = {random.randrange(1, 100) * 1e-3:.8g}\n", process):
+        time.sleep(random.uniform(0, 0.01))
 
 
 @fault("SIGTERM at a random moment", "status 0 with a checkpoint; then the end of a run that ended there by its endTime")

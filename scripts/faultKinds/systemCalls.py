@@ -7,9 +7,11 @@ C library calls by itself (all that is written by fopen or a stream) nor what a 
 
 import functools
 import re
+from collections import Counter
+from dataclasses import dataclass
 from pathlib import Path
 
-from faultKinds.bench import END
+from faultKinds.bench import END, spread
 from faultKinds.disk import judged
 from faultKinds.kinds import Wrong, fault
 
@@ -25,8 +27,16 @@ OF_PATH = re.compile(r'^\d+ +(\w+)\((?:AT_FDCWD[^"]*)?"([^"]*)"')
 MOST_OF_A_FILE = 4
 
 
+@dataclass(frozen=True)
+class Call:
+    name: str
+    file: str       # of the case
+    number: int     # of this call on this file
+    writing: bool   # of a call that opens
+
+
 def callsOn(bench):
-    """How often each call is made on each file of the case: {(call, file, opened for writing): times}."""
+    """Those that a run from stopped() to the next checkpoint makes on files of the case, in order."""
     if not hasattr(bench, "calls"):
         bench.needs("strace", "strace")
         case = bench.stopped(endTime=NEXT)
@@ -34,45 +44,42 @@ def callsOn(bench):
         outcome = case.run(["strace", "-f", "-y", "-o", trace, "-e", "trace=" + ",".join(WRITES + NAMES + READS + OPENS + SYNCS)])
         if outcome.status != 0:
             raise Wrong("does not run under strace: " + outcome.lastWords)
-        bench.calls = {}
+        bench.calls, times = [], Counter()
         for line in trace.read_text(errors="replace").splitlines():
             match = OF_FILE.match(line) or OF_PATH.match(line)
-            if not match or "ENOENT" in line or " = -1 E" in line:
-                continue
-            file = Path(case.folder / match[2])
-            if case.folder in file.parents:
-                key = match[1], str(file.relative_to(case.folder)), "O_WRONLY" in line or "O_RDWR" in line
-                bench.calls[key] = bench.calls.get(key, 0) + 1
+            file = match and Path(case.folder / match[2])
+            if file and case.folder in file.parents and not file.name.startswith("log."):
+                name = str(file.relative_to(case.folder))
+                times[match[1], name] += 1
+                if " = -1 E" not in line:
+                    bench.calls.append(Call(match[1], name, times[match[1], name], "O_WRONLY" in line or "O_RDWR" in line))
     return bench.calls
 
 
-def each(bench, calls, where=lambda file, writing: True):
-    """Each of the calls: (call, file, number)."""
-    found = []
-    for (call, file, writing), times in callsOn(bench).items():
-        if call in calls and where(file, writing) and not file.startswith("log."):
-            numbers = range(1, times + 1)
-            if times > MOST_OF_A_FILE:
-                numbers = [1 + round(i * (times - 1) / (MOST_OF_A_FILE - 1)) for i in range(MOST_OF_A_FILE)]
-            found += [(call, file, number) for number in numbers]
-    return found
+def each(bench, names, writing=None):
+    """The calls of these names, of each file some at most."""
+    found = {}
+    for call in callsOn(bench):
+        if call.name in names and writing in (None, call.writing):
+            found.setdefault((call.name, call.file), []).append(call)
+    return [call for calls in found.values() for call in spread(calls, MOST_OF_A_FILE)]
 
 
-def inject(bench, what, call, file, number, judge):
+def inject(bench, what, call, judge):
     case = bench.stopped(endTime=NEXT)
-    outcome = case.run(["strace", "-f", "-o", "/dev/null", "-P", case.folder / file, "-e", f"trace={call}",
-                        "-e", f"inject={call}:{what}:when={number}"])
+    outcome = case.run(["strace", "-f", "-o", "/dev/null", "-P", case.folder / call.file, "-e", f"trace={call.name}",
+                        "-e", f"inject={call.name}:{what}:when={call.number}"])
     try:
         said = judge(outcome)
         case.set(endTime=END).settle()
     except Wrong as problem:
-        raise Wrong(f"{call} {number} of {file}: {problem}") from None
+        raise Wrong(f"{what} in {call.name} {call.number} of {call.file}: {problem}") from None
     return said
 
 
-def tries(bench, calls, errors, quick, full=None, where=lambda file, writing: True):
-    chosen = bench.some(each(bench, calls, where), quick, full)
-    return [functools.partial(inject, bench, f"error={errors[number % len(errors)]}", *call, judged)
+def tries(bench, names, errors, quick, full=None, writing=None):
+    chosen = bench.some(each(bench, names, writing), quick, full)
+    return [functools.partial(inject, bench, f"error={errors[number % len(errors)]}", call, judged)
             for number, call in enumerate(chosen)]
 
 
@@ -96,12 +103,12 @@ def failingRenames(bench):
 
 @fault("the n-th opening of a file for writing fails (ENOSPC, EMFILE)", EXPECTED, inQuick=False)
 def failingOpens(bench):
-    return tries(bench, OPENS, ("ENOSPC", "EMFILE"), quick=2, where=lambda file, writing: writing)
+    return tries(bench, OPENS, ("ENOSPC", "EMFILE"), quick=2, writing=True)
 
 
 @fault("the n-th opening of a file for reading fails (EIO, EMFILE)", EXPECTED, inQuick=False)
 def failingOpensToRead(bench):
-    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=80, where=lambda file, writing: not writing)
+    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=80, writing=False)
 
 
 @fault("the n-th read of a file fails (EIO)", EXPECTED, inQuick=False)
@@ -112,8 +119,8 @@ def failingReads(bench):
 @fault("SIGKILL at the n-th write, fsync, rename, mkdir, unlink or opening of a file, over a whole checkpoint",
        "the same command goes on to the same end, bit for bit")
 def killedAtCalls(bench):
-    calls = each(bench, WRITES + SYNCS + NAMES) + each(bench, OPENS, lambda file, writing: writing)
-    return [functools.partial(inject, bench, "signal=KILL", *call, killed) for call in bench.some(calls, quick=4)]
+    calls = each(bench, WRITES + SYNCS + NAMES) + each(bench, OPENS, True)
+    return [functools.partial(inject, bench, "signal=KILL", call, killed) for call in bench.some(calls, quick=4)]
 
 
 @fault("from the n-th call on all writes, openings, renames and fsyncs fail (EIO, EROFS): the disk dies", EXPECTED, inQuick=False)
@@ -124,7 +131,7 @@ def dyingDisk(bench):
 
 def die(bench, call, error, number):
     """The calls are counted by kind: the one named begins to fail at its n-th, the others at their third."""
-    files = sorted({file for _, file, writing in callsOn(bench) if not file.startswith("log.")})
+    files = sorted({call.file for call in callsOn(bench)})
     case = bench.stopped(endTime=NEXT)
     wrapper = ["strace", "-f", "-o", "/dev/null", "-e", "trace=openat,write,writev,fsync,rename,mkdir"]
     for file in files:

@@ -1,0 +1,108 @@
+"""Too little memory, too few open files, too small a file; and numbers that no run can go on with."""
+
+import functools
+import subprocess
+
+from faultKinds.disk import judged
+from faultKinds.kinds import Wrong, fault
+
+STOPS = "ends with a message or by the signal that the system sends; without the limit the same command goes on to the same end"
+
+
+def limited(bench, option):
+    case = bench.stopped()
+    outcome = case.run(["prlimit", option])
+    said = "had enough; same end"
+    if outcome.status != 0:
+        # SIGXFSZ, as documented in setrlimit(2)
+        if not (outcome.explained or "memory" in outcome.output or "alloc" in outcome.output or outcome.status == -25):
+            raise Wrong(f"{option}: status {outcome.status} without a message: {outcome.lastWords}")
+        said = "ended with a message or by SIGXFSZ, then the same end"
+    case.settle()
+    return said
+
+
+@fault("address space limited to so many MB", STOPS)
+def memoryLimit(bench):
+    return [functools.partial(limited, bench, f"--as={size * 1000000}")
+            for size in bench.some((50, 100, 150, 200, 250, 300, 350, 400, 450, 500, 550, 600, 700, 800), quick=2)]
+
+
+@fault("address space limited in the midst of a run", STOPS, inQuick=False)
+def memoryGone(bench):
+    return [functools.partial(takeMemory, bench, spare) for spare in (0, 1, 4, 16)]
+
+
+def takeMemory(bench, spare):
+    case = bench.pile()
+    process = case.start()
+    case.waitFor("\nTime = 0.03", process)
+    with open(f"/proc/{process.pid}/statm") as sizes:
+        used = int(sizes.read().split()[0]) * 4096
+    subprocess.run(["prlimit", f"--pid={process.pid}", f"--as={used + spare * 1000000}"], stderr=subprocess.DEVNULL)
+    outcome = bench.finished(process, case.log)
+    said = judged(outcome)
+    case.settle()
+    return said
+
+
+@fault("files limited to so many bytes (ulimit -f)", STOPS, inQuick=False)
+def fileSizeLimit(bench):
+    return [functools.partial(limited, bench, f"--fsize={size}") for size in (0, 1000, 5000, 11430, 50000, 90000)]
+
+
+@fault("so many files may be open at once", STOPS, inQuick=False)
+def openFilesLimit(bench):
+    return [functools.partial(limited, bench, f"--nofile={count}") for count in (10, 16, 20, 22, 23, 24, 25, 26, 28)]
+
+
+@fault("numbers that no run can go on with: NaN in a field, a time step or a bead far too fast, a liquid without density",
+       "stops with a message")
+def numericalFaults(bench):
+    return [functools.partial(unstable, bench, *change) for change in bench.some((
+        ("0/p", "uniform 0;", "uniform nan;"),
+        ("0/U", r"uniform \(0 0 0\);", "uniform (0 nan 0);"),
+        ("DEM/in.beads", "^timestep .*", "timestep 2e-4"),
+        ("DEM/in.beads", "^fix motion", "velocity all set 0 0 -1000 units box\nfix motion"),
+        ("DEM/in.beads", "peratomtype 5e6 5e6", "peratomtype 5e12 5e12"),
+        ("constant/transportProperties", r"1000;", "-1000;"),
+        ("constant/transportProperties", r"1000;", "nan;"),
+        ("constant/transportProperties", r"1e-6;", "-1e-6;"),
+        ("constant/g", r"-9.81\)", "nan)"),
+    ), quick=3)]
+
+
+def unstable(bench, file, pattern, replacement):
+    case = bench.pile()
+    case.edit(file, pattern, replacement)
+    outcome = case.run()
+    if outcome.status == 0 or not outcome.explained:
+        raise Wrong(f"{replacement!r} in {file}: status {outcome.status}, {outcome.lastWords}")
+    return "stopped with a message"
+
+
+@fault("the packing that a run starts from is cut, emptied, gone or has a bit flipped",
+       "refuses and names it; with the packing back it runs", inQuick=False)
+def packingDamaged(bench):
+    from faultKinds.damage import cut, delete, empty, flipBit
+    return [functools.partial(damagePacking, bench, damage) for damage in (cut, empty, delete, flipBit)]
+
+
+def damagePacking(bench, damage):
+    poured = bench.pile(endTime=0.02)
+    poured.edit("constant/couplingProperties", '"DEM/in.beads";', '"DEM/in.beads";\n    writeRestart packing.restart;')
+    poured.mustRun()
+    case = bench.pile(endTime=0.02)
+    script = case.folder / "DEM/in.beads"
+    lines = [line for line in script.read_text().splitlines() if not line.startswith(("create_", "set "))]
+    lines = ["read_restart " + str(poured.folder / "packing.restart") if line.startswith("region") else line for line in lines]
+    script.write_text("\n".join(lines) + "\n")
+    packing = poured.folder / "packing.restart"
+    content = packing.read_bytes()
+    damage(packing)
+    outcome = case.run()
+    if outcome.status == 0 or not outcome.says("packing.restart"):
+        raise Wrong(f"{damage.__name__}: status {outcome.status}, {outcome.lastWords}")
+    packing.write_bytes(content)
+    case.mustRun()
+    return "refused; with the packing back it runs"

@@ -1,0 +1,171 @@
+"""Faults of traceResidual, with the stand-in for a simulator that tests/identification has."""
+
+import functools
+import json
+import os
+import re
+import shutil
+import time
+
+import parameterFile
+from faultKinds.bench import REPOSITORY
+from faultKinds.damage import cut, delete, empty, flipBit
+from faultKinds.disk import onSmallDiskAt, roomAgain
+from faultKinds.kinds import Wrong, fault
+
+STAND_IN = REPOSITORY / "tests" / "identification" / "standIn"
+# What of the report depends on when it was made.
+OF_THIS_CALL = ("runs", "cost", "costs", "date", "seconds", "made", "remarks", "version")
+
+
+class Study:
+    """A small study of invented measurements, with an effect in them."""
+
+    def __init__(self, bench):
+        self.bench = bench
+        self.folder = bench.freshFolder("study")
+        shutil.copytree(measured(bench), self.folder, symlinks=True, dirs_exist_ok=True)
+        self.log = self.folder.with_name(self.folder.name + ".log")
+
+    def start(self):
+        return self.bench.start(["traceResidual", "run", "study.yaml"], self.folder, self.log)
+
+    def run(self):
+        return self.bench.call(["traceResidual", "run", "study.yaml"], self.folder, self.log)
+
+    def answer(self):
+        report = json.loads((self.folder / "results/report.json").read_text())
+        return {name: value for name, value in report.items() if name not in OF_THIS_CALL}
+
+    def settle(self):
+        outcome = self.run()
+        if outcome.status != 0:
+            raise Wrong(f"status {outcome.status}: {outcome.lastWords}")
+        if self.answer() != undisturbed(self.bench):
+            others = [name for name, value in undisturbed(self.bench).items() if self.answer().get(name) != value]
+            raise Wrong("another answer than undisturbed: " + ", ".join(others))
+        return outcome
+
+
+def measured(bench):
+    """The study with its measurements, made once."""
+    if not hasattr(bench, "study"):
+        folder = bench.folder / "study"
+        shutil.copytree(STAND_IN / "case", folder / "case")
+        text = (STAND_IN / "study.yaml").read_text()
+        seed = 20011
+        for name, entries in re.findall(r"- name: (\w+)\n +role: \w+\n +set: \{ (.*) \}", text):
+            files = []
+            for repeat in range(3):
+                run = bench.freshFolder("measure")
+                given = dict(entry.split(": ") for entry in entries.split(", ")) | {"seed": str(seed), "addedMass": "0.7"}
+                seed += 2
+                original = (STAND_IN / "case/parameters").read_text()
+                (run / "parameters").write_text(parameterFile.withParameters(original, given))
+                if bench.call(["standInHopper"], run).status != 0:
+                    raise SystemExit("faults: the stand-in for a simulator fails")
+                rows = (run / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines()[1::2]
+                files.append(f"{name}{repeat}.csv")
+                (folder / files[-1]).write_text("t,m\n" + "".join(row.replace("\t", ",") + "\n" for row in rows))
+            text = text.replace(f"- name: {name}\n", f"- name: {name}\n    measured: {{ files: [{', '.join(files)}] }}\n")
+        text += ("measured:\n  time: { column: t, unit: s }\n  value: { column: m, unit: kg }\n"
+                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200, pairs: false }\nexecutor: { kind: pool, processes: 1 }\n")
+        (folder / "study.yaml").write_text(text)
+        bench.keep(folder)
+        bench.study = folder
+    return bench.study
+
+
+def undisturbed(bench):
+    if not hasattr(bench, "studyAnswer"):
+        study = Study(bench)
+        began = time.monotonic()
+        outcome = study.run()
+        if outcome.status != 0:
+            raise SystemExit(f"faults: the study fails: {outcome.output}")
+        bench.studySeconds = time.monotonic() - began
+        bench.keep(study.folder)
+        bench.studyAnswer, bench.studyDone = study.answer(), study.folder
+    return bench.studyAnswer
+
+
+@fault("SIGKILL to a study and all that it has started, at random moments", "the same command goes on to the same answer", inQuick=False)
+def studyKilled(bench):
+    return [functools.partial(killStudy, bench) for _ in bench.times(1, 6)]
+
+
+def killStudy(bench):
+    undisturbed(bench)
+    study = Study(bench)
+    for _ in range(3):
+        process = study.start()
+        time.sleep(bench.random.uniform(0.1, 0.8) * bench.studySeconds)
+        bench.killAll()
+        process.wait()
+    study.settle()
+    return "same answer"
+
+
+@fault("files of stored runs are cut, emptied, gone, have a bit flipped", "says so, makes those runs anew, comes to the same answer",
+       inQuick=False)
+def studyStoreDamaged(bench):
+    return [functools.partial(damageStore, bench, damage, pattern) for pattern in ("massInHopper.dat", "record.json")
+            for damage in (cut, empty, delete, flipBit)]
+
+
+def damageStore(bench, damage, pattern):
+    undisturbed(bench)
+    study = Study(bench)
+    shutil.copytree(bench.studyDone, study.folder, symlinks=True, dirs_exist_ok=True)
+    stored = sorted(study.folder.glob(f"*.work/cache/**/{pattern}"))
+    if len(stored) < 10:
+        raise SystemExit(f"faults: the store of a study has {len(stored)} {pattern}")
+    for file in stored[::7]:
+        damage(file)
+    outcome = study.settle()
+    if not outcome.says("damaged"):
+        raise Wrong(f"{pattern}, {damage.__name__}: nothing is said")
+    return "said; same answer"
+
+
+@fault("the disk of a study is full after so many KiB", "stops with a message; with room again the same command comes to the same answer",
+       inQuick=False)
+def studyDiskFull(bench):
+    return [functools.partial(fillStudy, bench, room) for room in bench.some((0, 50, 200, 500, 1000, 2000, 4000), quick=1)]
+
+
+def fillStudy(bench, room):
+    undisturbed(bench)
+    study = Study(bench)
+    disk = onSmallDiskAt(bench, study.folder, room)
+    outcome = study.run()
+    said = "had room; same answer"
+    if outcome.status != 0:
+        if not outcome.says("traceResidual: "):
+            raise Wrong(f"{room} KiB: status {outcome.status}, {outcome.lastWords}")
+        said = "stopped with a message, then the same answer"
+    roomAgain(bench, disk)
+    study.settle()
+    return said
+
+
+@fault("a run of a study starts a child that ignores SIGTERM, and is too long for rig.timeLimit", "nobody lives on when the study has ended")
+def timeLimit(bench):
+    return [functools.partial(overTime, bench)]
+
+
+def overTime(bench):
+    study = Study(bench)
+    allrun = study.folder / "case/Allrun"
+    allrun.write_text("#!/bin/bash\ntrap '' TERM\n(trap '' TERM; sleep 1000) &\nsetsid sleep 1000 &\nsleep 1000\n")
+    os.chmod(allrun, 0o755)
+    text = (study.folder / "study.yaml").read_text()
+    text = text.replace("  seed: seed\n", "  seed: seed\n  timeLimit: 0.5\n", 1).replace("processes: 1 }", "processes: 40 }")
+    (study.folder / "study.yaml").write_text(text
+                                             + "failures: { attempts: 1, then: stop }\n")
+    outcome = study.run()
+    if outcome.status == 0:
+        raise Wrong("the study went well")
+    if bench.alive():
+        raise Wrong(f"{len(bench.alive())} processes live on")
+    return "stopped, nobody lives on"
