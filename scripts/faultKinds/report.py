@@ -18,7 +18,7 @@ def row(kind, seen, wrong, seconds, skipped=None):
 
 def line(found):
     verdict = {True: "holds", False: "DOES NOT HOLD", None: "skipped"}[found["holds"]]
-    return f"{found['fault']:24}{verdict:14}{found['tries']:4} tries {found['seconds']:6.1f} s  {found['observed']}"
+    return f"{found['fault']:25} {verdict:14}{found['tries']:4} tries {found['seconds']:6.1f} s  {found['observed']}"
 
 
 def summary(rows):
