@@ -33,7 +33,7 @@ enum GivenRow : Eigen::Index
     givenRowCount = 5
 };
 
-/// A field of the coupling: read where the run was stopped, otherwise uniform. Not READ_IF_PRESENT, which takes a file
+/// A field of the coupling: read where the run was stopped, otherwise uniform. READ_IF_PRESENT alone takes a file
 /// that cannot be opened for one that is not there.
 template<class Type>
 GeometricField<Type, fvPatchField, volMesh> couplingField(
@@ -45,7 +45,7 @@ GeometricField<Type, fvPatchField, volMesh> couplingField(
     {
         return Field(file, mesh);
     }
-    file.readOpt() = IOobject::NO_READ;
+    file.readOpt() = IOobject::READ_IF_PRESENT;
     return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
 }
 
