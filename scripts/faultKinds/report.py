@@ -5,7 +5,7 @@ import subprocess
 from pathlib import Path
 
 PAGE = Path(__file__).resolve().parent / "README.md"
-BEGIN, END = "<!-- table of faults: written by `scripts/faults --page` -->\n", "<!-- end of the table -->\n"
+BEGIN, END = "<!-- table of faults: made by --page -->\n", "<!-- end of the table -->\n"
 
 
 def row(kind, seen, wrong, seconds, skipped=None):

@@ -10,7 +10,7 @@ HOSTILE = ("x $(touch made)|e #", "`touch made`", "1|e touch made #", "$(touch m
            "'; touch made; '", "1\ntouch made", "system(\"touch made\")", "__import__('os').system('touch made')")
 
 
-@fault("an entry of `parameters` is text that a shell, sed, awk or Python would run", "no command is run; refused or kept as text")
+@fault("an entry of parameters is text that a shell, sed, awk or Python would run", "no command is run; refused or kept as text")
 def hostileParameters(bench):
     return [functools.partial(hostile, bench, use, text)
             for text in bench.some(HOSTILE, quick=3) for use in ("get", "set", "merge", "at")]

@@ -177,7 +177,7 @@ def startTwice(bench, ranks):
     return "refused; the first came to the same end"
 
 
-@fault("the program that reads the output ends (`pimpleDemFoam | head -1`)", TO_THE_SAME_END, inQuick=False)
+@fault("the program that reads the output ends, as in a pipe to head", TO_THE_SAME_END, inQuick=False)
 def readerGone(bench):
     return [functools.partial(pipeToHead, bench, lines) for lines in bench.some([1, 40, 200], quick=1)]
 
