@@ -1,5 +1,6 @@
 """The rows of scripts/faults, as lines, as JSON and as the page's table."""
 
+import functools
 import json
 import subprocess
 from pathlib import Path
@@ -13,7 +14,13 @@ def row(kind, seen, wrong, seconds, skipped=None):
     observed += [f"WRONG: {words}" for words in wrong]
     return {"fault": kind.name, "done": kind.done, "tries": sum(seen.values()) + len(wrong), "expected": kind.expected,
             "observed": f"skipped: {skipped}" if skipped else "; ".join(observed),
-            "holds": None if skipped else not wrong, "seconds": round(seconds, 1)}
+            "holds": None if skipped else not wrong, "seconds": round(seconds, 1), "commit": commit()}
+
+
+@functools.cache
+def commit():
+    described = subprocess.run(["git", "-C", PAGE.parent, "describe", "--always", "--dirty"], capture_output=True, text=True)
+    return described.stdout.strip() or "unknown"
 
 
 def line(found):
@@ -37,7 +44,6 @@ def writePage(results):
     text = PAGE.read_text()
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    commit = subprocess.run(["git", "-C", PAGE.parent, "describe", "--always"], capture_output=True, text=True).stdout.strip()
-    table = [f"{summary(rows)}; commit {commit}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
+    table = [f"{summary(rows)}; commit {rows[0]['commit']}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
     table += [f"| `{found['fault']}` | {found['done']} | {found['observed']} | {found['tries']} |\n" for found in rows]
     PAGE.write_text(before + BEGIN + "".join(table) + END + after)
