@@ -218,6 +218,16 @@ void requireWholeFoamFile(const fs::path& file)
     }
 }
 
+/// Time::write does not say whether that file could be made.
+void requireFunctionState(const Time& time)
+{
+    const fileName file = time.timePath() / "uniform/functionObjects/functionObjectProperties";
+    if (!time.functionObjects().stateDict().empty() && !isFile(file))
+    {
+        throw FileError(file + " could not be made");
+    }
+}
+
 /// The lines of a manifest for what this rank has written. \throws FileError
 std::string linesOfThisRank(const fs::path& caseDirectory, const std::string& timeName)
 {
@@ -349,7 +359,14 @@ void Checkpoints::startAfresh(bool writes)
     if (writes && Pstream::master())
     {
         mkDir(time_.globalPath() / folderName);
-        writeWhole((time_.globalPath() / folderName / beginningName).c_str(), time_.timeName() + '\n');
+        try
+        {
+            writeWhole((time_.globalPath() / folderName / beginningName).c_str(), time_.timeName() + '\n');
+        }
+        catch (const FileError& error)
+        {
+            FatalErrorInFunction << error.what() << exit(FatalError);
+        }
     }
     waitForAllRanks();
 }
@@ -385,6 +402,7 @@ void Checkpoints::complete(DemEngine& engine) const
         mkDir(half.path());
         writeWhole(half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
         engine.writeCheckpoint(checkpoint / beadsName);
+        requireFunctionState(time_);
         lines = linesOfThisRank(caseDirectory, timeName);
     }
     catch (const std::runtime_error& error) // FileError, or of std::filesystem

@@ -1,5 +1,6 @@
 #include "checkpoint/runTime.h"
 
+#include "IFstream.H"
 #include "IOdictionary.H"
 
 namespace clepsydra
@@ -21,9 +22,22 @@ void RunTime::resume(double beginning)
         // Time itself does without, where it could not read the file.
         FatalIOErrorInFunction(written) << "The number of the time step was not read" << exit(FatalIOError);
     }
+    requireWholeState();
     value() = written.get<scalar>("value");
     beginning_ = beginning;
     writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
+}
+
+void RunTime::requireWholeState() const
+{
+    IFstream file(timePath() / "uniform/functionObjects/functionObjectProperties");
+    dictionary state(file);
+    state.remove("FoamFile");
+    if (state.digest() != functionObjects().stateDict().digest())
+    {
+        // OpenFOAM takes a file that it could not read to its end for one that ends there.
+        FatalIOErrorInFunction(file) << "The state of the function objects was not read" << exit(FatalIOError);
+    }
 }
 
 bool RunTime::loop()

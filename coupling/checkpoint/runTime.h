@@ -36,6 +36,8 @@ public:
     bool atEnd() const;
 
 private:
+    void requireWholeState() const;
+
     double beginning_;
 };
 

@@ -122,8 +122,14 @@ def damageState(bench, name, damage):
     status = bench.call(runs.command("status"), runs.folder, runs.log)
     if "Traceback" in status.output:
         raise Wrong("status: " + status.lastWords)
+    outcome = runs.run()
+    if outcome.status != 0:
+        if not outcome.says(f"{name}:1: "):
+            raise Wrong(outcome.lastWords)
+        for file in (runs.folder / "work").glob(f"*/*/{name}"):
+            file.write_text(file.read_text().partition("\n")[2])
     runs.settle()
-    return "same results"
+    return "same results" if outcome.status == 0 else "file and line are named; without it the same results"
 
 
 @fault("the disk of a campaign is full after so many KiB", "fails with a message; with room again the same command goes on to the same results")

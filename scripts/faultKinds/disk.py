@@ -2,6 +2,7 @@
 
 import functools
 import shutil
+import signal
 import subprocess
 
 from faultKinds.kinds import Skipped, Wrong, fault
@@ -41,6 +42,14 @@ def fill(bench, part, kibibytes, fresh=False):
     roomAgain(bench, disk)
     case.settle()
     return said
+
+
+def judgedWhereEnginesCrash(outcome):
+    """The engines do not look at all that they read or allocate: short of a message they end by a signal, which loses
+    nothing either."""
+    if outcome.status in (-signal.SIGSEGV, -signal.SIGABRT):
+        return "an engine crashed, then the same end"
+    return judged(outcome)
 
 
 def judged(outcome):

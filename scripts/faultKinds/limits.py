@@ -3,7 +3,7 @@
 import functools
 import subprocess
 
-from faultKinds.disk import judged
+from faultKinds.disk import judgedWhereEnginesCrash
 from faultKinds.kinds import Wrong, fault
 
 STOPS = "ends with a message or by the signal that the system sends; without the limit the same command goes on to the same end"
@@ -41,7 +41,7 @@ def takeMemory(bench, spare):
         used = int(sizes.read().split()[0]) * 4096
     subprocess.run(["prlimit", f"--pid={process.pid}", f"--as={used + spare * 1000000}"], stderr=subprocess.DEVNULL)
     outcome = bench.finished(process, case.log)
-    said = judged(outcome)
+    said = judgedWhereEnginesCrash(outcome)
     case.settle()
     return said
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from faultKinds.bench import END, spread
-from faultKinds.disk import judged
+from faultKinds.disk import judged, judgedWhereEnginesCrash
 from faultKinds.kinds import Wrong, fault
 
 NEXT = 0.08     # s: one checkpoint after stopped()
@@ -77,12 +77,13 @@ def inject(bench, what, call, judge):
     return said
 
 
-def tries(bench, names, errors, quick, full=None, writing=None):
+def tries(bench, names, errors, quick, full=None, writing=None, judge=judged):
     chosen = bench.some(each(bench, names, writing), quick, full)
-    return [functools.partial(inject, bench, f"error={errors[number % len(errors)]}", call, judged)
+    return [functools.partial(inject, bench, f"error={errors[number % len(errors)]}", call, judge)
             for number, call in enumerate(chosen)]
 
 
+CRASH_EXPECTED = "stops with a message or by the crash of an engine, or does without; the same command goes on to the same end"
 EXPECTED = "stops with a message, or does without; the same command goes on to the same end"
 
 
@@ -106,14 +107,14 @@ def failingOpens(bench):
     return tries(bench, OPENS, ("ENOSPC", "EMFILE"), quick=2, writing=True)
 
 
-@fault("the n-th opening of a file for reading fails (EIO, EMFILE)", EXPECTED, inQuick=False)
+@fault("the n-th opening of a file for reading fails (EIO, EMFILE)", CRASH_EXPECTED, inQuick=False)
 def failingOpensToRead(bench):
-    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=60, writing=False)
+    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=60, writing=False, judge=judgedWhereEnginesCrash)
 
 
-@fault("the n-th read of a file fails (EIO)", EXPECTED, inQuick=False)
+@fault("the n-th read of a file fails (EIO)", CRASH_EXPECTED, inQuick=False)
 def failingReads(bench):
-    return tries(bench, READS, ("EIO",), quick=2, full=60)
+    return tries(bench, READS, ("EIO",), quick=2, full=60, judge=judgedWhereEnginesCrash)
 
 
 @fault("SIGKILL at the n-th write, fsync, rename, mkdir, unlink or opening of a file, over a whole checkpoint",
