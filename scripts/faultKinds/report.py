@@ -44,6 +44,6 @@ def writePage(results):
     text = PAGE.read_text()
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    table = [f"{summary(rows)}; commit {rows[0]['commit']}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
+    table = [f"{summary(rows)}; commit {', '.join(sorted({found['commit'] for found in rows}))}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
     table += [f"| `{found['fault']}` | {found['done']} | {found['observed']} | {found['tries']} |\n" for found in rows]
     PAGE.write_text(before + BEGIN + "".join(table) + END + after)
