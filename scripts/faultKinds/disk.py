@@ -55,7 +55,7 @@ def judgedWhereEnginesCrash(outcome):
 def judged(outcome):
     """What a run that met a fault has done, short of a silent wrong."""
     if outcome.status == 0:
-        return "had room; same end"     # that it is the same is seen when it has gone on
+        return "went on; same end"     # that it is the same is seen when it has gone on
     if outcome.status < 0 or not outcome.explained:
         raise Wrong(f"status {outcome.status} without a message: {outcome.lastWords}")
     return "stopped with a message, then the same end"

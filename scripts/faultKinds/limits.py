@@ -12,7 +12,7 @@ STOPS = "ends with a message or by the signal that the system sends; without the
 def limited(bench, option):
     case = bench.stopped()
     outcome = case.run(["prlimit", option])
-    said = "had enough; same end"
+    said = "went on; same end"
     if outcome.status != 0:
         # SIGXFSZ, as documented in setrlimit(2)
         if not (outcome.explained or "memory" in outcome.output or "alloc" in outcome.output or outcome.status == -25):
