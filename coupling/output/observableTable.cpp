@@ -37,7 +37,6 @@ label dropRowsFrom(scalar time, const fileName& table)
     requireReadable();
     std::string line;
     // A line without its end is the one that the run was killed in.
-    std::error_code problem;
     while (std::getline(lines, line) && !lines.eof())
     {
         std::istringstream columns(line);
@@ -54,6 +53,7 @@ label dropRowsFrom(scalar time, const fileName& table)
     }
     requireReadable();
     lines.close();
+    std::error_code problem;
     std::filesystem::resize_file(table.c_str(), kept, problem);
     if (problem)
     {

@@ -28,7 +28,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 #include <cstdlib>
 #include <optional>
 #include <sstream>
