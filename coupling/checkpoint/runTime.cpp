@@ -61,6 +61,11 @@ Time& RunTime::operator++()
     return *this;
 }
 
+bool RunTime::stopAt(const stopAtControls control) const
+{
+    return !atEnd() && Time::stopAt(control);
+}
+
 void RunTime::endHere()
 {
     stopAt_ = saWriteNow;

@@ -26,6 +26,11 @@ public:
     Foam::Time& operator++() override;
     using Foam::Time::operator++;
 
+    /// As Time's, which moves the end away and brings it back with the next step; in the last step there is none, so
+    /// that a function object that asks again there is not heard.
+    bool stopAt(const stopAtControls control) const override;
+    using Foam::Time::stopAt;
+
     /// Makes this step a write time and the last.
     void endHere();
 

@@ -181,6 +181,24 @@ TEST(AskedToStop, WritesACheckpointAndEnds)
     }
 }
 
+// A function object asks in every step for the end, as `beadHeight` does once its bead is low enough. The run writes the
+// next step and ends; a program that takes each request for a new one never does.
+TEST(EndedByAFunctionObject, WritesTheNextStepAndEnds)
+{
+    TestCase test;
+    pilingBeads(test, false);
+    test.setTimes(0.05, interval, 0.05);
+    test.control()
+        .set("functions/height/type", "beadHeight")
+        .set("functions/height/bead", "1")
+        .set("functions/height/stopBelow", "1");
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    const Outcome outcome = test.runCommand("timeout 60 $SOLVER");
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+    EXPECT_EQ(test.times(), std::vector<std::string>{"0.001"});
+    EXPECT_TRUE(std::filesystem::exists(test.path() / "checkpoints/0.001/complete"));
+}
+
 // Stopped between two write times: the run goes on to the same write times, has a row of m(t) at the same times, the
 // rate over the same window, and its end is a checkpoint although it is no write time. Counted from where it was resumed,
 // the write times would be .034 and .054 s, and the first rate 0.
