@@ -16,6 +16,9 @@ namespace
 /// Below it a rank has more to send than to solve.
 constexpr label fewCellsOfRank = 100;
 
+/// In lengths of the mesh. Two spread the disturbance of a lone bead evenly, and cases do so on purpose; more is a slip.
+constexpr scalar longestSmoothing = 10;
+
 bool isBeadDiameter(const std::string& name)
 {
     return name.find("ead") != std::string::npos && name.find("iameter") != std::string::npos;
@@ -66,11 +69,12 @@ void checkCaseSizes(
             << "A bead of the DEM script has a diameter of " << largest << " m and the mesh spans " << span
             << " m; allowed: beads that are smaller than the mesh is thin" << exit(FatalIOError);
     }
-    if (smoothingLength > cmptMax(span))
+    if (smoothingLength > longestSmoothing * cmptMax(span))
     {
         FatalIOErrorInFunction(couplingProperties)
             << "Entry 'smoothingLength' is " << smoothingLength << " m and the mesh spans " << span
-            << " m; allowed: at most its length" << exit(FatalIOError);
+            << " m; allowed: at most " << longestSmoothing << " times its length, which spreads beads evenly over it"
+            << exit(FatalIOError);
     }
     if (largest > std::max(smoothingLength, cellWidth))
     {

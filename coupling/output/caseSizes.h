@@ -15,7 +15,8 @@ namespace clepsydra
 void requireBeadsWithinMesh(const Foam::dictionary& variables, const Foam::boundBox& mesh);
 
 /// Sizes against each other, printed: beads, cells, smoothing length, mesh, cells of a rank. Collective.
-/// FatalIOError where a bead is wider than the mesh is thin, or the smoothing length longer than the mesh. A warning
+/// FatalIOError where a bead is wider than the mesh is thin, or the smoothing length far longer than
+/// the mesh (longer is a way to spread a lone bead evenly). A warning
 /// where beads are wider than what they are spread over, and for ranks with hardly any cells.
 /// \param smoothingLength  [m], 0 without smoothing
 void checkCaseSizes(const Foam::fvMesh& mesh, const BeadsView& beads, double smoothingLength,

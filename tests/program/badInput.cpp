@@ -389,8 +389,8 @@ TEST(BadInput, SizesAndFilesThatNobodyReads)
 {
     expectEntryRefused("DEM/variables/beadDiameter", "2", {"2 m", "the mesh spans"});
     expectEntryRefused("DEM/variables/youngsModulus", "1e200", {"1e+200"});
-    expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/smoothingLength", "0.1"); },
-        {couplingProperties, "'smoothingLength' is 0.1 m", "the mesh spans"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/smoothingLength", "1"); },
+        {couplingProperties, "'smoothingLength' is 1 m", "the mesh spans"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationType", "RAS"); },
         {"turbulenceProperties", "'RAS'", "laminar"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.file("0/voidfraction") = test.file("0/p"); },
