@@ -24,6 +24,16 @@ double distance(const BeadSnapshot& a, const BeadSnapshot& b, double diameter)
     return (a.position - b.position).cwiseAbs().maxCoeff() / diameter;
 }
 
+/// Stops at a time by `endTime`, and goes on from there to the case's own end.
+Outcome runInTwo(TestCase& test, const std::string& stopAt)
+{
+    Outcome mesh = test.makeMesh();
+    return mesh.succeeded()
+               ? test.runCommand("cp system/controlDict asked && echo \"endTime " + stopAt
+                                 + ";\" >> system/controlDict && $SOLVER && cp asked system/controlDict && $SOLVER")
+               : mesh;
+}
+
 } // namespace
 
 class StopAndResume : public testing::TestWithParam<bool>
@@ -219,13 +229,8 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
     const Outcome whole = through.run();
     ASSERT_TRUE(whole.succeeded()) << whole.output;
 
-    ASSERT_TRUE(stopped.makeMesh().succeeded());
-    const Outcome first =
-        stopped.runCommand("cp system/controlDict asked && echo \"endTime 0.034;\" >> system/controlDict && "
-                           "$SOLVER && cp asked system/controlDict");
-    ASSERT_TRUE(first.succeeded()) << first.output;
-    const Outcome second = stopped.runCommand("$SOLVER");
-    ASSERT_TRUE(second.succeeded()) << second.output;
+    const Outcome resumed = runInTwo(stopped, "0.034");
+    ASSERT_TRUE(resumed.succeeded()) << resumed.output;
 
     EXPECT_EQ(through.times(), (std::vector<std::string>{"0.02", "0.04", "0.055"}));
     EXPECT_EQ(stopped.times(), (std::vector<std::string>{"0.02", "0.034", "0.04", "0.055"}));
@@ -266,13 +271,8 @@ TEST(Inserted, BeadsAreNotInsertedAgain)
     ASSERT_TRUE(whole.succeeded()) << whole.output;
     EXPECT_EQ(through.ledgerSummary()["beadsEnd"], static_cast<int>(through.dem.beads.size()) + 6);
 
-    ASSERT_TRUE(stopped.makeMesh().succeeded());
-    const Outcome first =
-        stopped.runCommand("cp system/controlDict asked && echo \"endTime 0.02;\" >> system/controlDict && "
-                           "$SOLVER && cp asked system/controlDict");
-    ASSERT_TRUE(first.succeeded()) << first.output;
-    const Outcome second = stopped.runCommand("$SOLVER");
-    ASSERT_TRUE(second.succeeded()) << second.output;
+    const Outcome resumed = runInTwo(stopped, "0.02");
+    ASSERT_TRUE(resumed.succeeded()) << resumed.output;
     EXPECT_TRUE(
         stopped.runCommand("cmp checkpoints/0.03/complete " + (through.path() / "checkpoints/0.03/complete").string())
             .succeeded());
