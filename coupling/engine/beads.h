@@ -107,6 +107,8 @@ struct BeadsView
     Eigen::Index memorySize = 0;
     /// False where the forces of a step that has been are only made anew: DemEngine::prepare().
     bool memoryAges = true;
+    /// For FluidForces::evaluate() only: true where no force moves the bead, for the engine holds it fast.
+    ConstView<bool> held{nullptr, 0};
 
     Eigen::Index size() const
     {
@@ -120,7 +122,7 @@ struct BeadsView
         const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
         return {values(id), vectors(position), vectors(velocity), vectors(angularVelocity), values(radius),
             values(mass), state + first, vectors(otherForce), pairs, memory + first * memorySize, memorySize,
-            memoryAges};
+            memoryAges, values(held)};
     }
 };
 

@@ -101,8 +101,8 @@ void BeadForces::evaluatePart(const BeadsView& beads, double timeStep, Vectors f
         {
             // The bead's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
             const Vector3d others = beads.otherForce.col(bead) + handedOver + notHandedOver;
-            const Vector3d acceleration =
-                (others + addedMass * state.fluid.acceleration) / (beads.mass[bead] + addedMass);
+            const Vector3d free = (others + addedMass * state.fluid.acceleration) / (beads.mass[bead] + addedMass);
+            const Vector3d acceleration = beads.held[bead] ? Vector3d(Vector3d::Zero()) : free;
             handedOver += addedMass * (state.fluid.acceleration - acceleration);
         }
         force.col(bead) = handedOver + notHandedOver;

@@ -79,6 +79,20 @@ TEST(VirtualMass, IsGivenToTheFluid)
     EXPECT_GT(std::abs(test.given(0).impulse.y()), 0.1 * std::abs(gained.y()));
 }
 
+/// A bead that the engine holds fast does not accelerate, whatever pulls at it: what it gives to the fluid is the part of
+/// the fluid's own acceleration, m_a DU/Dt per unit of time. As a free bead it would add 4.97 m/s2 of its own.
+TEST(VirtualMass, OfAHeldBeadIsThatOfABeadWithoutAcceleration)
+{
+    ForcesOnBeads test("forceModels (virtualMassForce Archimedes);");
+    test.engine().addBead(1, Vector3d::Zero(), radius, 2540);
+    test.engine().holdBead(1);
+    test.fluidAt(0).acceleration = {0, 5, 0};
+    test.engine().advance(50);
+    const Vector3d expected =
+        50 * test.engine().timeStep() * closures::addedMass(0.5, 1000, sphereVolume(radius)) * Vector3d(0, 5, 0);
+    EXPECT_LT((test.given(0).impulse - expected).norm(), 1e-12 * expected.norm());
+}
+
 /// Zuber's coefficient, 2.75 at eps = .4, instead of 1/2: (1 - r) g/(1 + 2.75 r).
 TEST(VirtualMass, TakesZubersCoefficient)
 {

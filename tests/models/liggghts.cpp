@@ -133,6 +133,18 @@ Vector3d otherForce(const Probe& probe, int bead)
     return sumOverRanks(found);
 }
 
+/// To the fluid, by all beads.
+Vector3d impulseGiven(LiggghtsEngine& engine)
+{
+    const BeadsView beads = engine.beads();
+    Vector3d sum = Vector3d::Zero();
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        sum += beads.state[bead].given.impulse;
+    }
+    return sumOverRanks(sum);
+}
+
 const double beadMass = beadDensity * sphereVolume(radius);
 
 } // namespace
@@ -164,6 +176,26 @@ TEST(Liggghts, TakesTheAddedMassImplicitly)
     beads.start(&forces).advance(100);
     EXPECT_NEAR(
         beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
+}
+
+/// `fix freeze` holds a bead against the fluid's forces, too, and its added mass has nothing to resist then: it gives
+/// the fluid nothing, in still water. LIGGGHTS' fix alone clears what acts on the bead before the fluid's forces come.
+TEST(Liggghts, FrozenBeadsStayWhatTheFluidDoes)
+{
+    Beads beads;
+    beads.dem.beads = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+    beads.dem.more = "group frozen id 1\nfix frozen frozen freeze\n";
+    Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
+    PhaseTimers timers;
+    BeadForces forces(dict, water(), timers);
+    LiggghtsEngine& engine = beads.start(&forces);
+    const Vector3d before = impulseGiven(engine);
+    engine.advance(100);
+    EXPECT_EQ(beads.velocity(1), Vector3d::Zero());
+    EXPECT_LT(beads.velocity(2).z(), 0);
+    const double mobile = 100 * engine.timeStep() * closures::addedMass(0.5, 1000, sphereVolume(radius))
+                          * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5);
+    EXPECT_NEAR((impulseGiven(engine) - before).z() / mobile, 1, 1e-6);
 }
 
 /// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
@@ -419,6 +451,26 @@ TEST(GroupChange, RestingBeadsStayAndAreFeltByOthers)
     EXPECT_EQ(beads.position(1), before);
     EXPECT_GT((beads.position(2) - before).norm(), 1.98e-3);
     EXPECT_NE(beads.velocity(2), Vector3d::Zero());
+}
+
+/// Added mass is the fluid's resistance to a bead's acceleration, and a bead that is held has none: in still water two
+/// beads at rest, one upon the other, give the fluid nothing. `exclude` spares their contact, and so the weight of the
+/// upper one seems to let it fall: taken for a free bead it pushed the fluid down for ever.
+TEST(GroupChange, RestingBeadsDoNotPushTheFluidByTheirAddedMass)
+{
+    Beads beads = restingBeads();
+    beads.dem.beads = {{0.0201, 0.01, 1.0e-3}, {0.0201, 0.01, 3.0e-3}};
+    Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
+    PhaseTimers timers;
+    BeadForces forces(dict, water(), timers);
+    LiggghtsEngine& engine = beads.start(&forces);
+    advanceInIntervals(engine, 0.05);
+    ASSERT_EQ(beads.velocity(1), Vector3d::Zero());
+    ASSERT_EQ(beads.velocity(2), Vector3d::Zero());
+    const Vector3d before = impulseGiven(engine);
+    EXPECT_GT(before.norm(), 0) << "they gave nothing while they settled either";
+    advanceInIntervals(engine, 0.01);
+    EXPECT_EQ(impulseGiven(engine), before);
 }
 
 /// Above the threshold no bead rests for good: the same bead on the same floor goes on trembling.

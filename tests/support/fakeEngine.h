@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <set>
 #include <utility>
 
 namespace clepsydra::tests
@@ -30,6 +31,12 @@ public:
         radius_.push_back(radius);
         mass_.push_back(density * sphereVolume(radius));
         state_.emplace_back();
+    }
+
+    /// From now on no force moves it.
+    void holdBead(int id)
+    {
+        heldIds_.insert(id);
     }
 
     /// What LIGGGHTS does to a bead that leaves its box. \pre this rank has the bead. Invalidates views.
@@ -77,6 +84,8 @@ public:
             weight_.col(bead) = mass_[static_cast<std::size_t>(bead)] * gravity_;
         }
         listPairs();
+        held_.resize(force.cols());
+        std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return heldIds_.count(id) > 0; });
         for (int step = 0; step < steps; ++step)
         {
             if (forces_ != nullptr)
@@ -85,8 +94,12 @@ public:
             }
             for (std::size_t bead = 0; bead < id_.size(); ++bead)
             {
-                velocity_[bead] += timeStep_ * (gravity_ + force.col(static_cast<Eigen::Index>(bead)) / mass_[bead]);
-                position_[bead] += timeStep_ * velocity_[bead];
+                const auto column = static_cast<Eigen::Index>(bead);
+                if (!held_[column])
+                {
+                    velocity_[bead] += timeStep_ * (gravity_ + force.col(column) / mass_[bead]);
+                    position_[bead] += timeStep_ * velocity_[bead];
+                }
             }
         }
     }
@@ -105,7 +118,7 @@ public:
             ConstVectors(weight_.data(), 3, weight_.cols()),
             BeadPairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
                 Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
-            memory_.data(), memory_.rows()};
+            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size())};
     }
 
     double timeStep() const override
@@ -169,6 +182,8 @@ private:
     std::vector<CouplingState> state_;
     /// Of the step that advance() is in.
     Eigen::Matrix3Xd weight_;
+    std::set<int> heldIds_;
+    Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool seesPairs_ = false;
     Eigen::Matrix2Xi pairs_;
     Eigen::MatrixXd memory_;

@@ -72,6 +72,14 @@ bool isNumber(const std::string& text)
     return used == text.size();
 }
 
+/// By the forces on its beads, not as the script states or not at all.
+bool movesByForces(const lmp::Fix& fix)
+{
+    const std::string style = fix.style;
+    const bool isMultisphere = style.rfind("multisphere", 0) == 0; // does not say that it integrates
+    return (fix.time_integrate == 1 && style != "move" && style.find("noforce") == std::string::npos) || isMultisphere;
+}
+
 lmp::Fix* findFixOfStyle(const lmp::Modify& modify, const std::string& style)
 {
     lmp::Fix** const end = modify.fix + modify.nfix;
@@ -302,6 +310,31 @@ public:
         lmp::Modify& modify = *program_->modify;
         auto* external = static_cast<lmp::FixExternal*>(modify.fix[modify.find_fix(forceFixId)]);
         external->set_callback(&Implementation::fluidForceCallback, this);
+        std::for_each(modify.fix, modify.fix + modify.nfix, [this](const lmp::Fix* fix) {
+            movingGroups_ |= movesByForces(*fix) ? fix->groupbit : 0;
+            frozenGroups_ |= std::string(fix->style) == "freeze" ? fix->groupbit : 0;
+        });
+    }
+
+    /// Those at rest by `groupChanges` are in no group that moves.
+    void findHeldBeads()
+    {
+        const lmp::Atom& atom = *program_->atom;
+        held_.resize(atom.nlocal);
+        std::transform(atom.mask, atom.mask + atom.nlocal, held_.begin(),
+            [this](int groups) { return (groups & movingGroups_) == 0 || (groups & frozenGroups_) != 0; });
+    }
+
+    /// `fix freeze` has cleared all forces but the fluid's, which come after it.
+    void clearForceOnHeldBeads(Vectors force) const
+    {
+        for (Eigen::Index bead = 0; frozenGroups_ != 0 && bead < force.cols(); ++bead)
+        {
+            if (held_[bead])
+            {
+                force.col(bead).setZero();
+            }
+        }
     }
 
     void seePairs(double reach)
@@ -513,17 +546,24 @@ private:
         engine.checkFinite();
         const FloatingPointTraps asOutside(engine.trapsOutside_);
         const BeadsView own = engine.beads();
+        engine.findHeldBeads();
         const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
             own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{},
             engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_,
-            engine.program_->update->setupflag == 0};
-        engine.forces_->evaluate(beads, engine.program_->update->dt, Vectors(firstElement(force), 3, beads.size()));
+            engine.program_->update->setupflag == 0, ConstView<bool>(engine.held_.data(), own.size())};
+        const Vectors ofFluid(firstElement(force), 3, beads.size());
+        engine.forces_->evaluate(beads, engine.program_->update->dt, ofFluid);
+        engine.clearForceOnHeldBeads(ofFluid);
     }
 
     MPI_Comm communicator_;
     std::unique_ptr<lmp::LAMMPS> program_;
     lmp::Fix* stateFix_ = nullptr;
     FluidForces* forces_ = nullptr;
+    /// Of which groups forces move the beads, and of which a fix forbids it.
+    int movingGroups_ = 0;
+    int frozenGroups_ = 0;
+    Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool seesPairs_ = false;
     lmp::Fix* memoryFix_ = nullptr;
     int memorySize_ = 0;
