@@ -33,14 +33,13 @@ public:
     /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; the same rule at walls.
     double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth) const;
 
-    /// Cells whose bounding box touches the sphere's, by growing label.
+    /// Cells whose bounding box meets the cube about the sphere, by growing label.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
 
-    /// Whether the cell's bounding box touches the sphere's.
+    /// Whether the cell's bounding box meets the cube about the sphere.
     bool isNear(Foam::label cell, const Vector3d& centre, double radius) const
     {
-        const Box& box = cellBoxes_[cell];
-        return ((centre - box.min()).array() >= -radius).all() && ((box.max() - centre).array() >= -radius).all();
+        return cubeMeets(cellBoxes_[cell], centre, radius);
     }
 
     /// Box around the cells of this rank.

@@ -15,6 +15,13 @@ namespace clepsydra
 using Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
 
+/// Whether the cube about a sphere meets a box. Whoever asks what a bead can act on asks this: a share may be above zero
+/// in a cell that the cube meets and the sphere does not (CellSlabs).
+inline bool cubeMeets(const Box& box, const Vector3d& centre, double radius)
+{
+    return ((centre - box.min()).array() >= -radius).all() && ((box.max() - centre).array() >= -radius).all();
+}
+
 /// The fluid at the place of one bead, frozen while the engine advances one coupling interval.
 struct FluidAtBead
 {

@@ -25,11 +25,6 @@ Box box(const BoxNumbers& six)
     return Box(Vector3d(six.head<3>()), Vector3d(six.tail<3>()));
 }
 
-bool touches(const Box& cells, const Vector3d& centre, double radius)
-{
-    return !cells.isEmpty() && cells.squaredExteriorDistance(centre) <= radius * radius;
-}
-
 Box boxAround(const BeadsView& beads, double commonReach)
 {
     Box around;
@@ -45,8 +40,8 @@ Box boxAround(const BeadsView& beads, double commonReach)
 VisitingBead visitFrom(const BeadsView& beads, Eigen::Index bead)
 {
     const GivenToFluid& given = beads.state[bead].given;
-    return {beads.position.col(bead), beads.velocity.col(bead), given.impulse, given.implicitCoefficientTime,
-        beads.radius[bead], static_cast<double>(beads.id[bead])};
+    return {beads.position.col(bead), given.impulse, given.implicitCoefficientTime, beads.radius[bead],
+        static_cast<double>(beads.id[bead])};
 }
 
 } // namespace
@@ -80,7 +75,7 @@ void BeadExchange::makePlan(const BeadsView& beads)
             Exports leaving{rank, {}};
             for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
             {
-                if (touches(theirCells, beads.position.col(bead), std::max(beads.radius[bead], commonReach_)))
+                if (cubeMeets(theirCells, beads.position.col(bead), std::max(beads.radius[bead], commonReach_)))
                 {
                     leaving.beads.push_back(bead);
                 }

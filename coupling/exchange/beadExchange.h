@@ -13,7 +13,6 @@ namespace clepsydra
 struct VisitingBead
 {
     Vector3d position;
-    Vector3d velocity;
     Vector3d impulse;
     double implicitCoefficientTime;
     double radius;
@@ -32,7 +31,7 @@ public:
     /// \param commonReach  how far from its centre every bead acts, if farther than its radius [m]
     BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
 
-    /// Sends every bead to each rank whose box its sphere, or its reach, touches. Collective.
+    /// Sends every bead to each rank whose box the cube about its sphere, or its reach, meets. Collective.
     void send(const BeadsView& beads);
 
     /// Local: the beads that touch this rank's box, own ones first, then by rank.

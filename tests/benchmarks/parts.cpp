@@ -86,7 +86,6 @@ public:
         for (int bead = 0; bead < beadCount; ++bead)
         {
             VisitingBead visitor{};
-            visitor.velocity.setZero();
             visitor.impulse.setZero();
             for (int axis = 0; axis < 3; ++axis)
             {
