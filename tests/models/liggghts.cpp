@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -133,6 +134,20 @@ Vector3d otherForce(const Probe& probe, int bead)
     return sumOverRanks(found);
 }
 
+/// What the engine says when this is done; empty where it does not complain.
+std::string errorOf(const std::function<void()>& deed)
+{
+    try
+    {
+        deed();
+    }
+    catch (const DemEngineError& error)
+    {
+        return error.what();
+    }
+    return {};
+}
+
 /// To the fluid, by all beads.
 Vector3d impulseGiven(LiggghtsEngine& engine)
 {
@@ -198,6 +213,31 @@ TEST(Liggghts, FrozenBeadsStayWhatTheFluidDoes)
     EXPECT_NEAR((impulseGiven(engine) - before).z() / mobile, 1, 1e-6);
 }
 
+/// Where LIGGGHTS alone would end the process, the error arrives with LIGGGHTS' message: `quit`, also where a variable
+/// decides it; an error of a compute; a log file that cannot be opened. The process of this test would be gone.
+TEST(Liggghts, DoesNotEndTheProcess)
+{
+    const auto messageOf = [](const std::string& command) {
+        Beads beads;
+        beads.dem.beads = {{0.005, 0.01, 0.01}};
+        beads.dem.more = command + '\n';
+        return errorOf([&] { beads.start(nullptr); });
+    };
+    for (const std::string quit : {"quit", "if '2 > 1' then quit"})
+    {
+        const std::string message = messageOf(quit);
+        EXPECT_NE(message.find("LIGGGHTS stopped at '" + quit + "': "), std::string::npos) << message;
+        EXPECT_NE(message.find("allowed: a script without 'quit'"), std::string::npos) << message;
+    }
+    const std::string ofCompute = messageOf("compute near all coord/atom 0.003 mix maybe");
+    EXPECT_NE(ofCompute.find("compute coord/atom (id near): "), std::string::npos) << ofCompute;
+    LiggghtsSetup setup;
+    setup.communicator = MPI_COMM_SELF; // who opens the file
+    setup.logFile = "none/log.liggghts";
+    const std::string ofLog = errorOf([&] { LiggghtsEngine engine(setup); });
+    EXPECT_NE(ofLog.find("LIGGGHTS did not start: Cannot open universe log file"), std::string::npos) << ofLog;
+}
+
 /// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
 TEST(Liggghts, TellsThatAllBeadsAreGone)
 {
@@ -218,40 +258,107 @@ TEST(Liggghts, TellsThatAllBeadsAreGone)
     }
 }
 
-/// 260 beads of two sizes fall into a heap, with friction and sliding, on one rank and across the boundary between two:
-/// our contacts and LIGGGHTS' own, which any further word in the line of the contact law brings back, here one that
-/// states the default. The same to the last bit after 2000 steps and thousands of contacts; one wrong digit in one
-/// contact would be a millimetre by then. With OpenFOAM's traps set, as in a run: twenty pairs touch at the start, when
-/// no spring is loaded.
+namespace
+{
+
+/// Position, velocity and angular velocity, a column for each bead, after 260 beads of two sizes have fallen into a heap,
+/// with friction and sliding. Twenty pairs touch at the start, when no spring is loaded.
+Eigen::MatrixXd heap(int steps, const std::string& wordsOfContactLaw, const std::string& more = {})
+{
+    Beads beads;
+    beads.dem.walls = true;
+    beads.dem.timeStep = 2e-5;
+    beads.dem.beads = simpleLattice(beads.box, {10, 6, 4});
+    jitter(beads.dem.beads, 4e-4, 1);
+    for (std::size_t bead = 0; bead < 20; ++bead)
+    {
+        beads.dem.beads.emplace_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
+    }
+    beads.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
+                     "pair_style gran model hertz tangential history "
+                     + wordsOfContactLaw + "\npair_coeff * *\n" + more;
+    LiggghtsEngine& engine = beads.start(nullptr);
+    engine.advance(steps);
+    const BeadsView view = engine.beads();
+    Eigen::MatrixXd state = Eigen::MatrixXd::Zero(9, static_cast<Eigen::Index>(beads.dem.beads.size()));
+    for (Eigen::Index bead = 0; bead < view.size(); ++bead)
+    {
+        state.col(view.id[bead] - 1) << view.position.col(bead), view.velocity.col(bead),
+            view.angularVelocity.col(bead);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, state.data(), static_cast<int>(state.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    return state;
+}
+
+} // namespace
+
+/// Our contacts and LIGGGHTS' own, which any further word in the line of the contact law brings back, here one that
+/// states the default: the same to the last bit after 2000 steps and thousands of contacts, on one rank and across the
+/// boundary between two; one wrong digit in one contact would be a millimetre by then. Both keep the springs of contacts
+/// that have parted, as LIGGGHTS does. With OpenFOAM's traps set, as in a run.
 TEST(Liggghts, HasTheSameContactsAsItsOwn)
 {
-    const auto heap = [](const std::string& contactLaw) {
-        Beads beads;
-        beads.dem.walls = true;
-        beads.dem.timeStep = 2e-5;
-        beads.dem.beads = simpleLattice(beads.box, {10, 6, 4});
-        jitter(beads.dem.beads, 4e-4, 1);
-        for (std::size_t bead = 0; bead < 20; ++bead)
-        {
-            beads.dem.beads.emplace_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
-        }
-        beads.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
-                         "pair_style gran model hertz tangential history "
-                         + contactLaw + "\npair_coeff * *\n";
-        LiggghtsEngine& engine = beads.start(nullptr);
-        engine.advance(2000);
-        const BeadsView view = engine.beads();
-        Eigen::MatrixXd state(10, view.size());
-        state << view.id.matrix().cast<double>().transpose(), view.position, view.velocity, view.angularVelocity;
-        return state;
-    };
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
-    const Eigen::MatrixXd ours = heap("");
+    const Eigen::MatrixXd ours = heap(2000, "forget_parted off");
     fedisableexcept(FE_ALL_EXCEPT);
-    const Eigen::MatrixXd theirs = heap("tangential_damping on");
-    ASSERT_EQ(ours.cols(), theirs.cols());
+    const Eigen::MatrixXd theirs = heap(2000, "forget_parted off tangential_damping on");
     EXPECT_EQ(ours, theirs);
     EXPECT_GT(ours.bottomRows<3>().norm(), 1) << "nothing turns, so nothing touches";
+}
+
+/// A new neighbour list makes LIGGGHTS forget springs of contacts that have parted. With a new one in every step it does
+/// what our contacts do without: the same to the last bit, whoever evaluates them. It differs from what LIGGGHTS does
+/// with lists that last, so some contacts have parted and met again.
+TEST(Liggghts, ForgetsWhatItsOwnForgetsWithAListForEveryStep)
+{
+    constexpr int steps = 1200;
+    const Eigen::MatrixXd ours = heap(steps, "");
+    EXPECT_EQ(ours, heap(steps, "forget_parted on tangential_damping on"));
+    EXPECT_EQ(ours, heap(steps, "forget_parted off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
+    EXPECT_NE(ours, heap(steps, "forget_parted off"));
+}
+
+/// A bead is led past another: it touches it and shears the contact by B, parts, goes back, and touches it again with a
+/// shear of B, all within one neighbour list. The second contact is a new one, its spring k_t B. LIGGGHTS goes on with
+/// the old one, 2 k_t B, which `forget_parted off` keeps. Both hold whoever evaluates the contact: a further word in the
+/// line brings LIGGGHTS' own loop back.
+TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
+{
+    constexpr double deepest = 1e-5;
+    constexpr double shear = 1e-6;
+    const auto secondSpring = [](const std::string& words) {
+        Beads beads;
+        beads.dem.gravity = 0;
+        beads.dem.fixed = true;
+        beads.dem.restitution = 1; // no damping
+        beads.dem.friction = 1e6;  // no sliding
+        beads.dem.beads = {{0.01, 0.01, 0.01}, {0.01, 0.01, 0.01 + 2 * radius - deepest}};
+        const auto line = [](const std::string& name, double scale, const std::string& function) {
+            std::ostringstream text;
+            text << "variable " << name << " equal " << scale << '*' << function << '\n';
+            return text.str();
+        };
+        constexpr double period = 0.01;
+        constexpr double rate = 2 * static_cast<double>(EIGEN_PI) / period;
+        std::ostringstream phase;
+        phase << '(' << rate << "*step*dt)";
+        beads.dem.more =
+            "group led id 2\n" + line("x", shear, "sin" + phase.str()) + line("vx", shear * rate, "cos" + phase.str())
+            + line("z", deepest, "(1-cos" + phase.str() + ")") + line("vz", deepest * rate, "sin" + phase.str())
+            + "fix lead led move variable v_x NULL v_z v_vx NULL v_vz units box\n"
+              "pair_style gran model hertz tangential history "
+            + words + "\npair_coeff * *\n";
+        Probe probe;
+        beads.start(&probe).advance(static_cast<int>(std::lround(period / beads.dem.timeStep)));
+        const double shearModulus = beads.dem.youngsModulus / (4 * (2 - 0.2) * (1 + 0.2));
+        const double stiffness = 8 * shearModulus * std::sqrt(radius / 2 * deepest);
+        return otherForce(probe, 1).x() / (stiffness * shear);
+    };
+    EXPECT_NEAR(secondSpring(""), 1, 0.01);
+    EXPECT_NEAR(secondSpring("forget_parted on tangential_damping on"), 1, 0.01);
+    EXPECT_NEAR(secondSpring("forget_parted off"), 2, 0.01);
+    EXPECT_NEAR(secondSpring("tangential_damping on forget_parted off"), 2, 0.01);
+    EXPECT_THROW(secondSpring("forget_parted maybe"), DemEngineError);
 }
 
 /// Two beads 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by

@@ -1,6 +1,7 @@
 #include "engine/liggghts/hertzPairStyle.h"
 
 #include "engine/liggghts/hertzContactLaw.h"
+#include "engine/liggghts/liggghtsErrors.h"
 
 // What LIGGGHTS' headers below use and do not include
 #include <mpi.h>
@@ -37,7 +38,10 @@
 #include <surface_model_default.h>
 #include <tangential_model_history.h>
 
+#include <algorithm>
+#include <array>
 #include <iostream>
+#include <string>
 #include <vector>
 
 // The library has it compiled.
@@ -57,8 +61,13 @@ namespace models = LIGGGHTS::ContactModels;
 
 using HertzOfLiggghts = LIGGGHTS::PairStyles::Granular<models::ContactModel<HertzStyle>>;
 
+constexpr const char* forgetKeyword = "forget_parted";
+
 /// LIGGGHTS' style, with a loop over many contacts at a time in the place of a chain of calls for each. What only some
 /// scripts ask for is left to LIGGGHTS' own loop.
+///
+/// LIGGGHTS keeps the spring of a contact until the next neighbour list, so that beads which have parted and meet again
+/// before that go on with the old one. Here it goes with the contact, unless the script says `forget_parted off`.
 class HertzPairStyle : public HertzOfLiggghts
 {
 public:
@@ -69,8 +78,10 @@ public:
 
     void settings(int count, char** words, LIGGGHTS::IContactHistorySetup* history) override
     {
-        plain_ = count == 0;
-        HertzOfLiggghts::settings(count, words, history);
+        std::vector<char*> rest(words, words + count);
+        readForgetting(rest);
+        plain_ = rest.empty();
+        HertzOfLiggghts::settings(static_cast<int>(rest.size()), rest.data(), history);
     }
 
     void init_granular() override
@@ -87,6 +98,11 @@ public:
     {
         if (!canEvaluate(*pair, energies != 0 || virials != 0 || forCompute != 0))
         {
+            for (int bead = 0; pair->listgranhistory && bead < pair->list->inum; ++bead)
+            {
+                findContacts(*pair, pair->list->ilist[bead]);
+                forgetParted(*pair, pair->list->ilist[bead]);
+            }
 #ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style has not
             HertzOfLiggghts::compute_force(pair, energies, virials, forCompute);
 #endif
@@ -119,6 +135,44 @@ private:
         double* shear;
     };
 
+    /// Some of a bead's neighbours, by their number in its list.
+    struct Chosen
+    {
+        std::vector<int> which;
+        std::size_t count = 0;
+
+        void clear(int most)
+        {
+            which.resize(std::max(which.size(), static_cast<std::size_t>(most)));
+            count = 0;
+        }
+
+        /// Without a branch: one neighbour in three touches, which no processor foresees.
+        void addIf(bool isChosen, int neighbour)
+        {
+            which[count] = neighbour;
+            count += isChosen ? 1 : 0;
+        }
+    };
+
+    /// Takes `forget_parted on|off` out of the words.
+    void readForgetting(std::vector<char*>& words)
+    {
+        const auto keyword = std::find_if(
+            words.begin(), words.end(), [](const char* word) { return word == std::string(forgetKeyword); });
+        if (keyword == words.end())
+        {
+            return;
+        }
+        const std::string value = keyword + 1 == words.end() ? "" : *(keyword + 1);
+        if (value != "on" && value != "off")
+        {
+            throw LiggghtsStopped(std::string("'") + forgetKeyword + ' ' + value + "'; allowed: on, off", false);
+        }
+        forgetsParted_ = value == "on";
+        words.erase(keyword, keyword + 2);
+    }
+
     /// Without what LIGGGHTS' loop does beside the forces of contacts.
     bool canEvaluate(lmp::PairGran& pair, bool asksForMore) const
     {
@@ -148,14 +202,34 @@ private:
     /// The contacts of bead i with the later ones of its neighbours.
     void addContacts(lmp::PairGran& pair, int i, double shearStep)
     {
+        findContacts(pair, i);
+        forgetParted(pair, i);
+        const int* const neighbours = pair.list->firstneigh[i];
+        int* const flags = pair.listgranhistory->firstneigh[i];
+        double* const history = pair.listgranhistory->firstdouble[i];
+        for (std::size_t touch = 0; touch < touching_.count; ++touch)
+        {
+            const int neighbour = touching_.which[touch];
+            flags[neighbour] |= models::CONTACT_NORMAL_MODEL | models::CONTACT_TANGENTIAL_MODEL;
+            add({i, neighbours[neighbour] & NEIGHMASK, history + pair.dnum() * neighbour});
+            if (contacts_.count == HertzContacts::most)
+            {
+                evaluate(pair, shearStep);
+            }
+        }
+    }
+
+    /// Which neighbours of bead i touch it, and which did until now.
+    void findContacts(const lmp::PairGran& pair, int i)
+    {
         const lmp::Atom& atoms = *program_.atom;
         const int* const neighbours = pair.list->firstneigh[i];
+        const int* const flags = pair.listgranhistory->firstneigh[i];
         const int neighbourCount = pair.list->numneigh[i];
         const double* const at = atoms.x[i];
         const double radius = atoms.radius[i];
-        touching_.resize(std::max(touching_.size(), static_cast<std::size_t>(neighbourCount)));
-        // Without a branch: one neighbour in three touches, which no processor foresees.
-        std::size_t count = 0;
+        touching_.clear(neighbourCount);
+        parted_.clear(neighbourCount);
         for (int neighbour = 0; neighbour < neighbourCount; ++neighbour)
         {
             const int j = neighbours[neighbour] & NEIGHMASK;
@@ -163,20 +237,20 @@ private:
             const double dy = at[1] - atoms.x[j][1];
             const double dz = at[2] - atoms.x[j][2];
             const double reach = radius + atoms.radius[j];
-            touching_[count] = neighbour;
-            count += dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
+            const bool touches = dx * dx + dy * dy + dz * dz < reach * reach;
+            const bool touched = flags[neighbour] != 0;
+            touching_.addIf(touches, neighbour);
+            parted_.addIf(!touches & touched, neighbour);
         }
-        int* const flags = pair.listgranhistory->firstneigh[i];
-        double* const history = pair.listgranhistory->firstdouble[i];
-        for (std::size_t touch = 0; touch < count; ++touch)
+    }
+
+    void forgetParted(lmp::PairGran& pair, int i)
+    {
+        for (std::size_t parting = 0; forgetsParted_ && parting < parted_.count; ++parting)
         {
-            const int neighbour = touching_[touch];
-            flags[neighbour] |= models::CONTACT_NORMAL_MODEL | models::CONTACT_TANGENTIAL_MODEL;
-            add({i, neighbours[neighbour] & NEIGHMASK, history + pair.dnum() * neighbour});
-            if (contacts_.count == HertzContacts::most)
-            {
-                evaluate(pair, shearStep);
-            }
+            const int neighbour = parted_.which[parting];
+            pair.listgranhistory->firstneigh[i][neighbour] = 0;
+            std::fill_n(pair.listgranhistory->firstdouble[i] + pair.dnum() * neighbour, pair.dnum(), 0.0);
         }
     }
 
@@ -239,6 +313,7 @@ private:
     lmp::LAMMPS& program_;
     /// No further words in the script's line, such as limitForce.
     bool plain_ = false;
+    bool forgetsParted_ = true;
     double** youngsModulus_ = nullptr;
     double** shearModulus_ = nullptr;
     double** damping_ = nullptr;
@@ -246,7 +321,8 @@ private:
     int typeCount_ = 0;
     /// By the two types.
     std::vector<Material> materials_;
-    std::vector<int> touching_;
+    Chosen touching_;
+    Chosen parted_;
     HertzContacts contacts_;
     std::array<Partners, HertzContacts::most> partners_;
 };

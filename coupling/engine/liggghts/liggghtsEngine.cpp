@@ -95,7 +95,7 @@ public:
     explicit Implementation(const LiggghtsSetup& setup)
         : communicator_(setup.communicator)
     {
-        keepLiggghtsErrorReplacements();
+        requireLiggghtsErrorReplacements();
         start(setup.logFile);
         registerHertzPairStyle();
         for (const auto& [name, value] : setup.variables)

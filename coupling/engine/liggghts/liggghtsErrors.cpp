@@ -1,13 +1,23 @@
 #include "engine/liggghts/liggghtsErrors.h"
 
+#include "engine/liggghts/replacedFunctions.h"
+
+#include <mpi.h>
+
+#include <compute.h>
 #include <error.h>
 #include <fix.h>
+#include <library.h>
 
 namespace clepsydra
 {
 
-void keepLiggghtsErrorReplacements()
-{}
+void requireLiggghtsErrorReplacements()
+{
+    // The two that are called from everywhere; another build of LIGGGHTS may have no call of the others.
+    requireReplaced({"_ZN9LAMMPS_NS5Error3allEPKciS2_", "_ZN9LAMMPS_NS5Error3oneEPKciS2_"},
+        reinterpret_cast<const void*>(&lammps_open), reinterpret_cast<const void*>(&requireLiggghtsErrorReplacements));
+}
 
 } // namespace clepsydra
 
@@ -31,4 +41,26 @@ void LAMMPS_NS::Error::fix_error(const char*, int, Fix* fix, const char* message
 void LAMMPS_NS::Error::fix_error(const char*, int, Fix* fix, const char* fixStyle, const char* message)
 {
     throw LiggghtsStopped(std::string("fix ") + fixStyle + " (id " + fix->id + "): " + message, false);
+}
+
+void LAMMPS_NS::Error::compute_error(const char*, int, Compute* compute, const char* message)
+{
+    throw LiggghtsStopped(std::string("compute ") + compute->style + " (id " + compute->id + "): " + message, false);
+}
+
+void LAMMPS_NS::Error::universe_all(const char*, int, const char* message)
+{
+    throw LiggghtsStopped(message, false);
+}
+
+void LAMMPS_NS::Error::universe_one(const char*, int, const char* message)
+{
+    throw LiggghtsStopped(message, true);
+}
+
+/// LIGGGHTS' command `quit`.
+void LAMMPS_NS::Error::done()
+{
+    throw LiggghtsStopped(
+        "it asks for the end; allowed: a script without 'quit', for the coupling ends the run", false);
 }

@@ -8,8 +8,8 @@ namespace clepsydra
 
 /// Thrown instead of LIGGGHTS ending the process.
 ///
-/// LIGGGHTS reports an error by Error::all or Error::one, which print to its own log and call exit(). Linking
-/// liggghtsErrors.cpp into the program replaces those members (the dynamic linker prefers the program's
+/// LIGGGHTS ends in members of its class Error alone: they print to its own log and call exit() or MPI_Abort(). Linking
+/// liggghtsErrors.cpp into the program replaces all of those members (the dynamic linker prefers the program's
 /// definition to the library's), so that the message reaches the caller with the place where it happened.
 class LiggghtsStopped : public std::runtime_error
 {
@@ -29,7 +29,8 @@ private:
     bool onOneRankOnly_;
 };
 
-/// Called by the engine so that the linker keeps the replacements.
-void keepLiggghtsErrorReplacements();
+/// To be called before LIGGGHTS is.
+/// \throws DemEngineError where LIGGGHTS' library does not use the replacements
+void requireLiggghtsErrorReplacements();
 
 } // namespace clepsydra
