@@ -5,8 +5,6 @@
 #include "PstreamReduceOps.H"
 #include "UIPstream.H"
 #include "UOPstream.H"
-#include "cyclicFvPatch.H"
-#include "processorCyclicFvPatch.H"
 #include "processorFvPatch.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -99,27 +97,12 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         }
         const scalarField across = conductances(patch.magSf(), patch.deltaCoeffs());
         const labelUList& cells = patch.faceCells();
-        const auto* toRank = isA<processorFvPatch>(patch) ? &refCast<const processorFvPatch>(patch) : nullptr;
-        const auto* cyclic = isA<cyclicFvPatch>(patch) ? &refCast<const cyclicFvPatch>(patch) : nullptr;
-        const bool rotates = !refCast<const coupledFvPatch>(patch).parallel();
-        if (rotates || (!toRank && !cyclic))
-        {
-            FatalErrorInFunction << "Patch " << patch.name() << " is of type " << patch.type()
-                                 << (rotates ? " and rotates" : "")
-                                 << "; allowed between cells that beads are spread over: processor and cyclic without "
-                                    "rotation"
-                                 << exit(FatalError);
-        }
-        restrictable_ = restrictable_ && !cyclic && !isA<processorCyclicFvPatch>(patch);
-        if (toRank)
-        {
-            whole.boundaries.push_back({toRank->neighbProcNo(), toRank->tag(), toRank->comm(),
-                std::vector<label>(cells.begin(), cells.end()), whole.columnCount});
-        }
+        const auto& toRank = refCast<const processorFvPatch>(patch);
+        whole.boundaries.push_back({toRank.neighbProcNo(), toRank.tag(), toRank.comm(),
+            std::vector<label>(cells.begin(), cells.end()), whole.columnCount});
         forAll (cells, face)
         {
-            const label behind =
-                toRank ? static_cast<label>(whole.columnCount++) : cyclic->neighbFvPatch().faceCells()[face];
+            const auto behind = static_cast<label>(whole.columnCount++);
             links.push_back({cells[face], behind, across[face], 1 / patch.deltaCoeffs()[face]});
         }
     }
@@ -146,17 +129,12 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         whole.neighbour[at] = link.column;
         whole.rate[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
     }
-    reduce(restrictable_, andOp<bool>());
 }
 
 void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
 {
     // Where nearly all cells are near, a second list of them saves no time and costs memory.
     constexpr double worthwhile = 0.8;
-    if (!restrictable_)
-    {
-        return;
-    }
     const std::vector<bool> taken = near(sources, reach);
     const auto count = static_cast<scalar>(std::count(taken.begin(), taken.end(), true));
     const bool some = returnReduce(count, sumOp<scalar>())

@@ -15,12 +15,12 @@ namespace clepsydra
 ///     (L u)_P = 1/V_P sum over faces of |S_f| (u_P - u_N)/|d_f|
 ///
 /// Uncorrected for non-orthogonality: only then is L self-adjoint in the volume-weighted product. A face without a cell
-/// behind it (wall, baffle, inlet) lets nothing through; processor and cyclic faces are faces like any other. What leaves
+/// behind it (wall, baffle, inlet) lets nothing through; a face to another rank is a face like any other. What leaves
 /// a cell enters its neighbour, so the integral over the mesh stays to rounding.
 class CellDiffusion
 {
 public:
-    /// Collective. FatalError for a mesh whose cells are coupled in another way.
+    /// Collective. \pre no patch joins cells but those between ranks
     explicit CellDiffusion(const Foam::fvMesh& mesh);
 
     /// Upper bound of L's eigenvalues, after Gershgorin; the lower one is zero [1/m2].
@@ -37,8 +37,7 @@ public:
 
     /// From now on applyChebyshev() smooths near these cells only: the others keep what they have, and nothing passes
     /// between the two. Still conservative and self-adjoint, and the same as on the whole mesh as far as nothing diffuses
-    /// farther than `reach` and two cells. Distances are straight, but do not lead through walls. On a mesh
-    /// with cyclic patches no cell is left out. Collective.
+    /// farther than `reach` and two cells. Distances are straight, but do not lead through walls. Collective.
     /// \param sources  cells of this rank
     void restrictTo(const std::vector<Foam::label>& sources, double reach);
 
@@ -79,8 +78,6 @@ private:
     static void exchange(const Part& part, std::vector<Values>& values);
 
     const Foam::fvMesh& mesh_;
-    /// False where straight distances lead nowhere: cells across a cyclic patch are far away.
-    bool restrictable_ = true;
     /// Largest distance between a cell and one of its neighbours.
     std::vector<double> width_;
     Part whole_;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace clepsydra
 {
@@ -15,20 +16,13 @@ using Foam::label;
 namespace
 {
 
+/// Between the planes of a brick and the box about its corners, in parts of it.
+constexpr double roundingOfPlanes = 1e-9;
+constexpr double infinitelyFar = std::numeric_limits<double>::infinity();
 /// Faces of a cell whose normals differ by less than about 25 degrees bound it on the same side.
 constexpr double sameSideCosine = 0.9;
 /// Sides whose normals are within about 60 degrees of opposite bound the same slab.
 constexpr double oppositeCosine = -0.5;
-
-/// Fraction of a sphere of radius 1 on the inner side of a plane at signed distance s from its centre.
-double capFraction(double s)
-{
-    if (s >= 1)
-    {
-        return 1;
-    }
-    return s <= -1 ? 0 : 0.25 * (2 + 3 * s - s * s * s);
-}
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
 {
@@ -80,6 +74,29 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
         }
     }
 
+    Box cellBox;
+    for (const label point : mesh.cellPoints()[cell])
+    {
+        cellBox.extend(toEigen(mesh.points()[point]));
+    }
+    cellBoxes_.push_back(cellBox);
+    Brick brick;
+    brick.isBrick = groups.size() == 6;
+    for (const Group& group : groups)
+    {
+        Eigen::Index axis = 0;
+        group.normal.cwiseAbs().maxCoeff(&axis);
+        const bool low = group.normal[axis] > 0;
+        const double place = (low ? cellBox.min() : cellBox.max())[axis];
+        brick.isBrick = brick.isBrick && std::all_of(group.planes.begin(), group.planes.end(), [&](const Plane& plane) {
+            const Vector3d inBox = Vector3d::Unit(axis) * (low ? 1 : -1);
+            return (plane.inwardNormal - inBox).norm() < roundingOfPlanes
+                   && std::abs(plane.offset - inBox[axis] * place) < roundingOfPlanes * cellBox.sizes().maxCoeff();
+        });
+        (low ? brick.lowIsWall : brick.highIsWall)[axis] = group.wall;
+    }
+    bricks_.push_back(brick);
+
     const auto store = [&](const Group& group) {
         const Side side{static_cast<int>(planes_.size()), static_cast<int>(group.planes.size()), group.wall};
         planes_.insert(planes_.end(), group.planes.begin(), group.planes.end());
@@ -114,7 +131,7 @@ double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, const
 }
 
 template<class Cut>
-double CellSlabs::shareOf(label cell, const Vector3d& centre, const Cut& cut) const
+double CellSlabs::shareInSlabs(label cell, const Vector3d& centre, const Cut& cut) const
 {
     double share = 1;
     for (int slab = firstSlab_[cell]; slab < firstSlab_[cell + 1] && share > 0; ++slab)
@@ -129,12 +146,30 @@ double CellSlabs::shareOf(label cell, const Vector3d& centre, const Cut& cut) co
 
 double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
 {
-    return shareOf(cell, centre, [radius](double distance) { return capFraction(distance / radius); });
+    return bricks_[cell].isBrick
+               ? shareInBrick(cell, centre, radius)
+               : shareInSlabs(cell, centre, [radius](double distance) { return partInHalfSpace(distance / radius); });
+}
+
+double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius) const
+{
+    const Box& box = cellBoxes_[cell];
+    const Brick& brick = bricks_[cell];
+    const auto distance = [perRadius = 1 / radius](double inside, bool wall) {
+        return wall ? (inside >= 0 ? infinitelyFar : -infinitelyFar) : inside * perRadius;
+    };
+    std::array<SlabAboutSphere, 3> slabs;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        slabs[axis] = {distance(centre[axis] - box.min()[axis], brick.lowIsWall[axis]),
+            distance(box.max()[axis] - centre[axis], brick.highIsWall[axis])};
+    }
+    return sphereInBox_(slabs);
 }
 
 double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth) const
 {
-    return shareOf(cell, centre, [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); });
+    return shareInSlabs(cell, centre, [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); });
 }
 
 void CellSlabs::makeBins(const Foam::fvMesh& mesh)
@@ -142,12 +177,7 @@ void CellSlabs::makeBins(const Foam::fvMesh& mesh)
     double meanSize = 0;
     for (label cell = 0; cell < mesh.nCells(); ++cell)
     {
-        Box cellBox;
-        for (const label point : mesh.cellPoints()[cell])
-        {
-            cellBox.extend(toEigen(mesh.points()[point]));
-        }
-        cellBoxes_.push_back(cellBox);
+        const Box& cellBox = cellBoxes_[cell];
         box_.extend(cellBox);
         meanSize += cellBox.sizes().mean() / mesh.nCells();
     }

@@ -1,23 +1,26 @@
 #pragma once
 
+#include "distribution/sphereInBox.h"
 #include "engine/beads.h"
 
 #include "fvMesh.H"
 #include "volFields.H"
 
+#include <array>
 #include <vector>
 
 namespace clepsydra
 {
 
-/// The cells as products of slabs, for the share of a small sphere that lies in each.
+/// The cells as slabs that cross, for the share of a sphere that lies in each.
 ///
-/// A cell is taken as the intersection of slabs, each between two opposite faces (or one face, where nothing is
-/// opposite). The share of a sphere in a slab follows from the two planes alone, and the share in the cell is the
-/// product over its slabs. On a mesh of bricks the shares of all cells add up to one for any position and size of
-/// the sphere; elsewhere they nearly do and the caller normalises. The share has a continuous derivative in the
-/// sphere's position, and depends on nothing but the sphere and the cell: not on the host cell of the last interval,
-/// not on how the mesh is decomposed.
+/// The share in a brick along the axes is the part of the sphere that lies in it. Any other cell is taken as the
+/// intersection of slabs, each between two opposite faces (or one face, where nothing is opposite): the share of a sphere
+/// in a slab follows from the two planes alone, and the share in the cell is the product over its slabs; where a cell's
+/// edge passes through the sphere that is off by up to a tenth of the sphere. On bricks the shares of all cells add up
+/// to one for any position and size of the sphere; elsewhere they nearly do and the caller normalises. The share has a
+/// continuous derivative in the sphere's position, and depends on nothing but the sphere and the cell: not on the host
+/// cell of the last interval, not on how the mesh is decomposed.
 ///
 /// A wall bounds no share: a bead does not reach through a wall, it touches it. So a cell has the full share on the
 /// fluid's side of its wall faces, and none of a bead whose centre lies behind one. This is what keeps the solid
@@ -67,11 +70,20 @@ private:
         Side high;
     };
 
-    /// \param cut  fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre
+    /// A cell that is a box along the axes.
+    struct Brick
+    {
+        bool isBrick = false;
+        std::array<bool, 3> lowIsWall{};
+        std::array<bool, 3> highIsWall{};
+    };
+
+    double shareInBrick(Foam::label cell, const Vector3d& centre, double radius) const;
+    // cut: fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre
     template<class Cut>
     double fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const;
     template<class Cut>
-    double shareOf(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
+    double shareInSlabs(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
     void addCell(const Foam::fvMesh& mesh, Foam::label cell);
     void makeBins(const Foam::fvMesh& mesh);
     Eigen::Vector3i binOf(const Vector3d& point) const;
@@ -79,6 +91,8 @@ private:
     std::vector<Plane> planes_;
     std::vector<Slab> slabs_;
     std::vector<int> firstSlab_;
+    std::vector<Brick> bricks_;
+    mutable SphereInBox sphereInBox_;
 
     Box box_;
     std::vector<Box> cellBoxes_;

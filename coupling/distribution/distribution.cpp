@@ -1,5 +1,7 @@
 #include "distribution/distribution.h"
 
+#include "processorCyclicPolyPatch.H"
+
 #include <cmath>
 
 namespace clepsydra
@@ -11,10 +13,29 @@ namespace
 /// In units of a bead's reach. Larger: fewer searches, more cells to look at in between.
 constexpr double marginOfNeighbourhood = 0.3;
 
+/// A bead at a cyclic patch would have to be at two places, in the fluid and among its neighbours.
+const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
+{
+    for (const Foam::polyPatch& patch : mesh.boundaryMesh())
+    {
+        const bool betweenRanks =
+            Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch);
+        if (patch.coupled() && !betweenRanks)
+        {
+            FatalErrorInFunction << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
+                                 << " is of type " << patch.type()
+                                 << "; allowed: wall, patch, symmetryPlane and others "
+                                 << "that join no cells, and processor between ranks: a bead is in one place only"
+                                 << Foam::exit(Foam::FatalError);
+        }
+    }
+    return mesh;
+}
+
 } // namespace
 
 Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
-    : mesh_(mesh),
+    : mesh_(withoutCyclicPatches(mesh)),
       cells_(mesh),
       voidFraction_(VoidFractionModel::New(couplingProperties, cells_)),
       smoothing_(SmoothingModel::New(couplingProperties, mesh))

@@ -14,6 +14,7 @@ namespace clepsydra
 class Distribution
 {
 public:
+    /// FatalError naming the patch for a mesh with cyclic patches, FatalIOError as the models' own.
     Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
     /// Finds the cells of each visiting bead. Local.

@@ -283,6 +283,57 @@ TEST(Divided, SharesOfBricksAddUpToOne)
     }
 }
 
+/// The part of a sphere that lies in a box, by the middles of fine strips in x and y and the exact chord along z.
+double partInBox(const Vector3d& centre, double radius, const clepsydra::Box& box)
+{
+    constexpr int strips = 400;
+    const Vector3d low = (box.min() - centre).cwiseMax(-radius);
+    const Vector3d high = (box.max() - centre).cwiseMin(radius);
+    const Vector3d step = (high - low) / strips;
+    if (step.minCoeff() <= 0)
+    {
+        return 0;
+    }
+    double volume = 0;
+    for (int i = 0; i < strips; ++i)
+    {
+        for (int j = 0; j < strips; ++j)
+        {
+            const double x = low.x() + (i + 0.5) * step.x();
+            const double y = low.y() + (j + 0.5) * step.y();
+            const double chord = std::sqrt(std::max(0.0, radius * radius - x * x - y * y));
+            volume += std::max(0.0, std::min(chord, high.z()) - std::max(-chord, low.z()));
+        }
+    }
+    return volume * step.x() * step.y() / sphereVolume(radius);
+}
+
+// The share of a bead in a brick is the part of it that lies there, where faces, edges and corners of cells pass through
+// it, with cells of half a bead and of two, by a quadrature that knows nothing of the formula. The product of the parts
+// between opposite faces, whose sums are right as well, has .0244 instead of .0153, and a hundredth where there is nothing.
+TEST(Divided, ShareInABrickIsThePartOfTheSphereInIt)
+{
+    for (const double cellSize : {1e-3, 4e-3})
+    {
+        const BoxOnRanks box(cellSize, false);
+        const CellSlabs cells(box.mesh());
+        for (const Vector3d& centre : randomBeads(12, Vector3d::Constant(3e-3), Vector3d::Constant(boxWidth - 3e-3)))
+        {
+            for (int cell = 0; cell < box.mesh().nCells(); ++cell)
+            {
+                const Vector3d middle = toEigen(box.mesh().C()[cell]);
+                const Vector3d half = Vector3d::Constant(0.5 * cellSize);
+                const clepsydra::Box brick(middle - half, middle + half);
+                if (cells.isNear(cell, centre, diameter / 2))
+                {
+                    EXPECT_NEAR(cells.share(cell, centre, diameter / 2), partInBox(centre, diameter / 2, brick), 1e-5)
+                        << "bead at " << centre.transpose() << ", cell at " << middle.transpose();
+                }
+            }
+        }
+    }
+}
+
 // Beads that lie on a baffle of zero thickness, even pressed a little into it, put no volume behind it: not by their
 // shares and not by diffusion. Kernels by distance, or without the wall rule, put per cents there.
 TEST(Baffle, NothingLeaksThrough)

@@ -161,6 +161,29 @@ TEST(BadInput, TheSameCaseWithoutMistakeRuns)
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
 }
 
+/// Sides that are joined to each other would need every bead near them twice. A program that took them would let the fluid
+/// pass, and keep the beads and their volume at their own side.
+TEST(BadInput, CyclicPatches)
+{
+    const Change joinSides = [](TestCase& test) {
+        test.extraFiles["system/blockMeshDict"] =
+            FoamFile().text("blockMeshDict")
+            + "scale 0.01; vertices ((0 0 0) (2 0 0) (2 2 0) (0 2 0) (0 0 4) (2 0 4) (2 2 4) (0 2 4));\n"
+              "blocks (hex (0 1 2 3 4 5 6 7) (4 4 8) simpleGrading (1 1 1));\n"
+              "boundary ( west { type cyclic; neighbourPatch east; faces ((0 4 7 3)); }\n"
+              "east { type cyclic; neighbourPatch west; faces ((1 2 6 5)); }\n"
+              "walls { type wall; faces ((0 3 2 1) (4 5 6 7) (0 1 5 4) (3 7 6 2)); } );\n";
+        for (const char* field : {"0/U", "0/p"})
+        {
+            test.file(field).set("boundaryField/\"west|east\"/type", "cyclic");
+        }
+    };
+    for (const int ranks : {1, 2})
+    {
+        expectRefused(joinSides, {"'west'", "polyMesh/boundary", "cyclic", "allowed:"}, SeenBy::dictionaries, ranks);
+    }
+}
+
 /// Unknown names of models are refused with a list of the known ones. A program that took the usual model instead, or
 /// left the force out, would run to its end with status 0.
 TEST(BadInput, UnknownModels)

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+
+namespace clepsydra
+{
+
+/// Two parallel planes with a sphere's centre between them or beside them: their distances from the centre, in radii,
+/// positive where the centre is on the inner side. A plane farther away than 1 does not cut the sphere.
+struct SlabAboutSphere
+{
+    double low;
+    double high;
+};
+
+/// Part of a sphere on the inner side of one plane. \param distance  as in SlabAboutSphere
+double partInHalfSpace(double distance);
+
+/// Part of a sphere in the box between three pairs of planes at right angles to one another; exact, to 1e-15.
+///
+/// Remembers what it worked out last: the boxes about one sphere have edges and corners in common.
+class SphereInBox
+{
+public:
+    double operator()(const std::array<SlabAboutSphere, 3>& slabs);
+
+private:
+    /// Parts of the sphere beyond two or three planes at these distances from the centre.
+    double beyondEdge(double a, double b);
+    double beyondCorner(double a, double b, double c);
+    double beyondEdgeOfPositive(double a, double b);
+    double beyondCornerOfPositive(double a, double b, double c);
+
+    template<int Planes>
+    struct Remembered
+    {
+        std::array<double, Planes> distances{};
+        double part = 0;
+    };
+    std::array<Remembered<2>, 4> edges_{};
+    Remembered<3> corner_{};
+    std::size_t nextEdge_ = 0;
+};
+
+} // namespace clepsydra
