@@ -238,6 +238,23 @@ TEST(Liggghts, DoesNotEndTheProcess)
     EXPECT_NE(ofLog.find("LIGGGHTS did not start: Cannot open universe log file"), std::string::npos) << ofLog;
 }
 
+/// A file that is no restart file is named. LIGGGHTS goes round for ever in one of zeros, as a crash of the machine leaves
+/// behind, and ends the process in one where the first text has the length -1.
+TEST(Liggghts, RefusesWhatIsNoRestartFile)
+{
+    const std::string file = testing::TempDir() + "clepsydraModels" + std::to_string(getpid()) + ".restart";
+    const std::string zeros(4096, '\0');
+    for (const std::string& content : {zeros, zeros.substr(0, 4) + "\xff\xff\xff\xff" + zeros, std::string("text")})
+    {
+        std::ofstream(file) << content;
+        Beads beads;
+        beads.dem.readRestart = file;
+        const std::string message = errorOf([&] { beads.start(nullptr); });
+        EXPECT_NE(message.find(file + " is no restart file; allowed"), std::string::npos) << message;
+    }
+    std::filesystem::remove(file);
+}
+
 /// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
 TEST(Liggghts, TellsThatAllBeadsAreGone)
 {

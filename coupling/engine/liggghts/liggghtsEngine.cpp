@@ -29,6 +29,7 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -70,6 +71,19 @@ bool isNumber(const std::string& text)
         return false;
     }
     return used == text.size();
+}
+
+/// A restart file begins with two numbers of four bytes and the text "Version LIGGGHTS-...". False for one that cannot be
+/// read: LIGGGHTS says that.
+bool isOtherThanRestart(const std::string& file)
+{
+    const std::string begin = "Version LIGGGHTS";
+    constexpr std::size_t numbers = 8;
+    std::ifstream stream(file, std::ios::binary);
+    std::string found(numbers + begin.size(), ' ');
+    return stream
+           && (!stream.read(found.data(), static_cast<std::streamsize>(found.size()))
+               || found.substr(numbers) != begin);
 }
 
 /// By the forces on its beads, not as the script states or not at all.
@@ -494,7 +508,7 @@ private:
         }
     }
 
-    /// LIGGGHTS goes round for ever in a restart file that has been cut.
+    /// LIGGGHTS goes round for ever in a restart file that has been cut, or is none.
     void requireUndamagedInput(const ScriptCommand& command)
     {
         if (!isCommand(command.text, "read_restart"))
@@ -513,6 +527,11 @@ private:
             catch (const FileError& error)
             {
                 throw DemEngineError(command.where + ": " + error.what());
+            }
+            if (isOtherThanRestart(file))
+            {
+                throw DemEngineError(command.where + ": '" + command.text + "': " + file
+                                     + " is no restart file; allowed: what LIGGGHTS' write_restart has written");
             }
         }
     }
