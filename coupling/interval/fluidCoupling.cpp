@@ -1,13 +1,13 @@
 #include "interval/fluidCoupling.h"
 
 #include "closures/gaussianDisturbance.h"
+#include "interval/viscousStress.h"
 #include "vectors.h"
 
 #include "fvc.H"
 #include "fvcCurl.H"
 #include "fvcDdt.H"
 #include "fvcGrad.H"
-#include "fvcLaplacian.H"
 #include "fvmSup.H"
 #include "zeroGradientFvPatchFields.H"
 
@@ -299,9 +299,9 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     const Eigen::Index resistance = vorticity + (needs_.vorticity ? 3 : 0);
     const Eigen::Index cellSize = resistance + 1;
     const Eigen::Index rowCount = resistance + (removesSelfDisturbance_ ? 2 : 0);
-    const dimensionedScalar viscosity("mu", dimViscosity, fluid_.dynamicViscosity);
+    const dimensionedScalar viscosity("nu", dimViscosity, fluid_.dynamicViscosity / fluid_.density);
     const tmp<volVectorField> gradient = fvc::grad(p);
-    const tmp<volVectorField> viscous = fvc::laplacian(viscosity, U, "laplacian(nu,U)");
+    const tmp<volVectorField> viscous = divergenceOfViscousStress(viscosity, U);
 
     const tmp<volVectorField> curl = needs_.vorticity ? fvc::curl(U) : tmp<volVectorField>();
 
@@ -321,7 +321,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     inCells.row(voidFraction) = columns(voidFraction_.primitiveField());
     inCells.middleRows<3>(velocity) = columns(U.primitiveField());
     inCells.middleRows<3>(pressureGradient) = pascalPerMetre;
-    inCells.middleRows<3>(viscousStressDivergence) = columns(viscous().primitiveField());
+    inCells.middleRows<3>(viscousStressDivergence) = fluid_.density * columns(viscous().primitiveField());
     if (needs_.acceleration)
     {
         inCells.middleRows<3>(acceleration) = columns(acceleration_->primitiveField());

@@ -6,6 +6,7 @@
 #include "checkpoint/runTime.h"
 #include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
+#include "interval/viscousStress.h"
 #include "mpiSession.h"
 #include "output/caseSizes.h"
 #include "output/runOutput.h"
