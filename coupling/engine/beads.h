@@ -66,6 +66,8 @@ struct CouplingState
     /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N]. Kept only where
     /// selfMobility is not zero.
     Vector3d handedOver = Vector3d::Zero();
+    /// The bead's own, when the interval began [m/s].
+    Vector3d velocityBefore = Vector3d::Zero();
 };
 
 constexpr std::size_t couplingStateSize = sizeof(CouplingState) / sizeof(double);
@@ -108,7 +110,7 @@ struct BeadsView
     ConstVectors otherForce{nullptr, 3, 0};
     /// For FluidForces::evaluate() only, as is otherForce.
     BeadPairs pairs{};
-    /// What a force keeps from step to step: `memorySize` numbers per bead, writable. None unless
+    /// What forces and coupling keep from step to step: `memorySize` numbers per bead, writable. None unless
     /// DemEngine::keepMemory() was called.
     double* memory = nullptr;
     Eigen::Index memorySize = 0;

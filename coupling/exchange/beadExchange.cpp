@@ -37,11 +37,10 @@ Box boxAround(const BeadsView& beads, double commonReach)
     return around;
 }
 
-VisitingBead visitFrom(const BeadsView& beads, Eigen::Index bead)
+VisitingBead visitFrom(const BeadsView& beads, const Eigen::Matrix4Xd& momentum, Eigen::Index bead)
 {
-    const GivenToFluid& given = beads.state[bead].given;
-    return {beads.position.col(bead), given.impulse, given.implicitCoefficientTime, beads.radius[bead],
-        static_cast<double>(beads.id[bead])};
+    return {beads.position.col(bead), momentum.col(bead), beads.state[bead].given.implicitCoefficientTime,
+        beads.radius[bead], static_cast<double>(beads.id[bead])};
 }
 
 } // namespace
@@ -134,7 +133,7 @@ std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRa
     return in;
 }
 
-void BeadExchange::send(const BeadsView& beads)
+void BeadExchange::send(const BeadsView& beads, const Eigen::Matrix4Xd& momentum)
 {
     constexpr std::size_t size = sizeof(VisitingBead) / sizeof(double);
     static_assert(std::is_standard_layout_v<VisitingBead> && sizeof(VisitingBead) % sizeof(double) == 0);
@@ -151,7 +150,7 @@ void BeadExchange::send(const BeadsView& beads)
         double* place = message.data();
         for (const Eigen::Index bead : leaving.beads)
         {
-            const VisitingBead visit = visitFrom(beads, bead);
+            const VisitingBead visit = visitFrom(beads, momentum, bead);
             std::copy_n(reinterpret_cast<const double*>(&visit), size, place);
             place += size;
         }

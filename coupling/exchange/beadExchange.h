@@ -13,7 +13,8 @@ namespace clepsydra
 struct VisitingBead
 {
     Vector3d position;
-    Vector3d impulse;
+    /// A - P - c v [N s] and c [kg] of CarriedMomentum.
+    Eigen::Matrix<double, 4, 1, Eigen::DontAlign> momentum;
     double implicitCoefficientTime;
     double radius;
     double id;
@@ -32,7 +33,8 @@ public:
     BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
 
     /// Sends every bead to each rank whose box the cube about its sphere, or its reach, meets. Collective.
-    void send(const BeadsView& beads);
+    /// \param momentum  of each, see VisitingBead
+    void send(const BeadsView& beads, const Eigen::Matrix4Xd& momentum);
 
     /// Local: the beads that touch this rank's box, own ones first, then by rank.
     const std::vector<VisitingBead>& visitors() const

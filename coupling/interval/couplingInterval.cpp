@@ -12,6 +12,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     : engine_(engine),
       stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
       interval_(settings.couplingInterval()),
+      resumed_(resumed),
       fluidDensity_(fluid.density),
       timers_(timers),
       ledger_(settings.dict(), mesh.time()),
@@ -21,9 +22,9 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     {
         engine_.seePairs(models->forces.needs().pairReach);
     }
-    if (models && models->forces.needs().memory > 0)
+    if (models)
     {
-        engine_.keepMemory(models->forces.needs().memory);
+        engine_.keepMemory(models->forces.needs().memory + FluidCoupling::memory);
     }
     engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
@@ -35,12 +36,25 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     }
 }
 
-void CouplingInterval::start(const Foam::volVectorField& U, const Foam::volScalarField& p)
+void CouplingInterval::start(Foam::volVectorField& U, const Foam::volScalarField& p)
+{
+    forgetGiven();
+    feelFluid(U, p);
+    if (!resumed_)
+    {
+        fluid_->takeFirstDragFrom(U, interval_);
+        forgetGiven();
+        feelFluid(U, p);
+    }
+    forgetGiven();
+    ledger_.openMomentum(fluid_->momentumGivenInAdvance());
+}
+
+void CouplingInterval::feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     fluid_->fluidToBeads(U, p);
     // The first half of the first DEM step uses the forces at its beginning: with the fluid, not without.
     engine_.prepare();
-    forgetGiven();
 }
 
 void CouplingInterval::advance(
@@ -50,10 +64,10 @@ void CouplingInterval::advance(
     fluid_->beadsToFluid(interval_);
     const Foam::vector given = forgetGiven();
     const SolvedFluid solved = solveFluid();
-    fluid_->carryMomentum(U, interval_);
+    fluid_->giveInAdvance(U);
     ledger_.bookMomentum(given,
         -fluidDensity_ * interval_ * returnReduce(solved.sourceOfBeads, Foam::sumOp<Foam::vector>()),
-        fluid_->momentumOutstanding());
+        fluid_->momentumGivenInAdvance());
     ledger_.bookContinuity(interval_ * solved.continuityError());
     fluid_->updateAcceleration(U, interval_);
     fluid_->fluidToBeads(U, p);
@@ -75,17 +89,22 @@ void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam:
     std::fill_n(beads.state, beads.size(), CouplingState());
     engine_.prepare();
     fluid_->start(true);
-    start(U, p);
+    forgetGiven();
+    feelFluid(U, p);
+    forgetGiven();
 }
 
 Foam::vector CouplingInterval::forgetGiven()
 {
     const BeadsView beads = engine_.beads();
     Vector3d sum = Vector3d::Zero();
-    std::for_each(beads.state, beads.state + beads.size(), [&](CouplingState& state) {
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        CouplingState& state = beads.state[bead];
         sum += state.given.impulse;
         state.given = GivenToFluid();
-    });
+        state.velocityBefore = beads.velocity.col(bead);
+    }
     return returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>());
 }
 

@@ -29,8 +29,9 @@ public:
     CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
         DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed);
 
-    /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid.
-    void start(const Foam::volVectorField& U, const Foam::volScalarField& p);
+    /// What the beads feel in the first interval. Call once, before advance(), where there is a fluid. In a run that is
+    /// not resumed the drag of the first interval is taken from U, see CarriedMomentum.
+    void start(Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// A run with fluid. \param solveFluid  solves the fluid's equations over the interval with fluid().
     void advance(
@@ -49,6 +50,13 @@ public:
         return *fluid_;
     }
 
+    /// In a closed tank, before the pressure is solved for: see VoidFractionRate::spreadImbalance(). Collective.
+    /// \param outflow  of fluid through the boundary of this rank [m3/s]
+    void spreadImbalance(double outflow)
+    {
+        ledger_.bookImbalance(interval_ * fluid_->spreadImbalance(outflow));
+    }
+
     PhaseTimers& timers() const
     {
         return timers_;
@@ -61,12 +69,14 @@ public:
 
 private:
     void advanceBeads();
+    void feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p);
     /// \return its sum over the beads of all ranks [N s], taken from the beads themselves.
     Foam::vector forgetGiven();
 
     DemEngine& engine_;
     const int stepsPerInterval_;
     const double interval_;
+    const bool resumed_;
     const double fluidDensity_;
     PhaseTimers& timers_;
     Ledger ledger_;

@@ -4,12 +4,12 @@
 #include "engine/demEngine.h"
 #include "exchange/beadExchange.h"
 #include "forces/forceModel.h"
+#include "interval/carriedMomentum.h"
 #include "interval/couplingSettings.h"
+#include "interval/selfDisturbance.h"
+#include "interval/voidFractionRate.h"
 #include "ledger/ledger.h"
 #include "output/phaseTimers.h"
-
-#include "fvMatrices.H"
-#include "volFields.H"
 
 namespace clepsydra
 {
@@ -22,11 +22,6 @@ namespace clepsydra
 ///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource
 ///
 /// p is kinematic and without its hydrostatic part. In model B grad p stands without eps, see ModelType.
-///
-/// The eps of d(eps)/dt passes a low-pass of first order in time (useDDTvoidfractionProps { smoothingTime }), elsewhere
-/// eps is that of the beads as they are. Collisions change the beads' velocities by jumps. The pressure answers to
-/// d2(eps)/dt2, so without the low-pass its noise grows without bound as the step falls; with it, it converges. The
-/// rate's integral over time differs from eps by no more than eps changes in a smoothing time: nothing accumulates.
 class FluidCoupling
 {
 public:
@@ -38,12 +33,23 @@ public:
     /// \param resumed  the fields are those of a checkpoint: kept as they are, to the last bit
     void start(bool resumed);
 
+    /// For the first interval: takes from U the drag that the beads will receive in it. Collective.
+    /// \pre  the beads hold what one DEM step gives.
+    void takeFirstDragFrom(Foam::volVectorField& U, double interval);
+
     /// Void fraction and sources from the beads as they are now and from what they were given. Collective.
-    /// \param interval  time over which they were given [s]; 0 at the start: void fraction only.
+    /// \param interval  time over which they were given [s]
     void beadsToFluid(double interval);
 
-    /// Carries over what the implicit part of the source gave beyond the beads' impulse, to be made good next time.
-    void carryMomentum(const Foam::volVectorField& U, double interval);
+    /// When the fluid's equations have been solved: what of it each bead was given in advance, see CarriedMomentum.
+    /// Collective. \pre  the beads have not moved since beadsToFluid()
+    void giveInAdvance(const Foam::volVectorField& U);
+
+    /// See VoidFractionRate::spreadImbalance(). Collective.
+    double spreadImbalance(double outflow)
+    {
+        return voidFractionRate_.spreadImbalance(outflow);
+    }
 
     /// DU/Dt over the interval that has just been solved, where a force needs it. It is kept as a field, so that a
     /// resumed run has it too.
@@ -63,18 +69,23 @@ public:
         return modelType_ == ModelType::A ? voidFraction_ : one_;
     }
 
-    /// d(eps)/dt, or zero where `useDDTvoidfraction off`.
+    /// See VoidFractionRate.
     const Foam::volScalarField& ddtVoidFraction() const
     {
-        return ddtVoidFraction_;
+        return voidFractionRate_();
     }
 
-    /// The beads' source in the momentum equation [m/s2 times volume]: the impulse of the last interval, and with
-    /// `implicitCouple` what the drag on the fluid's own change of velocity adds, which is made good next time.
-    Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const;
+    /// See CarriedMomentum::source().
+    Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const
+    {
+        return carriedMomentum_.source(U);
+    }
 
-    /// What the beads' impulses ask of the fluid and it has not received yet [N s]; sum over the ranks. Collective.
-    Foam::vector momentumOutstanding() const;
+    /// What the fluid has given and the beads have not received yet [N s]; sum over the ranks. Collective.
+    Foam::vector momentumGivenInAdvance() const;
+
+    /// Numbers of BeadsView::memory that the coupling needs, after those of the forces.
+    static constexpr int memory = 3;
 
     const BeadExchange& exchange() const
     {
@@ -82,17 +93,15 @@ public:
     }
 
 private:
-    void findCells(const BeadsView& beads);
+    /// \param nextOverLast  length of the coming interval over that in which the beads were given what they have
+    void findCells(double nextOverLast);
     /// What the beads put into the cells, smoothed: rows as in GivenRow.
     Eigen::MatrixXd densitiesOfBeads();
-    void updateVoidFraction(const BeadsView& beads, const Eigen::MatrixXd& densities);
-    void updateDdtVoidFraction(double interval);
-    void updateMomentumSource(const Eigen::MatrixXd& densities, double interval);
+    /// P of each bead, see CarriedMomentum [N s]: writable, part of checkpoints.
+    static Eigen::Map<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> givenInAdvance(const BeadsView& beads);
+    void updateVoidFraction(const Eigen::MatrixXd& densities);
     void smooth(Eigen::MatrixXd& densities);
-    /// See FluidAtBead::selfMobility.
-    /// \param resistance  of all beads, this one included [kg/(m3 s)]
-    double selfMobility(const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance,
-        double cellSize) const;
+    void bookPressureForce(const Foam::vector& inFluid);
     [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
     Foam::string describeCell(Foam::label cell) const;
 
@@ -101,24 +110,22 @@ private:
     const FluidProperties fluid_;
     const ModelType modelType_;
     const ForceNeeds needs_;
-    const bool removesSelfDisturbance_;
     DemEngine& engine_;
     Ledger& ledger_;
     PhaseTimers& timers_;
 
     Distribution& distribution_;
     BeadExchange exchange_;
+    SelfDisturbance selfDisturbance_;
 
     const Foam::volScalarField one_;
     Foam::volScalarField voidFraction_;
-    /// The void fraction through a low-pass in time, whose rate enters the continuity equation.
-    Foam::volScalarField voidFractionInContinuity_;
-    Foam::volScalarField ddtVoidFraction_;
-    Foam::volScalarField implicitCoefficient_;
-    /// Impulse of the beads on the fluid in the last interval [m/s2].
-    Foam::volVectorField beadSource_;
-    /// What of it the fluid has not received yet [m/s, as impulse per mass and volume].
-    Foam::volVectorField outstanding_;
+    VoidFractionRate voidFractionRate_;
+    CarriedMomentum carriedMomentum_;
+    /// c of the beads of this rank, see CarriedMomentum [kg].
+    Eigen::ArrayXd anticipatedDragCoefficients_;
+    /// Drag coefficient of all beads per volume [kg/(m3 s)]; none where no bead's own disturbance is removed.
+    Foam::autoPtr<Foam::volScalarField> resistance_;
     /// DU/Dt [m/s2]; none where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
 

@@ -29,10 +29,12 @@ Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
       clippedVolumeTolerance_(tolerance(tolerances_, "clippedVolumeTolerance", 1e-3)),
       momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
       pressureForceTolerance_(tolerance(tolerances_, "pressureForceTolerance", 1e-9)),
+      continuityTolerance_(tolerance(tolerances_, "continuityTolerance", 1e-4)),
+      imbalanceTolerance_(tolerance(tolerances_, "imbalanceTolerance", 1e-3)),
       startTime_(time.timeName())
 {
-    requireKnownEntries(
-        tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance"});
+    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance",
+                                         "pressureForceTolerance", "continuityTolerance", "imbalanceTolerance"});
 }
 
 void Ledger::countBeads(const BeadsView& beads)
@@ -62,22 +64,22 @@ void Ledger::bookSolidVolume(double beads, double cells, double clipped, const s
     }
 }
 
-void Ledger::openMomentum(const vector& outstanding)
+void Ledger::openMomentum(const vector& givenInAdvance)
 {
-    outstandingAtStart_ = outstanding;
-    outstanding_ = outstanding;
+    givenInAdvanceAtStart_ = givenInAdvance;
+    givenInAdvance_ = givenInAdvance;
 }
 
-void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, const vector& outstanding)
+void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, const vector& givenInAdvance)
 {
     beadsReceived_ += beadsReceived;
     fluidLost_ += fluidLost;
-    outstanding_ = outstanding;
+    givenInAdvance_ = givenInAdvance;
     momentumTurnover_ += mag(beadsReceived);
     if (momentumError() > momentumTolerance_)
     {
         FatalErrorInFunction << "Beads received " << beadsReceived_ << " N s from the fluid, which lost " << fluidLost_
-                             << " N s with " << outstanding_ << " N s outstanding: relative error " << momentumError()
+                             << " N s, " << givenInAdvance_ << " N s of it in advance: relative error " << momentumError()
                              << ", momentumTolerance is " << momentumTolerance_ << exit(FatalError);
     }
 }
@@ -99,12 +101,32 @@ void Ledger::bookContinuity(const volScalarField& error)
     localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
     globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
     cumulativeContinuityError_ += globalContinuityError_;
+    largestContinuityError_ = max(largestContinuityError_, localContinuityError_);
+    if (localContinuityError_ > continuityTolerance_)
+    {
+        FatalErrorInFunction << "Fluid of " << localContinuityError_ << " of the volume was made of nothing or lost in one "
+                             << "interval (mean of |d(eps)/dt + div(eps U)|), continuityTolerance is "
+                             << continuityTolerance_ << ". Solve p to a smaller tolerance (system/fvSolution), or "
+                             << "couple more often." << exit(FatalError);
+    }
+}
+
+void Ledger::bookImbalance(double imbalance)
+{
+    imbalance_ += imbalance;
+    if (mag(imbalance_) > imbalanceTolerance_)
+    {
+        FatalErrorInFunction << "The beads' volume in a tank that no fluid can leave or enter changed by "
+                             << imbalance_ << " of the tank's, imbalanceTolerance is "
+                             << imbalanceTolerance_ << ". Give p a fixed value on a patch that fluid can pass."
+                             << exit(FatalError);
+    }
 }
 
 double Ledger::momentumError() const
 {
     return momentumTurnover_ > 0
-               ? mag(beadsReceived_ + outstandingAtStart_ - fluidLost_ - outstanding_) / momentumTurnover_
+               ? mag(beadsReceived_ + givenInAdvance_ - givenInAdvanceAtStart_ - fluidLost_) / momentumTurnover_
                : 0;
 }
 
@@ -112,10 +134,10 @@ void Ledger::report() const
 {
     Info << "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (lost " << census_.lost()
          << "), solid volume " << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
-         << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", outstanding "
-         << outstanding_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_
+         << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", in advance "
+         << givenInAdvance_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_
          << ", continuity error local " << localContinuityError_ << ", global " << globalContinuityError_
-         << ", cumulative " << cumulativeContinuityError_ << endl;
+         << ", cumulative " << cumulativeContinuityError_ << ", spread over the closed tank " << imbalance_ << endl;
 }
 
 void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) const
@@ -130,7 +152,8 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
-        {"pressureForceError", largestPressureForceError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
+        {"pressureForceError", largestPressureForceError_}, {"continuityError", largestContinuityError_},
+        {"cumulativeContinuityError", cumulativeContinuityError_}, {"imbalance", imbalance_},
         {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()},
         {"phaseSeconds", timers.wallSeconds()}, {"phaseProcessorSeconds", timers.processorSeconds()},
         {"exchangedBytes", exchangedBytes}};

@@ -18,8 +18,10 @@ namespace clepsydra
 ///
 ///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads
 ///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / beads, at any one time
-///     momentumTolerance       1e-9;   // |handed over - received - outstanding| / sum of |handed over|
+///     momentumTolerance       1e-9;   // |fluid lost - given in advance - beads received| / sum of |received|
 ///     pressureForceTolerance  1e-9;   // |on beads - in fluid| / sum of |on a bead|
+///     continuityTolerance     1e-4;   // mean |d(eps)/dt + div(eps U)| times the interval
+///     imbalanceTolerance      1e-3;   // fluid that a closed tank had to take up or give away / the tank, all in all
 class Ledger
 {
 public:
@@ -38,14 +40,14 @@ public:
     /// All are sums over the ranks. \param worstCell  words for the error.
     void bookSolidVolume(double beads, double cells, double clipped, const Foam::string& worstCell);
 
-    /// What an earlier process of this run had left outstanding [N s]; sum over the ranks.
-    void openMomentum(const Foam::vector& outstanding);
+    /// What the fluid has given in advance when the books open [N s]; sum over the ranks.
+    void openMomentum(const Foam::vector& givenInAdvance);
 
     /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, as they themselves
-    /// have it; what the beads' source took from the fluid, as it stood in the equation that was solved; and what of the
-    /// difference waits for the next interval. Each from a place of its own, so that what is lost between them is found.
+    /// have it; what the beads' source took from the fluid, as it stood in the equation that was solved; and what of
+    /// that the beads will receive in the next interval only. Each from a place of its own, so that what is lost between them is found.
     void bookMomentum(
-        const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& outstanding);
+        const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& givenInAdvance);
 
     /// The force of the fluid's pressure gradient on all beads, and the reaction that the fluid's equation holds [N].
     /// \param turnover  sum of the forces' magnitudes
@@ -54,6 +56,10 @@ public:
     /// One interval's error of the continuity equation times the interval [-], which OpenFOAM's solvers print: fluid made
     /// of nothing, per volume.
     void bookContinuity(const Foam::volScalarField& error);
+
+    /// Fluid that a closed tank had to take up or give away in one interval since the beads' volume in it changed, over
+    /// the tank's volume: see VoidFractionRate::spreadImbalance().
+    void bookImbalance(double imbalance);
 
     /// One line to the log.
     void report() const;
@@ -71,6 +77,8 @@ private:
     const double clippedVolumeTolerance_;
     const double momentumTolerance_;
     const double pressureForceTolerance_;
+    const double continuityTolerance_;
+    const double imbalanceTolerance_;
     const Foam::word startTime_;
 
     BeadCensus census_;
@@ -81,15 +89,17 @@ private:
     double largestClippedVolume_ = 0;
     Foam::vector beadsReceived_ = Foam::vector::zero;
     Foam::vector fluidLost_ = Foam::vector::zero;
-    Foam::vector outstandingAtStart_ = Foam::vector::zero;
-    Foam::vector outstanding_ = Foam::vector::zero;
+    Foam::vector givenInAdvanceAtStart_ = Foam::vector::zero;
+    Foam::vector givenInAdvance_ = Foam::vector::zero;
     double momentumTurnover_ = 0;
     double pressureForceError_ = 0;
+    double largestPressureForceError_ = 0;
     /// Mean magnitude, mean, and sum of the means over the intervals.
     double localContinuityError_ = 0;
     double globalContinuityError_ = 0;
     double cumulativeContinuityError_ = 0;
-    double largestPressureForceError_ = 0;
+    double largestContinuityError_ = 0;
+    double imbalance_ = 0;
 };
 
 } // namespace clepsydra

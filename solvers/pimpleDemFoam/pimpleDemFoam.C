@@ -6,17 +6,14 @@
 #include "checkpoint/runTime.h"
 #include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
-#include "interval/viscousStress.h"
 #include "mpiSession.h"
 #include "output/caseSizes.h"
 #include "output/runOutput.h"
 #include "runTimeSelection.h"
 #include "vectors.h"
+#include "voidFractionFlow.h"
 
-#include "constrainHbyA.H"
-#include "constrainPressure.H"
 #include "fvCFD.H"
-#include "pimpleControl.H"
 #include "uniformDimensionedFields.H"
 
 namespace
@@ -111,35 +108,20 @@ private:
 void runWithFluid(
     RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
 {
-    pimpleControl pimple(mesh);
-#include "createFields.H"
-
-    const FluidCoupling& beadsOnFluid = interval.fluid();
-    const volScalarField& voidFraction = beadsOnFluid.voidFraction();
-    interval.start(U, p);
+    VoidFractionFlow flow(mesh, fluid);
+    interval.start(flow.U(), flow.p());
     output.start();
 
     while (runTime.loop())
     {
-        interval.advance(U, p, [&] {
-            vector ofBeads = vector::zero;
+        interval.advance(flow.U(), flow.p(), [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
-            while (pimple.loop())
-            {
-#include "UEqn.H"
-                while (pimple.correct())
-                {
-#include "pEqn.H"
-                }
-                ofBeads = sum(mesh.V().field() * (beadSource & U)().primitiveField());
-            }
-            return SolvedFluid{
-                ofBeads, beadsOnFluid.ddtVoidFraction() + fvc::div(fvc::interpolate(voidFraction) * phi)};
+            return flow.solve(interval);
         });
         if (output.afterInterval())
         {
-            interval.restartInPlace(U, p);
+            interval.restartInPlace(flow.U(), flow.p());
         }
     }
 }

@@ -56,7 +56,7 @@ std::vector<Damage> damages()
         {": > 0.02/uniform/time", "0.02/uniform/time"},
     };
     for (const char* field :
-        {"U", "p", "phi", "voidFraction", "outstandingMomentum", "voidFractionInContinuity", "fluidAcceleration"})
+        {"U", "p", "phi", "voidFraction", "unassignedMomentum", "voidFractionInContinuity", "fluidAcceleration"})
     {
         const std::string file = "0.02/" + std::string(field);
         all.push_back({": > " + file, file});

@@ -403,7 +403,8 @@ public:
             ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
             ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
             reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)),
-            ConstVectors(firstElement(atom.f), 3, count)};
+            ConstVectors(firstElement(atom.f), 3, count), BeadPairs{},
+            memoryFix_ ? firstElement(memoryFix_->array_atom) : nullptr, memorySize_};
     }
 
     /// LIGGGHTS' own list: half, with `newton off` pairs across ranks on both.

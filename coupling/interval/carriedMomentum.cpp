@@ -1,0 +1,50 @@
+#include "interval/carriedMomentum.h"
+
+#include "interval/couplingField.h"
+#include "vectors.h"
+
+#include "fvmSup.H"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+CarriedMomentum::CarriedMomentum(const fvMesh& mesh, double fluidDensity)
+    : fluidDensity_(fluidDensity),
+      coefficient_(IOobject("anticipatedDrag", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE),
+          mesh, dimensionedScalar("none", dimless / dimTime, 0)),
+      beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
+      unassigned_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero))
+{}
+
+void CarriedMomentum::update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
+{
+    interval_ = interval;
+    const double perMassAndTime = 1 / (fluidDensity_ * interval);
+    columns(beadSource_.primitiveFieldRef()) = -perMassAndTime * densities.topRows<3>();
+    columns(coefficient_.primitiveFieldRef()) = perMassAndTime * densities.row(3);
+    beadSource_.correctBoundaryConditions();
+}
+
+tmp<fvVectorMatrix> CarriedMomentum::source(volVectorField& U) const
+{
+    const dimensionedScalar interval("interval", dimTime, interval_);
+    return beadSource_ + unassigned_ / interval - fvm::Sp(coefficient_, U);
+}
+
+void CarriedMomentum::carry(const volVectorField& U, const Eigen::Ref<const Eigen::MatrixXd>& densities)
+{
+    unassigned_.primitiveFieldRef() = interval_ * coefficient_.primitiveField() * U.primitiveField();
+    columns(unassigned_.primitiveFieldRef()) -= densities / fluidDensity_;
+    unassigned_.correctBoundaryConditions();
+}
+
+void CarriedMomentum::takeFrom(volVectorField& U) const
+{
+    U.primitiveFieldRef() = (U.primitiveField() + interval_ * beadSource_.primitiveField())
+                            / (1 + interval_ * coefficient_.primitiveField());
+    U.correctBoundaryConditions();
+}
+
+} // namespace clepsydra

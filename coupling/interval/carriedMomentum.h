@@ -1,0 +1,72 @@
+#pragma once
+
+#include "fvMatrices.H"
+#include "volFields.H"
+
+#include <Eigen/Core>
+
+namespace clepsydra
+{
+
+/// The momentum that beads and fluid exchange: the beads' source in the fluid's momentum equation.
+///
+/// The fluid gives the drag of an interval in advance: its equation of one step holds, implicitly, what the beads will
+/// receive in the next interval from the very velocity that is solved for. In advance for one bead, at the fluid's
+/// velocity U_b there,
+///
+///     P = c (U_b - v),    c: anticipatedDragCoefficient
+///
+/// In the next step the fluid receives, explicitly, what the bead did receive, A, less P, at the place where the bead is
+/// then. So beads under drag alone leave nothing over, contacts are made good one interval later, and the sum of all
+/// that the fluid gives is that of what the beads receive. The matrix holds C U, C being the smoothed density of c;
+/// where that is not the smoothed density of c U_b, the difference is made good in the next step, too.
+///
+/// Linear analysis, one wave length, slip s = U - v, x = K dt/m, q = 1 - exp(-x), k = K dt over the fluid's mass, mu
+/// the beads' mass over the fluid's, r: what of the wave's amplitude smoothing leaves. Each interval multiplies
+///
+///     beads held               U by (1 + (1 - r) k)/(1 + k)
+///     beads free, seen as such s by (1 - q)/(1 + mu q)                       (r = 1)
+///     beads free, seen as held s by (1 - q + mu (x - q))/(1 + mu x)          (r = 1)
+///
+/// All lie between 0 and 1: nothing rings, for any interval and mass ratio. It is a splitting of first order in the
+/// interval.
+class CarriedMomentum
+{
+public:
+    /// Reads what an earlier process of this run has left.
+    CarriedMomentum(const Foam::fvMesh& mesh, double fluidDensity);
+
+    /// Rows of what update() is given.
+    static constexpr Eigen::Index rowCount = 4;
+
+    /// \param densities  rowCount x cells, per volume: of all beads, the sum of A - P - c v [N s/m3], of c [kg/m3]
+    void update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
+
+    /// The beads' source in the momentum equation of the coming step [m/s2 times volume].
+    Foam::tmp<Foam::fvVectorMatrix> source(Foam::volVectorField& U) const;
+
+    /// When U has been solved for. \param densities  3 x cells, per volume: the sum of c U_b [N s/m3]
+    void carry(const Foam::volVectorField& U, const Eigen::Ref<const Eigen::MatrixXd>& densities);
+
+    /// For the first interval: takes what is given in advance from the fluid's velocity itself.
+    void takeFrom(Foam::volVectorField& U) const;
+
+    /// What the fluid has given and no bead has been promised: C U less the density of c U_b [m/s, as impulse per mass
+    /// and volume].
+    const Foam::volVectorField& unassigned() const
+    {
+        return unassigned_;
+    }
+
+private:
+    const double fluidDensity_;
+    /// Of the coming step [s].
+    double interval_ = 0;
+    /// C [1/s], per mass of fluid and over the interval; so are the others.
+    Foam::volScalarField coefficient_;
+    /// Of A - P - c v, with the sign that it has for the fluid [m/s2].
+    Foam::volVectorField beadSource_;
+    Foam::volVectorField unassigned_;
+};
+
+} // namespace clepsydra

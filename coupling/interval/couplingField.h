@@ -1,0 +1,26 @@
+#pragma once
+
+#include "volFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+namespace clepsydra
+{
+
+/// A field of the coupling: read where the run was stopped, otherwise uniform. READ_IF_PRESENT alone takes a file
+/// that cannot be opened for one that is not there.
+template<class Type>
+Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
+    const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions, const Type& value)
+{
+    using namespace Foam;
+    using Field = GeometricField<Type, fvPatchField, volMesh>;
+    IOobject file(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    {
+        return Field(file, mesh);
+    }
+    file.readOpt() = IOobject::READ_IF_PRESENT;
+    return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
+}
+
+} // namespace clepsydra

@@ -1,0 +1,150 @@
+#include "voidFractionFlow.h"
+
+#include "interval/viscousStress.h"
+
+#include "constrainHbyA.H"
+#include "constrainPressure.H"
+#include "fvCFD.H"
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// Not OpenFOAM's createPhi.H, which takes a file that cannot be opened for one that is not there.
+surfaceScalarField readFlux(const volVectorField& U)
+{
+    const fvMesh& mesh = U.mesh();
+    IOobject file("phi", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    {
+        return surfaceScalarField(file, mesh);
+    }
+    file.readOpt() = IOobject::READ_IF_PRESENT;
+    return surfaceScalarField(file, fvc::flux(U));
+}
+
+IOobject readAndWritten(const word& name, const fvMesh& mesh)
+{
+    return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+}
+
+/// Through the boundary of this rank [m3/s].
+scalar outflow(const surfaceScalarField& flux)
+{
+    scalar all = 0;
+    for (const fvsPatchScalarField& patch : flux.boundaryField())
+    {
+        all += patch.coupled() ? 0 : sum(patch);
+    }
+    return all;
+}
+
+} // namespace
+
+VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
+    : mesh_(mesh),
+      pimple_(mesh),
+      p_(readAndWritten("p", mesh), mesh),
+      U_(readAndWritten("U", mesh), mesh),
+      phi_(readFlux(U_)),
+      nu_("nu", dimViscosity, fluid.dynamicViscosity / fluid.density)
+{
+    setRefCell(p_, pimple_.dict(), pRefCell_, pRefValue_);
+    mesh_.setFluxRequired(p_.name());
+}
+
+SolvedFluid VoidFractionFlow::solve(CouplingInterval& interval)
+{
+    const FluidCoupling& beads = interval.fluid();
+    const surfaceScalarField voidFractionf(fvc::interpolate(beads.voidFraction()));
+    vector sourceOfBeads = vector::zero;
+    while (pimple_.loop())
+    {
+        const fvVectorMatrix beadSource(beads.momentumSource(U_));
+        const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, beadSource));
+        while (pimple_.correct())
+        {
+            correctPressure(interval, voidFractionf, UEqn);
+        }
+        sourceOfBeads = sum(mesh_.V().field() * (beadSource & U_)().primitiveField());
+    }
+    return {sourceOfBeads, beads.ddtVoidFraction() + fvc::div(voidFractionf * phi_)};
+}
+
+// The layout shows the equations.
+// clang-format off
+
+fvVectorMatrix VoidFractionFlow::momentumEquation(
+    const CouplingInterval& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& beadSource)
+{
+    const PhaseTimers::Scope timing = interval.timers().time("momentum");
+    const volScalarField& voidFraction = interval.fluid().voidFraction();
+    const surfaceScalarField alphaPhi("alphaPhi", voidFractionf*phi_);
+
+    fvVectorMatrix UEqn
+    (
+        fvm::ddt(voidFraction, U_)
+      + fvm::div(alphaPhi, U_, "div(phi,U)")
+      // alphaPhi is the last interval's: what it lacks in continuity must not act as a source of momentum.
+      - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
+      - implicitDivergenceOfViscousStress(nu_, U_)
+     ==
+        beadSource
+    );
+    UEqn.relax();
+
+    if (pimple_.momentumPredictor())
+    {
+        Foam::solve(UEqn == -interval.fluid().pressureFactor()*fvc::grad(p_));
+    }
+    return UEqn;
+}
+
+void VoidFractionFlow::correctPressure(
+    CouplingInterval& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
+{
+    const PhaseTimers::Scope timing = interval.timers().time("pressure");
+    const volScalarField& pressureFactor = interval.fluid().pressureFactor();
+
+    const volScalarField rAU("rAU", 1.0/UEqn.A());
+    // U = HbyA - (pressureFactor/A) grad(p)
+    const surfaceScalarField rAf("rAf", fvc::interpolate(rAU));
+    const surfaceScalarField rAUf("rAUf", fvc::interpolate(pressureFactor)*rAf);
+
+    volVectorField HbyA(constrainHbyA(rAU*UEqn.H(), U_, p_));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + voidFractionf*rAf*fvc::ddtCorr(U_, phi_));
+
+    constrainPressure(p_, U_, phiHbyA, rAUf);
+    if (p_.needReference())
+    {
+        interval.spreadImbalance(outflow(voidFractionf*phiHbyA));
+    }
+
+    while (pimple_.correctNonOrthogonal())
+    {
+        // d(eps)/dt + div(eps U) = 0
+        fvScalarMatrix pEqn
+        (
+            fvm::laplacian(voidFractionf*rAUf, p_)
+         ==
+            interval.fluid().ddtVoidFraction() + fvc::div(voidFractionf*phiHbyA)
+        );
+
+        pEqn.setReference(pRefCell_, pRefValue_);
+        pEqn.solve(mesh_.solver(p_.select(pimple_.finalInnerIter())));
+
+        if (pimple_.finalNonOrthogonalIter())
+        {
+            phi_ = phiHbyA - pEqn.flux()/voidFractionf;
+        }
+    }
+
+    p_.relax();
+
+    U_ = HbyA - rAU*pressureFactor*fvc::grad(p_);
+    U_.correctBoundaryConditions();
+}
+
+} // namespace clepsydra

@@ -1,0 +1,51 @@
+#pragma once
+
+#include "interval/couplingInterval.h"
+
+#include "pimpleControl.H"
+#include "surfaceFields.H"
+#include "volFields.H"
+
+namespace clepsydra
+{
+
+/// The fluid between the beads: its fields, and one PIMPLE step of the equations that FluidCoupling states.
+class VoidFractionFlow
+{
+public:
+    /// Reads p, U and, where the run was stopped, phi.
+    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid);
+
+    /// Interstitial [m/s].
+    Foam::volVectorField& U()
+    {
+        return U_;
+    }
+
+    /// Kinematic, without its hydrostatic part [m2/s2].
+    const Foam::volScalarField& p() const
+    {
+        return p_;
+    }
+
+    /// Solves over one coupling interval.
+    SolvedFluid solve(CouplingInterval& interval);
+
+private:
+    Foam::fvVectorMatrix momentumEquation(const CouplingInterval& interval,
+        const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& beadSource);
+    void correctPressure(CouplingInterval& interval, const Foam::surfaceScalarField& voidFractionf,
+        const Foam::fvVectorMatrix& UEqn);
+
+    Foam::fvMesh& mesh_;
+    Foam::pimpleControl pimple_;
+    Foam::volScalarField p_;
+    Foam::volVectorField U_;
+    /// Flux of U.
+    Foam::surfaceScalarField phi_;
+    Foam::label pRefCell_ = 0;
+    Foam::scalar pRefValue_ = 0;
+    const Foam::dimensionedScalar nu_;
+};
+
+} // namespace clepsydra
