@@ -2,6 +2,8 @@
 
 #include "closures/gaussianDisturbance.h"
 
+#include "mathematicalConstants.H"
+
 #include <cmath>
 
 namespace clepsydra

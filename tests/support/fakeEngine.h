@@ -77,21 +77,10 @@ public:
 
     void advance(int steps) override
     {
-        Eigen::Matrix3Xd force = Eigen::Matrix3Xd::Zero(3, static_cast<Eigen::Index>(id_.size()));
-        weight_.resize(3, force.cols());
-        for (Eigen::Index bead = 0; bead < force.cols(); ++bead)
-        {
-            weight_.col(bead) = mass_[static_cast<std::size_t>(bead)] * gravity_;
-        }
-        listPairs();
-        held_.resize(force.cols());
-        std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return heldIds_.count(id) > 0; });
+        Eigen::Matrix3Xd force(3, static_cast<Eigen::Index>(id_.size()));
         for (int step = 0; step < steps; ++step)
         {
-            if (forces_ != nullptr)
-            {
-                forces_->evaluate(beads(), timeStep_, Vectors(force.data(), 3, force.cols()));
-            }
+            evaluateForces(force);
             for (std::size_t bead = 0; bead < id_.size(); ++bead)
             {
                 const auto column = static_cast<Eigen::Index>(bead);
@@ -104,8 +93,12 @@ public:
         }
     }
 
+    /// The forces of a step, which is not made.
     void prepare() override
-    {}
+    {
+        Eigen::Matrix3Xd force(3, static_cast<Eigen::Index>(id_.size()));
+        evaluateForces(force);
+    }
 
     BeadsView beads() override
     {
@@ -153,6 +146,23 @@ public:
     }
 
 private:
+    void evaluateForces(Eigen::Matrix3Xd& force)
+    {
+        force.setZero();
+        weight_.resize(3, force.cols());
+        for (Eigen::Index bead = 0; bead < force.cols(); ++bead)
+        {
+            weight_.col(bead) = mass_[static_cast<std::size_t>(bead)] * gravity_;
+        }
+        held_.resize(force.cols());
+        std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return heldIds_.count(id) > 0; });
+        listPairs();
+        if (forces_ != nullptr)
+        {
+            forces_->evaluate(beads(), timeStep_, Vectors(force.data(), 3, force.cols()));
+        }
+    }
+
     void listPairs()
     {
         const int count = seesPairs_ ? static_cast<int>(id_.size()) : 0;

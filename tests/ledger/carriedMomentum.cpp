@@ -1,0 +1,130 @@
+// How the drag that is given in advance behaves in time, against the linear analysis in interval/carriedMomentum.h and
+// against exact solutions. A scheme that gives an interval's drag afterwards rings, or grows, where the drag is strong.
+
+#include "ledger/stream.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double beads = 8;
+constexpr double fluidMass = Stream::density;
+
+const auto asItIs = [](fvVectorMatrix&) {};
+
+/// One bead in the middle of each of eight cells, Stokes' drag.
+/// \param dragTime  K dt over the fluid's mass
+StreamSetup oneBeadPerCell(double dragTime)
+{
+    StreamSetup setup;
+    setup.drag = "StokesDrag";
+    setup.smoothing = "off";
+    setup.cellsAlongEdge = 2;
+    setup.viscosity = dragTime * fluidMass / (beads * 6 * M_PI * Stream::radius * setup.interval);
+    return setup;
+}
+
+double dragCoefficient(const StreamSetup& setup)
+{
+    return 6 * M_PI * setup.viscosity * Stream::radius;
+}
+
+double beadMass(const StreamSetup& setup)
+{
+    return setup.beadDensity * sphereVolume(Stream::radius);
+}
+
+class DragTimes : public testing::TestWithParam<double>
+{};
+
+/// K dt over the bead's mass; the beads' mass over the fluid's.
+class FreeBeads : public testing::TestWithParam<std::pair<double, double>>
+{
+protected:
+    static StreamSetup setup()
+    {
+        const auto [relaxationTimes, massRatio] = GetParam();
+        StreamSetup setup = oneBeadPerCell(relaxationTimes * massRatio);
+        setup.beadDensity = massRatio * fluidMass / (beads * sphereVolume(Stream::radius));
+        setup.stepsPerInterval = 2000;
+        return setup;
+    }
+};
+
+double slip(Stream& stream)
+{
+    return stream.waterSpeed() - stream.engine().beads().velocity(2, 0);
+}
+
+} // namespace
+
+// Held beads take 1/(1 + k) of the water's speed from it in every interval, and it never changes its sign.
+TEST_P(DragTimes, WaterStopsMonotonouslyBetweenHeldBeads)
+{
+    StreamSetup setup = oneBeadPerCell(GetParam());
+    setup.held = true;
+    Stream stream(setup);
+    for (int interval = 0; interval < 5; ++interval)
+    {
+        const double before = stream.waterSpeed();
+        stream.advance(asItIs);
+        EXPECT_NEAR(stream.waterSpeed() / before, 1 / (1 + GetParam()), 1e-6) << "interval " << interval;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(WeakToStrong, DragTimes, testing::Values(0.01, 0.3, 1, 10, 100, 1000));
+
+// The slip of beads under drag alone falls by (1 - q)/(1 + mu q) in every interval, and no momentum is lost or made.
+TEST_P(FreeBeads, RelaxWithTheWaterWithoutRinging)
+{
+    const auto [relaxationTimes, massRatio] = GetParam();
+    Stream stream(setup());
+    const double momentum = 0.1 * fluidMass;
+    // What share the contacts held is known from the second interval on.
+    stream.advance(asItIs);
+    const double taken = -std::expm1(-relaxationTimes);
+    for (int interval = 0; interval < 4; ++interval)
+    {
+        const double before = slip(stream);
+        if (before < 1e-9)
+        {
+            break; // There is rounding left only.
+        }
+        stream.advance(asItIs);
+        EXPECT_NEAR(slip(stream) / before, (1 - taken) / (1 + massRatio * taken), 0.01) << "interval " << interval;
+        EXPECT_NEAR(stream.momentum() / momentum, 1, 1e-9);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(LightToHeavy, FreeBeads,
+    testing::Values(std::pair(0.01, 1.0), std::pair(0.3, 0.1), std::pair(1.0, 10.0), std::pair(3.0, 1.0),
+        std::pair(10.0, 100.0)));
+
+// Against exp(-(1 + mu) t/tau): halving the interval halves the error.
+TEST(CarriedMomentum, IsOfFirstOrderInTheInterval)
+{
+    const auto error = [](double interval) {
+        constexpr double end = 0.08;
+        StreamSetup setup = oneBeadPerCell(0.1);
+        setup.beadDensity = fluidMass / (beads * sphereVolume(Stream::radius));
+        setup.interval = interval;
+        setup.stepsPerInterval = static_cast<int>(std::lround(interval / 1e-5));
+        Stream stream(setup);
+        for (int i = 0; i < std::lround(end / interval); ++i)
+        {
+            stream.advance(asItIs);
+        }
+        const double massRatio = beads * beadMass(setup) / fluidMass;
+        return slip(stream) - 0.1 * std::exp(-(1 + massRatio) * dragCoefficient(setup) / beadMass(setup) * end);
+    };
+    EXPECT_NEAR(error(0.01) / error(0.005), 2, 0.2);
+    EXPECT_NEAR(error(0.005) / error(0.0025), 2, 0.1);
+}
+
+} // namespace clepsydra::tests

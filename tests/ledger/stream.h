@@ -1,0 +1,160 @@
+#pragma once
+
+#include "interval/couplingInterval.h"
+#include "support/boxMesh.h"
+#include "support/fakeEngine.h"
+#include "support/temporaryCase.h"
+
+#include "fvm.H"
+
+namespace clepsydra::tests
+{
+
+using namespace Foam;
+
+/// Shows one bead without its impulse to those who count the beads and put them into cells after an interval, as an
+/// exchange between ranks would that forgets it; at home, where it is asked for next, the bead still has it.
+class ForgetfulEngine final : public FakeEngine
+{
+public:
+    using FakeEngine::FakeEngine;
+
+    void advance(int steps) override
+    {
+        FakeEngine::advance(steps);
+        viewsWithout_ = forgets_ ? 2 : 0;
+    }
+
+    BeadsView beads() override
+    {
+        BeadsView all = FakeEngine::beads();
+        if (viewsWithout_ > 0)
+        {
+            --viewsWithout_;
+            shown_.assign(all.state, all.state + all.size());
+            shown_.front().given.impulse.setZero();
+            all.state = shown_.data();
+        }
+        return all;
+    }
+
+    void forgetFromNowOn()
+    {
+        forgets_ = true;
+    }
+
+private:
+    bool forgets_ = false;
+    int viewsWithout_ = 0;
+    std::vector<CouplingState> shown_;
+};
+
+/// Water, and beads in it.
+struct StreamSetup
+{
+    std::string momentumModel = "implicitCouple";
+    std::string drag = "SchillerNaumannDrag";
+    std::string smoothing = "constDiffSmoothing; constDiffSmoothingProps { smoothingLength 0.15; }";
+    int cellsAlongEdge = 6;
+    double beadDensity = 2500;
+    double viscosity = 1;
+    bool held = false;
+    double interval = 0.01;
+    int stepsPerInterval = 10;
+};
+
+/// Eight beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: dU/dt = source.
+class Stream
+{
+public:
+    static constexpr double density = 1000;
+    static constexpr double radius = 0.02;
+
+    explicit Stream(const StreamSetup& setup)
+        : case_("deltaT " + std::to_string(setup.interval) + ";"),
+          engine_(setup.interval / setup.stepsPerInterval, Vector3d::Zero())
+    {
+        case_.writeDictionary("constant/couplingProperties",
+            "fluid incompressible; modelType A; couplingInterval " + std::to_string(setup.interval)
+                + "; voidFractionModel divided; smoothingModel " + setup.smoothing + "; forceModels (" + setup.drag
+                + " gradPForce Archimedes); momCoupleModels (" + setup.momentumModel
+                + "); DEM { engine liggghts; script none; }");
+        const int cells = setup.cellsAlongEdge;
+        mesh_ = boxMesh(case_.time(), point::zero, point::one, {cells, cells, cells});
+        readFromCase(static_cast<fvSchemes&>(*mesh_));
+        readFromCase(static_cast<fvSolution&>(*mesh_));
+        for (int bead = 0; bead < 8; ++bead)
+        {
+            engine_.addBead(bead + 1, Vector3d(bead & 1 ? 0.75 : 0.25, bead & 2 ? 0.75 : 0.25, bead & 4 ? 0.75 : 0.25),
+                radius, setup.beadDensity);
+            if (setup.held)
+            {
+                engine_.holdBead(bead + 1);
+            }
+        }
+        const FluidProperties fluid{density, setup.viscosity, Vector3d::Zero()};
+        settings_ = std::make_unique<CouplingSettings>(case_.time());
+        models_ = std::make_unique<FluidModels>(*mesh_, *settings_, fluid, timers_);
+        interval_ =
+            std::make_unique<CouplingInterval>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
+        U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedVector("U", dimVelocity, vector(0, 0, 0.1)), "zeroGradient");
+        p_ = std::make_unique<volScalarField>(IOobject("p", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedScalar("p", dimPressure / dimDensity, 0), "zeroGradient");
+        interval_->start(*U_, *p_);
+    }
+
+    /// \param solved  what becomes of the beads' source before it is put into the equation
+    void advance(const std::function<void(fvVectorMatrix&)>& solved)
+    {
+        ++case_.time();
+        U_->storeOldTime();
+        interval_->advance(*U_, *p_, [&] {
+            fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
+            solved(source);
+            solve(fvm::ddt(*U_) == source);
+            return SolvedFluid{sum(mesh_->V().field() * (source & *U_)().primitiveField()),
+                tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction())};
+        });
+    }
+
+    ForgetfulEngine& engine()
+    {
+        return engine_;
+    }
+
+    /// Mean velocity of the water [m/s].
+    double waterSpeed() const
+    {
+        return average(*U_).value().z();
+    }
+
+    /// Of water and beads, and what is on its way between them [N s].
+    double momentum()
+    {
+        const BeadsView beads = engine_.beads();
+        return density * waterSpeed() + (beads.velocity.row(2).array() * beads.mass.transpose()).sum()
+               + interval_->fluid().momentumGivenInAdvance().z();
+    }
+
+private:
+    /// A mesh made in memory comes without them.
+    template<class Dictionary>
+    static void readFromCase(Dictionary& dictionary)
+    {
+        dictionary.readOpt() = IOobject::MUST_READ;
+        dictionary.read();
+    }
+
+    TemporaryCase case_;
+    std::unique_ptr<fvMesh> mesh_;
+    PhaseTimers timers_;
+    ForgetfulEngine engine_;
+    std::unique_ptr<CouplingSettings> settings_;
+    std::unique_ptr<FluidModels> models_;
+    std::unique_ptr<CouplingInterval> interval_;
+    std::unique_ptr<volVectorField> U_;
+    std::unique_ptr<volScalarField> p_;
+};
+
+} // namespace clepsydra::tests
