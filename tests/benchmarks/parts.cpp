@@ -86,7 +86,7 @@ public:
         for (int bead = 0; bead < beadCount; ++bead)
         {
             VisitingBead visitor{};
-            visitor.impulse.setZero();
+            visitor.momentum.setZero();
             for (int axis = 0; axis < 3; ++axis)
             {
                 visitor.position[axis] = diameter / 2 + (cells[axis] * cellSize - diameter) * part(random_);
