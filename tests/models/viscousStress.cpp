@@ -26,7 +26,7 @@ TEST(ViscousStress, OfABeadIsThatOfTheEquationWhereDivergenceIsNotZero)
     TemporaryCase folder;
     folder.writeDictionary("constant/couplingProperties",
         "fluid incompressible; modelType A; couplingInterval 0.01; voidFractionModel divided; smoothingModel off; "
-        "forceModels (StokesDrag gradPForce viscForce); momCoupleModels (implicitCouple); "
+        "forceModels (gradPForce viscForce); momCoupleModels (explicitCouple); "
         "DEM { engine liggghts; script none; }");
     const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
     static_cast<fvSchemes&>(*mesh).readOpt() = IOobject::MUST_READ;
