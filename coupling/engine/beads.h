@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
@@ -26,6 +28,9 @@ inline bool cubeMeets(const Box& box, const Vector3d& centre, double radius)
 struct FluidAtBead
 {
     double voidFraction = 1;
+    /// Of the bead's volume, what is in the fluid: the rest is beyond an open boundary, or has not come in yet. All forces
+    /// between fluid and bead are in proportion to it.
+    double presence = 1;
     /// Natural logarithm of the void fraction, so that a drag law needs exp() instead of pow() at every DEM step.
     double logVoidFraction = 0;
     /// Interstitial velocity, as the forces see it [m/s].
@@ -54,6 +59,17 @@ struct GivenToFluid
     double implicitCoefficientTime = 0;
 };
 
+/// The part of a bead on the fluid's side of the open boundaries.
+struct PartWithin
+{
+    /// Of the bead's volume.
+    double share = 1;
+    /// From the bead's centre to that of the part [m].
+    Vector3d shift = Vector3d::Zero();
+    /// Number of the open boundary that the rest is beyond; -1: none.
+    double outlet = -1;
+};
+
 /// The part of a bead's state that belongs to the coupling. It travels with the bead from rank to rank,
 /// because a bead may change rank at any DEM step, also in the middle of an interval.
 ///
@@ -68,6 +84,15 @@ struct CouplingState
     Vector3d handedOver = Vector3d::Zero();
     /// The bead's own, when the interval began [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
+    PartWithin part;
+
+    /// Of a bead that has come in since the beads were put on the mesh: it feels no fluid yet.
+    static CouplingState ofNewBead()
+    {
+        CouplingState state;
+        state.fluid.presence = 0;
+        return state;
+    }
 };
 
 constexpr std::size_t couplingStateSize = sizeof(CouplingState) / sizeof(double);
@@ -118,6 +143,9 @@ struct BeadsView
     bool memoryAges = true;
     /// For FluidForces::evaluate() only: true where no force moves the bead, for the engine holds it fast.
     ConstView<bool> held{nullptr, 0};
+    /// How far a bead that has come in during the run has been introduced to the fluid, from 0 to 1; 1 of all others.
+    /// Writable, part of checkpoints.
+    double* introduced = nullptr;
 
     Eigen::Index size() const
     {
@@ -139,6 +167,29 @@ struct BeadsView
 inline double sphereVolume(double radius)
 {
     return 4.0 / 3.0 * static_cast<double>(EIGEN_PI) * radius * radius * radius;
+}
+
+/// What of a bead's volume is in the fluid [m3].
+inline double volumeInFluid(const BeadsView& beads, Eigen::Index bead)
+{
+    return beads.state[bead].fluid.presence * sphereVolume(beads.radius[bead]);
+}
+
+/// The sphere that stands for a bead in the fluid: of the volume and with the centre of the part that is there. Not
+/// smaller than a hundredth of the bead, for a bead that is leaving hands over its last impulse.
+struct SphereInFluid
+{
+    Vector3d centre;
+    double radius;
+};
+
+inline SphereInFluid sphereInFluid(const BeadsView& beads, Eigen::Index bead)
+{
+    constexpr double smallest = 1e-6;
+    const CouplingState& state = beads.state[bead];
+    const double presence = state.fluid.presence;
+    return {beads.position.col(bead) + state.part.shift,
+        presence < 1 ? beads.radius[bead] * std::cbrt(std::max(presence, smallest)) : beads.radius[bead]};
 }
 
 } // namespace clepsydra

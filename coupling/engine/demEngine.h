@@ -72,6 +72,10 @@ public:
     /// just been resumed from a checkpoint written now. \pre initialised. \post views are invalid.
     virtual void prepare() = 0;
 
+    /// Takes beads out, from wherever they are. \pre initialised. \post views are invalid; prepare() must follow.
+    /// \param ids  of this rank's beads
+    virtual void remove(const std::vector<int>& ids) = 0;
+
     /// Local: the beads of this rank. \pre initialised.
     virtual BeadsView beads() = 0;
 

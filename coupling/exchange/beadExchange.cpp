@@ -30,17 +30,19 @@ Box boxAround(const BeadsView& beads, double commonReach)
     Box around;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
-        const Vector3d reach = Vector3d::Constant(std::max(beads.radius[bead], commonReach));
-        around.extend(beads.position.col(bead) - reach);
-        around.extend(beads.position.col(bead) + reach);
+        const SphereInFluid sphere = sphereInFluid(beads, bead);
+        const Vector3d reach = Vector3d::Constant(std::max(sphere.radius, commonReach));
+        around.extend(sphere.centre - reach);
+        around.extend(sphere.centre + reach);
     }
     return around;
 }
 
 VisitingBead visitFrom(const BeadsView& beads, const Eigen::Matrix4Xd& momentum, Eigen::Index bead)
 {
-    return {beads.position.col(bead), momentum.col(bead), beads.state[bead].given.implicitCoefficientTime,
-        beads.radius[bead], static_cast<double>(beads.id[bead])};
+    const SphereInFluid sphere = sphereInFluid(beads, bead);
+    return {sphere.centre, momentum.col(bead), beads.state[bead].given.implicitCoefficientTime,
+        volumeInFluid(beads, bead), sphere.radius, static_cast<double>(beads.id[bead])};
 }
 
 } // namespace
@@ -74,7 +76,8 @@ void BeadExchange::makePlan(const BeadsView& beads)
             Exports leaving{rank, {}};
             for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
             {
-                if (cubeMeets(theirCells, beads.position.col(bead), std::max(beads.radius[bead], commonReach_)))
+                const SphereInFluid sphere = sphereInFluid(beads, bead);
+                if (cubeMeets(theirCells, sphere.centre, std::max(sphere.radius, commonReach_)))
                 {
                     leaving.beads.push_back(bead);
                 }

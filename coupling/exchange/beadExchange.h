@@ -10,12 +10,14 @@ namespace clepsydra
 {
 
 /// A bead as the rank of its cells sees it: what the distribution onto the mesh needs, nothing else. SI units.
+/// Of a bead that is only partly in the fluid: the sphere that stands for that part, see SphereInFluid.
 struct VisitingBead
 {
     Vector3d position;
     /// A - P - c v [N s] and c [kg] of CarriedMomentum.
     Eigen::Matrix<double, 4, 1, Eigen::DontAlign> momentum;
     double implicitCoefficientTime;
+    double volume;
     double radius;
     double id;
 };

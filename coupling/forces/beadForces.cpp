@@ -91,12 +91,13 @@ void BeadForces::evaluatePart(const BeadsView& beads, double timeStep, Vectors f
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         CouplingState& state = beads.state[bead];
-        const double ofModel = modelType_ == ModelType::B ? 1 / state.fluid.voidFraction : 1;
+        const double presence = state.fluid.presence;
+        const double ofModel = modelType_ == ModelType::B ? presence / state.fluid.voidFraction : presence;
         const double coefficient = ofModel * sum_.implicitCoefficient[bead];
         const double addedMass = ofModel * sum_.addedMass[bead];
         Vector3d handedOver =
             coefficient * (state.fluid.velocity - beads.velocity.col(bead)) + ofModel * sum_.source.col(bead);
-        const Vector3d notHandedOver = sum_.shared.col(bead) + sum_.mutual.col(bead);
+        const Vector3d notHandedOver = presence * sum_.shared.col(bead) + sum_.mutual.col(bead);
         if (addedMass > 0)
         {
             // The bead's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.

@@ -16,7 +16,8 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
       fluidDensity_(fluid.density),
       timers_(timers),
       ledger_(settings.dict(), mesh.time()),
-      observedBeads_(mesh, engine)
+      observedBeads_(mesh, engine),
+      traffic_(settings.dict(), mesh, settings.couplingInterval())
 {
     if (models && models->forces.needs().pairReach > 0)
     {
@@ -28,6 +29,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     }
     engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
+    ledger_.openSolidVolume(traffic_.start(engine_.beads(), !resumed));
     if (models)
     {
         fluid_ = std::make_unique<FluidCoupling>(
@@ -71,11 +73,16 @@ void CouplingInterval::advance(
     ledger_.bookContinuity(interval_ * solved.continuityError());
     fluid_->updateAcceleration(U, interval_);
     fluid_->fluidToBeads(U, p);
+    if (removeBeadsThatLeft())
+    {
+        forgetGiven();
+    }
 }
 
 void CouplingInterval::advance()
 {
     advanceBeads();
+    removeBeadsThatLeft();
 }
 
 void CouplingInterval::restartInPlace()
@@ -86,8 +93,9 @@ void CouplingInterval::restartInPlace()
 void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     const BeadsView beads = engine_.beads();
-    std::fill_n(beads.state, beads.size(), CouplingState());
+    std::fill_n(beads.state, beads.size(), CouplingState::ofNewBead());
     engine_.prepare();
+    traffic_.start(engine_.beads(), false);
     fluid_->start(true);
     forgetGiven();
     feelFluid(U, p);
@@ -112,7 +120,22 @@ void CouplingInterval::advanceBeads()
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
     engine_.advance(stepsPerInterval_);
-    ledger_.countBeads(engine_.beads());
+    const BeadsView beads = engine_.beads();
+    const int highestBefore = ledger_.countBeads(beads);
+    traffic_.advance(beads, highestBefore, interval_);
+    ledger_.bookTraffic(traffic_.netVolume());
+}
+
+bool CouplingInterval::removeBeadsThatLeft()
+{
+    const Foam::label removed = traffic_.removeGone(engine_);
+    if (removed == 0)
+    {
+        return false;
+    }
+    engine_.prepare();
+    ledger_.countAfterRemoval(engine_.beads(), removed);
+    return true;
 }
 
 } // namespace clepsydra

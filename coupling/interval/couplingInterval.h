@@ -3,6 +3,7 @@
 #include "interval/fluidCoupling.h"
 #include "interval/fluidModels.h"
 #include "output/observedBeads.h"
+#include "traffic/beadTraffic.h"
 
 #include <functional>
 #include <memory>
@@ -70,6 +71,8 @@ public:
 private:
     void advanceBeads();
     void feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p);
+    /// \return true if there were any, and the engine is prepared anew.
+    bool removeBeadsThatLeft();
     /// \return its sum over the beads of all ranks [N s], taken from the beads themselves.
     Foam::vector forgetGiven();
 
@@ -81,6 +84,7 @@ private:
     PhaseTimers& timers_;
     Ledger ledger_;
     ObservedBeads observedBeads_;
+    BeadTraffic traffic_;
     std::unique_ptr<FluidCoupling> fluid_;
 };
 

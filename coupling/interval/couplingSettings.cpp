@@ -133,7 +133,7 @@ CouplingSettings::CouplingSettings(const Time& time)
 {
     requireKnownEntries(dict_,
         {"fluid", "couplingInterval", "modelType", "voidFractionModel", "smoothingModel", "selfDisturbance",
-            "forceModels", "momCoupleModels", "useDDTvoidfraction"},
+            "forceModels", "momCoupleModels", "useDDTvoidfraction", "beadOutlets", "insertionTime"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "beadOutput", "ledger"}));
     requireKnownEntries(dict_.subDict("DEM"), {"engine", "script", "writeRestart", "maxRayleighFraction"},
         {"variables", "groupChanges"});

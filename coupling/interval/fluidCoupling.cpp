@@ -67,8 +67,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     }
     if (selfDisturbance_.isRemoved())
     {
-        resistance_.reset(new volScalarField(
-            couplingField<scalar>("resistanceOfBeads", mesh, dimDensity / dimTime, 0)));
+        resistance_.reset(
+            new volScalarField(couplingField<scalar>("resistanceOfBeads", mesh, dimDensity / dimTime, 0)));
     }
     voidFraction_.oldTime();
 }
@@ -119,9 +119,8 @@ void FluidCoupling::giveInAdvance(const volVectorField& U)
     }
     const PhaseTimers::Scope timing = timers_.time("distribute");
     const BeadsView beads = engine_.beads();
-    const Eigen::Matrix3Xd fromFluid =
-        exchange_.sumAtHome(distribution_.sample(columns(U.primitiveField())))
-        * anticipatedDragCoefficients_.matrix().asDiagonal();
+    const Eigen::Matrix3Xd fromFluid = exchange_.sumAtHome(distribution_.sample(columns(U.primitiveField())))
+                                       * anticipatedDragCoefficients_.matrix().asDiagonal();
     givenInAdvance(beads) = fromFluid - beads.velocity * anticipatedDragCoefficients_.matrix().asDiagonal();
     Eigen::MatrixXd densities = distribution_.densities(exchange_.toVisitors(fromFluid));
     smooth(densities);
@@ -151,7 +150,8 @@ void FluidCoupling::findCells(double nextOverLast)
     {
         const CouplingState& state = beads.state[bead];
         double& coefficient = anticipatedDragCoefficients_[bead];
-        if (settings_.implicitCoupling())
+        // One that has left is given nothing in advance, for it is taken out before it could receive it.
+        if (settings_.implicitCoupling() && state.fluid.presence > 0)
         {
             coefficient = anticipatedDragCoefficient(
                 state.given, beads.velocity.col(bead) - state.velocityBefore, beads.mass[bead], nextOverLast);
@@ -196,7 +196,7 @@ Eigen::MatrixXd FluidCoupling::densitiesOfBeads()
     for (Eigen::Index i = 0; i < given.cols(); ++i)
     {
         const VisitingBead& bead = visitors[static_cast<std::size_t>(i)];
-        given(solidVolume, i) = sphereVolume(bead.radius);
+        given(solidVolume, i) = bead.volume;
         given.col(i).segment<CarriedMomentum::rowCount>(momentum) = bead.momentum;
         if (resistance_)
         {
@@ -215,7 +215,7 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
     double beadVolume = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
-        beadVolume += sphereVolume(beads.radius[bead]);
+        beadVolume += volumeInFluid(beads, bead);
     }
     const scalarField& cellVolumes = mesh_.V().field();
     const double cellVolume = gSum(scalarField(solidFraction_ * cellVolumes));
@@ -322,12 +322,11 @@ void FluidCoupling::bookPressureForce(const vector& inFluid)
     scalar turnover = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
-        const vector onBead = -sphereVolume(beads.radius[bead]) * toFoam(beads.state[bead].fluid.pressureGradient);
+        const vector onBead = -volumeInFluid(beads, bead) * toFoam(beads.state[bead].fluid.pressureGradient);
         onBeads += onBead;
         turnover += mag(onBead);
     }
-    ledger_.bookPressureForce(
-        returnReduce(onBeads, sumOp<vector>()), inFluid, returnReduce(turnover, sumOp<scalar>()));
+    ledger_.bookPressureForce(returnReduce(onBeads, sumOp<vector>()), inFluid, returnReduce(turnover, sumOp<scalar>()));
 }
 
 string FluidCoupling::describeCell(label cell) const

@@ -11,7 +11,7 @@
 namespace clepsydra
 {
 
-void BeadCensus::count(const BeadsView& beads)
+int BeadCensus::count(const BeadsView& beads)
 {
     using namespace Foam;
 
@@ -26,16 +26,38 @@ void BeadCensus::count(const BeadsView& beads)
         reportMissing(beads, now_ - stillThere);
     }
 
-    now_ = returnReduce(static_cast<label>(beads.size()), sumOp<label>());
-    highestId_ = returnReduce(beads.size() > 0 ? static_cast<label>(beads.id.maxCoeff()) : 0, maxOp<label>());
-    if (atStart_ < 0)
+    const bool first = atStart_ < 0;
+    const label highestBefore = highestId_;
+    remember(beads);
+    if (first)
     {
         atStart_ = now_;
+        return static_cast<int>(highestId_);
     }
-    else
+    inserted_ += now_ - stillThere;
+    return static_cast<int>(highestBefore);
+}
+
+void BeadCensus::countAfterRemoval(const BeadsView& beads, Foam::label removed)
+{
+    using namespace Foam;
+
+    const label expected = now_ - removed;
+    remember(beads);
+    removed_ += removed;
+    if (now_ != expected)
     {
-        inserted_ += now_ - stillThere;
+        FatalErrorInFunction << "The DEM engine has " << now_ << " beads after " << removed << " of "
+                             << expected + removed << " have left and were taken out" << exit(FatalError);
     }
+}
+
+void BeadCensus::remember(const BeadsView& beads)
+{
+    using namespace Foam;
+
+    now_ = returnReduce(static_cast<label>(beads.size()), sumOp<label>());
+    highestId_ = returnReduce(beads.size() > 0 ? static_cast<label>(beads.id.maxCoeff()) : 0, maxOp<label>());
     last_.clear();
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
@@ -76,9 +98,11 @@ void BeadCensus::reportMissing(const BeadsView& beads, Foam::label missing) cons
     {
         allNames += part;
     }
-    FatalErrorInFunction << missing << " of " << now_ << " beads were lost in the last interval:" << allNames.c_str()
-                         << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long."
-                         << exit(FatalError);
+    FatalErrorInFunction
+        << missing << " of " << now_ << " beads were lost in the last interval:" << allNames.c_str()
+        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Beads may leave "
+        << "through beadOutlets; the DEM box must go on behind these for a bead's diameter and its "
+        << "travel of one interval." << exit(FatalError);
     std::abort();
 }
 

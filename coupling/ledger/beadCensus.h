@@ -13,9 +13,13 @@ namespace clepsydra
 class BeadCensus
 {
 public:
-    /// Compares with the last count. New beads (pouring) have numbers above all earlier ones. Collective.
+    /// Compares with the last count. New beads have numbers above all that were there then. Collective.
     /// FatalError naming the missing beads with their last position otherwise.
-    void count(const BeadsView& beads);
+    /// \return the highest number of a bead that is not new
+    int count(const BeadsView& beads);
+
+    /// Counts again after beads have been taken out. Collective. FatalError where other than `removed` are missing.
+    void countAfterRemoval(const BeadsView& beads, Foam::label removed);
 
     /// Beads at the first count and now, over all ranks.
     Foam::label atStart() const
@@ -28,10 +32,21 @@ public:
         return now_;
     }
 
-    /// Beads that came in less those that are here.
+    /// Beads that have come in or were taken out since the first count.
+    Foam::label inserted() const
+    {
+        return inserted_;
+    }
+
+    Foam::label removed() const
+    {
+        return removed_;
+    }
+
+    /// Beads that came in less those that were taken out or are here.
     Foam::label lost() const
     {
-        return atStart_ + inserted_ - now_;
+        return atStart_ + inserted_ - removed_ - now_;
     }
 
 private:
@@ -41,11 +56,13 @@ private:
         Vector3d position;
     };
 
+    void remember(const BeadsView& beads);
     [[noreturn]] void reportMissing(const BeadsView& beads, Foam::label missing) const;
 
     std::vector<Sighting> last_;
     Foam::label atStart_ = -1;
     Foam::label inserted_ = 0;
+    Foam::label removed_ = 0;
     Foam::label now_ = 0;
     Foam::label highestId_ = 0;
 };

@@ -37,9 +37,14 @@ Ledger::Ledger(const dictionary& couplingProperties, const Time& time)
                                          "pressureForceTolerance", "continuityTolerance", "imbalanceTolerance"});
 }
 
-void Ledger::countBeads(const BeadsView& beads)
+int Ledger::countBeads(const BeadsView& beads)
 {
-    census_.count(beads);
+    return census_.count(beads);
+}
+
+void Ledger::countAfterRemoval(const BeadsView& beads, label removed)
+{
+    census_.countAfterRemoval(beads, removed);
 }
 
 void Ledger::bookSolidVolume(double beads, double cells, double clipped, const string& worstCell)
@@ -54,6 +59,16 @@ void Ledger::bookSolidVolume(double beads, double cells, double clipped, const s
         FatalErrorInFunction << "The cells hold " << cells << " m3 of beads, the beads are " << beads
                              << " m3: relative error " << solidVolumeError_ << ", solidVolumeTolerance is "
                              << solidVolumeTolerance_ << exit(FatalError);
+    }
+    mostSolidVolume_ = max(mostSolidVolume_, cells);
+    trafficError_ = mag(solidVolumeAtStart_ + trafficVolume_ - cells) / max(mostSolidVolume_, VSMALL);
+    largestTrafficError_ = max(largestTrafficError_, trafficError_);
+    if (trafficError_ > solidVolumeTolerance_)
+    {
+        FatalErrorInFunction << "The cells hold " << cells << " m3 of beads; at the start these had "
+                             << solidVolumeAtStart_ << " m3, and " << trafficVolume_
+                             << " m3 more have come in than left: relative error " << trafficError_
+                             << ", solidVolumeTolerance is " << solidVolumeTolerance_ << exit(FatalError);
     }
     if (clipped > clippedVolumeTolerance_ * beads)
     {
@@ -79,8 +94,8 @@ void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, 
     if (momentumError() > momentumTolerance_)
     {
         FatalErrorInFunction << "Beads received " << beadsReceived_ << " N s from the fluid, which lost " << fluidLost_
-                             << " N s, " << givenInAdvance_ << " N s of it in advance: relative error " << momentumError()
-                             << ", momentumTolerance is " << momentumTolerance_ << exit(FatalError);
+                             << " N s, " << givenInAdvance_ << " N s of it in advance: relative error "
+                             << momentumError() << ", momentumTolerance is " << momentumTolerance_ << exit(FatalError);
     }
 }
 
@@ -104,7 +119,8 @@ void Ledger::bookContinuity(const volScalarField& error)
     largestContinuityError_ = max(largestContinuityError_, localContinuityError_);
     if (localContinuityError_ > continuityTolerance_)
     {
-        FatalErrorInFunction << "Fluid of " << localContinuityError_ << " of the volume was made of nothing or lost in one "
+        FatalErrorInFunction << "Fluid of " << localContinuityError_
+                             << " of the volume was made of nothing or lost in one "
                              << "interval (mean of |d(eps)/dt + div(eps U)|), continuityTolerance is "
                              << continuityTolerance_ << ". Solve p to a smaller tolerance (system/fvSolution), or "
                              << "couple more often." << exit(FatalError);
@@ -116,10 +132,9 @@ void Ledger::bookImbalance(double imbalance)
     imbalance_ += imbalance;
     if (mag(imbalance_) > imbalanceTolerance_)
     {
-        FatalErrorInFunction << "The beads' volume in a tank that no fluid can leave or enter changed by "
-                             << imbalance_ << " of the tank's, imbalanceTolerance is "
-                             << imbalanceTolerance_ << ". Give p a fixed value on a patch that fluid can pass."
-                             << exit(FatalError);
+        FatalErrorInFunction << "The beads' volume in a tank that no fluid can leave or enter changed by " << imbalance_
+                             << " of the tank's, imbalanceTolerance is " << imbalanceTolerance_
+                             << ". Give p a fixed value on a patch that fluid can pass." << exit(FatalError);
     }
 }
 
@@ -132,12 +147,13 @@ double Ledger::momentumError() const
 
 void Ledger::report() const
 {
-    Info << "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (lost " << census_.lost()
-         << "), solid volume " << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
-         << " m3, momentum to beads " << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", in advance "
-         << givenInAdvance_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_
-         << ", continuity error local " << localContinuityError_ << ", global " << globalContinuityError_
-         << ", cumulative " << cumulativeContinuityError_ << ", spread over the closed tank " << imbalance_ << endl;
+    Info << "ledger: time " << time_.timeName() << " s, beads " << census_.now() << " (inserted " << census_.inserted()
+         << ", left " << census_.removed() << ", lost " << census_.lost() << "), solid volume " << solidVolume_
+         << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_ << " m3, momentum to beads "
+         << beadsReceived_ << " N s, from fluid " << fluidLost_ << ", in advance " << givenInAdvance_ << " (error "
+         << momentumError() << "), pressure force error " << pressureForceError_ << ", continuity error local "
+         << localContinuityError_ << ", global " << globalContinuityError_ << ", cumulative "
+         << cumulativeContinuityError_ << ", spread over the closed tank " << imbalance_ << endl;
 }
 
 void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) const
@@ -150,6 +166,7 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
     mkDir(folder);
     const nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
+        {"beadsInserted", census_.inserted()}, {"beadsLeft", census_.removed()}, {"trafficError", largestTrafficError_},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
         {"clippedVolume", largestClippedVolume_}, {"momentumError", momentumError()},
         {"pressureForceError", largestPressureForceError_}, {"continuityError", largestContinuityError_},

@@ -16,7 +16,7 @@ namespace clepsydra
 /// Books what must balance between beads and fluid: solid volume, momentum, the number of beads; and what was
 /// clipped. Stops the run above the tolerances of the `ledger` sub-dictionary of couplingProperties:
 ///
-///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads
+///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads; |start + inserted - left - cells| / most
 ///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / beads, at any one time
 ///     momentumTolerance       1e-9;   // |fluid lost - given in advance - beads received| / sum of |received|
 ///     pressureForceTolerance  1e-9;   // |on beads - in fluid| / sum of |on a bead|
@@ -28,7 +28,11 @@ public:
     Ledger(const Foam::dictionary& couplingProperties, const Foam::Time& time);
 
     /// Counts the beads; see BeadCensus.
-    void countBeads(const BeadsView& beads);
+    /// \return the highest number of a bead that has not come in since the last count
+    int countBeads(const BeadsView& beads);
+
+    /// The same after beads have been taken out.
+    void countAfterRemoval(const BeadsView& beads, Foam::label removed);
 
     /// Over all ranks, when they were counted last.
     long beads() const
@@ -36,8 +40,21 @@ public:
         return census_.now();
     }
 
+    /// The solid volume that is in the fluid at the beginning [m3]; over all ranks.
+    void openSolidVolume(double volume)
+    {
+        solidVolumeAtStart_ = volume;
+    }
+
+    /// What of the solid volume has come in since then less what has left [m3]; over all ranks.
+    void bookTraffic(double netVolume)
+    {
+        trafficVolume_ = netVolume;
+    }
+
     /// The solid volume of all beads, what the cells hold of it before clipping, and what clipping cut off [m3].
-    /// All are sums over the ranks. \param worstCell  words for the error.
+    /// All are sums over the ranks. What the cells hold must be the beads' and follow from what has come and gone.
+    /// \param worstCell  words for the error.
     void bookSolidVolume(double beads, double cells, double clipped, const Foam::string& worstCell);
 
     /// What the fluid has given in advance when the books open [N s]; sum over the ranks.
@@ -84,6 +101,11 @@ private:
     BeadCensus census_;
     double solidVolume_ = 0;
     double solidVolumeError_ = 0;
+    double solidVolumeAtStart_ = 0;
+    double mostSolidVolume_ = 0;
+    double trafficVolume_ = 0;
+    double trafficError_ = 0;
+    double largestTrafficError_ = 0;
     double largestSolidVolumeError_ = 0;
     double clippedVolume_ = 0;
     double largestClippedVolume_ = 0;

@@ -87,6 +87,7 @@ public:
         {
             VisitingBead visitor{};
             visitor.momentum.setZero();
+            visitor.volume = sphereVolume(0.5 * diameter);
             for (int axis = 0; axis < 3; ++axis)
             {
                 visitor.position[axis] = diameter / 2 + (cells[axis] * cellSize - diameter) * part(random_);

@@ -31,6 +31,7 @@ public:
         radius_.push_back(radius);
         mass_.push_back(density * sphereVolume(radius));
         state_.emplace_back();
+        introduced_.push_back(1);
     }
 
     /// From now on no force moves it.
@@ -44,7 +45,12 @@ public:
     {
         const auto at = std::find(id_.begin(), id_.end(), id) - id_.begin();
         const auto removeFrom = [at](auto&... lists) { (lists.erase(lists.begin() + at), ...); };
-        removeFrom(id_, position_, velocity_, angularVelocity_, radius_, mass_, state_);
+        removeFrom(id_, position_, velocity_, angularVelocity_, radius_, mass_, state_, introduced_);
+    }
+
+    void remove(const std::vector<int>& ids) override
+    {
+        std::for_each(ids.begin(), ids.end(), [this](int id) { removeBead(id); });
     }
 
     /// \pre this rank has the bead.
@@ -111,7 +117,7 @@ public:
             ConstVectors(weight_.data(), 3, weight_.cols()),
             BeadPairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
                 Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
-            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size())};
+            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), introduced_.data()};
     }
 
     double timeStep() const override
@@ -190,6 +196,7 @@ private:
     std::vector<double> radius_;
     std::vector<double> mass_;
     std::vector<CouplingState> state_;
+    std::vector<double> introduced_;
     /// Of the step that advance() is in.
     Eigen::Matrix3Xd weight_;
     std::set<int> heldIds_;

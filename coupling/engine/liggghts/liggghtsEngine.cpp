@@ -7,11 +7,13 @@
 #include "files/wholeFile.h"
 
 #include <atom.h>
+#include <atom_vec.h>
 #include <comm.h>
 #include <domain.h>
 #include <error.h>
 #include <fix_external.h>
 #include <fix_gravity.h>
+#include <fix_insert_pack.h>
 #include <fix_property_atom.h>
 #include <fix_property_global.h>
 #include <force.h>
@@ -28,10 +30,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <unordered_set>
 
 namespace clepsydra
 {
@@ -44,6 +48,7 @@ namespace lmp = LAMMPS_NS;
 constexpr const char* stateFixId = "clepsydraState";
 constexpr const char* forceFixId = "clepsydraForce";
 constexpr const char* memoryFixId = "clepsydraMemory";
+constexpr const char* introducedFixId = "clepsydraIntroduced";
 
 std::string placeText(const double* place)
 {
@@ -93,6 +98,16 @@ bool movesByForces(const lmp::Fix& fix)
     const bool isMultisphere = style.rfind("multisphere", 0) == 0; // does not say that it integrates
     return (fix.time_integrate == 1 && style != "move" && style.find("noforce") == std::string::npos) || isMultisphere;
 }
+
+/// Measures an insertion's region by random numbers, the same ones that then place the beads: what LIGGGHTS does once in each
+/// process.
+struct InsertionRegion : lmp::FixInsertPack
+{
+    static void measure(lmp::FixInsertPack& fix)
+    {
+        (fix.*&InsertionRegion::calc_region_volume_local)();
+    }
+};
 
 lmp::Fix* findFixOfStyle(const lmp::Modify& modify, const std::string& style)
 {
@@ -267,7 +282,7 @@ public:
         // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
         std::string command =
             std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
-        const CouplingState initial{};
+        const CouplingState initial = CouplingState::ofNewBead();
         std::array<double, couplingStateSize> defaults{};
         std::copy_n(reinterpret_cast<const double*>(&initial), couplingStateSize, defaults.begin());
         for (const double value : defaults)
@@ -277,6 +292,16 @@ public:
         execute(command, "coupling state");
         stateFix_ = program_->modify->find_fix_property(
             stateFixId, "property/atom", "vector", static_cast<int>(couplingStateSize), 0, "coupling");
+    }
+
+    /// Part of LIGGGHTS' restart files. 1 of beads in files that do not have it.
+    void addIntroduced()
+    {
+        execute(
+            std::string("fix ") + introducedFixId + " all property/atom " + introducedFixId + " scalar yes no no 1.",
+            "beads that come in");
+        introducedFix_ =
+            program_->modify->find_fix_property(introducedFixId, "property/atom", "scalar", 0, 0, "coupling");
     }
 
     /// LIGGGHTS takes a negative friction without complaint.
@@ -372,6 +397,73 @@ public:
         });
     }
 
+    /// LIGGGHTS looks among beads and fixes for the first material, and stops where it finds none, as when all beads have
+    /// left. A template has it; its radius matters to no bead, for there is none.
+    void allowNoBeads()
+    {
+        const lmp::Modify& modify = *program_->modify;
+        const bool found =
+            std::any_of(modify.fix, modify.fix + modify.nfix, [](lmp::Fix* fix) { return fix->min_type() == 1; });
+        if (program_->atom->natoms > 0 || found)
+        {
+            return;
+        }
+        execute(
+            "fix clepsydraTemplate all particletemplate/sphere 10007 atom_type 1 density constant 1. radius constant "
+                + std::to_string(program_->neighbor->skin),
+            "no beads");
+        execute("fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no beads");
+    }
+
+    /// As LIGGGHTS' own fixes delete atoms.
+    void remove(const std::vector<int>& ids)
+    {
+        const FloatingPointTraps none(0);
+        lmp::Atom& atom = *program_->atom;
+        // While the neighbour lists that hold the contacts' history still fit the beads: it goes to the beads.
+        program_->modify->setup_pre_exchange();
+        const std::unordered_set<int> leaving(ids.begin(), ids.end());
+        for (int bead = 0; bead < atom.nlocal;)
+        {
+            if (leaving.count(atom.tag[bead]) == 0)
+            {
+                ++bead;
+                continue;
+            }
+            constexpr int deleting = 1;
+            atom.avec->copy(--atom.nlocal, bead, deleting);
+        }
+        const lmp::bigint here = atom.nlocal;
+        MPI_Allreduce(&here, &atom.natoms, 1, MPI_LMP_BIGINT, MPI_SUM, program_->world);
+        // Copies of beads that are no longer there must not be found.
+        atom.nghost = 0;
+        if (atom.map_style != 0)
+        {
+            atom.map_init();
+            atom.map_set();
+        }
+        allowNoBeads();
+    }
+
+    /// A resumed process gets other random numbers from these fixes and their regions than one that goes on: what is
+    /// written is less than the state. So they read it here, too.
+    void restartInsertions()
+    {
+        lmp::Modify& modify = *program_->modify;
+        std::for_each(modify.fix, modify.fix + modify.nfix, [&](lmp::Fix* fix) {
+            const std::string style = fix->style;
+            const bool inserts = style.rfind("insert/", 0) == 0 || style.rfind("particle", 0) == 0;
+            if (inserts && fix->restart_global)
+            {
+                restartFix(*fix);
+            }
+            if (auto* const inRegion = dynamic_cast<lmp::FixInsertPack*>(fix))
+            {
+                InsertionRegion::measure(*inRegion);
+            }
+        });
+    }
+
     void keepMemory(int numbers)
     {
         memorySize_ = numbers;
@@ -404,7 +496,8 @@ public:
             ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
             reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)),
             ConstVectors(firstElement(atom.f), 3, count), BeadPairs{},
-            memoryFix_ ? firstElement(memoryFix_->array_atom) : nullptr, memorySize_};
+            memoryFix_ ? firstElement(memoryFix_->array_atom) : nullptr, memorySize_, true, ConstView<bool>(nullptr, 0),
+            introducedFix_->vector_atom};
     }
 
     /// LIGGGHTS' own list: half, with `newton off` pairs across ranks on both.
@@ -560,6 +653,26 @@ private:
         return result;
     }
 
+    /// By the very bytes that the first rank writes to LIGGGHTS' restart files: their number and the state.
+    void restartFix(lmp::Fix& fix) const
+    {
+        char* text = nullptr;
+        std::size_t size = 0;
+        FILE* const stream = open_memstream(&text, &size);
+        fix.write_restart(stream);
+        std::fclose(stream);
+        std::vector<char> state(text, text + size);
+        std::free(text);
+        auto count = static_cast<int>(size);
+        MPI_Bcast(&count, 1, MPI_INT, 0, program_->world);
+        state.resize(static_cast<std::size_t>(count));
+        MPI_Bcast(state.data(), count, MPI_CHAR, 0, program_->world);
+        if (state.size() > sizeof(int))
+        {
+            fix.restart(state.data() + sizeof(int));
+        }
+    }
+
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
     {
         auto& engine = *static_cast<Implementation*>(self);
@@ -587,6 +700,7 @@ private:
     bool seesPairs_ = false;
     lmp::Fix* memoryFix_ = nullptr;
     int memorySize_ = 0;
+    lmp::Fix* introducedFix_ = nullptr;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
     int trapsOutside_ = 0;
@@ -614,6 +728,7 @@ void LiggghtsEngine::keepMemory(int numbers)
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     implementation_->addCouplingState();
+    implementation_->addIntroduced();
     implementation_->addMemory();
     implementation_->addGroupChanges();
     if (forces)
@@ -624,6 +739,7 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
     implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
     implementation_->checkBeadsAreInBox();
+    implementation_->allowNoBeads();
     prepare();
     implementation_->checkOverlaps();
 }
@@ -638,6 +754,11 @@ void LiggghtsEngine::advance(int steps)
 {
     implementation_->run(steps);
     implementation_->changeGroups(steps * timeStep());
+}
+
+void LiggghtsEngine::remove(const std::vector<int>& ids)
+{
+    implementation_->remove(ids);
 }
 
 BeadsView LiggghtsEngine::beads()
@@ -697,6 +818,7 @@ void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
     {
         received->finish();
     }
+    implementation_->restartInsertions();
     MPI_Barrier(implementation_->program().world);
 }
 

@@ -1,0 +1,3 @@
+# A floor that all beads fall through
+
+include         DEM/in.bottomless

@@ -1,0 +1,114 @@
+#pragma once
+
+#include "engine/demEngine.h"
+#include "traffic/beadOutlets.h"
+
+#include "regIOobject.H"
+
+#include <vector>
+
+namespace clepsydra
+{
+
+/// What has come or gone in this process, over all ranks.
+struct Passage
+{
+    Foam::label beads = 0;
+    double mass = 0;                            // [kg]
+    Foam::vector momentum = Foam::vector::zero; // [N s], as they came or went
+    /// [m3]; of beads on their way the part that has come or gone, so that it does not wait for them to be counted.
+    double volume = 0;
+
+    Passage& operator+=(const Passage& other);
+};
+
+/// Beads that come and go: how much of each is in the fluid, which are gone, and the books of both.
+///
+///     beadOutlets     (floor outlet);     // see BeadOutlets; default: none
+///     insertionTime   0.02;               // s, see below; default: ten coupling intervals
+///
+/// A bead that crosses an outlet hands over its volume as the part of its sphere beyond it, and is taken out of the
+/// engine when all of it is there. A bead that the engine's script inserts during the run comes in within insertionTime,
+/// at a share of 3 r2 - 2 r3 of its volume at a part r of that time: neither way does the void fraction's rate jump.
+/// What is not in the fluid feels no fluid.
+///
+/// Registered with the mesh's database under the name "beadTraffic", for function objects.
+class BeadTraffic : public Foam::regIOobject
+{
+public:
+    static constexpr const char* registryName = "beadTraffic";
+
+    /// FatalIOError for entries out of range.
+    BeadTraffic(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh, double couplingInterval);
+
+    /// Of beads that have been here all along: how they lie to the outlets. Nothing is booked.
+    /// \param fresh  no bead is on its way in; otherwise the engine's checkpoint says how far it is
+    /// \return the volume of what of them is in the fluid, over all ranks [m3]. Collective.
+    double start(const BeadsView& beads, bool fresh);
+
+    /// After the engine has advanced by `interval`. Collective.
+    /// \param newFrom  beads with a higher id have come in
+    void advance(const BeadsView& beads, int newFrom, double interval);
+
+    /// Takes those beads out of the engine that are wholly outside, and books them. Collective.
+    /// \return how many, on all ranks. If any, views are invalid and DemEngine::prepare() must follow.
+    Foam::label removeGone(DemEngine& engine);
+
+    const Foam::wordList& outlets() const
+    {
+        return outlets_.names();
+    }
+
+    const Passage& inserted() const
+    {
+        return inserted_;
+    }
+
+    /// In the order of outlets().
+    const std::vector<Passage>& left() const
+    {
+        return left_;
+    }
+
+    /// The same of the last interval alone.
+    const Passage& lastInserted() const
+    {
+        return lastInserted_;
+    }
+
+    const std::vector<Passage>& lastLeft() const
+    {
+        return lastLeft_;
+    }
+
+    /// Solid volume that came in less that which left [m3].
+    double netVolume() const;
+
+    bool writeData(Foam::Ostream&) const override
+    {
+        return true;
+    }
+
+private:
+    /// A bead of this rank that is wholly outside.
+    struct Gone
+    {
+        int id;
+        Foam::label outlet;
+        double mass;
+        Vector3d velocity;
+    };
+
+    PartWithin partOf(const BeadsView& beads, Eigen::Index bead, double interval) const;
+
+    const BeadOutlets outlets_;
+    const double insertionTime_;
+    double interval_;
+    Passage inserted_;
+    std::vector<Passage> left_;
+    Passage lastInserted_;
+    std::vector<Passage> lastLeft_;
+    std::vector<Gone> gone_;
+};
+
+} // namespace clepsydra
