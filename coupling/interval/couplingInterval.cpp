@@ -93,7 +93,7 @@ void CouplingInterval::restartInPlace()
 void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     const BeadsView beads = engine_.beads();
-    std::fill_n(beads.state, beads.size(), CouplingState::ofNewBead());
+    std::fill_n(beads.state, beads.size(), CouplingState());
     engine_.prepare();
     traffic_.start(engine_.beads(), false);
     fluid_->start(true);

@@ -742,6 +742,13 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     implementation_->allowNoBeads();
     prepare();
     implementation_->checkOverlaps();
+    // LIGGGHTS has taken those that are here already for new ones, and they have felt no fluid.
+    const BeadsView beads = implementation_->beads();
+    std::fill_n(beads.state, beads.size(), CouplingState());
+    if (forces)
+    {
+        prepare();
+    }
 }
 
 void LiggghtsEngine::prepare()
