@@ -64,10 +64,10 @@ void CouplingInterval::advance(
 {
     advanceBeads();
     fluid_->beadsToFluid(interval_);
-    const Foam::vector given = forgetGiven();
+    const ReceivedMomentum received = forgetGiven();
     const SolvedFluid solved = solveFluid();
     fluid_->giveInAdvance(U);
-    ledger_.bookMomentum(given,
+    ledger_.bookMomentum(received,
         -fluidDensity_ * interval_ * returnReduce(solved.sourceOfBeads, Foam::sumOp<Foam::vector>()),
         fluid_->momentumGivenInAdvance());
     ledger_.bookContinuity(interval_ * solved.continuityError());
@@ -102,18 +102,20 @@ void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam:
     forgetGiven();
 }
 
-Foam::vector CouplingInterval::forgetGiven()
+ReceivedMomentum CouplingInterval::forgetGiven()
 {
     const BeadsView beads = engine_.beads();
     Vector3d sum = Vector3d::Zero();
+    double turnover = 0;
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         CouplingState& state = beads.state[bead];
         sum += state.given.impulse;
+        turnover += state.given.impulse.norm();
         state.given = GivenToFluid();
         state.velocityBefore = beads.velocity.col(bead);
     }
-    return returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>());
+    return {returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>()), returnReduce(turnover, Foam::sumOp<double>())};
 }
 
 void CouplingInterval::advanceBeads()

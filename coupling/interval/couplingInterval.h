@@ -73,8 +73,8 @@ private:
     void feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p);
     /// \return true if there were any, and the engine is prepared anew.
     bool removeBeadsThatLeft();
-    /// \return its sum over the beads of all ranks [N s], taken from the beads themselves.
-    Foam::vector forgetGiven();
+    /// \return what the beads of all ranks had received, taken from the beads themselves.
+    ReceivedMomentum forgetGiven();
 
     DemEngine& engine_;
     const int stepsPerInterval_;

@@ -85,12 +85,12 @@ void Ledger::openMomentum(const vector& givenInAdvance)
     givenInAdvance_ = givenInAdvance;
 }
 
-void Ledger::bookMomentum(const vector& beadsReceived, const vector& fluidLost, const vector& givenInAdvance)
+void Ledger::bookMomentum(const ReceivedMomentum& received, const vector& fluidLost, const vector& givenInAdvance)
 {
-    beadsReceived_ += beadsReceived;
+    beadsReceived_ += received.sum;
     fluidLost_ += fluidLost;
     givenInAdvance_ = givenInAdvance;
-    momentumTurnover_ += mag(beadsReceived);
+    momentumTurnover_ += received.turnover;
     if (momentumError() > momentumTolerance_)
     {
         FatalErrorInFunction << "Beads received " << beadsReceived_ << " N s from the fluid, which lost " << fluidLost_

@@ -13,12 +13,20 @@
 namespace clepsydra
 {
 
+/// What the beads received from the fluid in an interval, over all ranks [N s].
+struct ReceivedMomentum
+{
+    Foam::vector sum;
+    /// Of the magnitudes: in a tank at rest the sum may vanish.
+    double turnover;
+};
+
 /// Books what must balance between beads and fluid: solid volume, momentum, the number of beads; and what was
 /// clipped. Stops the run above the tolerances of the `ledger` sub-dictionary of couplingProperties:
 ///
 ///     solidVolumeTolerance    1e-9;   // |cells - beads| / beads; |start + inserted - left - cells| / most
 ///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / beads, at any one time
-///     momentumTolerance       1e-9;   // |fluid lost - given in advance - beads received| / sum of |received|
+///     momentumTolerance       1e-9;   // |fluid lost - given in advance - beads received| / sum of |a bead received|
 ///     pressureForceTolerance  1e-9;   // |on beads - in fluid| / sum of |on a bead|
 ///     continuityTolerance     1e-4;   // mean |d(eps)/dt + div(eps U)| times the interval
 ///     imbalanceTolerance      1e-3;   // fluid that a closed tank had to take up or give away / the tank, all in all
@@ -60,11 +68,11 @@ public:
     /// What the fluid has given in advance when the books open [N s]; sum over the ranks.
     void openMomentum(const Foam::vector& givenInAdvance);
 
-    /// One interval's momentum [N s], sums over the ranks: what the beads received from the fluid, as they themselves
-    /// have it; what the beads' source took from the fluid, as it stood in the equation that was solved; and what of
-    /// that the beads will receive in the next interval only. Each from a place of its own, so that what is lost between them is found.
+    /// One interval's momentum [N s], over all ranks: what the beads received from the fluid, as they themselves have
+    /// it; what the beads' source took from the fluid, as it stood in the equation that was solved; and what of that the
+    /// beads will receive in the next interval only. Each from a place of its own, so that what is lost between is found.
     void bookMomentum(
-        const Foam::vector& beadsReceived, const Foam::vector& fluidLost, const Foam::vector& givenInAdvance);
+        const ReceivedMomentum& received, const Foam::vector& fluidLost, const Foam::vector& givenInAdvance);
 
     /// The force of the fluid's pressure gradient on all beads, and the reaction that the fluid's equation holds [N].
     /// \param turnover  sum of the forces' magnitudes

@@ -1,11 +1,7 @@
 // The momentum ledger compares what the beads were given with what the solved equation holds. A ledger that works out one
 // from the other balances whatever happens; so each kind of loss is made here on purpose, and must end the run.
 
-#include <gmock/gmock.h>
-
-#include "ledger/stream.h"
-
-#include <gtest/gtest.h>
+#include "ledger/faults.h"
 
 namespace clepsydra::tests
 {
@@ -22,32 +18,12 @@ StreamSetup streamWith(const std::string& momentumModel)
     return setup;
 }
 
-class MomentumLedger : public testing::TestWithParam<std::string>
+class MomentumLedger : public ThrowingErrors, public testing::WithParamInterface<std::string>
 {
 protected:
-    void SetUp() override
-    {
-        FatalError.throwExceptions();
-        FatalIOError.throwExceptions();
-    }
-
-    void TearDown() override
-    {
-        FatalError.dontThrowExceptions();
-        FatalIOError.dontThrowExceptions();
-    }
-
     static void expectFound(Stream& stream, const std::function<void(fvVectorMatrix&)>& fault)
     {
-        try
-        {
-            stream.advance(fault);
-            ADD_FAILURE() << "the books balance";
-        }
-        catch (const Foam::error& error)
-        {
-            EXPECT_THAT(std::string(error.message()), testing::HasSubstr("momentumTolerance"));
-        }
+        tests::expectFound([&] { stream.advance(fault); }, "momentumTolerance");
     }
 };
 

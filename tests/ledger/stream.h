@@ -6,6 +6,7 @@
 #include "support/temporaryCase.h"
 
 #include "fvm.H"
+#include "mathematicalConstants.H"
 
 namespace clepsydra::tests
 {
@@ -55,15 +56,21 @@ struct StreamSetup
     std::string momentumModel = "implicitCouple";
     std::string drag = "SchillerNaumannDrag";
     std::string smoothing = "constDiffSmoothing; constDiffSmoothingProps { smoothingLength 0.15; }";
-    int cellsAlongEdge = 6;
+    std::array<int, 3> cells = {6, 6, 6};
+    /// Along each axis, in the middle of equal boxes.
+    std::array<int, 3> beads = {2, 2, 2};
     double beadDensity = 2500;
     double viscosity = 1;
+    /// The water's velocity is .1 m/s everywhere, or a wave cos(pi x) of .1 m/s.
+    bool wave = false;
+    /// Of p along z [m/s2].
+    double pressureGradient = 0;
     bool held = false;
     double interval = 0.01;
     int stepsPerInterval = 10;
 };
 
-/// Eight beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: dU/dt = source.
+/// Beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: dU/dt = source.
 class Stream
 {
 public:
@@ -79,19 +86,10 @@ public:
                 + "; voidFractionModel divided; smoothingModel " + setup.smoothing + "; forceModels (" + setup.drag
                 + " gradPForce Archimedes); momCoupleModels (" + setup.momentumModel
                 + "); DEM { engine liggghts; script none; }");
-        const int cells = setup.cellsAlongEdge;
-        mesh_ = boxMesh(case_.time(), point::zero, point::one, {cells, cells, cells});
+        mesh_ = boxMesh(case_.time(), point::zero, point::one, setup.cells);
         readFromCase(static_cast<fvSchemes&>(*mesh_));
         readFromCase(static_cast<fvSolution&>(*mesh_));
-        for (int bead = 0; bead < 8; ++bead)
-        {
-            engine_.addBead(bead + 1, Vector3d(bead & 1 ? 0.75 : 0.25, bead & 2 ? 0.75 : 0.25, bead & 4 ? 0.75 : 0.25),
-                radius, setup.beadDensity);
-            if (setup.held)
-            {
-                engine_.holdBead(bead + 1);
-            }
-        }
+        addBeads(setup);
         const FluidProperties fluid{density, setup.viscosity, Vector3d::Zero()};
         settings_ = std::make_unique<CouplingSettings>(case_.time());
         models_ = std::make_unique<FluidModels>(*mesh_, *settings_, fluid, timers_);
@@ -99,8 +97,14 @@ public:
             std::make_unique<CouplingInterval>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
         U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedVector("U", dimVelocity, vector(0, 0, 0.1)), "zeroGradient");
+        if (setup.wave)
+        {
+            U_->primitiveFieldRef() = vector(0, 0, 0.1) * wave();
+        }
         p_ = std::make_unique<volScalarField>(IOobject("p", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedScalar("p", dimPressure / dimDensity, 0), "zeroGradient");
+        p_->primitiveFieldRef() = setup.pressureGradient * mesh_->C().primitiveField().component(vector::Z);
+        p_->correctBoundaryConditions();
         interval_->start(*U_, *p_);
     }
 
@@ -129,6 +133,12 @@ public:
         return average(*U_).value().z();
     }
 
+    /// Of the wave [m/s].
+    double amplitude() const
+    {
+        return 2 * average(U_->primitiveField().component(vector::Z) * wave());
+    }
+
     /// Of water and beads, and what is on its way between them [N s].
     double momentum()
     {
@@ -138,6 +148,26 @@ public:
     }
 
 private:
+    void addBeads(const StreamSetup& setup)
+    {
+        const auto [nx, ny, nz] = setup.beads;
+        for (int bead = 0; bead < nx * ny * nz; ++bead)
+        {
+            engine_.addBead(bead + 1,
+                Vector3d((bead % nx + 0.5) / nx, (bead / nx % ny + 0.5) / ny, (bead / (nx * ny) + 0.5) / nz), radius,
+                setup.beadDensity);
+            if (setup.held)
+            {
+                engine_.holdBead(bead + 1);
+            }
+        }
+    }
+
+    tmp<scalarField> wave() const
+    {
+        return cos(constant::mathematical::pi * mesh_->C().primitiveField().component(vector::X));
+    }
+
     /// A mesh made in memory comes without them.
     template<class Dictionary>
     static void readFromCase(Dictionary& dictionary)

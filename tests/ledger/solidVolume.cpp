@@ -1,0 +1,44 @@
+// The solid volume in the cells is held against the beads' own. A ledger that adds up the cells twice balances whatever
+// happens; so volume is lost and made here on purpose, between shares and void fraction, and must end the run.
+
+#include "ledger/faults.h"
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+/// Of all beads, the first of five rows that are smoothed together.
+StreamSetup withSolidVolumeTimes(double factor)
+{
+    return faultyStream(5, 0, factor, "one");
+}
+
+class SolidVolumeLedger : public ThrowingErrors
+{};
+
+} // namespace
+
+// The same stream without a fault; without this the others would show nothing.
+TEST_F(SolidVolumeLedger, BalancesWhereNothingIsLost)
+{
+    EXPECT_NO_THROW(Stream(withSolidVolumeTimes(1)).advance([](fvVectorMatrix&) {}));
+}
+
+TEST_F(SolidVolumeLedger, FindsAShareThatIsLost)
+{
+    expectFound([] { const Stream stream(withSolidVolumeTimes(0)); }, "solidVolumeTolerance");
+}
+
+TEST_F(SolidVolumeLedger, FindsACellWhoseSolidVolumeIsDoubled)
+{
+    expectFound([] { const Stream stream(withSolidVolumeTimes(2)); }, "solidVolumeTolerance");
+}
+
+TEST_F(SolidVolumeLedger, FindsAMillionthOfACell)
+{
+    expectFound([] { const Stream stream(withSolidVolumeTimes(1 + 1e-6)); }, "solidVolumeTolerance");
+}
+
+} // namespace clepsydra::tests
