@@ -89,12 +89,14 @@ vector FluidCoupling::momentumGivenInAdvance() const
 void FluidCoupling::start(bool resumed)
 {
     findCells(1);
+    const Eigen::MatrixXd densities = densitiesOfBeads();
     if (resumed)
     {
-        solidFraction_ = 1 - voidFraction_.primitiveField();
+        // Before clipping, which the void fraction that was read is not.
+        columns(solidFraction_) = densities.row(solidVolume);
         return;
     }
-    updateVoidFraction(densitiesOfBeads());
+    updateVoidFraction(densities);
     voidFractionRate_.start(voidFraction_);
 }
 

@@ -30,13 +30,21 @@ IOobject readAndWritten(const word& name, const fvMesh& mesh)
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
 }
 
-/// Through the boundary of this rank [m3/s].
-scalar outflow(const surfaceScalarField& flux)
+/// Of fluid through the boundary of this rank [m3/s], where p has its gradient given everywhere. A patch that extrapolates
+/// p has a flux without pressure, too, which its gradient takes back.
+scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField& phiHbyA,
+    const surfaceScalarField& rAUf, const volScalarField& p)
 {
     scalar all = 0;
-    for (const fvsPatchScalarField& patch : flux.boundaryField())
+    forAll (p.boundaryField(), patch)
     {
-        all += patch.coupled() ? 0 : sum(patch);
+        const fvPatchScalarField& onPatch = p.boundaryField()[patch];
+        if (!onPatch.coupled())
+        {
+            all += sum(voidFractionf.boundaryField()[patch]
+                       * (phiHbyA.boundaryField()[patch]
+                           - rAUf.boundaryField()[patch] * onPatch.patch().magSf() * onPatch.snGrad()));
+        }
     }
     return all;
 }
@@ -119,7 +127,7 @@ void VoidFractionFlow::correctPressure(
     constrainPressure(p_, U_, phiHbyA, rAUf);
     if (p_.needReference())
     {
-        interval.spreadImbalance(outflow(voidFractionf*phiHbyA));
+        interval.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
     while (pimple_.correctNonOrthogonal())
