@@ -3,6 +3,8 @@
 #include "IFstream.H"
 #include "IOdictionary.H"
 
+#include <algorithm>
+
 namespace clepsydra
 {
 
@@ -49,6 +51,24 @@ bool RunTime::loop()
     readModifiedObjects();
     operator++();
     return true;
+}
+
+bool RunTime::loop(double step)
+{
+    if (atEnd())
+    {
+        return false;
+    }
+    setDeltaT(step, false);
+    return loop();
+}
+
+double RunTime::timeLeft() const
+{
+    const bool writesByTime = writeControl_ == wcRunTime || writeControl_ == wcAdjustableRunTime;
+    const double toWrite =
+        writesByTime ? beginning_ + (writeTimeIndex_ + 1) * writeInterval_ - value() : VGREAT;
+    return atEnd() ? toWrite : std::min(toWrite, endTime_ - value());
 }
 
 Time& RunTime::operator++()

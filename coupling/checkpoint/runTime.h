@@ -23,6 +23,13 @@ public:
     /// The next step, until the end time.
     bool loop() override;
 
+    /// The same, with a step of this length [s].
+    bool loop(double step);
+
+    /// To the next write time, where that is not counted in steps or wall time, or to the end [s]: whichever comes first.
+    /// VGREAT where there is neither. At the end the time to the next write time, as if the run went on.
+    double timeLeft() const;
+
     Foam::Time& operator++() override;
     using Foam::Time::operator++;
 

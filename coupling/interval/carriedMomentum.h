@@ -29,7 +29,8 @@ namespace clepsydra
 ///     beads free, seen as held s by (1 - q + mu (x - q))/(1 + mu x)          (r = 1)
 ///
 /// All lie between 0 and 1: nothing rings, for any interval and mass ratio. It is a splitting of first order in the
-/// interval.
+/// interval. Where the interval's length changes, dt is that of the next one, for which the drag is given: what is given
+/// are impulses, which the equation divides by the length of the step that is solved.
 class CarriedMomentum
 {
 public:
@@ -40,6 +41,7 @@ public:
     static constexpr Eigen::Index rowCount = 4;
 
     /// \param densities  rowCount x cells, per volume: of all beads, the sum of A - P - c v [N s/m3], of c [kg/m3]
+    /// \param interval  of the coming step, not of the one for whose drag c stands [s]
     void update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
 
     /// The beads' source in the momentum equation of the coming step [m/s2 times volume].

@@ -2,16 +2,20 @@
 
 #include "vectors.h"
 
+#include "fvc.H"
+
 #include <algorithm>
+#include <cmath>
 
 namespace clepsydra
 {
 
 CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSettings& settings,
     const FluidProperties& fluid, DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed)
-    : engine_(engine),
-      stepsPerInterval_(settings.stepsPerInterval(engine.timeStep())),
-      interval_(settings.couplingInterval()),
+    : settings_(settings),
+      engine_(engine),
+      length_(settings, mesh.time(), engine.timeStep(), resumed),
+      interval_(length_.seconds()),
       resumed_(resumed),
       fluidDensity_(fluid.density),
       timers_(timers),
@@ -35,6 +39,8 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
         fluid_ = std::make_unique<FluidCoupling>(
             mesh, settings, fluid, models->forces.needs(), engine, models->distribution, ledger_, timers_);
         fluid_->start(resumed);
+        fluidLength_ = std::max(
+            models->distribution.smoothingModel().bandwidth(), std::cbrt(Foam::gMin(mesh.cellVolumes())));
     }
 }
 
@@ -59,11 +65,16 @@ void CouplingInterval::feelFluid(const Foam::volVectorField& U, const Foam::volS
     engine_.prepare();
 }
 
-void CouplingInterval::advance(
-    const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<SolvedFluid()>& solveFluid)
+void CouplingInterval::advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
+    const Foam::surfaceScalarField& phi, double timeLeft, const std::function<SolvedFluid()>& solveFluid)
 {
+    interval_ = length_.seconds();
     advanceBeads();
-    fluid_->beadsToFluid(interval_);
+    if (length_.isAdjustable())
+    {
+        length_.choose(limits(phi), timeLeft);
+    }
+    fluid_->beadsToFluid(interval_, length_.seconds());
     const ReceivedMomentum received = forgetGiven();
     const SolvedFluid solved = solveFluid();
     fluid_->giveInAdvance(U);
@@ -118,10 +129,22 @@ ReceivedMomentum CouplingInterval::forgetGiven()
     return {returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>()), returnReduce(turnover, Foam::sumOp<double>())};
 }
 
+std::vector<IntervalLimit> CouplingInterval::limits(const Foam::surfaceScalarField& phi) const
+{
+    const double courant = settings_.adjustableInterval()->largestCourantNumber;
+    const double throughCells =
+        0.5 * Foam::gMax(Foam::fvc::surfaceSum(Foam::mag(phi))().primitiveField() / phi.mesh().V().field());
+    const BeadsView beads = engine_.beads();
+    const double fastestHere = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff() : 0;
+    const double fastest = returnReduce(fastestHere, Foam::maxOp<double>());
+    return {{"Courant number of the fluid", courant / std::max(throughCells, Foam::VSMALL)},
+        {"Courant number of the beads", courant * fluidLength_ / std::max(fastest, Foam::VSMALL)}};
+}
+
 void CouplingInterval::advanceBeads()
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
-    engine_.advance(stepsPerInterval_);
+    engine_.advance(length_.steps());
     const BeadsView beads = engine_.beads();
     const int highestBefore = ledger_.countBeads(beads);
     traffic_.advance(beads, highestBefore, interval_);

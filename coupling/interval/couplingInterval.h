@@ -2,6 +2,7 @@
 
 #include "interval/fluidCoupling.h"
 #include "interval/fluidModels.h"
+#include "interval/intervalLength.h"
 #include "output/observedBeads.h"
 #include "traffic/beadTraffic.h"
 
@@ -34,9 +35,19 @@ public:
     /// not resumed the drag of the first interval is taken from U, see CarriedMomentum.
     void start(Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// A run with fluid. \param solveFluid  solves the fluid's equations over the interval with fluid().
-    void advance(
-        const Foam::volVectorField& U, const Foam::volScalarField& p, const std::function<SolvedFluid()>& solveFluid);
+    /// Length of the coming interval [s]. \param timeLeft  to the next time that must be hit [s]: an adjustable interval
+    /// is shortened where that time has come nearer since its length was chosen, as in a run that is resumed to end sooner
+    double lengthWithin(double timeLeft)
+    {
+        length_.fitInto(timeLeft);
+        return length_.seconds();
+    }
+
+    /// A run with fluid. \param phi  flux of U [m3/s]
+    /// \param timeLeft  from the end of this interval to the next time that must be hit [s], VGREAT for none
+    /// \param solveFluid  solves the fluid's equations over the interval with fluid().
+    void advance(const Foam::volVectorField& U, const Foam::volScalarField& p, const Foam::surfaceScalarField& phi,
+        double timeLeft, const std::function<SolvedFluid()>& solveFluid);
 
     /// A dry run.
     void advance();
@@ -75,10 +86,17 @@ private:
     bool removeBeadsThatLeft();
     /// \return what the beads of all ranks had received, taken from the beads themselves.
     ReceivedMomentum forgetGiven();
+    /// What keeps the next interval short: every such reason is a line of this. Collective.
+    std::vector<IntervalLimit> limits(const Foam::surfaceScalarField& phi) const;
 
+    const CouplingSettings& settings_;
     DemEngine& engine_;
-    const int stepsPerInterval_;
-    const double interval_;
+    /// Of the coming interval; from the moment on that the beads have been advanced, of the one after.
+    IntervalLength length_;
+    /// Of the interval that the fluid is solved for [s].
+    double interval_;
+    /// Over which the fluid at a bead changes: the smoothing length, or the smallest cell where that is larger [m].
+    double fluidLength_ = 0;
     const bool resumed_;
     const double fluidDensity_;
     PhaseTimers& timers_;

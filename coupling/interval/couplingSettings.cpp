@@ -132,8 +132,9 @@ CouplingSettings::CouplingSettings(const Time& time)
       dict_(couplingProperties(time))
 {
     requireKnownEntries(dict_,
-        {"fluid", "couplingInterval", "modelType", "voidFractionModel", "smoothingModel", "selfDisturbance",
-            "forceModels", "momCoupleModels", "useDDTvoidfraction", "beadOutlets", "insertionTime"},
+        {"fluid", "couplingInterval", "adjustableInterval", "maxCo", "minInterval", "maxInterval", "modelType",
+            "voidFractionModel", "smoothingModel", "selfDisturbance", "forceModels", "momCoupleModels",
+            "useDDTvoidfraction", "beadOutlets", "insertionTime"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "beadOutput", "ledger"}));
     requireKnownEntries(dict_.subDict("DEM"), {"engine", "script", "writeRestart", "maxRayleighFraction"},
         {"variables", "groupChanges"});
@@ -150,6 +151,7 @@ void CouplingSettings::readChoices()
     {
         return;
     }
+    readAdjustableInterval();
     selectedModel(dict_, "modelType", {"A", "B"});
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
@@ -180,6 +182,28 @@ void CouplingSettings::readChoices()
     }
 }
 
+void CouplingSettings::readAdjustableInterval()
+{
+    if (!dict_.getOrDefault<Switch>("adjustableInterval", false))
+    {
+        return;
+    }
+    adjustableInterval_ = AdjustableInterval{
+        positiveEntry(dict_, "maxCo"), positiveEntry(dict_, "minInterval"), positiveEntry(dict_, "maxInterval")};
+    const auto [largestCourantNumber, shortest, longest] = *adjustableInterval_;
+    if (shortest > longest)
+    {
+        FatalIOErrorInFunction(dict_) << "Entry 'minInterval' is " << shortest << " s; allowed: at most maxInterval, "
+                                      << "which is " << longest << " s" << exit(FatalIOError);
+    }
+    if (couplingInterval_ < shortest * (1 - sameTime) || couplingInterval_ > longest * (1 + sameTime))
+    {
+        FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
+                                      << " s; allowed: from minInterval to maxInterval, " << shortest << " to "
+                                      << longest << " s, for it is the first interval" << exit(FatalIOError);
+    }
+}
+
 void CouplingSettings::checkTimeStep() const
 {
     if (time_.controlDict().getOrDefault<Switch>("adjustTimeStep", false))
@@ -204,6 +228,9 @@ std::vector<std::string> CouplingSettings::descriptions() const
     }
     return {
         "equations      model " + std::string(dict_.get<word>("modelType")) + ", pressure without its hydrostatic part",
+        adjustableInterval_ ? "interval       adjustable, Courant numbers to "
+                                  + std::to_string(adjustableInterval_->largestCourantNumber)
+                            : std::string("interval       constant"),
         "momentum       " + std::string(implicitCoupling_ ? "implicitCouple" : "explicitCouple"),
         "alphaMin       " + std::to_string(minimumVoidFraction_),
         ddtVoidFraction_ ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
@@ -245,15 +272,21 @@ fileName CouplingSettings::finalRestart() const
 
 int CouplingSettings::stepsPerInterval(double demTimeStep) const
 {
-    const double steps = couplingInterval_ / demTimeStep;
+    return static_cast<int>(wholeSteps(dict_, "couplingInterval", couplingInterval_, demTimeStep));
+}
+
+double CouplingSettings::wholeSteps(
+    const dictionary& dict, const word& entry, double time, double demTimeStep) const
+{
+    const double steps = time / demTimeStep;
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > sameTime * steps)
     {
-        FatalIOErrorInFunction(dict_) << "Entry 'couplingInterval' is " << couplingInterval_
-                                      << " s; allowed: a whole multiple of the DEM step, which is " << demTimeStep
-                                      << " s in the script " << demDict().get<fileName>("script").c_str()
-                                      << exit(FatalIOError);
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is " << time
+                                     << " s; allowed: a whole multiple of the DEM step, which is " << demTimeStep
+                                     << " s in the script " << demDict().get<fileName>("script").c_str()
+                                     << exit(FatalIOError);
     }
-    return static_cast<int>(std::lround(steps));
+    return std::round(steps);
 }
 
 } // namespace clepsydra

@@ -7,8 +7,18 @@
 #include "Time.H"
 #include "fvMesh.H"
 
+#include <optional>
+
 namespace clepsydra
 {
+
+/// What intervals of changing length keep to: `adjustableInterval yes; maxCo; minInterval; maxInterval`.
+struct AdjustableInterval
+{
+    double largestCourantNumber;
+    double shortest; ///< [s]
+    double longest;  ///< [s]
+};
 
 /// What constant/couplingProperties says, checked. Every member of a case is read here and nowhere else, apart from
 /// the coefficients of run-time selected models.
@@ -30,10 +40,17 @@ public:
         return hasFluid_;
     }
 
-    /// Time between exchanges of beads and fluid [s]; equals the fluid's time step.
+    /// Time between exchanges of beads and fluid [s]; equals the fluid's time step. Of the first interval only, where
+    /// adjustableInterval() is there.
     double couplingInterval() const
     {
         return couplingInterval_;
+    }
+
+    /// Empty for intervals that are all alike, and in a dry run.
+    const std::optional<AdjustableInterval>& adjustableInterval() const
+    {
+        return adjustableInterval_;
     }
 
     /// d(eps)/dt in the fluid's continuity equation.
@@ -80,6 +97,10 @@ public:
     /// DEM steps in an interval. FatalIOError where that is no whole number.
     int stepsPerInterval(double demTimeStep) const;
 
+    /// FatalIOError where a time [s] that an entry of `dict` states is no whole number of DEM steps.
+    /// \return that number
+    double wholeSteps(const Foam::dictionary& dict, const Foam::word& entry, double time, double demTimeStep) const;
+
     const Foam::dictionary& demDict() const
     {
         return dict_.subDict("DEM");
@@ -87,12 +108,14 @@ public:
 
 private:
     void readChoices();
+    void readAdjustableInterval();
     void checkTimeStep() const;
 
     const Foam::Time& time_;
     Foam::IOdictionary dict_;
     bool hasFluid_ = true;
     double couplingInterval_ = 0;
+    std::optional<AdjustableInterval> adjustableInterval_;
     bool ddtVoidFraction_ = true;
     double ddtSmoothingTime_ = 0;
     bool implicitCoupling_ = true;

@@ -129,10 +129,10 @@ void FluidCoupling::giveInAdvance(const volVectorField& U)
     carriedMomentum_.carry(U, densities);
 }
 
-void FluidCoupling::beadsToFluid(double interval)
+void FluidCoupling::beadsToFluid(double interval, double next)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
-    findCells(1);
+    findCells(next / interval);
     const Eigen::MatrixXd densities = densitiesOfBeads();
     updateVoidFraction(densities);
     voidFractionRate_.update(voidFraction_, interval);

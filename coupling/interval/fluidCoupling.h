@@ -38,8 +38,9 @@ public:
     void takeFirstDragFrom(Foam::volVectorField& U, double interval);
 
     /// Void fraction and sources from the beads as they are now and from what they were given. Collective.
-    /// \param interval  time over which they were given [s]
-    void beadsToFluid(double interval);
+    /// \param interval  time over which they were given, and over which the fluid is solved now [s]
+    /// \param next  length of the interval after that [s], whose drag the fluid gives in advance
+    void beadsToFluid(double interval, double next);
 
     /// When the fluid's equations have been solved: what of it each bead was given in advance, see CarriedMomentum.
     /// Collective. \pre  the beads have not moved since beadsToFluid()

@@ -24,9 +24,8 @@ constexpr double farthestTravel = 10;
 
 } // namespace
 
-RunChecks::RunChecks(const fvMesh& mesh, const CouplingSettings& settings, double smoothingLength)
+RunChecks::RunChecks(const fvMesh& mesh, double smoothingLength)
     : mesh_(mesh),
-      interval_(settings.couplingInterval()),
       reach_(std::max(smoothingLength, std::cbrt(gSum(mesh.cellVolumes()) / mesh.globalData().nTotalCells())))
 {}
 
@@ -71,14 +70,15 @@ void RunChecks::checkTravel(const BeadsView& beads)
     Eigen::Index fastest = 0;
     const double here = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff(&fastest) : 0;
     const double speed = returnReduce(here, maxOp<scalar>());
-    const double travel = speed * interval_ / reach_;
+    const double interval = mesh_.time().deltaTValue();
+    const double travel = speed * interval / reach_;
     if (travel <= 1)
     {
         return;
     }
     ++fast_;
     std::ostringstream text;
-    text << "moves " << speed << " m/s, hence " << speed * interval_ << " m in a coupling interval of " << interval_
+    text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling interval of " << interval
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing length or cell), "
          << reach_ << " m, and the fluid at a bead is frozen for an interval";
     if (travel > farthestTravel && here == speed)

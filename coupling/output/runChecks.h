@@ -1,6 +1,6 @@
 #pragma once
 
-#include "interval/couplingSettings.h"
+#include "engine/beads.h"
 
 #include "fvMesh.H"
 
@@ -15,7 +15,7 @@ class RunChecks
 {
 public:
     /// \param smoothingLength  [m], 0 without smoothing
-    RunChecks(const Foam::fvMesh& mesh, const CouplingSettings& settings, double smoothingLength);
+    RunChecks(const Foam::fvMesh& mesh, double smoothingLength);
 
     /// Collective; when the fluid is solved.
     void afterInterval(const BeadsView& beads);
@@ -28,7 +28,6 @@ private:
     void checkTravel(const BeadsView& beads);
 
     const Foam::fvMesh& mesh_;
-    double interval_;
     /// Over which the fluid at a bead changes [m].
     double reach_;
     long intervals_ = 0;

@@ -39,7 +39,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     {
         const double smoothingLength = models->distribution.smoothingModel().bandwidth();
         checkCaseSizes(mesh_, engine_.beads(), smoothingLength, settings_.dict());
-        runChecks_ = std::make_unique<RunChecks>(mesh_, settings_, smoothingLength);
+        runChecks_ = std::make_unique<RunChecks>(mesh_, smoothingLength);
     }
 }
 

@@ -112,9 +112,9 @@ void runWithFluid(
     interval.start(flow.U(), flow.p());
     output.start();
 
-    while (runTime.loop())
+    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
     {
-        interval.advance(flow.U(), flow.p(), [&] {
+        interval.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
             return flow.solve(interval);

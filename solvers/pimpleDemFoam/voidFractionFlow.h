@@ -28,6 +28,12 @@ public:
         return p_;
     }
 
+    /// Flux of U [m3/s].
+    const Foam::surfaceScalarField& phi() const
+    {
+        return phi_;
+    }
+
     /// Solves over one coupling interval.
     SolvedFluid solve(CouplingInterval& interval);
 
@@ -41,7 +47,6 @@ private:
     Foam::pimpleControl pimple_;
     Foam::volScalarField p_;
     Foam::volVectorField U_;
-    /// Flux of U.
     Foam::surfaceScalarField phi_;
     Foam::label pRefCell_ = 0;
     Foam::scalar pRefValue_ = 0;

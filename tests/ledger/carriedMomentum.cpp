@@ -78,6 +78,25 @@ TEST_P(DragTimes, WaterStopsMonotonouslyBetweenHeldBeads)
     }
 }
 
+// So it does when each interval has another length: what is given in advance is the drag of the next one. With that of
+// the interval that is solved for, the water's speed changes its sign wherever the interval grows under strong drag.
+TEST_P(DragTimes, WaterStopsMonotonouslyWhileTheIntervalChanges)
+{
+    StreamSetup setup = oneBeadPerCell(GetParam());
+    setup.held = true;
+    setup.adjustable = true;
+    Stream stream(setup);
+    stream.advance(asItIs, 1);
+    for (const int next : {2, 3, 1, 2, 3, 4})
+    {
+        const double before = stream.waterSpeed();
+        stream.advance(asItIs, next);
+        const double nextOverFirst = static_cast<double>(next) / setup.stepsPerInterval;
+        EXPECT_NEAR(stream.waterSpeed() / before, 1 / (1 + GetParam() * nextOverFirst), 1e-6) << "next " << next;
+    }
+    EXPECT_NEAR(stream.lastInterval(), 3 * setup.interval / setup.stepsPerInterval, 1e-9);
+}
+
 INSTANTIATE_TEST_SUITE_P(WeakToStrong, DragTimes, testing::Values(0.01, 0.3, 1, 10, 100, 1000));
 
 // The same where the water has a wave, and what the beads give is smoothed, which leaves r of the wave's amplitude. Without
@@ -125,6 +144,24 @@ TEST_P(FreeBeads, RelaxWithTheWaterWithoutRinging)
         stream.advance(asItIs);
         EXPECT_NEAR(slip(stream) / before, (1 - taken) / (1 + massRatio * taken), 0.01) << "interval " << interval;
         EXPECT_NEAR(stream.momentum() / momentum, 1, 1e-9);
+    }
+}
+
+// So it is while intervals of 2000 DEM steps shrink at once and grow again by a fifth. Were what is given in advance
+// divided by the length of the next interval, or taken back over another than it was given, momentum would be made.
+TEST_P(FreeBeads, KeepTheMomentumWhileTheIntervalChanges)
+{
+    StreamSetup setup = FreeBeads::setup();
+    setup.adjustable = true;
+    Stream stream(setup);
+    stream.advance(asItIs, 100);
+    for (const int next : {120, 144, 10, 12, 12, 1, 2, 1, 1})
+    {
+        const double before = slip(stream);
+        stream.advance(asItIs, next);
+        EXPECT_NEAR(stream.momentum() / (0.1 * fluidMass), 1, 1e-12);
+        EXPECT_GE(slip(stream), -1e-15);
+        EXPECT_LE(slip(stream), before + 1e-15);
     }
 }
 

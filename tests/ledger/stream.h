@@ -5,6 +5,7 @@
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"
 
+#include "fvcFlux.H"
 #include "fvm.H"
 #include "mathematicalConstants.H"
 
@@ -68,6 +69,8 @@ struct StreamSetup
     bool held = false;
     double interval = 0.01;
     int stepsPerInterval = 10;
+    /// Then advance() says how long the next interval is.
+    bool adjustable = false;
 };
 
 /// Beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: dU/dt = source.
@@ -83,6 +86,7 @@ public:
     {
         case_.writeDictionary("constant/couplingProperties",
             "fluid incompressible; modelType A; couplingInterval " + std::to_string(setup.interval)
+                + (setup.adjustable ? "; adjustableInterval yes; maxCo 1e9; minInterval 1e-3; maxInterval 1" : "")
                 + "; voidFractionModel divided; smoothingModel " + setup.smoothing + "; forceModels (" + setup.drag
                 + " gradPForce Archimedes); momCoupleModels (" + setup.momentumModel
                 + "); DEM { engine liggghts; script none; }");
@@ -109,11 +113,15 @@ public:
     }
 
     /// \param solved  what becomes of the beads' source before it is put into the equation
-    void advance(const std::function<void(fvVectorMatrix&)>& solved)
+    /// \param nextSteps  DEM steps of the next interval, where intervals are adjustable: at most a fifth or one more than
+    ///                   this one has
+    void advance(const std::function<void(fvVectorMatrix&)>& solved, int nextSteps = 0)
     {
+        case_.time().setDeltaT(interval_->lengthWithin(VGREAT), false);
         ++case_.time();
         U_->storeOldTime();
-        interval_->advance(*U_, *p_, [&] {
+        const double timeLeft = nextSteps > 0 ? nextSteps * engine_.timeStep() : VGREAT;
+        interval_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
             fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
             solved(source);
             solve(fvm::ddt(*U_) == source);
@@ -125,6 +133,12 @@ public:
     ForgetfulEngine& engine()
     {
         return engine_;
+    }
+
+    /// Length of the interval that was advanced over last [s].
+    double lastInterval() const
+    {
+        return case_.time().deltaTValue();
     }
 
     /// Mean velocity of the water [m/s].
