@@ -343,6 +343,43 @@ TEST(BadInput, Steps)
         {controlDict, "'adjustTimeStep'", "allowed: off"}, SeenBy::dictionaries);
 }
 
+/// Limits of an adjustable interval that leave none, and times that no whole number of DEM steps can hit.
+TEST(BadInput, AdjustableInterval)
+{
+    const auto refused = [](const std::string& file, const std::string& entry, const std::string& value,
+                             const Words& allowed, SeenBy seenBy) {
+        SCOPED_TRACE(entry + ' ' + value);
+        Words words = allowed;
+        words.insert(words.end(), {file, "'" + entry + "' is", "allowed:"});
+        expectRefused(
+            [&](TestCase& test) {
+                test.coupling()
+                    .set("adjustableInterval", "yes")
+                    .set("maxCo", "0.5")
+                    .set("minInterval", "4e-4")
+                    .set("maxInterval", "2e-3");
+                test.file(file).set(entry, value);
+            },
+            words, seenBy);
+    };
+    refused(couplingProperties, "maxCo", "0", {"a number > 0"}, SeenBy::dictionaries);
+    refused(couplingProperties, "minInterval", "3e-3", {"at most maxInterval", "0.002 s"}, SeenBy::dictionaries);
+    refused(couplingProperties, "maxInterval", "-1", {"a number > 0"}, SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling()
+                .set("adjustableInterval", "yes")
+                .set("maxCo", "0.5")
+                .set("minInterval", "2e-3")
+                .set("maxInterval", "2e-3");
+        },
+        {couplingProperties, "'couplingInterval' is 0.001 s", "allowed: from minInterval to maxInterval"},
+        SeenBy::dictionaries);
+    refused(couplingProperties, "minInterval", "3e-5", {"at least the DEM step", "4e-05 s"}, SeenBy::engine);
+    refused(controlDict, "writeInterval", "0.00202", {"a whole multiple of the DEM step", "4e-05 s"}, SeenBy::engine);
+    refused(controlDict, "endTime", "0.00402", {"a whole multiple of the DEM step", "4e-05 s"}, SeenBy::engine);
+}
+
 /// What the script says is at odds with the fluid's case. A bead outside the mesh would feel no water; with different
 /// gravity in the two engines beads would float or sink that should not; without the patch massInHopper counts nothing.
 TEST(BadInput, BeadsAndFluidAtOdds)
