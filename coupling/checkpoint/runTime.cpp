@@ -66,8 +66,7 @@ bool RunTime::loop(double step)
 double RunTime::timeLeft() const
 {
     const bool writesByTime = writeControl_ == wcRunTime || writeControl_ == wcAdjustableRunTime;
-    const double toWrite =
-        writesByTime ? beginning_ + (writeTimeIndex_ + 1) * writeInterval_ - value() : VGREAT;
+    const double toWrite = writesByTime ? beginning_ + (writeTimeIndex_ + 1) * writeInterval_ - value() : VGREAT;
     return atEnd() ? toWrite : std::min(toWrite, endTime_ - value());
 }
 

@@ -39,8 +39,8 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
         fluid_ = std::make_unique<FluidCoupling>(
             mesh, settings, fluid, models->forces.needs(), engine, models->distribution, ledger_, timers_);
         fluid_->start(resumed);
-        fluidLength_ = std::max(
-            models->distribution.smoothingModel().bandwidth(), std::cbrt(Foam::gMin(mesh.cellVolumes())));
+        fluidLength_ =
+            std::max(models->distribution.smoothingModel().bandwidth(), std::cbrt(Foam::gMin(mesh.cellVolumes())));
     }
 }
 

@@ -275,8 +275,7 @@ int CouplingSettings::stepsPerInterval(double demTimeStep) const
     return static_cast<int>(wholeSteps(dict_, "couplingInterval", couplingInterval_, demTimeStep));
 }
 
-double CouplingSettings::wholeSteps(
-    const dictionary& dict, const word& entry, double time, double demTimeStep) const
+double CouplingSettings::wholeSteps(const dictionary& dict, const word& entry, double time, double demTimeStep) const
 {
     const double steps = time / demTimeStep;
     if (steps < 0.5 || std::abs(steps - std::round(steps)) > sameTime * steps)

@@ -31,8 +31,7 @@ int wholeStepsIn(double time, double demTimeStep)
 
 } // namespace
 
-IntervalLength::IntervalLength(
-    const CouplingSettings& settings, const Time& time, double demTimeStep, bool resumed)
+IntervalLength::IntervalLength(const CouplingSettings& settings, const Time& time, double demTimeStep, bool resumed)
     : settings_(settings),
       time_(time),
       demTimeStep_(demTimeStep),
@@ -94,8 +93,8 @@ void IntervalLength::choose(const std::vector<IntervalLimit>& limits, double tim
     {
         warned_ = true;
         WarningInFunction << "The " << strictest->reason.c_str() << " asks for a coupling interval of "
-                          << strictest->longest << " s, and minInterval is "
-                          << settings_.adjustableInterval()->shortest << " s. This is said once" << endl;
+                          << strictest->longest << " s, and minInterval is " << settings_.adjustableInterval()->shortest
+                          << " s. This is said once" << endl;
     }
     const int fastestGrowth = steps_ + std::max(1, steps_ / partsToGrowBy);
     keep(std::min(std::clamp(allowed, fewestSteps_, mostSteps_), fastestGrowth));

@@ -40,8 +40,8 @@ public:
 private:
     Foam::fvVectorMatrix momentumEquation(const CouplingInterval& interval,
         const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& beadSource);
-    void correctPressure(CouplingInterval& interval, const Foam::surfaceScalarField& voidFractionf,
-        const Foam::fvVectorMatrix& UEqn);
+    void correctPressure(
+        CouplingInterval& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;
     Foam::pimpleControl pimple_;
