@@ -40,10 +40,11 @@ void CarriedMomentum::carry(const volVectorField& U, const Eigen::Ref<const Eige
     unassigned_.correctBoundaryConditions();
 }
 
-void CarriedMomentum::takeFrom(volVectorField& U) const
+void CarriedMomentum::takeFrom(volVectorField& U, const volScalarField& voidFraction) const
 {
-    U.primitiveFieldRef() = (U.primitiveField() + interval_ * beadSource_.primitiveField())
-                            / (1 + interval_ * coefficient_.primitiveField());
+    const scalarField& fluid = voidFraction.primitiveField();
+    U.primitiveFieldRef() = (fluid * U.primitiveField() + interval_ * beadSource_.primitiveField())
+                            / (fluid + interval_ * coefficient_.primitiveField());
     U.correctBoundaryConditions();
 }
 

@@ -51,7 +51,7 @@ public:
     void carry(const Foam::volVectorField& U, const Eigen::Ref<const Eigen::MatrixXd>& densities);
 
     /// For the first interval: takes what is given in advance from the fluid's velocity itself.
-    void takeFrom(Foam::volVectorField& U) const;
+    void takeFrom(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 
     /// What the fluid has given and no bead has been promised: C U less the density of c U_b [m/s, as impulse per mass
     /// and volume].

@@ -109,7 +109,7 @@ void FluidCoupling::takeFirstDragFrom(volVectorField& U, double interval)
     }
     findCells(interval / engine_.timeStep());
     carriedMomentum_.update(densitiesOfBeads().middleRows<CarriedMomentum::rowCount>(momentum), interval);
-    carriedMomentum_.takeFrom(U);
+    carriedMomentum_.takeFrom(U, voidFraction_);
     giveInAdvance(U);
 }
 

@@ -14,7 +14,7 @@ namespace
 {
 
 constexpr double beads = 8;
-constexpr double fluidMass = Stream::density;
+const double fluidMass = Stream::waterMass(8);
 
 const auto asItIs = [](fvVectorMatrix&) {};
 
@@ -109,7 +109,7 @@ TEST_P(DragTimes, WaveFallsMonotonouslyBetweenHeldBeads)
     setup.smoothing =
         "constDiffSmoothing; constDiffSmoothingProps { smoothingLength " + std::to_string(smoothingLength) + "; }";
     setup.cells = setup.beads = {cells, 1, 1};
-    setup.viscosity *= beads / cells;
+    setup.viscosity *= beads / cells * Stream::waterMass(cells) / fluidMass;
     setup.wave = true;
     setup.held = true;
     // The wave is an eigenvector of the cells' Laplacian.

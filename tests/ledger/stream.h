@@ -73,7 +73,7 @@ struct StreamSetup
     bool adjustable = false;
 };
 
-/// Beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: dU/dt = source.
+/// Beads in a box of water that streams past them at .1 m/s, and the simplest fluid's equation: d(eps U)/dt = source.
 class Stream
 {
 public:
@@ -124,10 +124,16 @@ public:
         interval_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
             fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
             solved(source);
-            solve(fvm::ddt(*U_) == source);
+            solve(fvm::ddt(interval_->fluid().voidFraction(), *U_) == source);
             return SolvedFluid{sum(mesh_->V().field() * (source & *U_)().primitiveField()),
                 tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction())};
         });
+    }
+
+    /// Between so many beads [kg].
+    static double waterMass(int beads)
+    {
+        return density * (1 - beads * sphereVolume(radius));
     }
 
     ForgetfulEngine& engine()
@@ -157,7 +163,9 @@ public:
     double momentum()
     {
         const BeadsView beads = engine_.beads();
-        return density * waterSpeed() + (beads.velocity.row(2).array() * beads.mass.transpose()).sum()
+        const scalarField voidFraction(interval_->fluid().voidFraction().primitiveField());
+        return density * sum(mesh_->V().field() * voidFraction * U_->primitiveField().component(vector::Z))
+               + (beads.velocity.row(2).array() * beads.mass.transpose()).sum()
                + interval_->fluid().momentumGivenInAdvance().z();
     }
 
