@@ -57,6 +57,8 @@ struct GivenToFluid
     Vector3d impulse = Vector3d::Zero();
     /// Time integral of the implicit coefficient Sp of the forces in `impulse` [kg].
     double implicitCoefficientTime = 0;
+    /// Time integral of the added mass [kg s].
+    double addedMassTime = 0;
 };
 
 /// The part of a bead on the fluid's side of the open boundaries.

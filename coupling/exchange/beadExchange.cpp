@@ -38,10 +38,10 @@ Box boxAround(const BeadsView& beads, double commonReach)
     return around;
 }
 
-VisitingBead visitFrom(const BeadsView& beads, const Eigen::Matrix4Xd& momentum, Eigen::Index bead)
+VisitingBead visitFrom(const BeadsView& beads, const Reactions& reactions, Eigen::Index bead)
 {
     const SphereInFluid sphere = sphereInFluid(beads, bead);
-    return {sphere.centre, momentum.col(bead), beads.state[bead].given.implicitCoefficientTime,
+    return {sphere.centre, reactions.col(bead), beads.state[bead].given.implicitCoefficientTime,
         volumeInFluid(beads, bead), sphere.radius, static_cast<double>(beads.id[bead])};
 }
 
@@ -136,7 +136,7 @@ std::vector<std::vector<double>> BeadExchange::swap(const std::vector<int>& toRa
     return in;
 }
 
-void BeadExchange::send(const BeadsView& beads, const Eigen::Matrix4Xd& momentum)
+void BeadExchange::send(const BeadsView& beads, const Reactions& reactions)
 {
     constexpr std::size_t size = sizeof(VisitingBead) / sizeof(double);
     static_assert(std::is_standard_layout_v<VisitingBead> && sizeof(VisitingBead) % sizeof(double) == 0);
@@ -153,7 +153,7 @@ void BeadExchange::send(const BeadsView& beads, const Eigen::Matrix4Xd& momentum
         double* place = message.data();
         for (const Eigen::Index bead : leaving.beads)
         {
-            const VisitingBead visit = visitFrom(beads, momentum, bead);
+            const VisitingBead visit = visitFrom(beads, reactions, bead);
             std::copy_n(reinterpret_cast<const double*>(&visit), size, place);
             place += size;
         }

@@ -9,13 +9,17 @@
 namespace clepsydra
 {
 
+/// What a bead does to the fluid, to be spread over its cells: rows as in FluidCoupling.
+constexpr int reactionSize = 9;
+using Reaction = Eigen::Matrix<double, reactionSize, 1, Eigen::DontAlign>;
+using Reactions = Eigen::Matrix<double, reactionSize, Eigen::Dynamic>;
+
 /// A bead as the rank of its cells sees it: what the distribution onto the mesh needs, nothing else. SI units.
 /// Of a bead that is only partly in the fluid: the sphere that stands for that part, see SphereInFluid.
 struct VisitingBead
 {
     Vector3d position;
-    /// A - P - c v [N s] and c [kg] of CarriedMomentum.
-    Eigen::Matrix<double, 4, 1, Eigen::DontAlign> momentum;
+    Reaction reaction;
     double implicitCoefficientTime;
     double volume;
     double radius;
@@ -35,8 +39,8 @@ public:
     BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
 
     /// Sends every bead to each rank whose box the cube about its sphere, or its reach, meets. Collective.
-    /// \param momentum  of each, see VisitingBead
-    void send(const BeadsView& beads, const Eigen::Matrix4Xd& momentum);
+    /// \param reactions  of each bead
+    void send(const BeadsView& beads, const Reactions& reactions);
 
     /// Local: the beads that touch this rank's box, own ones first, then by rank.
     const std::vector<VisitingBead>& visitors() const

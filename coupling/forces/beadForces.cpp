@@ -100,6 +100,7 @@ void BeadForces::evaluatePart(const BeadsView& beads, double timeStep, Vectors f
         const Vector3d notHandedOver = presence * sum_.shared.col(bead) + sum_.mutual.col(bead);
         if (addedMass > 0)
         {
+            state.given.addedMassTime += timeStep * addedMass;
             // The bead's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
             const Vector3d others = beads.otherForce.col(bead) + handedOver + notHandedOver;
             const Vector3d free = (others + addedMass * state.fluid.acceleration) / (beads.mass[bead] + addedMass);

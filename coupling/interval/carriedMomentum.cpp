@@ -33,9 +33,11 @@ tmp<fvVectorMatrix> CarriedMomentum::source(volVectorField& U) const
     return beadSource_ + unassigned_ / interval - fvm::Sp(coefficient_, U);
 }
 
-void CarriedMomentum::carry(const volVectorField& U, const Eigen::Ref<const Eigen::MatrixXd>& densities)
+void CarriedMomentum::carry(const volVectorField& U, const volVectorField& sourceOfPressure,
+    const Eigen::Ref<const Eigen::MatrixXd>& densities)
 {
-    unassigned_.primitiveFieldRef() = interval_ * coefficient_.primitiveField() * U.primitiveField();
+    unassigned_.primitiveFieldRef() =
+        interval_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());
     columns(unassigned_.primitiveFieldRef()) -= densities / fluidDensity_;
     unassigned_.correctBoundaryConditions();
 }

@@ -14,12 +14,13 @@ namespace clepsydra
 /// receive in the next interval from the very velocity that is solved for. In advance for one bead, at the fluid's
 /// velocity U_b there,
 ///
-///     P = c (U_b - v),    c: anticipatedDragCoefficient
+///     P = c (U_b - v) + n V dt grad p,    c: AnticipatedMotion::drag, n: AnticipatedMotion::following
 ///
+/// V the bead's volume: the drag will take part n of the impulse that the pressure gives the bead.
 /// In the next step the fluid receives, explicitly, what the bead did receive, A, less P, at the place where the bead is
 /// then. So beads under drag alone leave nothing over, contacts are made good one interval later, and the sum of all
 /// that the fluid gives is that of what the beads receive. The matrix holds C U, C being the smoothed density of c;
-/// where that is not the smoothed density of c U_b, the difference is made good in the next step, too.
+/// where that is not the smoothed density of c U_b, and likewise for the pressure, the difference is made good in the next step, too.
 ///
 /// Linear analysis, one wave length, slip s = U - v, x = K dt/m, q = 1 - exp(-x), k = K dt over the fluid's mass, mu
 /// the beads' mass over the fluid's, r: what of the wave's amplitude smoothing leaves. Each interval multiplies
@@ -47,14 +48,15 @@ public:
     /// The beads' source in the momentum equation of the coming step [m/s2 times volume].
     Foam::tmp<Foam::fvVectorMatrix> source(Foam::volVectorField& U) const;
 
-    /// When U has been solved for. \param densities  3 x cells, per volume: the sum of c U_b [N s/m3]
-    void carry(const Foam::volVectorField& U, const Eigen::Ref<const Eigen::MatrixXd>& densities);
+    /// When U has been solved for. \param sourceOfPressure  see FluidCoupling [m/s2]
+    /// \param densities  3 x cells, per volume: the sum of c U_b + n V dt grad p [N s/m3]
+    void carry(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
+        const Eigen::Ref<const Eigen::MatrixXd>& densities);
 
     /// For the first interval: takes what is given in advance from the fluid's velocity itself.
     void takeFrom(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 
-    /// What the fluid has given and no bead has been promised: C U less the density of c U_b [m/s, as impulse per mass
-    /// and volume].
+    /// What the fluid has given and no bead has been promised [m/s, as impulse per mass and volume].
     const Foam::volVectorField& unassigned() const
     {
         return unassigned_;

@@ -53,6 +53,7 @@ void CouplingInterval::start(Foam::volVectorField& U, const Foam::volScalarField
         fluid_->takeFirstDragFrom(U, interval_);
         forgetGiven();
         feelFluid(U, p);
+        fluid_->giveInAdvance(U, p);
     }
     forgetGiven();
     ledger_.openMomentum(fluid_->momentumGivenInAdvance());
@@ -77,13 +78,13 @@ void CouplingInterval::advance(const Foam::volVectorField& U, const Foam::volSca
     fluid_->beadsToFluid(interval_, length_.seconds());
     const ReceivedMomentum received = forgetGiven();
     const SolvedFluid solved = solveFluid();
-    fluid_->giveInAdvance(U);
+    fluid_->updateAcceleration(U, interval_);
+    fluid_->fluidToBeads(U, p);
+    fluid_->giveInAdvance(U, p);
     ledger_.bookMomentum(received,
         -fluidDensity_ * interval_ * returnReduce(solved.sourceOfBeads, Foam::sumOp<Foam::vector>()),
         fluid_->momentumGivenInAdvance());
     ledger_.bookContinuity(interval_ * solved.continuityError());
-    fluid_->updateAcceleration(U, interval_);
-    fluid_->fluidToBeads(U, p);
     if (removeBeadsThatLeft())
     {
         forgetGiven();

@@ -69,6 +69,12 @@ public:
         ledger_.bookImbalance(interval_ * fluid_->spreadImbalance(outflow));
     }
 
+    /// When the fluid's equations have been solved: see VoidFractionRate::close().
+    void closeContinuity(const Foam::surfaceScalarField& anticipatedFlux)
+    {
+        fluid_->closeContinuity(anticipatedFlux);
+    }
+
     PhaseTimers& timers() const
     {
         return timers_;

@@ -1,6 +1,5 @@
 #include "interval/fluidCoupling.h"
 
-#include "forces/anticipatedDrag.h"
 #include "interval/couplingField.h"
 #include "interval/sampledFields.h"
 #include "interval/viscousStress.h"
@@ -23,13 +22,16 @@ using namespace Foam;
 namespace
 {
 
-/// Rows of what beads put into cells; resistance only where a bead's own disturbance is removed.
+/// Rows of what beads put into cells: their volume, their reaction (first what CarriedMomentum, then what
+/// VoidFractionRate needs), and the resistance only where a bead's own disturbance is removed.
 enum GivenRow : Eigen::Index
 {
     solidVolume = 0,
     momentum = 1,
-    resistanceTime = momentum + CarriedMomentum::rowCount
+    motion = momentum + CarriedMomentum::rowCount,
+    resistanceTime = motion + VoidFractionRate::rowCount
 };
+static_assert(reactionSize == CarriedMomentum::rowCount + VoidFractionRate::rowCount);
 
 MPI_Comm duplicateWorld()
 {
@@ -53,9 +55,9 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       distribution_(distribution),
       exchange_(duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
       selfDisturbance_(settings, fluid, distribution.smoothingModel()),
-      one_(IOobject("one", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false), mesh,
-          dimensionedScalar("one", dimless, 1)),
       voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
+      pressureFactor_(IOobject("pressureFactor", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE),
+          mesh, dimensionedScalar("pressureFactor", dimless, 1), zeroGradientFvPatchScalarField::typeName),
       voidFractionRate_(mesh, settings),
       carriedMomentum_(mesh, fluid.density),
       solidFraction_(1 - voidFraction_.primitiveField())
@@ -88,7 +90,8 @@ vector FluidCoupling::momentumGivenInAdvance() const
 
 void FluidCoupling::start(bool resumed)
 {
-    findCells(1);
+    anticipate(settings_.couplingInterval(), settings_.couplingInterval());
+    findCells();
     const Eigen::MatrixXd densities = densitiesOfBeads();
     if (resumed)
     {
@@ -107,35 +110,32 @@ void FluidCoupling::takeFirstDragFrom(volVectorField& U, double interval)
     {
         beads.state[bead].given.impulse.setZero();
     }
-    findCells(interval / engine_.timeStep());
+    anticipate(engine_.timeStep(), interval);
+    findCells();
     carriedMomentum_.update(densitiesOfBeads().middleRows<CarriedMomentum::rowCount>(momentum), interval);
     carriedMomentum_.takeFrom(U, voidFraction_);
-    giveInAdvance(U);
-}
-
-void FluidCoupling::giveInAdvance(const volVectorField& U)
-{
-    if (!settings_.implicitCoupling())
-    {
-        return;
-    }
-    const PhaseTimers::Scope timing = timers_.time("distribute");
-    const BeadsView beads = engine_.beads();
-    const Eigen::Matrix3Xd fromFluid = exchange_.sumAtHome(distribution_.sample(columns(U.primitiveField())))
-                                       * anticipatedDragCoefficients_.matrix().asDiagonal();
-    givenInAdvance(beads) = fromFluid - beads.velocity * anticipatedDragCoefficients_.matrix().asDiagonal();
-    Eigen::MatrixXd densities = distribution_.densities(exchange_.toVisitors(fromFluid));
-    smooth(densities);
-    carriedMomentum_.carry(U, densities);
 }
 
 void FluidCoupling::beadsToFluid(double interval, double next)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
-    findCells(next / interval);
-    const Eigen::MatrixXd densities = densitiesOfBeads();
+    anticipate(interval, next);
+    findCells();
+    Eigen::MatrixXd densities = densitiesOfBeads();
+    // Their motion over the coming interval, per time of the one that is solved.
+    densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / interval;
     updateVoidFraction(densities);
-    voidFractionRate_.update(voidFraction_, interval);
+    pressureFactor_ = voidFraction_;
+    if (modelType_ == ModelType::A)
+    {
+        columns(pressureFactor_.primitiveFieldRef()) += densities.row(motion);
+    }
+    else
+    {
+        pressureFactor_.primitiveFieldRef() = 1;
+    }
+    pressureFactor_.correctBoundaryConditions();
+    voidFractionRate_.update(voidFraction_, densities.middleRows<VoidFractionRate::rowCount>(motion), interval);
     carriedMomentum_.update(densities.middleRows<CarriedMomentum::rowCount>(momentum), interval);
     if (resistance_)
     {
@@ -143,30 +143,78 @@ void FluidCoupling::beadsToFluid(double interval, double next)
     }
 }
 
-void FluidCoupling::findCells(double nextOverLast)
+void FluidCoupling::anticipate(double lastInterval, double nextInterval)
 {
     const BeadsView beads = engine_.beads();
-    anticipatedDragCoefficients_.setZero(beads.size());
-    Eigen::Matrix4Xd momentum(4, beads.size());
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    anticipatedTime_ = nextInterval;
+    anticipated_.assign(static_cast<std::size_t>(beads.size()), AnticipatedMotion());
+    for (Eigen::Index bead = 0; settings_.implicitCoupling() && bead < beads.size(); ++bead)
     {
         const CouplingState& state = beads.state[bead];
-        double& coefficient = anticipatedDragCoefficients_[bead];
         // One that has left is given nothing in advance, for it is taken out before it could receive it.
-        if (settings_.implicitCoupling() && state.fluid.presence > 0)
+        if (state.fluid.presence > 0)
         {
-            coefficient = anticipatedDragCoefficient(
-                state.given, beads.velocity.col(bead) - state.velocityBefore, beads.mass[bead], nextOverLast);
+            anticipated_[static_cast<std::size_t>(bead)] = anticipatedMotion(state.given,
+                beads.velocity.col(bead) - state.velocityBefore, beads.mass[bead], lastInterval, nextInterval);
         }
-        momentum.col(bead) << state.given.impulse - givenInAdvance(beads).col(bead)
-                                  - coefficient * beads.velocity.col(bead),
-            coefficient;
     }
+}
+
+Reactions FluidCoupling::reactions() const
+{
+    const BeadsView beads = engine_.beads();
+    const auto inAdvance = givenInAdvance(beads);
+    Reactions all(reactionSize, beads.size());
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(bead)];
+        const Vector3d velocity = beads.velocity.col(bead);
+        const double volume = volumeInFluid(beads, bead);
+        const double pressureForce = modelType_ == ModelType::A ? fluid_.density * volume : 0;
+        all.col(bead) << beads.state[bead].given.impulse - inAdvance.col(bead) - motion.drag * velocity, motion.drag,
+            volume * motion.following, volume * motion.mobility * pressureForce,
+            volume * (1 - motion.following) * velocity;
+    }
+    return all;
+}
+
+void FluidCoupling::giveInAdvance(const volVectorField& U, const volScalarField& p)
+{
+    if (!settings_.implicitCoupling())
+    {
+        return;
+    }
+    const PhaseTimers::Scope timing = timers_.time("distribute");
+    const BeadsView beads = engine_.beads();
+    Eigen::Matrix3Xd fromFluid(3, beads.size());
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    {
+        const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(bead)];
+        const FluidAtBead& fluid = beads.state[bead].fluid;
+        fromFluid.col(bead) =
+            motion.drag * fluid.velocityInCells
+            + anticipatedTime_ * motion.following * volumeInFluid(beads, bead) * fluid.pressureGradient;
+        givenInAdvance(beads).col(bead) = fromFluid.col(bead) - motion.drag * beads.velocity.col(bead);
+    }
+    Eigen::MatrixXd densities = distribution_.densities(exchange_.toVisitors(fromFluid));
+    smooth(densities);
+    carriedMomentum_.carry(U, sourceOfPressure(p), densities);
+}
+
+tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) const
+{
+    const dimensionedScalar inModelA("inModelA", dimless, modelType_ == ModelType::A ? 1 : 0);
+    return inModelA * (voidFraction_ - pressureFactor_) * fvc::grad(p);
+}
+
+void FluidCoupling::findCells()
+{
+    const BeadsView beads = engine_.beads();
     const auto exchanged = [&](auto&& communicate) {
         const PhaseTimers::Scope timing = timers_.time("exchange");
         return communicate();
     };
-    exchanged([&] { exchange_.send(beads, momentum); });
+    exchanged([&] { exchange_.send(beads, reactions()); });
     const Eigen::MatrixXd sharesHere = [&] {
         const PhaseTimers::Scope timing = timers_.time("locate");
         return distribution_.findCells(exchange_.visitors());
@@ -199,7 +247,7 @@ Eigen::MatrixXd FluidCoupling::densitiesOfBeads()
     {
         const VisitingBead& bead = visitors[static_cast<std::size_t>(i)];
         given(solidVolume, i) = bead.volume;
-        given.col(i).segment<CarriedMomentum::rowCount>(momentum) = bead.momentum;
+        given.col(i).segment<reactionSize>(momentum) = bead.reaction;
         if (resistance_)
         {
             given(resistanceTime, i) = bead.implicitCoefficientTime;

@@ -3,6 +3,7 @@
 #include "distribution/distribution.h"
 #include "engine/demEngine.h"
 #include "exchange/beadExchange.h"
+#include "forces/anticipatedMotion.h"
 #include "forces/forceModel.h"
 #include "interval/carriedMomentum.h"
 #include "interval/couplingSettings.h"
@@ -42,9 +43,15 @@ public:
     /// \param next  length of the interval after that [s], whose drag the fluid gives in advance
     void beadsToFluid(double interval, double next);
 
-    /// When the fluid's equations have been solved: what of it each bead was given in advance, see CarriedMomentum.
-    /// Collective. \pre  the beads have not moved since beadsToFluid()
-    void giveInAdvance(const Foam::volVectorField& U);
+    /// When the fluid's equations have been solved. \param anticipatedFlux  see VoidFractionRate::close()
+    void closeContinuity(const Foam::surfaceScalarField& anticipatedFlux)
+    {
+        voidFractionRate_.close(anticipatedFlux);
+    }
+
+    /// After fluidToBeads(): what of the drag each bead was given in advance, see CarriedMomentum. Collective.
+    /// \pre  the beads have not moved since beadsToFluid()
+    void giveInAdvance(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// See VoidFractionRate::spreadImbalance(). Collective.
     double spreadImbalance(double outflow)
@@ -64,16 +71,19 @@ public:
         return voidFraction_;
     }
 
-    /// What the fluid's equation multiplies grad p with: eps in model A, 1 in model B.
+    /// What the fluid's equation multiplies grad p with: in model A eps, and what of the beads' pressure force the drag
+    /// will take from them in the next interval; 1 in model B.
     const Foam::volScalarField& pressureFactor() const
     {
-        return modelType_ == ModelType::A ? voidFraction_ : one_;
+        return pressureFactor_;
     }
 
-    /// See VoidFractionRate.
-    const Foam::volScalarField& ddtVoidFraction() const
+    /// What of the pressure's term in the fluid's equation belongs to the beads: see pressureFactor() [m/s2].
+    Foam::tmp<Foam::volVectorField> sourceOfPressure(const Foam::volScalarField& p) const;
+
+    const VoidFractionRate& ddtVoidFraction() const
     {
-        return voidFractionRate_();
+        return voidFractionRate_;
     }
 
     /// See CarriedMomentum::source().
@@ -94,8 +104,10 @@ public:
     }
 
 private:
-    /// \param nextOverLast  length of the coming interval over that in which the beads were given what they have
-    void findCells(double nextOverLast);
+    void findCells();
+    /// Of every bead of this rank, from what it was given in the last interval.
+    void anticipate(double lastInterval, double nextInterval);
+    Reactions reactions() const;
     /// What the beads put into the cells, smoothed: rows as in GivenRow.
     Eigen::MatrixXd densitiesOfBeads();
     /// P of each bead, see CarriedMomentum [N s]: writable, part of checkpoints.
@@ -119,12 +131,13 @@ private:
     BeadExchange exchange_;
     SelfDisturbance selfDisturbance_;
 
-    const Foam::volScalarField one_;
     Foam::volScalarField voidFraction_;
+    Foam::volScalarField pressureFactor_;
     VoidFractionRate voidFractionRate_;
     CarriedMomentum carriedMomentum_;
-    /// c of the beads of this rank, see CarriedMomentum [kg].
-    Eigen::ArrayXd anticipatedDragCoefficients_;
+    /// Of the beads of this rank, over the next interval [s].
+    std::vector<AnticipatedMotion> anticipated_;
+    double anticipatedTime_ = 0;
     /// Drag coefficient of all beads per volume [kg/(m3 s)]; none where no bead's own disturbance is removed.
     Foam::autoPtr<Foam::volScalarField> resistance_;
     /// DU/Dt [m/s2]; none where no force needs it.

@@ -1,6 +1,10 @@
 #include "interval/voidFractionRate.h"
 
 #include "interval/couplingField.h"
+#include "vectors.h"
+
+#include "fvcDiv.H"
+#include "surfaceInterpolate.H"
 
 #include <cmath>
 
@@ -9,37 +13,92 @@ namespace clepsydra
 
 using namespace Foam;
 
+namespace
+{
+
+template<class Field>
+Field fieldOfInterval(const word& name, const fvMesh& mesh, const dimensionSet& dimensions)
+{
+    return Field(IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE), mesh,
+        dimensioned<typename Field::value_type>(name, dimensions, pTraits<typename Field::value_type>::zero));
+}
+
+/// No bead is anticipated to leave or to come in.
+template<class Type>
+void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
+{
+    for (fvsPatchField<Type>& patch : field.boundaryFieldRef())
+    {
+        if (!patch.coupled())
+        {
+            patch == pTraits<Type>::zero;
+        }
+    }
+}
+
+} // namespace
+
 VoidFractionRate::VoidFractionRate(const fvMesh& mesh, const CouplingSettings& settings)
     : used_(settings.ddtVoidFraction()),
       smoothingTime_(settings.ddtSmoothingTime()),
-      smoothed_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
+      integral_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
+      explicitRate_(fieldOfInterval<volScalarField>("explicitRate", mesh, dimless / dimTime)),
+      following_(fieldOfInterval<surfaceScalarField>("following", mesh, dimless)),
+      mobility_(fieldOfInterval<surfaceScalarField>("mobility", mesh, dimTime)),
       rate_(couplingField<scalar>("ddtVoidFraction", mesh, dimless / dimTime, 0))
 {}
 
 void VoidFractionRate::start(const volScalarField& voidFraction)
 {
-    smoothed_ == voidFraction;
+    integral_ == voidFraction;
 }
 
-void VoidFractionRate::update(const volScalarField& voidFraction, double interval)
+void VoidFractionRate::update(
+    const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
 {
+    interval_ = interval;
+    spread_ = 0;
     if (!used_)
     {
         return;
     }
+    const fvMesh& mesh = voidFraction.mesh();
     const double approach = smoothingTime_ > 0 ? -std::expm1(-interval / smoothingTime_) : 1;
-    const scalarField change(approach * (voidFraction.primitiveField() - smoothed_.primitiveField()));
-    smoothed_.primitiveFieldRef() += change;
-    rate_.primitiveFieldRef() = change / interval;
+    const auto inCells = [&](Eigen::Index row, const dimensionSet& dimensions) {
+        auto field = fieldOfInterval<volScalarField>("ofBeads", mesh, dimensions);
+        columns(field.primitiveFieldRef()) = approach * densities.row(row);
+        field.correctBoundaryConditions();
+        return field;
+    };
+    following_ = fvc::interpolate(inCells(0, dimless));
+    mobility_ = fvc::interpolate(inCells(1, dimTime));
+    auto beadFlux = fieldOfInterval<volVectorField>("beadFlux", mesh, dimVelocity);
+    columns(beadFlux.primitiveFieldRef()) = approach * densities.bottomRows<3>();
+    beadFlux.correctBoundaryConditions();
+    surfaceScalarField flux(fvc::interpolate(beadFlux) & mesh.Sf());
+    closeBoundary(following_);
+    closeBoundary(mobility_);
+    closeBoundary(flux);
+    explicitRate_ = fvc::div(flux);
+    explicitRate_.primitiveFieldRef() +=
+        approach / interval * (voidFraction.primitiveField() - integral_.primitiveField());
 }
 
 double VoidFractionRate::spreadImbalance(double outflow)
 {
     const scalarField& cellVolumes = rate_.mesh().V().field();
     const double imbalance =
-        returnReduce(sum(rate_.primitiveField() * cellVolumes) + outflow, sumOp<scalar>()) / gSum(cellVolumes);
-    rate_.primitiveFieldRef() -= imbalance;
+        returnReduce(sum(explicitRate_.primitiveField() * cellVolumes) + outflow, sumOp<scalar>()) / gSum(cellVolumes);
+    explicitRate_.primitiveFieldRef() -= imbalance;
+    spread_ += imbalance;
     return imbalance;
+}
+
+void VoidFractionRate::close(const surfaceScalarField& flux)
+{
+    rate_ = explicitRate_ + fvc::div(flux);
+    // What was spread has been dealt with.
+    integral_.primitiveFieldRef() += interval_ * (rate_.primitiveField() + spread_);
 }
 
 } // namespace clepsydra

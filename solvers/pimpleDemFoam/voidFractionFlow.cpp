@@ -68,17 +68,20 @@ SolvedFluid VoidFractionFlow::solve(CouplingInterval& interval)
     const FluidCoupling& beads = interval.fluid();
     const surfaceScalarField voidFractionf(fvc::interpolate(beads.voidFraction()));
     vector sourceOfBeads = vector::zero;
+    tmp<surfaceScalarField> anticipatedFlux;
     while (pimple_.loop())
     {
         const fvVectorMatrix beadSource(beads.momentumSource(U_));
         const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, beadSource));
         while (pimple_.correct())
         {
-            correctPressure(interval, voidFractionf, UEqn);
+            anticipatedFlux = correctPressure(interval, voidFractionf, UEqn);
         }
-        sourceOfBeads = sum(mesh_.V().field() * (beadSource & U_)().primitiveField());
+        sourceOfBeads = sum(
+            mesh_.V().field() * ((beadSource & U_) + beads.sourceOfPressure(p_))().primitiveField());
     }
-    return {sourceOfBeads, beads.ddtVoidFraction() + fvc::div(voidFractionf * phi_)};
+    interval.closeContinuity(anticipatedFlux);
+    return {sourceOfBeads, beads.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
 }
 
 // The layout shows the equations.
@@ -110,7 +113,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
     return UEqn;
 }
 
-void VoidFractionFlow::correctPressure(
+tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
     CouplingInterval& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
 {
     const PhaseTimers::Scope timing = interval.timers().time("pressure");
@@ -130,14 +133,19 @@ void VoidFractionFlow::correctPressure(
         interval.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
+    // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - mobility grad(p))
+    const VoidFractionRate& rate = interval.fluid().ddtVoidFraction();
+    const surfaceScalarField moving("moving", voidFractionf + rate.following());
+    const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.mobility());
+    auto anticipatedFlux = tmp<surfaceScalarField>::New("anticipatedFlux", phi_);
+
     while (pimple_.correctNonOrthogonal())
     {
-        // d(eps)/dt + div(eps U) = 0
         fvScalarMatrix pEqn
         (
-            fvm::laplacian(voidFractionf*rAUf, p_)
+            fvm::laplacian(pressureCoefficient, p_)
          ==
-            interval.fluid().ddtVoidFraction() + fvc::div(voidFractionf*phiHbyA)
+            rate.withoutImplicit() + fvc::div(moving*phiHbyA)
         );
 
         pEqn.setReference(pRefCell_, pRefValue_);
@@ -145,7 +153,9 @@ void VoidFractionFlow::correctPressure(
 
         if (pimple_.finalNonOrthogonalIter())
         {
-            phi_ = phiHbyA - pEqn.flux()/voidFractionf;
+            const surfaceScalarField gradient("gradient", pEqn.flux()/pressureCoefficient);
+            phi_ = phiHbyA - rAUf*gradient;
+            anticipatedFlux.ref() = rate.following()*phi_ - rate.mobility()*gradient;
         }
     }
 
@@ -153,6 +163,7 @@ void VoidFractionFlow::correctPressure(
 
     U_ = HbyA - rAU*pressureFactor*fvc::grad(p_);
     U_.correctBoundaryConditions();
+    return anticipatedFlux;
 }
 
 } // namespace clepsydra

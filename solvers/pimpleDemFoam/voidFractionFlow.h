@@ -40,7 +40,8 @@ public:
 private:
     Foam::fvVectorMatrix momentumEquation(const CouplingInterval& interval,
         const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& beadSource);
-    void correctPressure(
+    /// \return the part of d(eps)/dt that is implicit, as a flux [m3/s]
+    Foam::tmp<Foam::surfaceScalarField> correctPressure(
         CouplingInterval& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;

@@ -86,7 +86,7 @@ public:
         for (int bead = 0; bead < beadCount; ++bead)
         {
             VisitingBead visitor{};
-            visitor.momentum.setZero();
+            visitor.reaction.setZero();
             visitor.volume = sphereVolume(0.5 * diameter);
             for (int axis = 0; axis < 3; ++axis)
             {

@@ -143,7 +143,7 @@ public:
                 engine_.addBead(static_cast<int>(bead) + 1, positions[bead], diameter / 2);
             }
         }
-        exchange_.send(engine_.beads(), Eigen::Matrix4Xd::Zero(4, engine_.beads().size()));
+        exchange_.send(engine_.beads(), Reactions::Zero(reactionSize, engine_.beads().size()));
         shareSums_ = exchange_.sumAtHome(distribution_.findCells(exchange_.visitors()));
         distribution_.normalise(exchange_.toVisitors(shareSums_));
     }

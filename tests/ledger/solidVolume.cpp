@@ -12,7 +12,7 @@ namespace
 /// Of all beads, the first of five rows that are smoothed together.
 StreamSetup withSolidVolumeTimes(double factor)
 {
-    return faultyStream(5, 0, factor, "one");
+    return faultyStream(1 + reactionSize, 0, factor, "one");
 }
 
 class SolidVolumeLedger : public ThrowingErrors

@@ -24,7 +24,7 @@ public:
     void advance(int steps) override
     {
         FakeEngine::advance(steps);
-        viewsWithout_ = forgets_ ? 2 : 0;
+        viewsWithout_ = forgets_ ? 5 : 0;
     }
 
     BeadsView beads() override
@@ -50,6 +50,14 @@ private:
     int viewsWithout_ = 0;
     std::vector<CouplingState> shown_;
 };
+
+/// A mesh made in memory comes without its dictionaries.
+template<class Dictionary>
+void readFromCase(Dictionary& dictionary)
+{
+    dictionary.readOpt() = IOobject::MUST_READ;
+    dictionary.read();
+}
 
 /// Water, and beads in it.
 struct StreamSetup
@@ -124,9 +132,10 @@ public:
         interval_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
             fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
             solved(source);
-            solve(fvm::ddt(interval_->fluid().voidFraction(), *U_) == source);
-            return SolvedFluid{sum(mesh_->V().field() * (source & *U_)().primitiveField()),
-                tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction())};
+            const volVectorField ofPressure(interval_->fluid().sourceOfPressure(*p_));
+            solve(fvm::ddt(interval_->fluid().voidFraction(), *U_) == source + ofPressure);
+            return SolvedFluid{sum(mesh_->V().field() * ((source & *U_) + ofPressure)().primitiveField()),
+                tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction()())};
         });
     }
 
@@ -188,14 +197,6 @@ private:
     tmp<scalarField> wave() const
     {
         return cos(constant::mathematical::pi * mesh_->C().primitiveField().component(vector::X));
-    }
-
-    /// A mesh made in memory comes without them.
-    template<class Dictionary>
-    static void readFromCase(Dictionary& dictionary)
-    {
-        dictionary.readOpt() = IOobject::MUST_READ;
-        dictionary.read();
     }
 
     TemporaryCase case_;
