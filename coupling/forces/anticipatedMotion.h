@@ -33,8 +33,8 @@ struct AnticipatedMotion
 /// \param changeOfVelocity  of the bead over the last interval [m/s]
 /// \param lastInterval  that length [s]
 /// \param nextInterval  dt [s]
-inline AnticipatedMotion anticipatedMotion(const GivenToFluid& given, const Vector3d& changeOfVelocity, double mass,
-    double lastInterval, double nextInterval)
+inline AnticipatedMotion anticipatedMotion(
+    const GivenToFluid& given, const Vector3d& changeOfVelocity, double mass, double lastInterval, double nextInterval)
 {
     if (changeOfVelocity.isZero(0))
     {
@@ -50,7 +50,8 @@ inline AnticipatedMotion anticipatedMotion(const GivenToFluid& given, const Vect
     const double x = heldDrag / inertia;
     // The series where the difference loses its digits.
     const double followingPerTime = x < 1e-4 ? 0.5 - x / 6 : (1 + std::expm1(-x) / x) / x;
-    return {heldDrag + takenUp * (freeDrag - heldDrag), x * followingPerTime, nextInterval * followingPerTime / inertia};
+    return {
+        heldDrag + takenUp * (freeDrag - heldDrag), x * followingPerTime, nextInterval * followingPerTime / inertia};
 }
 
 } // namespace clepsydra

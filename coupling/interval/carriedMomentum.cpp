@@ -33,8 +33,8 @@ tmp<fvVectorMatrix> CarriedMomentum::source(volVectorField& U) const
     return beadSource_ + unassigned_ / interval - fvm::Sp(coefficient_, U);
 }
 
-void CarriedMomentum::carry(const volVectorField& U, const volVectorField& sourceOfPressure,
-    const Eigen::Ref<const Eigen::MatrixXd>& densities)
+void CarriedMomentum::carry(
+    const volVectorField& U, const volVectorField& sourceOfPressure, const Eigen::Ref<const Eigen::MatrixXd>& densities)
 {
     unassigned_.primitiveFieldRef() =
         interval_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());

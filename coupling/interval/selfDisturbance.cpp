@@ -66,10 +66,10 @@ double SelfDisturbance::mobility(
     // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
     if (smoothingLength_ <= 2 * radius)
     {
-        FatalIOErrorInFunction(dict_)
-            << "Entry 'selfDisturbance' is Oseen, and smoothingLength is " << smoothingLength_
-            << " m; allowed: above the "
-            << "diameter of every bead, and there is one of " << 2 * radius << " m" << exit(FatalIOError);
+        FatalIOErrorInFunction(dict_) << "Entry 'selfDisturbance' is Oseen, and smoothingLength is " << smoothingLength_
+                                      << " m; allowed: above the "
+                                      << "diameter of every bead, and there is one of " << 2 * radius << " m"
+                                      << exit(FatalIOError);
     }
     const double bandwidthSqr = sqr(smoothingLength_) + sqr(2 * radius) / 5;
     // Closures of beds speak of means over the bed, the bead's own disturbance included. So it is taken away only as far

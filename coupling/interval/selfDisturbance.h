@@ -13,8 +13,7 @@ class SelfDisturbance
 {
 public:
     /// FatalIOError where the other choices of couplingProperties do not go with it.
-    SelfDisturbance(
-        const CouplingSettings& settings, const FluidProperties& fluid, const SmoothingModel& smoothing);
+    SelfDisturbance(const CouplingSettings& settings, const FluidProperties& fluid, const SmoothingModel& smoothing);
 
     bool isRemoved() const
     {

@@ -43,8 +43,8 @@ public:
     /// \param densities  rowCount x cells, per volume, sums over the beads of their volume times: following [-];
     ///                   mobility for the force of a kinematic pressure gradient [s]; the velocity now times what is not
     ///                   following [m/s]
-    void update(const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
-        double interval);
+    void update(
+        const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
 
     /// In a closed tank the rate's integral and the outflow must add up to zero: takes what they do add up to evenly
     /// from all cells, where a linear solver would dump it in the reference cell. Collective.

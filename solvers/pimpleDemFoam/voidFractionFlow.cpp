@@ -77,8 +77,7 @@ SolvedFluid VoidFractionFlow::solve(CouplingInterval& interval)
         {
             anticipatedFlux = correctPressure(interval, voidFractionf, UEqn);
         }
-        sourceOfBeads = sum(
-            mesh_.V().field() * ((beadSource & U_) + beads.sourceOfPressure(p_))().primitiveField());
+        sourceOfBeads = sum(mesh_.V().field() * ((beadSource & U_) + beads.sourceOfPressure(p_))().primitiveField());
     }
     interval.closeContinuity(anticipatedFlux);
     return {sourceOfBeads, beads.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};

@@ -81,11 +81,10 @@ Eigen::Matrix<double, 5, 5> amplification(const Column& column, const Anticipate
     const Row newFluid = solved.row(0);
     const Row newPush = solved.row(1);
 
-    const Row given =
-        column.approach * (owed + (1 - n) * moved + n * newFluid + motion.mobility * buoyancy * newPush);
+    const Row given = column.approach * (owed + (1 - n) * moved + n * newFluid + motion.mobility * buoyancy * newPush);
     Eigen::Matrix<double, 5, 5> step;
-    step << moved, newFluid, newPush,
-        massRatio * (motion.drag * (newFluid - moved) - buoyancy * n * newPush), owed - given;
+    step << moved, newFluid, newPush, massRatio * (motion.drag * (newFluid - moved) - buoyancy * n * newPush),
+        owed - given;
     return step;
 }
 

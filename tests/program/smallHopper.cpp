@@ -30,9 +30,9 @@ struct Packings
     }
 };
 
-constexpr Packings dryRate{7.52, 0.28};       // g/s
-constexpr Packings submergedRate{5.01, 0.33}; // g/s
-constexpr Packings ratioOfRates{0.666, 0.023};
+constexpr Packings dryRate{7.00, 0.30};       // g/s
+constexpr Packings submergedRate{4.76, 0.39}; // g/s
+constexpr Packings ratioOfRates{0.680, 0.056};
 
 /// Mean rate [g/s] while the hopper empties from `upper` to `lower` of its fill; 0 if it does not empty so far.
 double meanRate(const std::vector<std::vector<double>>& massInHopper, double upper, double lower)
