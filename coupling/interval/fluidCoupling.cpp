@@ -169,7 +169,8 @@ Reactions FluidCoupling::reactions() const
     {
         const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(bead)];
         const Vector3d velocity = beads.velocity.col(bead);
-        const double volume = volumeInFluid(beads, bead);
+        // Explicit coupling anticipates nothing: a motion without its answer to the pressure would be worse than none.
+        const double volume = settings_.implicitCoupling() ? volumeInFluid(beads, bead) : 0;
         const double pressureForce = modelType_ == ModelType::A ? fluid_.density * volume : 0;
         all.col(bead) << beads.state[bead].given.impulse - inAdvance.col(bead) - motion.drag * velocity, motion.drag,
             volume * motion.following, volume * motion.mobility * pressureForce,
