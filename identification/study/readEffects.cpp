@@ -100,11 +100,13 @@ Bounds readBounds(const YamlPlace& place)
 
 Effect readEffect(const YamlPlace& place)
 {
-    place.allow({"name", "meaning", "hint", "set", "chain", "amplitude", "switch", "prior", "actsIn"});
+    place.allow(
+        {"name", "meaning", "hint", "family", "set", "chain", "amplitude", "switch", "scatter", "prior", "actsIn"});
     Effect effect;
     effect.name = place.at("name").text();
     effect.meaning = place.textOr("meaning", "");
     effect.hint = place.textOr("hint", "");
+    effect.family = place.textOr("family", "");
     effect.isSwitch = place.flagOr("switch", false);
     effect.prior = place.has("prior") ? place.at("prior").positive() : 1.0;
     if (place.has("set") == place.has("chain"))
@@ -118,6 +120,12 @@ Effect readEffect(const YamlPlace& place)
     else
     {
         readChain(place.at("chain"), effect);
+    }
+    effect.raisesScatter = place.flagOr("scatter", false);
+    if (effect.raisesScatter && effect.isOfChain())
+    {
+        place.at("scatter").fail("the measuring chain is computed from each curve and does not scatter; allowed: an "
+                                 "effect with 'set'");
     }
     if (place.has("amplitude"))
     {

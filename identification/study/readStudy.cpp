@@ -603,6 +603,32 @@ void checkTags(const YamlPlace& root, const Study& study)
     }
 }
 
+/// A misspelt family would keep its effect apart from the other variants, and nobody would be told.
+void checkFamilies(const YamlPlace& root, const Study& study)
+{
+    std::map<std::string, int> members;
+    for (const auto& effect : study.effects)
+    {
+        ++members[effect.family];
+    }
+    for (const auto& effect : study.effects)
+    {
+        std::vector<std::string> others;
+        for (const auto& [family, count] : members)
+        {
+            if (!family.empty() && family != effect.family)
+            {
+                others.push_back(family);
+            }
+        }
+        const bool isAlone = !effect.family.empty() && members[effect.family] == 1;
+        if (const std::string near = isAlone ? didYouMean(effect.family, others) : ""; !near.empty())
+        {
+            root.fail("effect '" + effect.name + "' is alone in the family '" + effect.family + "'" + near);
+        }
+    }
+}
+
 /// Names in formulas that are no entries would be found only when the first run starts.
 void checkFormulas(const YamlPlace& root, const Study& study)
 {
@@ -696,6 +722,7 @@ Study readStudy(const std::filesystem::path& file)
     checkEntries(root, study);
     checkFormulas(root, study);
     checkTags(root, study);
+    checkFamilies(root, study);
     return study;
 }
 

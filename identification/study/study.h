@@ -47,12 +47,14 @@ struct Effect
     std::string name;
     std::string meaning;
     std::string hint;                                       // how to measure it by itself
+    std::string family;                                     // shared by variants of one physical effect; empty: none
     std::map<std::string, Expression> entries;              // formulas in the entries and the amplitude a
     std::map<std::string, std::string> words;               // of a switch: entries as text
     std::string chainOperation;                             // empty: an effect of the simulator
     std::optional<Expression> chainSize;                    // formula in a
     Bounds bounds;                                          // of the amplitude; a switch keeps 0 and 1
     bool isSwitch = false;                                  // on or off
+    bool raisesScatter = false;                             // between runs, beside or instead of moving their mean
     double prior = 1.0;                                     // relative weight
     std::map<std::string, std::vector<std::string>> actsIn; // tag -> values; empty: everywhere
 

@@ -207,6 +207,13 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:2:", "list of words"},
         {"study: s", "study: s\nmeasured: { tme: { column: t, unit: s } }", "study.yaml:2:", "did you mean 'time'?"},
         {"parameters:\n", "---\nparameters:\n", "study.yaml", "several documents"},
+        {"effects:\n", "effects:\n  - { name: late, chain: { shift: a }, scatter: true }\n", "study.yaml:13:",
+            "does not scatter"},
+        {"effects:\n",
+            "effects:\n  - { name: a, family: walls, set: { friction: a } }\n"
+            "  - { name: b, family: walls, set: { friction: 2*a } }\n"
+            "  - { name: c, family: wals, set: { friction: 3*a } }\n",
+            "study.yaml:", "did you mean 'walls'?"},
     };
     for (const auto& mistake : mistakes)
     {
@@ -251,10 +258,25 @@ TEST(StudyFile, ShippedLibraries)
     const auto hopper = readEffects(YamlPlace::fileAt(folder / "hopper.yaml").at("effects"));
     EXPECT_GE(hopper.size(), 20U);
     EXPECT_GE(readEffects(YamlPlace::fileAt(folder / "singleBead.yaml").at("effects")).size(), 12U);
+    const auto family = [](const std::vector<Effect>& effects, const std::string& name) {
+        std::set<std::string> members;
+        for (const auto& effect : effects)
+        {
+            if (effect.family == name)
+            {
+                members.insert(effect.name);
+            }
+        }
+        return members;
+    };
     for (const auto& effect : hopper)
     {
         EXPECT_FALSE(effect.meaning.empty()) << effect.name;
+        EXPECT_EQ(effect.raisesScatter, effect.name == "cohesion") << effect.name;
     }
+    const auto singleBead = readEffects(YamlPlace::fileAt(folder / "singleBead.yaml").at("effects"));
+    EXPECT_EQ(family(hopper, "drag"), (std::set<std::string>{"dragFactor", "dragLaw"}));
+    EXPECT_EQ(family(singleBead, "history"), (std::set<std::string>{"historyForce", "historyForceCreeping"}));
 }
 
 /// A library is for many cases: what this case has no entries for is left out and said, not an error.
