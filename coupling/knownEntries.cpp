@@ -5,7 +5,7 @@
 #include "IStringStream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
-#include "words/nearestWord.h"
+#include "words/didYouMean.h"
 
 #include <algorithm>
 #include <cctype>
@@ -107,8 +107,7 @@ bool isAmong(const keyType& name, const wordList& names)
 
 std::string didYouMean(const std::string& word, const wordList& known)
 {
-    const std::string nearest = nearestWord(word, {known.begin(), known.end()});
-    return nearest.empty() ? std::string() : " (did you mean '" + nearest + "'?)";
+    return didYouMean(word, std::vector<std::string>(known.begin(), known.end()));
 }
 
 wordList functionObjectEntries(const wordList& own)

@@ -234,10 +234,6 @@ bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& res
     try
     {
         result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
-        for (double& value : result.curve.value)
-        {
-            value = value * study_.valueFactor + study_.valueOffset;
-        }
     }
     catch (const std::exception& error)
     {

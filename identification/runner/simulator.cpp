@@ -139,6 +139,22 @@ Eigen::VectorXd Simulator::featuresOf(const Curve& curve) const
     return features;
 }
 
+/// The observable in the measurement's own scale and zero.
+Curve Simulator::observed(Curve curve, std::size_t condition, const Entries& entries) const
+{
+    Entries all = entries;
+    all.insert(defaults_.begin(), defaults_.end());
+    const auto numbers = numbersOf(all);
+    const ObservableScale& scale = study_.conditions[condition].observable;
+    const double factor = scale.factor(numbers);
+    const double offset = scale.offset(numbers);
+    for (double& value : curve.value)
+    {
+        value = value * factor + offset;
+    }
+    return curve;
+}
+
 RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
 {
     const Condition& condition = study_.conditions[order.condition];
@@ -198,10 +214,10 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             Simulation& simulation = done[open[k]];
             simulation.condition = order.condition;
             simulation.seed = runs[k].seed;
-            simulation.plain = results[k].curve;
-            simulation.curve = results[k].curve.time.size() < 2
-                                   ? results[k].curve
-                                   : throughChain(results[k].curve, order.condition, order.setting.amplitudes);
+            simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
+            simulation.curve = simulation.plain.time.size() < 2
+                                   ? simulation.plain
+                                   : throughChain(simulation.plain, order.condition, order.setting.amplitudes);
             simulation.features = featuresOf(simulation.curve);
             ++runs_[order.purpose];
             seeds_[order.purpose].push_back(runs[k].seed);

@@ -34,7 +34,7 @@ struct Simulation
     std::size_t condition = 0;
     Eigen::VectorXd features; // NaN where the curve does not have it, all of them where the run has failed
     Curve curve;              // as the measuring chain shows it
-    Curve plain;              // as simulated
+    Curve plain;              // as simulated, in the observable's scale
     long seed = 0;
     bool failed = false;
 };
@@ -108,6 +108,7 @@ public:
     }
 
 private:
+    Curve observed(Curve curve, std::size_t condition, const Entries& entries) const;
     RunOrder runOrder(const SimulationOrder& order, int attempt) const;
 
     const Study& study_;

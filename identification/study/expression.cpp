@@ -1,6 +1,6 @@
 #include "study/expression.h"
 
-#include "study/didYouMean.h"
+#include "words/didYouMean.h"
 
 #include <muParser.h>
 
@@ -101,6 +101,11 @@ Expression::Expression(std::string text)
       parsed_(std::make_shared<const Parsed>(text_))
 {}
 
+bool Expression::holds(const std::string& name) const
+{
+    return parsed_->values.count(name) > 0;
+}
+
 double Expression::operator()(const Variables& variables) const
 {
     for (auto& [name, value] : parsed_->values)
@@ -108,9 +113,7 @@ double Expression::operator()(const Variables& variables) const
         const auto given = variables.find(name);
         if (given == variables.end())
         {
-            std::vector<std::string> known(variables.size());
-            std::transform(
-                variables.begin(), variables.end(), known.begin(), [](const auto& each) { return each.first; });
+            const auto known = namesOf(variables);
             fail(text_, ": unknown name '" + name + "'" + didYouMean(name, known) + "; names are " + listed(known));
         }
         value = given->second;

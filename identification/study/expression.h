@@ -20,6 +20,9 @@ public:
     /// \throws std::invalid_argument if a name is not among the variables
     double operator()(const Variables& variables) const;
 
+    /// Whether a name stands in the formula.
+    bool holds(const std::string& name) const;
+
     const std::string& text() const
     {
         return text_;

@@ -1,8 +1,9 @@
-#include "effects/measuringChain.h"
+#include "study/namedItems.h"
+#include "study/readFormula.h"
 #include "study/readStudy.h"
 
 #include <algorithm>
-#include <cctype>
+#include <stdexcept>
 
 namespace clepsydra::identification
 {
@@ -10,39 +11,20 @@ namespace clepsydra::identification
 namespace
 {
 
-Expression formula(const YamlPlace& place)
-{
-    try
-    {
-        return Expression(place.text());
-    }
-    catch (const std::invalid_argument& error)
-    {
-        place.fail(error.what());
-    }
-}
-
-/// Whether the amplitude a stands in the text by itself, as it does in a formula.
-bool namesTheAmplitude(const std::string& text)
-{
-    const auto isOfName = [](char c) {
-        return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
-    };
-    for (auto at = text.find('a'); at != std::string::npos; at = text.find('a', at + 1))
-    {
-        if ((at == 0 || !isOfName(text[at - 1])) && (at + 1 == text.size() || !isOfName(text[at + 1])))
-        {
-            return true;
-        }
-    }
-    return false;
-}
-
 /// A word of a switch that is meant as a formula would reach the case as it stands, and every run with it would fail.
 void refuseFormula(const YamlPlace& place)
 {
     const std::string word = place.text();
-    if (namesTheAmplitude(word) && word.find_first_of("+-*^") != std::string::npos)
+    bool isFormula = false;
+    try
+    {
+        isFormula = word != "a" && Expression(word).holds("a");
+    }
+    catch (const std::invalid_argument&)
+    {
+        // a word
+    }
+    if (isFormula)
     {
         place.fail("'" + word
                    + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "
@@ -62,25 +44,9 @@ void readEntries(const YamlPlace& place, Effect& effect)
         }
         else
         {
-            effect.entries.emplace(entry, formula(value));
+            effect.entries.emplace(entry, readFormula(value));
         }
     }
-}
-
-void readChain(const YamlPlace& place, Effect& effect)
-{
-    const auto operations = place.map();
-    std::vector<std::string> known;
-    for (const auto& [name, operation] : chainOperations())
-    {
-        known.push_back(name);
-    }
-    if (operations.size() != 1 || std::find(known.begin(), known.end(), operations.front().first) == known.end())
-    {
-        place.fail("needs one operation, " + listed(known) + ", with a formula in a: { gain: \"0.01*a\" }");
-    }
-    effect.chainOperation = operations.front().first;
-    effect.chainSize = formula(operations.front().second);
 }
 
 Bounds readBounds(const YamlPlace& place)
@@ -119,7 +85,9 @@ Effect readEffect(const YamlPlace& place)
     }
     else
     {
-        readChain(place.at("chain"), effect);
+        const auto [operation, size] = readChain(place.at("chain"));
+        effect.chainOperation = operation;
+        effect.chainSize = size;
     }
     effect.raisesScatter = place.flagOr("scatter", false);
     if (effect.raisesScatter && effect.isOfChain())
@@ -168,11 +136,7 @@ std::vector<Effect> readEffects(const YamlPlace& list)
     for (const auto& place : list.list())
     {
         effects.push_back(readEffect(place));
-        const auto& name = effects.back().name;
-        if (std::count_if(effects.begin(), effects.end(), [&](const Effect& e) { return e.name == name; }) > 1)
-        {
-            place.at("name").fail("there are two effects named '" + name + "'");
-        }
+        requireOwnName(place, effects, "effects");
     }
     return effects;
 }

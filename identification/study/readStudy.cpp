@@ -1,7 +1,11 @@
 #include "study/readStudy.h"
 
 #include "effects/measuringChain.h"
+#include "study/readCommonErrors.h"
+#include "study/namedItems.h"
+#include "study/readFormula.h"
 #include "study/units.h"
+#include "words/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,12 +74,7 @@ RigSpecification readRig(const YamlPlace& place)
 
 Feature readFeature(const YamlPlace& place, double& modelError)
 {
-    std::vector<std::string> kinds;
-    for (const auto& [name, kind] : featureKinds())
-    {
-        kinds.push_back(name);
-    }
-    const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(kinds));
+    const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
     std::vector<std::string> allowed = {"name", "kind", "modelError"};
     for (const auto& parameter : kind.parameters)
     {
@@ -101,19 +100,12 @@ void readObservable(const YamlPlace& place, Study& study, std::string& file)
     file = place.at("file").text();
     study.timeColumn = place.textOr("time", "time");
     study.valueColumn = place.at("value").text();
-    study.valueFactor = place.numberOr("factor", 1.0);
-    study.valueOffset = place.numberOr("offset", 0.0);
     std::vector<double> errors;
     for (const auto& each : place.at("features").list())
     {
         errors.push_back(place.numberOr("modelError", 0.0));
         study.features.push_back(readFeature(each, errors.back()));
-        const auto& name = study.features.back().name;
-        if (std::count_if(study.features.begin(), study.features.end(), [&](const auto& f) { return f.name == name; })
-            > 1)
-        {
-            each.fail("there are two features named '" + name + "': give them a 'name'");
-        }
+        requireOwnName(each, study.features, "features");
     }
     if (study.features.empty())
     {
@@ -158,14 +150,8 @@ ColumnSpecification readColumn(const YamlPlace& place)
 MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
 {
     place.allow({"feature", "values", "unit", "relativeError", "standardError"});
-    std::vector<std::string> names;
-    for (const auto& feature : study.features)
-    {
-        names.push_back(feature.name);
-    }
-    const std::string name = place.at("feature").oneOf(names);
     MeasuredNumber number;
-    number.feature = static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    number.feature = indexOf(place.at("feature"), study.features);
     const bool isLog = study.features[number.feature].kind->isLog();
     for (const auto& value : place.at("values").oneOrMore())
     {
@@ -223,9 +209,36 @@ Role roleOf(const YamlPlace& place)
     return word == "training" ? Role::training : word == "heldOut" ? Role::heldOut : Role::candidate;
 }
 
+/// The condition's own, else that of all; tried with the condition's entries.
+ObservableScale readScale(
+    const YamlPlace& root, const YamlPlace& place, const RigSpecification& rig, const Condition& condition)
+{
+    if (place.has("observable"))
+    {
+        place.at("observable").allow({"factor", "offset"});
+    }
+    const auto numbers = numbersOf(plainEntries(rig, condition));
+    const auto read = [&](const std::string& key, Expression& formula) {
+        const bool isOwn = place.has("observable") && place.at("observable").has(key);
+        const YamlPlace parent = isOwn ? place.at("observable") : root.at("observable");
+        if (parent.has(key))
+        {
+            formula = readFormula(parent.at(key));
+            if (valueOf(parent.at(key), formula, numbers) == 0.0 && key == "factor")
+            {
+                parent.at(key).fail("must not be 0");
+            }
+        }
+    };
+    ObservableScale scale;
+    read("factor", scale.factor);
+    read("offset", scale.offset);
+    return scale;
+}
+
 Condition readCondition(const YamlPlace& place, const Study& study, const std::string& file, const YamlPlace& root)
 {
-    place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "measured", "cost"});
+    place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "observable", "measured", "cost"});
     Condition condition;
     condition.name = place.at("name").text();
     condition.role = roleOf(place.at("role"));
@@ -236,6 +249,7 @@ Condition readCondition(const YamlPlace& place, const Study& study, const std::s
     {
         condition.entries = readValues(place.at("set"));
     }
+    condition.observable = readScale(root, place, study.rig, condition);
     if (place.has("tags"))
     {
         condition.tags = readWords(place.at("tags"));
@@ -269,13 +283,7 @@ void readConditions(const YamlPlace& root, Study& study, const std::string& file
     for (const auto& place : root.at("conditions").list())
     {
         study.conditions.push_back(readCondition(place, study, file, root));
-        const auto& name = study.conditions.back().name;
-        if (std::count_if(study.conditions.begin(), study.conditions.end(),
-                [&](const auto& condition) { return condition.name == name; })
-            > 1)
-        {
-            place.at("name").fail("there are two conditions named '" + name + "'");
-        }
+        requireOwnName(place, study.conditions, "conditions");
     }
     if (study.conditionsOf(Role::training).empty())
     {
@@ -290,14 +298,7 @@ Parameter readParameter(const YamlPlace& place)
     parameter.name = place.at("name").text();
     for (const auto& [entry, value] : place.at("set").map())
     {
-        try
-        {
-            parameter.entries.emplace(entry, Expression(value.text()));
-        }
-        catch (const std::invalid_argument& error)
-        {
-            value.fail(error.what());
-        }
+        parameter.entries.emplace(entry, readFormula(value));
     }
     place.at("prior").allow({"mean", "sd"});
     parameter.mean = place.at("prior").at("mean").number();
@@ -394,12 +395,10 @@ void readAllEffects(const YamlPlace& root, Study& study)
         {
             return;
         }
-        std::vector<std::string> known(all.size());
-        std::transform(all.begin(), all.end(), known.begin(), [](const Effect& effect) { return effect.name; });
         std::vector<std::string> names;
         for (const auto& name : root.at(key).oneOrMore())
         {
-            names.push_back(name.oneOf(known));
+            names.push_back(name.oneOf(namesOfItems(all)));
         }
         all.erase(std::remove_if(all.begin(), all.end(),
                       [&](const Effect& effect) {
@@ -467,12 +466,7 @@ void readSettings(const YamlPlace& root, Settings& settings)
         settings.otherWeight = place.has("otherWeight") ? place.at("otherWeight").positive() : settings.otherWeight;
         if (place.has("oneMoreParameter"))
         {
-            std::vector<std::string> known;
-            for (const auto& [name, operation] : chainOperations())
-            {
-                known.push_back(name);
-            }
-            settings.oneMoreParameter = place.at("oneMoreParameter").oneOf(known);
+            settings.oneMoreParameter = place.at("oneMoreParameter").oneOf(namesOf(chainOperations()));
         }
     }
 }
@@ -506,10 +500,8 @@ void checkEntries(const YamlPlace& root, const Study& study)
     const auto check = [&](const std::string& entry, const std::string& where) {
         if (known.count(entry) == 0)
         {
-            std::vector<std::string> names(known.size());
-            std::transform(known.begin(), known.end(), names.begin(), [](const auto& each) { return each.first; });
             root.fail(where + " sets '" + entry + "', but " + file.string() + " has no such entry"
-                      + didYouMean(entry, names));
+                      + didYouMean(entry, namesOf(known)));
         }
     };
     for (const auto& [entry, value] : study.rig.entries)
@@ -565,10 +557,8 @@ void checkTags(const YamlPlace& root, const Study& study)
             {
                 without.push_back(condition.name);
             }
-            for (const auto& [name, value] : condition.tags)
-            {
-                known.push_back(name);
-            }
+            const auto tags = namesOf(condition.tags);
+            known.insert(known.end(), tags.begin(), tags.end());
         }
         if (!without.empty() && without.size() < study.conditions.size())
         {
@@ -672,12 +662,20 @@ void checkFormulas(const YamlPlace& root, const Study& study)
 
 } // namespace
 
+Entries plainEntries(const RigSpecification& rig, const Condition& condition)
+{
+    Entries all = condition.entries;
+    all.insert(rig.entries.begin(), rig.entries.end());
+    all.merge(readEntries(rig.caseFolder / rig.entriesFile));
+    return all;
+}
+
 Study readStudy(const std::filesystem::path& file)
 {
     const YamlPlace root = YamlPlace::fileAt(file);
     root.allow({"study", "about", "rig", "observable", "measured", "conditions", "parameters", "effectsFrom", "effects",
-        "onlyEffects", "withoutEffects", "budget", "seed", "repeats", "failures", "design", "inference", "executor",
-        "work", "assumptions", "magnitudeLimit"});
+        "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures", "design", "inference",
+        "executor", "work", "assumptions", "magnitudeLimit"});
     Study study;
     study.file = file;
     study.name = root.at("study").text();
@@ -690,16 +688,14 @@ Study readStudy(const std::filesystem::path& file)
         for (const auto& place : root.at("parameters").list())
         {
             study.parameters.push_back(readParameter(place));
-            const auto& name = study.parameters.back().name;
-            if (std::count_if(study.parameters.begin(), study.parameters.end(),
-                    [&](const Parameter& parameter) { return parameter.name == name; })
-                > 1)
-            {
-                place.at("name").fail("there are two parameters named '" + name + "'");
-            }
+            requireOwnName(place, study.parameters, "parameters");
         }
     }
     readAllEffects(root, study);
+    if (root.has("commonErrors"))
+    {
+        study.commonErrors = readCommonErrors(root.at("commonErrors"), study);
+    }
     readSettings(root, study.settings);
     if (root.has("executor"))
     {

@@ -16,6 +16,9 @@ Study readStudy(const std::filesystem::path& file);
 /// \throws StudyError if it holds what ends an entry or begins a command
 void requireEntryValue(const YamlPlace& value);
 
+/// Entries of a run of a condition without any parameter or effect: the condition's, else the rig's, else the case's own.
+Entries plainEntries(const RigSpecification& rig, const Condition& condition);
+
 /// The effects of a library file, in its order.
 std::vector<Effect> readEffects(const YamlPlace& list);
 

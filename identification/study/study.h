@@ -102,6 +102,14 @@ struct Measurement
     }
 };
 
+/// The observable of a run: what the simulation writes, times the factor, plus the offset (SI units). Formulas in the
+/// entries of that run, with its parameters and effects: "-beadDiameter/2" for the gap below a bead.
+struct ObservableScale
+{
+    Expression factor{"1"};
+    Expression offset{"0"};
+};
+
 struct Condition
 {
     std::string name;
@@ -111,11 +119,39 @@ struct Condition
     std::map<std::string, double> coordinates; // for the Gaussian process of control 2
     std::string command;                       // empty: the rig's
     std::string file;                          // of the observable
+    ObservableScale observable;
     Measurement measured;
     double cost = 1.0; // of a measurement, for the next experiment
 };
 
 bool acts(const Effect& effect, const Condition& condition);
+
+/// One unknown number behind all numbers of one or several conditions, which repeats do not show: a bead whose diameter was
+/// measured once, a scale that was calibrated once, what a law leaves open. No explanation of a residual and no parameter:
+/// it has no name to be given and is not reported, and is known before any data.
+///
+/// The number, z, is standard normal a priori, independent of parameters, effects, noise, model errors and every other z.
+/// It is one and the same in all its conditions (held-out ones and candidates as well as training ones), and in all
+/// features and repeats of each: more repeats do not average it out. Given z, what was measured is
+///     entries        what a run shows whose entries are these formulas of z and of the entries that the run has with its
+///                    parameters and effects (z = 0: those entries themselves)
+///     chain          what the curve shows after the operation, of a size that is a formula of z (0 at z = 0), behind the
+///                    operations of effects
+///     featureErrors  each feature of the run plus its error times z: standard deviations in the feature's own unit, so
+///                    relative ones for a logarithm
+/// One of the three is there. To first order, with g = d(feature)/dz stacked over features and conditions, the covariance
+/// of the measured means is that of noise and declared errors plus g g^T for each common error, blocks between conditions
+/// included.
+struct CommonError
+{
+    std::string name;
+    std::string meaning;
+    std::vector<std::size_t> conditions;
+    std::map<std::string, Expression> entries;
+    std::string chainOperation; // empty: none
+    std::optional<Expression> chainSize;
+    Eigen::VectorXd featureErrors; // by feature; 0: none
+};
 
 enum class DesignKind
 {
@@ -161,14 +197,13 @@ struct Study
     RigSpecification rig;
     std::string timeColumn;
     std::string valueColumn;
-    double valueFactor = 1.0;     // what the simulation writes, times this
-    double valueOffset = 0.0;     // and then added, SI units
     double magnitudeLimit = 30.0; // by which factor measured and simulated may differ before units are doubted
     std::vector<Feature> features;
     Eigen::VectorXd modelError; // by feature
     std::vector<Condition> conditions;
     std::vector<Parameter> parameters;
     std::vector<Effect> effects;
+    std::vector<CommonError> commonErrors;
     ExecutorSpecification executor;
     Settings settings;
     std::vector<std::string> assumptions; // the user's own words, repeated in the report

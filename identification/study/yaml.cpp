@@ -1,5 +1,7 @@
 #include "study/yaml.h"
 
+#include "words/didYouMean.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>

@@ -1,7 +1,5 @@
 #pragma once
 
-#include "study/didYouMean.h"
-
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>

@@ -461,14 +461,6 @@ TEST(Runner, FailuresCacheAndSlurm)
         std::ofstream(workshop.path() / left / "U") << "fields\n";
     }
     EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
-    // A stored run with another scale and zero of the observable.
-    const auto before = CaseRig(study, progress).run({orderOf(10007)});
-    study.valueFactor = -2;
-    study.valueOffset = -0.25;
-    EXPECT_NEAR(
-        CaseRig(study, progress).run({orderOf(10007)})[0].curve.value[3], -2 * before[0].curve.value[3] - 0.25, 1e-12);
-    study.valueFactor = 1;
-    study.valueOffset = 0;
     // A store that was made in a checkout that is no more: its runs' surroundings are those of this one.
     const auto sibling = study.work / "tree" / workshop.path().filename() / "study.yaml";
     fs::remove(sibling);

@@ -29,6 +29,8 @@ TEST(Expression, Formulas)
     EXPECT_DOUBLE_EQ(value("max(a, 2)*round(2.6) + min(1, a) + cos(0)"), 7.5);
     EXPECT_DOUBLE_EQ(value("2^3^2 - 2*-a + 2^-1"), 513.5);
     EXPECT_DOUBLE_EQ(value(" sqrt(abs(-4)) +\n.5 "), 2.5);
+    EXPECT_TRUE(Expression("1 + exp(-a)").holds("a"));
+    EXPECT_FALSE(Expression("max(1, beadDiameter)").holds("a"));
     for (const std::string bad : {"2*", "(1", "sinus(1)", "1 2", "*3", "", "1e", "1e999", "0x10", "1,2", "a = 3",
              "a == 1", "a ? 1 : 2", "\"a\"", "min(1)", "exp()", "()", "2(3)", "a && 1", "rnd(1)", "\xff"})
     {
@@ -207,13 +209,31 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:2:", "list of words"},
         {"study: s", "study: s\nmeasured: { tme: { column: t, unit: s } }", "study.yaml:2:", "did you mean 'time'?"},
         {"parameters:\n", "---\nparameters:\n", "study.yaml", "several documents"},
-        {"effects:\n", "effects:\n  - { name: late, chain: { shift: a }, scatter: true }\n", "study.yaml:13:",
-            "does not scatter"},
+        {"effects:\n", "effects:\n  - { name: late, chain: { shift: a }, scatter: true }\n",
+            "study.yaml:13:", "does not scatter"},
         {"effects:\n",
             "effects:\n  - { name: a, family: walls, set: { friction: a } }\n"
             "  - { name: b, family: walls, set: { friction: 2*a } }\n"
             "  - { name: c, family: wals, set: { friction: 3*a } }\n",
             "study.yaml:", "did you mean 'walls'?"},
+        {"role: training", "role: training, observable: { offset: -beadDiametre }",
+            "study.yaml:9:", "did you mean 'beadDiameter'?"},
+        {"role: training", "role: training, observable: { factor: 0 }", "study.yaml:9:", "must not be 0"},
+        {"value: mass", "value: mass\n  factor: 1/(friction - 0.2)", "study.yaml:6:", "no finite number"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, features: { rate: 0.1 } } ]",
+            "study.yaml:2:", "there are logMeanRate"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, features: {} } ]", "study.yaml:2:", "changes nothing"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e } ]", "study.yaml:2:", "needs one of 'set'"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, set: { friction: 0.01*z } } ]",
+            "study.yaml:2:", "must give 0.2 there"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, set: { friction: friction } } ]",
+            "study.yaml:2:", "must hold z"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, set: { fricton: z } } ]",
+            "study.yaml:2:", "did you mean 'friction'?"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, conditions: [wet], chain: { gain: z } } ]",
+            "study.yaml:2:", "not 'wet'"},
+        {"study: s", "study: s\ncommonErrors: [ { name: e, chain: { gain: z } }, { name: e, chain: { lag: z } } ]",
+            "study.yaml:2:", "two common errors"},
     };
     for (const auto& mistake : mistakes)
     {
@@ -249,6 +269,48 @@ TEST(StudyFile, MisspeltTags)
             EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
         }
     }
+}
+
+/// A formula holds in all conditions, each with its own entries; a condition's own factor or offset replaces one of the
+/// two. A study that had one number for all would give the second condition the first one's.
+TEST(StudyFile, ScaleOfTheObservableByCondition)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(
+        folder, replaced(replaced(goodStudy, "  value: mass", "  value: mass\n  factor: 2\n  offset: -beadDiameter/2"),
+                    "conditions:\n",
+                    "conditions:\n  - { name: large, role: training, set: { beadDiameter: 3e-3 } }\n"
+                    "  - { name: own, role: training, observable: { factor: -1 } }\n"));
+    const auto scale = [&](std::size_t condition) {
+        const auto numbers = numbersOf(plainEntries(study.rig, study.conditions[condition]));
+        const ObservableScale& observable = study.conditions[condition].observable;
+        return std::pair(observable.factor(numbers), observable.offset(numbers));
+    };
+    EXPECT_EQ(scale(0), std::pair(2., -1.5e-3));
+    EXPECT_EQ(scale(1), std::pair(-1., -1e-3));
+    EXPECT_EQ(scale(2), std::pair(2., -1e-3));
+}
+
+/// One unknown number for several conditions, one for each, and one that the simulator does not know.
+TEST(StudyFile, CommonErrors)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(folder,
+        replaced(goodStudy, "conditions:\n", "conditions:\n  - { name: wet, role: heldOut }\n") + R"(commonErrors:
+  - { name: law, features: { logMeanRate: 0.03 } }
+  - { name: diameter, each: true, conditions: [dry, wet], set: { beadDiameter: "beadDiameter + 1e-5*z" } }
+  - { name: calibration, conditions: dry, chain: { gain: "0.002*z" } }
+)");
+    ASSERT_EQ(study.commonErrors.size(), 4U);
+    EXPECT_EQ(study.commonErrors[0].conditions, (std::vector<std::size_t>{0, 1}));
+    EXPECT_EQ(study.commonErrors[0].featureErrors(0), .03);
+    EXPECT_EQ(study.commonErrors[1].name, "diameter of dry");
+    EXPECT_EQ(study.commonErrors[1].conditions, std::vector<std::size_t>{1});
+    EXPECT_EQ(study.commonErrors[2].conditions, std::vector<std::size_t>{0});
+    EXPECT_DOUBLE_EQ(study.commonErrors[2].entries.at("beadDiameter")({{"beadDiameter", 2e-3}, {"z", -1}}), 1.99e-3);
+    EXPECT_TRUE(study.commonErrors[2].featureErrors.isZero());
+    EXPECT_EQ(study.commonErrors[3].chainOperation, "gain");
+    EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), .004);
 }
 
 /// The shipped libraries can be read, and hold what the project promises.
@@ -342,6 +404,22 @@ TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
     EXPECT_NE(library.remarks.front().find('y'), std::string::npos);
     ASSERT_EQ(simulator.failures().size(), 1U);
     EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
+}
+
+/// The simulated curve in the measurement's scale and zero, which are those of the run's own entries: an effect on what the
+/// formula holds moves the zero, too.
+TEST(Simulator, ScaleOfTheObservable)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.conditions[1].observable = {Expression("-2"), Expression("0.5 + x")};
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    Setting setting = simulator.plainSetting();
+    setting.amplitudes(0) = 1;
+    const auto done = simulator.run({{0, setting, "plain"}, {1, setting, "scaled"}});
+    EXPECT_DOUBLE_EQ(done[1].curve.value[3], .5 + .02 - 2 * done[0].curve.value[3]);
+    EXPECT_EQ(done[1].plain.value, done[1].curve.value);
 }
 
 TEST(Simulator, StopsAtTheBudget)

@@ -1,0 +1,157 @@
+#include "study/readCommonErrors.h"
+
+#include "study/namedItems.h"
+#include "study/readFormula.h"
+#include "study/readStudy.h"
+#include "words/didYouMean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+std::vector<std::size_t> readConditions(const YamlPlace& place, const Study& study)
+{
+    std::vector<std::size_t> chosen;
+    if (!place.has("conditions"))
+    {
+        chosen.resize(study.conditions.size());
+        std::iota(chosen.begin(), chosen.end(), std::size_t{0});
+        return chosen;
+    }
+    for (const auto& each : place.at("conditions").oneOrMore())
+    {
+        chosen.push_back(indexOf(each, study.conditions));
+        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
+        {
+            each.fail("names the condition '" + each.text() + "' twice");
+        }
+    }
+    if (chosen.empty())
+    {
+        place.at("conditions").fail("needs at least one");
+    }
+    return chosen;
+}
+
+/// z = 0 is the run itself, and z = 1 is not.
+void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself)
+{
+    constexpr double tolerance = 1e-9;
+    const auto at = [&](double z) {
+        variables["z"] = z;
+        return valueOf(place, formula, variables);
+    };
+    const double there = at(0.0);
+    if (!(std::abs(there - itself) <= tolerance * std::abs(itself)))
+    {
+        place.fail("gives " + textOf(there) + " where the error z is 0, but must give " + textOf(itself)
+                   + " there: \"beadDiameter*(1 + 0.01*z)\"");
+    }
+    if (at(1.0) == there)
+    {
+        place.fail("must hold z, the error in standard deviations: \"beadDiameter*(1 + 0.01*z)\"");
+    }
+}
+
+void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
+{
+    for (const auto& [entry, value] : place.map())
+    {
+        const Expression formula = readFormula(value);
+        for (const auto condition : error.conditions)
+        {
+            const auto numbers = numbersOf(plainEntries(study.rig, study.conditions[condition]));
+            const auto itself = numbers.find(entry);
+            if (itself == numbers.end())
+            {
+                value.fail(
+                    "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
+            }
+            checkAtZero(value, formula, numbers, itself->second);
+        }
+        error.entries.emplace(entry, formula);
+    }
+}
+
+void readFeatures(const YamlPlace& place, const Study& study, CommonError& error)
+{
+    const auto names = namesOfItems(study.features);
+    for (const auto& [name, size] : place.map())
+    {
+        const auto feature = std::find(names.begin(), names.end(), name);
+        if (feature == names.end())
+        {
+            size.fail("no such feature" + didYouMean(name, names) + "; there are " + listed(names));
+        }
+        error.featureErrors(feature - names.begin()) = size.positive();
+    }
+}
+
+CommonError readError(const YamlPlace& place, const Study& study)
+{
+    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
+    CommonError error;
+    error.name = place.at("name").text();
+    error.meaning = place.textOr("meaning", "");
+    error.conditions = readConditions(place, study);
+    error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
+    if (place.has("set") + place.has("chain") + place.has("features") != 1)
+    {
+        place.fail("needs one of 'set' (entries of the case), 'chain' (the measuring chain) or 'features' (standard "
+                   "deviations)");
+    }
+    if (place.has("set"))
+    {
+        readEntries(place.at("set"), study, error);
+    }
+    else if (place.has("chain"))
+    {
+        const auto [operation, size] = readChain(place.at("chain"));
+        error.chainOperation = operation;
+        error.chainSize = size;
+        checkAtZero(place.at("chain"), size, {}, 0.0);
+    }
+    else
+    {
+        readFeatures(place.at("features"), study, error);
+    }
+    if (error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero())
+    {
+        place.fail("changes nothing; 'set' and 'features' need something in them");
+    }
+    return error;
+}
+
+} // namespace
+
+std::vector<CommonError> readCommonErrors(const YamlPlace& list, const Study& study)
+{
+    std::vector<CommonError> errors;
+    for (const auto& place : list.list())
+    {
+        const CommonError error = readError(place, study);
+        if (!place.flagOr("each", false))
+        {
+            errors.push_back(error);
+        }
+        else
+        {
+            for (const auto condition : error.conditions)
+            {
+                errors.push_back(error);
+                errors.back().name += " of " + study.conditions[condition].name;
+                errors.back().conditions = {condition};
+            }
+        }
+        requireOwnName(place, errors, "common errors");
+    }
+    return errors;
+}
+
+} // namespace clepsydra::identification
