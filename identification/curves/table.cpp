@@ -26,10 +26,24 @@ std::string trimmed(const std::string& text)
     return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(" \t\r\"") - first + 1);
 }
 
-/// "mass [kg]" -> "mass"
-std::string withoutUnit(const std::string& name)
+struct Title
 {
-    return trimmed(name.substr(0, name.find('[')));
+    std::string name;
+    std::string unit;
+};
+
+/// "mass [kg]", "mass (kg)" -> "mass", "kg". Other brackets are those of vectors.
+Title titleOf(std::string text)
+{
+    const auto open = text.find_first_of("[(");
+    const auto close = open == std::string::npos ? open : text.find(text[open] == '[' ? ']' : ')', open);
+    if (open == 0 || close == std::string::npos)
+    {
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+        return {trimmed(text.substr(0, text.find('['))), ""};
+    }
+    return {trimmed(text.substr(0, open)), trimmed(text.substr(open + 1, close - open - 1))};
 }
 
 bool holds(const std::string& text, const std::string& part)
@@ -75,24 +89,29 @@ std::vector<std::string> fields(std::string line)
     return found;
 }
 
-std::vector<std::string> columnNames(const std::string& line)
+/// Titles of columns. Between blanks, a unit in brackets of its own belongs to the word before it.
+std::vector<Title> titlesOf(const std::string& line)
 {
     const char separator = holds(line, "\t") ? '\t' : separatorOf(line);
-    std::vector<std::string> names;
-    if (separator == ' ')
+    std::vector<std::string> texts;
+    std::istringstream words(line);
+    std::string word;
+    const auto next = [&] { return !(separator == ' ' ? words >> word : std::getline(words, word, separator)).fail(); };
+    while (next())
     {
-        names = fields(line);
-    }
-    else
-    {
-        std::istringstream words(line);
-        std::string word;
-        while (std::getline(words, word, separator))
+        const std::string ends = word.empty() ? "" : std::string{word.front(), word.back()};
+        if (separator == ' ' && (ends == "[]" || ends == "()") && !texts.empty())
         {
-            names.push_back(withoutUnit(word));
+            texts.back() += word;
+        }
+        else
+        {
+            texts.push_back(word);
         }
     }
-    return names;
+    std::vector<Title> titles(texts.size());
+    std::transform(texts.begin(), texts.end(), titles.begin(), titleOf);
+    return titles;
 }
 
 /// Larger ones are no measurement, and their squares would be no numbers.
@@ -144,10 +163,13 @@ double number(const std::filesystem::path& path)
 
 std::size_t Table::index(const std::string& column) const
 {
-    const auto found = std::find(names.begin(), names.end(), column);
-    if (found != names.end())
+    const Title title = titleOf(column);
+    for (std::size_t i = 0; i < names.size(); ++i)
     {
-        return static_cast<std::size_t>(found - names.begin());
+        if (names[i] == title.name && (title.unit.empty() || units[i] == title.unit))
+        {
+            return i;
+        }
     }
     double position = 0.0;
     if (!column.empty() && isNumber(column, position) && position >= 1.0
@@ -220,10 +242,14 @@ Table readTable(const std::filesystem::path& file)
     {
         throw std::runtime_error(file.string() + ": holds no numbers");
     }
-    table.names = columnNames(header);
-    if (table.names.size() != table.columns.size())
+    const auto titles = titlesOf(header);
+    if (titles.size() == table.columns.size())
     {
-        table.names.clear();
+        for (const auto& title : titles)
+        {
+            table.names.push_back(title.name);
+            table.units.push_back(title.unit);
+        }
     }
     return table;
 }

@@ -13,16 +13,18 @@ namespace clepsydra::identification
 struct Table
 {
     std::vector<std::string> names; // without units; empty where the file names none
+    std::vector<std::string> units; // of each name, from [..] or (..) behind it; empty where there is none
     std::vector<std::vector<double>> columns;
     std::vector<int> lines; // of the file, by row
 
-    /// Index of a column by its name, or by its number counted from 1.
+    /// Index of a column by its name, with its unit or without, or by its number counted from 1.
     /// \throws std::runtime_error that lists the columns
     std::size_t index(const std::string& column) const;
 };
 
-/// Reads CSV (commas, or semicolons with points or commas in the numbers) and white-space tables; lines that begin with # are comments, the last one before
-/// the numbers may name the columns, as in OpenFOAM's files and most CSV. `(` and `)` of vectors are ignored.
+/// Reads CSV (commas, or semicolons with points or commas in the numbers) and white-space tables; lines that begin with #
+/// are comments, the last one before the numbers may name the columns, as in OpenFOAM's files and most CSV. `(` and `)` of
+/// vectors are ignored.
 /// \throws std::runtime_error with file and line
 Table readTable(const std::filesystem::path& file);
 

@@ -79,6 +79,24 @@ TEST(Curves, TablesOfSpreadsheets)
     }
 }
 
+/// Units in any brackets, with a blank before them or none, are no part of the name, but may be given with it.
+TEST(Curves, UnitsInTitles)
+{
+    const TemporaryFolder folder;
+    for (const std::string title : {"Time(sec)\tPosition(mm)", "Time (sec), Position [mm]",
+             "# Time (sec)   Position [mm]", "Time[sec] Position(mm)", "Time (sec);Position (mm)"})
+    {
+        const Table table = readTable(folder.write("a.csv", "Some text, 28 Feb\n" + title + "\n0\t1\n1\t2\n"));
+        EXPECT_EQ(table.names, (std::vector<std::string>{"Time", "Position"})) << title;
+        EXPECT_EQ(table.units, (std::vector<std::string>{"sec", "mm"})) << title;
+        EXPECT_EQ(table.index("Position (mm)"), 1U);
+        EXPECT_THROW(table.index("Position (cm)"), std::runtime_error);
+    }
+    const Table vectors = readTable(folder.write("U", "# Time (Ux Uy)\n0 (1 2)\n"));
+    EXPECT_EQ(vectors.names, (std::vector<std::string>{"Time", "Ux", "Uy"}));
+    EXPECT_EQ(readTable(folder.write("v", "t,U (x),U (y)\n0,1,2\n")).index("U (y)"), 2U);
+}
+
 /// m = 1 - .1 t: the rate is .1 in every window; with m0 = 1, 95 % have left after 9.5 s.
 TEST(Features, OfASteadyDischarge)
 {
