@@ -82,7 +82,7 @@ struct CouplingState
     GivenToFluid given;
     FluidAtBead fluid;
     /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N]. Kept only where
-    /// selfMobility is not zero.
+    /// selfMobility is not zero, and by FluidCoupling over checkpoints.
     Vector3d handedOver = Vector3d::Zero();
     /// The bead's own, when the interval began [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
@@ -141,7 +141,7 @@ struct BeadsView
     /// DemEngine::keepMemory() was called.
     double* memory = nullptr;
     Eigen::Index memorySize = 0;
-    /// False where the forces of a step that has been are only made anew: DemEngine::prepare().
+    /// False where forces are evaluated without a step: DemEngine::feelFluid().
     bool memoryAges = true;
     /// For FluidForces::evaluate() only: true where no force moves the bead, for the engine holds it fast.
     ConstView<bool> held{nullptr, 0};

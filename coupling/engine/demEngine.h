@@ -60,7 +60,8 @@ public:
     virtual void keepMemory(int numbers) = 0;
 
     /// Makes the engine ready to advance.
-    /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState.
+    /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState and, until feelFluid(), no
+    ///       force of the fluid but what a checkpoint holds.
     /// \param forces  called at every DEM step until the engine is destroyed; nullptr: no fluid.
     virtual void initialise(FluidForces* forces) = 0;
 
@@ -68,9 +69,14 @@ public:
     /// \pre  initialised, steps > 0. \post earlier views are invalid; each bead's `given` has grown.
     virtual void advance(int steps) = 0;
 
-    /// Makes neighbour lists and forces anew from the beads and coupling states as they stand: as if this process had
-    /// just been resumed from a checkpoint written now. \pre initialised. \post views are invalid.
+    /// Makes neighbour lists anew from the beads as they stand, as if this process had just been resumed from a checkpoint
+    /// written now. Forces stay those of the last step, with which the next one begins.
+    /// \pre initialised. \post views are invalid.
     virtual void prepare() = 0;
+
+    /// As prepare(), but forces are made anew, the fluid's from the coupling states as they stand: those with which the first
+    /// step of a run begins. \pre initialised with forces. \post each bead's `given` has grown, views are invalid.
+    virtual void feelFluid() = 0;
 
     /// Takes beads out, from wherever they are. \pre initialised. \post views are invalid; prepare() must follow.
     /// \param ids  of this rank's beads

@@ -46,12 +46,14 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
 
 void CouplingInterval::start(Foam::volVectorField& U, const Foam::volScalarField& p)
 {
-    forgetGiven();
-    feelFluid(U, p);
-    if (!resumed_)
+    if (resumed_)
     {
+        fluid_->fluidToBeads(U, p);
+    }
+    else
+    {
+        feelFluid(U, p);
         fluid_->takeFirstDragFrom(U, interval_);
-        forgetGiven();
         feelFluid(U, p);
         fluid_->giveInAdvance(U, p);
     }
@@ -61,9 +63,9 @@ void CouplingInterval::start(Foam::volVectorField& U, const Foam::volScalarField
 
 void CouplingInterval::feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
+    forgetGiven();
     fluid_->fluidToBeads(U, p);
-    // The first half of the first DEM step uses the forces at its beginning: with the fluid, not without.
-    engine_.prepare();
+    engine_.feelFluid();
 }
 
 void CouplingInterval::advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
@@ -109,8 +111,7 @@ void CouplingInterval::restartInPlace(const Foam::volVectorField& U, const Foam:
     engine_.prepare();
     traffic_.start(engine_.beads(), false);
     fluid_->start(true);
-    forgetGiven();
-    feelFluid(U, p);
+    fluid_->fluidToBeads(U, p);
     forgetGiven();
 }
 

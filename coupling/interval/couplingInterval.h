@@ -87,6 +87,7 @@ public:
 
 private:
     void advanceBeads();
+    /// Before the first step of a run, whose first half uses the forces at its beginning: with the fluid, not without.
     void feelFluid(const Foam::volVectorField& U, const Foam::volScalarField& p);
     /// \return true if there were any, and the engine is prepared anew.
     bool removeBeadsThatLeft();

@@ -31,6 +31,16 @@ enum GivenRow : Eigen::Index
     motion = momentum + CarriedMomentum::rowCount,
     resistanceTime = motion + VoidFractionRate::rowCount
 };
+
+/// Rows of what is kept of each bead from interval to interval: P, see CarriedMomentum [N s], and what its own disturbance
+/// is worked out from.
+enum KeptRow : Eigen::Index
+{
+    inAdvance = 0,
+    handedOver = 3,
+    selfMobility = 6
+};
+
 static_assert(reactionSize == CarriedMomentum::rowCount + VoidFractionRate::rowCount);
 
 MPI_Comm duplicateWorld()
@@ -75,15 +85,16 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     voidFraction_.oldTime();
 }
 
-Eigen::Map<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> FluidCoupling::givenInAdvance(const BeadsView& beads)
+Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> FluidCoupling::kept(
+    const BeadsView& beads)
 {
-    return {beads.memory ? beads.memory + beads.memorySize - memory : nullptr, 3, beads.size(),
+    return {beads.memory ? beads.memory + beads.memorySize - memory : nullptr, memory, beads.size(),
         Eigen::OuterStride<>(beads.memorySize)};
 }
 
 vector FluidCoupling::momentumGivenInAdvance() const
 {
-    const Vector3d ofBeads = givenInAdvance(engine_.beads()).rowwise().sum();
+    const Vector3d ofBeads = kept(engine_.beads()).middleRows<3>(inAdvance).rowwise().sum();
     return returnReduce(toFoam(ofBeads), sumOp<vector>())
            + gSum(vectorField(fluid_.density * mesh_.V().field() * carriedMomentum_.unassigned().primitiveField()));
 }
@@ -92,15 +103,36 @@ void FluidCoupling::start(bool resumed)
 {
     anticipate(settings_.couplingInterval(), settings_.couplingInterval());
     findCells();
-    const Eigen::MatrixXd densities = densitiesOfBeads();
+    const Eigen::MatrixXd densities = densitiesOfBeads(solidVolume + 1);
     if (resumed)
     {
         // Before clipping, which the void fraction that was read is not.
         columns(solidFraction_) = densities.row(solidVolume);
+        recallDisturbance();
         return;
     }
     updateVoidFraction(densities);
     voidFractionRate_.start(voidFraction_);
+}
+
+void FluidCoupling::keepDisturbance()
+{
+    const BeadsView beads = engine_.beads();
+    for (Eigen::Index bead = 0; resistance_ && bead < beads.size(); ++bead)
+    {
+        kept(beads).col(bead).segment<3>(handedOver) = beads.state[bead].handedOver;
+        kept(beads)(selfMobility, bead) = beads.state[bead].fluid.selfMobility;
+    }
+}
+
+void FluidCoupling::recallDisturbance()
+{
+    const BeadsView beads = engine_.beads();
+    for (Eigen::Index bead = 0; resistance_ && bead < beads.size(); ++bead)
+    {
+        beads.state[bead].handedOver = kept(beads).col(bead).segment<3>(handedOver);
+        beads.state[bead].fluid.selfMobility = kept(beads)(selfMobility, bead);
+    }
 }
 
 void FluidCoupling::takeFirstDragFrom(volVectorField& U, double interval)
@@ -112,7 +144,7 @@ void FluidCoupling::takeFirstDragFrom(volVectorField& U, double interval)
     }
     anticipate(engine_.timeStep(), interval);
     findCells();
-    carriedMomentum_.update(densitiesOfBeads().middleRows<CarriedMomentum::rowCount>(momentum), interval);
+    carriedMomentum_.update(densitiesOfBeads(motion).middleRows<CarriedMomentum::rowCount>(momentum), interval);
     carriedMomentum_.takeFrom(U, voidFraction_);
 }
 
@@ -121,7 +153,7 @@ void FluidCoupling::beadsToFluid(double interval, double next)
     const PhaseTimers::Scope timing = timers_.time("distribute");
     anticipate(interval, next);
     findCells();
-    Eigen::MatrixXd densities = densitiesOfBeads();
+    Eigen::MatrixXd densities = densitiesOfBeads(resistance_ ? resistanceTime + 1 : resistanceTime);
     // Their motion over the coming interval, per time of the one that is solved.
     densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / interval;
     updateVoidFraction(densities);
@@ -163,7 +195,7 @@ void FluidCoupling::anticipate(double lastInterval, double nextInterval)
 Reactions FluidCoupling::reactions() const
 {
     const BeadsView beads = engine_.beads();
-    const auto inAdvance = givenInAdvance(beads);
+    const auto ofBead = kept(beads);
     Reactions all(reactionSize, beads.size());
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
@@ -172,8 +204,9 @@ Reactions FluidCoupling::reactions() const
         // Explicit coupling anticipates nothing: a motion without its answer to the pressure would be worse than none.
         const double volume = settings_.implicitCoupling() ? volumeInFluid(beads, bead) : 0;
         const double pressureForce = modelType_ == ModelType::A ? fluid_.density * volume : 0;
-        all.col(bead) << beads.state[bead].given.impulse - inAdvance.col(bead) - motion.drag * velocity, motion.drag,
-            volume * motion.following, volume * motion.mobility * pressureForce,
+        all.col(bead) << beads.state[bead].given.impulse - ofBead.col(bead).segment<3>(inAdvance)
+                             - motion.drag * velocity,
+            motion.drag, volume * motion.following, volume * motion.mobility * pressureForce,
             volume * (1 - motion.following) * velocity;
     }
     return all;
@@ -195,7 +228,7 @@ void FluidCoupling::giveInAdvance(const volVectorField& U, const volScalarField&
         fromFluid.col(bead) =
             motion.drag * fluid.velocityInCells
             + anticipatedTime_ * motion.following * volumeInFluid(beads, bead) * fluid.pressureGradient;
-        givenInAdvance(beads).col(bead) = fromFluid.col(bead) - motion.drag * beads.velocity.col(bead);
+        kept(beads).col(bead).segment<3>(inAdvance) = fromFluid.col(bead) - motion.drag * beads.velocity.col(bead);
     }
     Eigen::MatrixXd densities = distribution_.densities(exchange_.toVisitors(fromFluid));
     smooth(densities);
@@ -239,22 +272,16 @@ void FluidCoupling::smooth(Eigen::MatrixXd& densities)
     distribution_.smooth(densities);
 }
 
-Eigen::MatrixXd FluidCoupling::densitiesOfBeads()
+Eigen::MatrixXd FluidCoupling::densitiesOfBeads(Eigen::Index rowCount)
 {
     const std::vector<VisitingBead>& visitors = exchange_.visitors();
-    const Eigen::Index rowCount = resistance_ ? resistanceTime + 1 : resistanceTime;
-    Eigen::MatrixXd given(rowCount, static_cast<Eigen::Index>(visitors.size()));
+    Eigen::MatrixXd given(resistanceTime + 1, static_cast<Eigen::Index>(visitors.size()));
     for (Eigen::Index i = 0; i < given.cols(); ++i)
     {
         const VisitingBead& bead = visitors[static_cast<std::size_t>(i)];
-        given(solidVolume, i) = bead.volume;
-        given.col(i).segment<reactionSize>(momentum) = bead.reaction;
-        if (resistance_)
-        {
-            given(resistanceTime, i) = bead.implicitCoefficientTime;
-        }
+        given.col(i) << bead.volume, bead.reaction, bead.implicitCoefficientTime;
     }
-    Eigen::MatrixXd densities = distribution_.densities(given);
+    Eigen::MatrixXd densities = distribution_.densities(given.topRows(rowCount));
     smooth(densities);
     return densities;
 }
@@ -304,6 +331,7 @@ void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
 void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& p)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
+    keepDisturbance();
     const BeadsView beads = engine_.beads();
     const dimensionedScalar viscosity("nu", dimViscosity, fluid_.dynamicViscosity / fluid_.density);
     const tmp<volVectorField> gradient = fvc::grad(p);

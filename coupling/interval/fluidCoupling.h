@@ -96,7 +96,7 @@ public:
     Foam::vector momentumGivenInAdvance() const;
 
     /// Numbers of BeadsView::memory that the coupling needs, after those of the forces.
-    static constexpr int memory = 3;
+    static constexpr int memory = 7;
 
     const BeadExchange& exchange() const
     {
@@ -109,9 +109,14 @@ private:
     void anticipate(double lastInterval, double nextInterval);
     Reactions reactions() const;
     /// What the beads put into the cells, smoothed: rows as in GivenRow.
-    Eigen::MatrixXd densitiesOfBeads();
-    /// P of each bead, see CarriedMomentum [N s]: writable, part of checkpoints.
-    static Eigen::Map<Eigen::Matrix3Xd, 0, Eigen::OuterStride<>> givenInAdvance(const BeadsView& beads);
+    /// \param rowCount  the first of these rows
+    Eigen::MatrixXd densitiesOfBeads(Eigen::Index rowCount);
+    /// Before fluidToBeads(), and in a resumed run: what each bead's own disturbance is worked out from.
+    void keepDisturbance();
+    void recallDisturbance();
+    /// What of the coupling's state of each bead is part of checkpoints: rows as in KeptRow, writable.
+    static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> kept(
+        const BeadsView& beads);
     void updateVoidFraction(const Eigen::MatrixXd& densities);
     void smooth(Eigen::MatrixXd& densities);
     void bookPressureForce(const Foam::vector& inFluid);

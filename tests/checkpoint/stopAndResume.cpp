@@ -228,6 +228,26 @@ TEST(EndedByAFunctionObject, WritesTheNextStepAndEnds)
     EXPECT_TRUE(std::filesystem::exists(test.path() / "checkpoints/0.001/complete"));
 }
 
+// A checkpoint in every interval, or only at the end: the same run but for rounding, which the order of the neighbours
+// changes at a checkpoint, and contacts make grow: so 1000 steps only. Where the first half of the step after a
+// checkpoint is made with forces made anew in place of those of the last step, the beads are 3e-4 d apart.
+TEST(WrittenOften, IsTheSameRun)
+{
+    TestCase seldom;
+    TestCase often;
+    for (TestCase* test : {&seldom, &often})
+    {
+        pilingBeads(*test, true);
+        test->coupling().set("selfDisturbance", "Oseen");
+        test->setTimes(0.04, interval, test == &often ? interval : 0.04);
+        const Outcome outcome = test->run();
+        ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    }
+    const double apart = distance(seldom.beadHistory().back(), often.beadHistory().back(), seldom.dem.diameter);
+    std::cout << apart << " d apart after 1000 steps with 40 checkpoints" << std::endl;
+    EXPECT_LT(apart, 1e-9);
+}
+
 // Stopped between two write times: the run goes on to the same write times, has a row of m(t) at the same times, the
 // rate over the same window, and its end is a checkpoint although it is no write time. Counted from where it was resumed,
 // the write times would be .034 and .054 s, and the first rate 0.

@@ -9,10 +9,10 @@ namespace clepsydra::tests
 namespace
 {
 
-/// Of all beads, the first of five rows that are smoothed together.
+/// Of all beads, as the run begins: the one row that is smoothed then.
 StreamSetup withSolidVolumeTimes(double factor)
 {
-    return faultyStream(1 + reactionSize, 0, factor, "one");
+    return faultyStream(1, 0, factor, "one");
 }
 
 class SolidVolumeLedger : public ThrowingErrors

@@ -99,8 +99,11 @@ public:
         }
     }
 
-    /// The forces of a step, which is not made.
     void prepare() override
+    {}
+
+    /// The forces of a step, which is not made.
+    void feelFluid() override
     {
         Eigen::Matrix3Xd force(3, static_cast<Eigen::Index>(id_.size()));
         evaluateForces(force);

@@ -47,6 +47,7 @@ namespace lmp = LAMMPS_NS;
 
 constexpr const char* stateFixId = "clepsydraState";
 constexpr const char* forceFixId = "clepsydraForce";
+constexpr const char* lastForceFixId = "clepsydraLastForces";
 constexpr const char* memoryFixId = "clepsydraMemory";
 constexpr const char* introducedFixId = "clepsydraIntroduced";
 
@@ -353,6 +354,54 @@ public:
             movingGroups_ |= movesByForces(*fix) ? fix->groupbit : 0;
             frozenGroups_ |= std::string(fix->style) == "freeze" ? fix->groupbit : 0;
         });
+    }
+
+    /// Part of LIGGGHTS' restart files.
+    void addLastForces()
+    {
+        execute(std::string("fix ") + lastForceFixId + " all property/atom " + lastForceFixId
+                    + " vector yes no no 0. 0. 0. 0. 0. 0.",
+            "forces of the last step");
+        lastForceFix_ =
+            program_->modify->find_fix_property(lastForceFixId, "property/atom", "vector", 6, 0, "coupling");
+        lastForcesKnown_ = !fresh_;
+    }
+
+    /// Forces and torques on beads, rows 0 to 3 and 3 to 6.
+    Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> lastForces()
+    {
+        return {firstElement(lastForceFix_->array_atom), 6, program_->atom->nlocal};
+    }
+
+    /// With which the next step begins. LIGGGHTS makes others at a `run` that begins anew, and in a resumed process: from
+    /// the velocities at the end of a step, where damping and drag had those in its middle.
+    void keepForces()
+    {
+        const lmp::Atom& atom = *program_->atom;
+        lastForces().topRows<3>() = ConstVectors(firstElement(atom.f), 3, atom.nlocal);
+        lastForces().bottomRows<3>() = ConstVectors(firstElement(atom.torque), 3, atom.nlocal);
+        lastForcesKnown_ = true;
+    }
+
+    void prepare()
+    {
+        execute("run 0 post no", "preparing");
+        checkFinite();
+        if (lastForcesKnown_)
+        {
+            const lmp::Atom& atom = *program_->atom;
+            Vectors(firstElement(atom.f), 3, atom.nlocal) = lastForces().topRows<3>();
+            Vectors(firstElement(atom.torque), 3, atom.nlocal) = lastForces().bottomRows<3>();
+        }
+    }
+
+    void feelFluid()
+    {
+        lastForcesKnown_ = false;
+        feelsAnew_ = true;
+        prepare();
+        feelsAnew_ = false;
+        keepForces();
     }
 
     /// Those at rest by `groupChanges` are in no group that moves.
@@ -679,12 +728,18 @@ private:
         engine.checkFinite();
         const FloatingPointTraps asOutside(engine.trapsOutside_);
         const BeadsView own = engine.beads();
+        Vectors ofFluid(firstElement(force), 3, own.size());
+        const bool preparing = engine.program_->update->setupflag != 0;
+        if (preparing && !engine.feelsAnew_)
+        {
+            ofFluid.setZero();
+            return;
+        }
         engine.findHeldBeads();
         const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
             own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{},
-            engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_,
-            engine.program_->update->setupflag == 0, ConstView<bool>(engine.held_.data(), own.size())};
-        const Vectors ofFluid(firstElement(force), 3, beads.size());
+            engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_, !preparing,
+            ConstView<bool>(engine.held_.data(), own.size())};
         engine.forces_->evaluate(beads, engine.program_->update->dt, ofFluid);
         engine.clearForceOnHeldBeads(ofFluid);
     }
@@ -693,6 +748,9 @@ private:
     std::unique_ptr<lmp::LAMMPS> program_;
     lmp::Fix* stateFix_ = nullptr;
     FluidForces* forces_ = nullptr;
+    lmp::Fix* lastForceFix_ = nullptr;
+    bool lastForcesKnown_ = false;
+    bool feelsAnew_ = false;
     /// Of which groups forces move the beads, and of which a fix forbids it.
     int movingGroups_ = 0;
     int frozenGroups_ = 0;
@@ -730,6 +788,7 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     implementation_->addCouplingState();
     implementation_->addIntroduced();
     implementation_->addMemory();
+    implementation_->addLastForces();
     implementation_->addGroupChanges();
     if (forces)
     {
@@ -742,24 +801,25 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     implementation_->allowNoBeads();
     prepare();
     implementation_->checkOverlaps();
-    // LIGGGHTS has taken those that are here already for new ones, and they have felt no fluid.
+    // LIGGGHTS has taken those that are here already for new ones.
     const BeadsView beads = implementation_->beads();
     std::fill_n(beads.state, beads.size(), CouplingState());
-    if (forces)
-    {
-        prepare();
-    }
 }
 
 void LiggghtsEngine::prepare()
 {
-    implementation_->execute("run 0 post no", "preparing");
-    implementation_->checkFinite();
+    implementation_->prepare();
+}
+
+void LiggghtsEngine::feelFluid()
+{
+    implementation_->feelFluid();
 }
 
 void LiggghtsEngine::advance(int steps)
 {
     implementation_->run(steps);
+    implementation_->keepForces();
     implementation_->changeGroups(steps * timeStep());
 }
 

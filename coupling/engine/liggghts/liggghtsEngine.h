@@ -44,6 +44,7 @@ public:
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;
+    void feelFluid() override;
     void remove(const std::vector<int>& ids) override;
     BeadsView beads() override;
     double timeStep() const override;
