@@ -1,6 +1,7 @@
 /// From a measured residual to a named effect. See README.md beside this file.
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
+#include "study/draft/draftStudy.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <vector>
 
 namespace
 {
@@ -20,6 +22,8 @@ struct Arguments
 {
     fs::path study;
     fs::path folder;
+    fs::path caseFolder;
+    std::vector<fs::path> measured;
     bool execute = false;
 };
 
@@ -62,6 +66,14 @@ int main(int argc, char** argv)
     Arguments arguments;
     CLI::App app("From a measured residual to a named effect: what the model lacks, and the error before and after");
     app.require_subcommand(1);
+    auto* drafting = app.add_subcommand("new", "a commented study file for measured files, with places to fill in");
+    drafting->add_option("case", arguments.caseFolder, "folder of the simulation's case")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    drafting->add_option("measured", arguments.measured, "CSV files, or folders of them")
+        ->required()
+        ->check(CLI::ExistingPath);
+    drafting->add_option("--output", arguments.study, "file to make; default: <name of the case>.study.yaml here");
     auto* planning =
         app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
     planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
@@ -76,7 +88,11 @@ int main(int argc, char** argv)
 
     try
     {
-        if (*planning)
+        if (*drafting)
+        {
+            draftStudy(arguments.caseFolder, arguments.measured, arguments.study, std::cout);
+        }
+        else if (*planning)
         {
             plan(arguments.study, arguments.execute, std::cout);
         }

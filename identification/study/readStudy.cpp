@@ -317,27 +317,6 @@ Parameter readParameter(const YamlPlace& place)
     return parameter;
 }
 
-/// Entries that an effect needs and the case does not have.
-std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
-{
-    std::vector<std::string> missing;
-    for (const auto& [entry, value] : effect.entries)
-    {
-        if (known.count(entry) == 0)
-        {
-            missing.push_back(entry);
-        }
-    }
-    for (const auto& [entry, value] : effect.words)
-    {
-        if (known.count(entry) == 0)
-        {
-            missing.push_back(entry);
-        }
-    }
-    return missing;
-}
-
 /// A library is for many cases: what this one cannot switch on is left out, and said.
 std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
 {
@@ -661,6 +640,17 @@ void checkFormulas(const YamlPlace& root, const Study& study)
 }
 
 } // namespace
+
+std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
+{
+    std::vector<std::string> missing = namesOf(effect.entries);
+    const auto words = namesOf(effect.words);
+    missing.insert(missing.end(), words.begin(), words.end());
+    missing.erase(std::remove_if(
+                      missing.begin(), missing.end(), [&](const std::string& entry) { return known.count(entry) > 0; }),
+        missing.end());
+    return missing;
+}
 
 Entries plainEntries(const RigSpecification& rig, const Condition& condition)
 {

@@ -19,6 +19,9 @@ void requireEntryValue(const YamlPlace& value);
 /// Entries of a run of a condition without any parameter or effect: the condition's, else the rig's, else the case's own.
 Entries plainEntries(const RigSpecification& rig, const Condition& condition);
 
+/// Entries that an effect needs and the case does not have.
+std::vector<std::string> missingEntries(const Effect& effect, const Entries& known);
+
 /// The effects of a library file, in its order.
 std::vector<Effect> readEffects(const YamlPlace& list);
 

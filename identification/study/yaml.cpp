@@ -45,6 +45,46 @@ YamlPlace::YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesyst
 
 YamlPlace YamlPlace::fileAt(const std::filesystem::path& file)
 {
+    YamlPlace place = parsed(file);
+    if (const std::string places = place.toBeFilledIn(); !places.empty())
+    {
+        throw StudyError(places + "Replace these by values");
+    }
+    return place;
+}
+
+std::string YamlPlace::placesToFillIn(const std::filesystem::path& file)
+{
+    return parsed(file).toBeFilledIn();
+}
+
+/// Its depth has been checked.
+std::string YamlPlace::toBeFilledIn() const
+{
+    std::string places;
+    if (node_.IsScalar() && node_.Scalar().rfind(toFillIn, 0) == 0)
+    {
+        places = where() + node_.Scalar() + '\n';
+    }
+    if (node_.IsSequence())
+    {
+        for (const auto& each : list())
+        {
+            places += each.toBeFilledIn();
+        }
+    }
+    if (node_.IsMap())
+    {
+        for (const auto& [key, value] : map())
+        {
+            places += value.toBeFilledIn();
+        }
+    }
+    return places;
+}
+
+YamlPlace YamlPlace::parsed(const std::filesystem::path& file)
+{
     try
     {
         refuseMoreDocuments(file);
@@ -99,11 +139,16 @@ void YamlPlace::checkKeys(int depth, int& places) const
     }
 }
 
-void YamlPlace::fail(const std::string& what) const
+std::string YamlPlace::where() const
 {
     const int line = node_.Mark().line;
-    throw StudyError(file_->string() + ":" + (line >= 0 ? std::to_string(line + 1) + ":" : "") + " "
-                     + (name_.empty() ? "" : name_ + ": ") + what);
+    return file_->string() + ":" + (line >= 0 ? std::to_string(line + 1) + ":" : "") + " "
+           + (name_.empty() ? "" : name_ + ": ");
+}
+
+void YamlPlace::fail(const std::string& what) const
+{
+    throw StudyError(where() + what);
 }
 
 void YamlPlace::allow(const std::vector<std::string>& allowed) const

@@ -24,8 +24,15 @@ public:
 class YamlPlace
 {
 public:
-    /// \throws StudyError if the file cannot be read, is no YAML, or has a key twice or without a value anywhere
+    /// How a value begins that is still to be given, as `traceResidual new` writes it, with what to do behind it.
+    static constexpr const char* toFillIn = "FILL IN";
+
+    /// \throws StudyError if the file cannot be read, is no YAML, has a key twice or without a value anywhere, or values
+    /// that are still to be filled in, all of which it lists
     static YamlPlace fileAt(const std::filesystem::path& file);
+
+    /// A line for each value that is still to be filled in: file, line, key, and what to do.
+    static std::string placesToFillIn(const std::filesystem::path& file);
 
     /// \throws StudyError naming the line of the first key that is not among `allowed`, or if this is no map
     void allow(const std::vector<std::string>& allowed) const;
@@ -62,7 +69,10 @@ public:
     }
 
 private:
+    static YamlPlace parsed(const std::filesystem::path& file);
     void checkKeys(int depth, int& places) const;
+    std::string toBeFilledIn() const;
+    std::string where() const;
     YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name);
 
     YAML::Node node_;

@@ -39,7 +39,7 @@ def main():
 
 def pages():
     """Path in the repository -> text."""
-    made = re.compile(r"\.dependencies/|build[^/]*/|.*/(work|runs|stages)/")
+    made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|runs|stages)/")
     found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
     return {page: (ROOT / page).read_text() for page in found if not made.match(page)}
 

@@ -1,0 +1,616 @@
+#include "study/draft/draftStudy.h"
+
+#include "curves/table.h"
+#include "files/wholeFile.h"
+#include "study/draft/columns.h"
+#include "study/draft/conditions.h"
+#include "study/draft/draftedRig.h"
+#include "study/draft/shape.h"
+#include "study/readStudy.h"
+#include "study/units.h"
+#include "words/didYouMean.h"
+
+#include <yaml-cpp/emitter.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+std::string fillIn(const std::string& what)
+{
+    return '"' + std::string(YamlPlace::toFillIn) + ": " + what + '"';
+}
+
+/// A word as YAML takes it for one, also between brackets.
+std::string yamlWord(const std::string& word)
+{
+    const bool isPlain = !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0
+                         && std::all_of(word.begin(), word.end(), [](unsigned char c) {
+                                return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '/' || c == '-';
+                            });
+    if (isPlain || word.rfind("../", 0) == 0)
+    {
+        return word;
+    }
+    YAML::Emitter emitter;
+    emitter << YAML::DoubleQuoted << word;
+    return emitter.c_str();
+}
+
+/// To two digits.
+std::string rounded(double number)
+{
+    std::ostringstream text;
+    text.precision(2);
+    text << number;
+    return textOf(std::stod(text.str()));
+}
+
+/// Named files must be tables; of a folder those that are.
+std::vector<fs::path> tablesOf(const std::vector<fs::path>& measured)
+{
+    static const std::set<std::string> endings = {".csv", ".txt", ".dat", ".tsv"};
+    std::set<fs::path> tables;
+    for (const auto& place : measured)
+    {
+        if (!fs::is_directory(place))
+        {
+            readTable(place);
+            tables.insert(place);
+            continue;
+        }
+        const std::size_t before = tables.size();
+        for (const auto& entry : fs::directory_iterator(place))
+        {
+            try
+            {
+                if (entry.is_regular_file() && endings.count(entry.path().extension().string()) > 0)
+                {
+                    readTable(entry.path());
+                    tables.insert(entry.path());
+                }
+            }
+            catch (const std::runtime_error&)
+            {
+                // other texts may lie beside the measurements
+            }
+        }
+        if (tables.size() == before)
+        {
+            throw std::runtime_error(
+                place.string()
+                + ": holds no table of numbers; looked for are files .csv, .txt, .dat and .tsv with a column "
+                  "of times and one of values");
+        }
+    }
+    return {tables.begin(), tables.end()};
+}
+
+class Draft
+{
+public:
+    Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study);
+
+    std::string text() const
+    {
+        return text_.str();
+    }
+    const std::vector<std::string>& said() const
+    {
+        return said_;
+    }
+
+private:
+    Curve read(const fs::path& file, const fs::path& first) const;
+    void chooseColumns();
+    void writeHead();
+    void writeRig();
+    void writeObservable();
+    void writeFeatures();
+    void writeWindows(double last);
+    void writePositions();
+    void writeMeasured();
+    void writeConditions();
+    void writeCondition(const DraftedCondition& condition, const std::string& entry);
+    void writeParameters();
+    void writeEnd();
+
+    void say(const std::string& what)
+    {
+        said_.push_back(what);
+    }
+    std::string relative(const fs::path& file) const
+    {
+        return yamlWord(fs::absolute(file).lexically_normal().lexically_relative(folder_).string());
+    }
+    /// The entry that is most likely to differ from condition to condition.
+    std::string varied() const
+    {
+        const bool isHopper = rig_.has("orificeDiameter");
+        return conditions_.size() < 2     ? ""
+               : isHopper                 ? "orificeDiameter"
+               : rig_.has("beadDiameter") ? "beadDiameter"
+                                          : "";
+    }
+    bool isUnderWater(const DraftedCondition& condition) const
+    {
+        std::string name = condition.name;
+        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+        const auto holds = [&](const char* word) { return name.find(word) != std::string::npos; };
+        return holds("wet") || holds("water") || holds("subm");
+    }
+
+    DraftedRig rig_;
+    std::vector<DraftedCondition> conditions_;
+    GuessedColumns columns_;
+    Shape shape_;
+    fs::path folder_; // of the study file
+    std::string name_;
+    std::ostringstream text_;
+    std::vector<std::string> said_;
+};
+
+Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study)
+    : rig_(draftRig(caseFolder)),
+      conditions_(draftConditions(tablesOf(measured))),
+      folder_(fs::weakly_canonical(fs::absolute(study)).parent_path()),
+      name_(rig_.folder.filename().string())
+{
+    chooseColumns();
+    writeHead();
+    writeRig();
+    writeObservable();
+    writeMeasured();
+    writeConditions();
+    writeParameters();
+    writeEnd();
+}
+
+/// The columns of a file, which must be those of the first one.
+Curve Draft::read(const fs::path& file, const fs::path& first) const
+{
+    try
+    {
+        const Table table = readTable(file);
+        Curve curve{
+            table.columns[table.index(columns_.time.column)], table.columns[table.index(columns_.value.column)]};
+        curve = tidied(std::move(curve));
+        if (curve.time.size() < 3)
+        {
+            throw std::runtime_error("fewer than three rows with a time and a value");
+        }
+        return curve;
+    }
+    catch (const std::runtime_error& error)
+    {
+        throw std::runtime_error(file.string() + ": " + error.what() + " (the study has the columns of "
+                                 + first.string() + "; files of other kinds need one of their own)");
+    }
+}
+
+/// By the titles of the first training file. Of files of held-out conditions the form alone is looked at.
+void Draft::chooseColumns()
+{
+    std::vector<Curve> curves;
+    const auto training =
+        std::find_if(conditions_.begin(), conditions_.end(), [](const auto& each) { return !each.isHeldOut; });
+    const fs::path first = training->files.front();
+    columns_ = guessColumns(readTable(first));
+    for (const auto& condition : conditions_)
+    {
+        double shortest = std::numeric_limits<double>::infinity();
+        double longest = 0.0;
+        for (const auto& file : condition.files)
+        {
+            const Curve curve = read(file, first);
+            if (!condition.isHeldOut)
+            {
+                curves.push_back(curve);
+                shortest = std::min(shortest, curve.time.back() - curve.time.front());
+                longest = std::max(longest, curve.time.back() - curve.time.front());
+            }
+        }
+        if (longest > 1.5 * shortest)
+        {
+            say("condition " + condition.name + ": one record is " + rounded(longest / shortest)
+                + " times as long as another; are they repeats of one condition?");
+        }
+    }
+    const std::string written = rig_.observable == "massInHopper" ? "mass"
+                                : rig_.observable == "beadHeight" ? "length"
+                                                                  : "";
+    if (columns_.quantity.empty())
+    {
+        columns_.quantity = written;
+    }
+    const bool fits = written.empty() || columns_.quantity == written
+                      || (written == "mass" && columns_.quantity == "share")
+                      || (written == "length" && columns_.quantity == "speed");
+    if (!fits)
+    {
+        throw std::runtime_error(first.string() + ": column '" + columns_.value.column + "' is a " + columns_.quantity
+                                 + ", but the case " + rig_.folder.string() + " writes a " + written + " ("
+                                 + rig_.observable + "); is it the right case?");
+    }
+    shape_ = shapeOf(std::move(curves), columns_.quantity == "length");
+    shape_.bounces = columns_.quantity == "length" ? shape_.bounces : 0;
+    const auto unit = [](const GuessedColumn& column) { return column.unit.empty() ? "unit unknown" : column.unit; };
+    say("columns: time is '" + columns_.time.column + "' [" + unit(columns_.time) + "], value '" + columns_.value.column
+        + "' [" + unit(columns_.value) + "], "
+        + (columns_.quantity.empty() ? "of unknown kind" : "a " + columns_.quantity)
+        + (shape_.bounces > 0 ? " that bounces"
+            : shape_.falls    ? " that falls"
+                              : " that rises"));
+}
+
+void Draft::writeHead()
+{
+    text_ << "# Drafted by `traceResidual new`. What is not marked otherwise was guessed: look at each line. Places \""
+          << YamlPlace::toFillIn
+          << "\" could\n# not be guessed; nothing is run before they are replaced. All keys: identification/README.md\n"
+          << "study: " << yamlWord(name_) << "\n\n";
+}
+
+void Draft::writeRig()
+{
+    text_ << "rig:\n  case: " << relative(rig_.folder) << "\n  seed: " << (rig_.has("seed") ? "seed" : "none")
+          << (rig_.has("seed") ? "          # the entry that makes another packing\n"
+                               : "          # no entry for it: runs do not scatter\n");
+    const std::vector<std::pair<std::string, std::string>> apparatus = {
+        {"beadDiameter", "m"},
+        {"beadDensity", "kg/m3"},
+        {"beadCount", "how many lie in the hopper"},
+        {"hopperDiameter", "m"},
+        {"orificeDiameter", "m"},
+        {"fluidDensity", "kg/m3"},
+        {"fluidViscosity", "m2/s, kinematic"},
+        {"tankDiameter", "m"},
+        {"tankHeight", "m"},
+        {"releaseHeight", "m, of the bead's centre above the floor"},
+    };
+    // A bead in a tank, one-way: see the second study file of README.md.
+    const std::vector<std::pair<std::string, std::string>> falling = {
+        {"stopBelow", fillIn("m above the floor, below all that is measured; a run ends there")},
+        {"smoothingLength", fillIn("m, twice the tank's diameter leaves the liquid at rest on any mesh")},
+        {"cellsCore", "2"},
+        {"cellsRing", "2"},
+        {"cellsHigh", "8"},
+        {"couplingInterval", "5e-3"},
+        {"demStep", "1e-4             # nothing is touched"},
+        {"maxRayleighFraction", "100"},
+    };
+    text_ << "  set:                  # your apparatus; an entry that is left out keeps the case's own value\n";
+    const bool isBead = rig_.observable == "beadHeight";
+    if (isBead && rig_.has("vessel"))
+    {
+        text_ << "    vessel: tank        # or box: see the case's parameters\n";
+    }
+    const bool isWet =
+        isBead || !rig_.hasStages
+        || std::any_of(conditions_.begin(), conditions_.end(), [&](const auto& c) { return isUnderWater(c); });
+    for (const auto& [entry, unit] : apparatus)
+    {
+        const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isBead && entry.rfind("tank", 0) == 0);
+        if (rig_.has(entry) && entry != varied() && (isWet || !isOfWater))
+        {
+            text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + rig_.entries.at(entry)) << '\n';
+        }
+    }
+    const double seconds = 1.5 * shape_.duration * (columns_.time.unit.empty() ? 1.0 : siUnitsPer(columns_.time.unit));
+    for (const std::string entry : {"dryTime", "submergedTime", "endTime"})
+    {
+        if (rig_.has(entry) && (isWet || entry != "submergedTime"))
+        {
+            text_ << "    " << entry << ": "
+                  << (columns_.time.unit.empty() ? fillIn("s, more than the longest record")
+                                                 : rounded(seconds) + "        # 1.5 times the longest training record")
+                  << '\n';
+        }
+    }
+    for (const auto& [entry, value] : falling)
+    {
+        if (isBead && shape_.bounces == 0 && rig_.has(entry))
+        {
+            text_ << "    " << entry << ": " << value << '\n';
+        }
+    }
+}
+
+void Draft::writeObservable()
+{
+    text_ << "\nobservable:\n";
+    if (rig_.observable.empty())
+    {
+        text_ << "  file: " << fillIn("the table that a run writes, as post/*/m.dat; a folder * stands for start times")
+              << '\n'
+              << "  value: " << fillIn("its column") << '\n';
+        say("observable: it is not known what the case writes");
+    }
+    else
+    {
+        const bool isSpeed = columns_.quantity == "speed";
+        text_ << "  file: " << (rig_.hasStages ? "stages/dry/" : "") << "postProcessing/" << rig_.observable << "/*/"
+              << rig_.observable << ".dat\n"
+              << "  value: "
+              << (rig_.observable == "massInHopper" ? "mass"
+                     : isSpeed                      ? "velocity"
+                                                    : "height")
+              << '\n';
+        if (isSpeed)
+        {
+            text_ << "  factor: -1            # the case counts speeds upwards\n";
+        }
+        if (columns_.quantity == "length" && shape_.bounces > 0)
+        {
+            text_ << "  offset: -beadDiameter/2       # gap below the bead; without it the height of its centre\n";
+        }
+        if (columns_.quantity == "length" && !shape_.falls)
+        {
+            text_ << "  # The measured position grows while the bead falls: the way since its release\n"
+                  << "  factor: -1\n  offset: releaseHeight\n";
+        }
+        say("observable: " + rig_.observable + ", which the case writes");
+    }
+    text_
+        << "  # modelError: 0.01    # standard deviation of the simulation's own error (mesh, steps) on every feature\n"
+        << "  features:\n";
+    writeFeatures();
+}
+
+void Draft::writeFeatures()
+{
+    const bool isShare = columns_.quantity == "share";
+    if (columns_.quantity == "mass" || isShare)
+    {
+        writeWindows(shape_.falls ? shape_.largestRest : 0.2);
+    }
+    else if (columns_.quantity == "length")
+    {
+        writePositions();
+    }
+    else if (columns_.quantity == "speed")
+    {
+        text_ << "    - { kind: logMaximum }\n";
+    }
+    else
+    {
+        text_ << "    - { kind: " << fillIn("one of " + listed(namesOf(featureKinds()))) << " }\n";
+    }
+}
+
+/// Three windows of the fill that every curve passes.
+void Draft::writeWindows(double last)
+{
+    constexpr double from = 0.95;
+    const double to = std::ceil((last + 0.03) * 20.0) / 20.0;
+    if (to > 0.85)
+    {
+        text_ << "    - { kind: logMeanRate, from: 0.95, to: "
+              << fillIn("smaller share of the fill; a training file ends at " + rounded(last)) << " }\n";
+        return;
+    }
+    const std::vector<std::string> names = {"early", "middle", "late"};
+    text_ << "    # Mean rates while the fill goes from one share to the other; every training file gets so far\n";
+    for (std::size_t i = 0; i < names.size(); ++i)
+    {
+        const auto share = [&](std::size_t end) {
+            return rounded(from - (from - to) * static_cast<double>(end) / static_cast<double>(names.size()));
+        };
+        text_ << "    - { name: " << names[i] << ", kind: logMeanRate, from: " << share(i) << ", to: " << share(i + 1)
+              << " }\n";
+    }
+    if (shape_.endsFlat)
+    {
+        text_ << "    - { kind: residue }   # all training files end flat\n";
+    }
+}
+
+void Draft::writePositions()
+{
+    const double unit = columns_.value.unit.empty() ? 1.0 : siUnitsPer(columns_.value.unit);
+    const double way = (shape_.highest - shape_.lowest) * unit;
+    for (int bounce = 1; bounce <= shape_.bounces && bounce <= 3; ++bounce)
+    {
+        const std::string number = std::to_string(bounce);
+        text_ << "    - { name: height" << number << ", kind: logBounceHeight, bounce: " << number
+              << ", level: " << rounded(0.02 * way) << " }\n";
+        if (bounce < shape_.bounces)
+        {
+            text_ << "    - { name: duration" << number << ", kind: logBounceDuration, bounce: " << number
+                  << ", level: " << rounded(0.02 * way) << " }\n";
+        }
+    }
+    if (shape_.bounces > 0)
+    {
+        return;
+    }
+    const bool isKnown = way > 0.0 && !columns_.value.unit.empty();
+    text_ << "    # Speeds between two positions [m] that every training file passes\n";
+    const auto position = [&](double share) {
+        const double at = shape_.falls ? shape_.highest * unit - share * way : shape_.lowest * unit + share * way;
+        return isKnown ? rounded(at) : fillIn("m");
+    };
+    for (const auto& [name, from, to] : {std::tuple("first", 0.2, 0.5), std::tuple("second", 0.5, 0.8)})
+    {
+        text_ << "    - { name: " << name << ", kind: logSpeed, from: " << position(from) << ", to: " << position(to)
+              << " }\n";
+    }
+}
+
+void Draft::writeMeasured()
+{
+    const auto unit = [](const GuessedColumn& column, const std::string& allowed) {
+        return column.unit.empty() ? fillIn(allowed) : column.unit == "%" ? "\"%\"" : yamlWord(column.unit);
+    };
+    text_ << "\nmeasured:               # columns of all files, by name or number\n"
+          << "  time: { column: " << yamlWord(columns_.time.column)
+          << ", unit: " << unit(columns_.time, "s, ms, min or h") << " }\n"
+          << "  value: { column: " << yamlWord(columns_.value.column)
+          << ", unit: " << unit(columns_.value, "one of g, kg, mm, m, ...");
+    const bool isRising = !shape_.falls;
+    if (columns_.quantity == "share")
+    {
+        text_ << ", factor: "
+              << fillIn(
+                     isRising ? "minus the mass in the hopper at the start, in kg" : "that mass at the start, in kg");
+    }
+    else if (columns_.quantity == "mass" && isRising)
+    {
+        text_ << ", factor: -1";
+    }
+    else if (columns_.quantity == "speed" && shape_.lowest + shape_.highest < 0.0)
+    {
+        text_ << ", factor: -1";
+    }
+    if ((columns_.quantity == "share" || columns_.quantity == "mass") && isRising)
+    {
+        text_ << ", offset: " << fillIn("the mass in the hopper at the start, in kg; the files hold what has left it");
+    }
+    const bool isValidKnown = shape_.hasBlanks && shape_.smallestSeen > 0.0 && !columns_.value.unit.empty();
+    if (isValidKnown)
+    {
+        const double si = siUnitsPer(columns_.value.unit);
+        text_ << ", valid: [" << rounded(0.5 * shape_.smallestSeen * si) << ", " << rounded(2.0 * shape_.largest * si)
+              << ']';
+    }
+    text_ << " }\n";
+    if (isValidKnown)
+    {
+        text_ << "  # valid [m]: rows of 0 before or after all others are taken as \"not seen\"\n";
+        say("valid: rows of 0 at the ends of files are taken as 'not seen'");
+    }
+}
+
+void Draft::writeConditions()
+{
+    text_ << R"(
+# One entry for each condition; its files are repeats. Files whose names differ in a mark at the end (10a and 10b, _1 and _2)
+# are taken as repeats, all others as conditions; move a file to correct that. `role: heldOut`: no fit sees the condition,
+# and the answer is tested on it. PROPOSED by the names alone, one inside and one at the end of the range: decide now, before
+# any value of those files or any result has been looked at, and leave it so.
+conditions:
+)";
+    for (const auto& condition : conditions_)
+    {
+        writeCondition(condition, varied());
+    }
+    if (std::none_of(conditions_.begin(), conditions_.end(), [](const auto& c) { return c.isHeldOut; }))
+    {
+        say("held out: none, for there are fewer than three conditions; an answer cannot be tested on others");
+    }
+}
+
+void Draft::writeCondition(const DraftedCondition& condition, const std::string& entry)
+{
+    text_ << "  - name: " << yamlWord(condition.name)
+          << "\n    role: " << (condition.isHeldOut ? "heldOut       # PROPOSED" : "training") << '\n';
+    if (!rig_.tagValues.empty() && rig_.observable == "massInHopper")
+    {
+        const bool isWet = isUnderWater(condition);
+        text_ << "    tags: { medium: " << (isWet ? "water" : "air") << " }\n";
+        if (rig_.hasStages)
+        {
+            text_ << "    command: ./Allrun mesh pour " << (isWet ? "submerged" : "dry") << '\n'
+                  << (isWet ? "    file: stages/submerged/postProcessing/massInHopper/*/massInHopper.dat\n" : "");
+        }
+    }
+    if (!entry.empty())
+    {
+        text_ << "    set: { " << entry << ": "
+              << fillIn("m" + (condition.number.empty() ? "" : "; the name has " + condition.number)
+                        + "; or what else differs in this condition")
+              << " }\n";
+    }
+    text_ << "    measured:\n      files:\n";
+    for (const auto& file : condition.files)
+    {
+        text_ << "        - " << relative(file) << '\n';
+    }
+    std::string names;
+    for (const auto& file : condition.files)
+    {
+        names += ' ' + file.filename().string();
+    }
+    say("condition " + condition.name + (condition.isHeldOut ? ", proposed to be held out:" : ":") + names
+        + (condition.files.size() > 1 ? " (repeats)" : " (one only: noise is taken from repeats)"));
+}
+
+void Draft::writeParameters()
+{
+    text_ << "\n# What all conditions share and is fitted; the prior is an independent measurement, never this study's "
+             "data\n"
+          << "parameters:\n";
+    if (rig_.has("friction"))
+    {
+        text_ << "  - name: friction\n    set: { friction: friction }\n    prior: { mean: "
+              << fillIn("of bead on bead, as measured by itself on a tilted plate")
+              << ", sd: " << fillIn("its standard error") << " }\n    range: [0.02, 0.8]\n";
+    }
+    else if (rig_.has("fluidViscosity"))
+    {
+        text_ << "  - name: logViscosity  # relative to fluidViscosity above\n"
+              << "    set: { fluidViscosity: \"fluidViscosity*exp(logViscosity)\" }\n    prior: { mean: 0, sd: "
+              << fillIn("relative standard error of the viscosity, .05 for 5 %") << " }\n    range: [-1, 1]\n";
+    }
+    else
+    {
+        text_ << "  - name: " << fillIn("a word")
+              << "\n    set: " << fillIn("{ entry: formula in the parameter's name }")
+              << "\n    prior: { mean: " << fillIn("number") << ", sd: " << fillIn("number")
+              << " }\n    range: " << fillIn("[lowest, highest]") << '\n';
+    }
+}
+
+void Draft::writeEnd()
+{
+    text_
+        << "\n# What the model may lack. Narrow the ranges to what you know; add effects of your own below `effects:`\n"
+        << "effectsFrom: "
+        << (rig_.library.empty() ? fillIn("a library, as identification/effects/hopper.yaml") : relative(rig_.library))
+        << "\n# withoutEffects: [what you have measured or excluded]\n"
+        << "# commonErrors: what all numbers of a condition share, as the diameter of a bead that was measured once\n"
+        << "\nbudget: { runs: 300 }\n";
+    if (!rig_.library.empty())
+    {
+        say("effects: " + rig_.library.filename().string() + ", of whose " + std::to_string(rig_.effects) + " effects "
+            + std::to_string(rig_.fitting) + " fit the case");
+    }
+}
+
+} // namespace
+
+void draftStudy(const fs::path& caseFolder, const std::vector<fs::path>& measured, fs::path study, std::ostream& out)
+{
+    if (study.empty())
+    {
+        study = fs::canonical(caseFolder).filename().string() + ".study.yaml";
+    }
+    if (fs::exists(fs::symlink_status(study)))
+    {
+        throw std::runtime_error(study.string() + ": is there already, and stays; --output names another file");
+    }
+    const Draft draft(caseFolder, measured, study);
+    writeWhole(study, draft.text());
+    out << study.string() << ": written. Guessed, to be corrected there:\n";
+    for (const auto& each : draft.said())
+    {
+        out << "  " << each << '\n';
+    }
+    out << "to be filled in:\n"
+        << YamlPlace::placesToFillIn(study) << "then: traceResidual plan " << study.string() << '\n';
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,97 @@
+#include "study/draft/shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Where three or more rows of exactly 0 stand before or after all others, 0 means that nothing was seen.
+bool dropBlanks(Curve& curve)
+{
+    constexpr std::ptrdiff_t fewest = 3;
+    const auto isSeen = [](double value) { return value != 0.0; };
+    const auto before = std::find_if(curve.value.begin(), curve.value.end(), isSeen) - curve.value.begin();
+    const auto after = std::find_if(curve.value.rbegin(), curve.value.rend(), isSeen) - curve.value.rbegin();
+    if (std::max(before, after) < fewest || std::count_if(curve.value.begin(), curve.value.end(), isSeen) < fewest)
+    {
+        return false;
+    }
+    Curve seen;
+    for (std::size_t i = 0; i < curve.value.size(); ++i)
+    {
+        if (isSeen(curve.value[i]))
+        {
+            seen.time.push_back(curve.time[i]);
+            seen.value.push_back(curve.value[i]);
+        }
+    }
+    curve = std::move(seen);
+    return true;
+}
+
+/// How often a falling curve turns and rises again by more than its scatter.
+int bouncesOf(const Curve& curve)
+{
+    const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
+    const double threshold = 0.03 * (*highest - *lowest);
+    int bounces = 0;
+    bool isFalling = true;
+    double turn = curve.value.front();
+    for (const double value : curve.value)
+    {
+        turn = isFalling ? std::min(turn, value) : std::max(turn, value);
+        if (std::abs(value - turn) > threshold)
+        {
+            bounces += isFalling ? 1 : 0;
+            isFalling = !isFalling;
+            turn = value;
+        }
+    }
+    return bounces;
+}
+
+} // namespace
+
+Shape shapeOf(std::vector<Curve> curves, bool mayHaveBlanks)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Shape shape;
+    shape.lowest = -infinity;
+    shape.highest = infinity;
+    shape.smallestSeen = infinity;
+    shape.largest = -infinity;
+    shape.bounces = std::numeric_limits<int>::max();
+    shape.endsFlat = true;
+    int falling = 0;
+    for (auto& curve : curves)
+    {
+        shape.hasBlanks = (mayHaveBlanks && dropBlanks(curve)) || shape.hasBlanks;
+        const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
+        const double range = *highest - *lowest;
+        const double first = curve.value.front();
+        const double last = curve.value.back();
+        // A bead that bounces has its largest height at the start.
+        const bool falls = first - *lowest > 0.5 * range;
+        falling += falls ? 1 : -1;
+        shape.bounces = std::min(shape.bounces, falls ? bouncesOf(curve) : 0);
+        shape.lowest = std::max(shape.lowest, *lowest);
+        shape.highest = std::min(shape.highest, *highest);
+        shape.largest = std::max(shape.largest, *highest);
+        shape.smallestSeen = std::min(shape.smallestSeen, *lowest);
+        shape.largestRest = std::max(shape.largestRest, last / first);
+        const double nearEnd = valueAt(curve, 0.1 * curve.time.front() + 0.9 * curve.time.back());
+        shape.endsFlat = shape.endsFlat && std::abs(nearEnd - last) < 0.01 * range;
+        shape.duration = std::max(shape.duration, curve.time.back() - curve.time.front());
+    }
+    shape.falls = falling > 0;
+    return shape;
+}
+
+} // namespace clepsydra::identification
