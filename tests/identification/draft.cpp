@@ -128,6 +128,7 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     Bench bench;
     writeHopperFiles(bench);
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
+    EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: holds no numbers"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
     EXPECT_THAT(bench.output, HasSubstr("hopperQuick.study.yaml:9: rig.set.beadDiameter: FILL IN"));
     const std::string study = "hopperQuick.study.yaml";

@@ -1,13 +1,11 @@
 #include "study/draft/draftStudy.h"
 
-#include "curves/table.h"
+#include "features/features.h"
 #include "files/wholeFile.h"
-#include "study/draft/columns.h"
-#include "study/draft/conditions.h"
 #include "study/draft/draftedRig.h"
-#include "study/draft/shape.h"
-#include "study/readStudy.h"
+#include "study/draft/measuredFiles.h"
 #include "study/units.h"
+#include "study/yaml.h"
 #include "words/didYouMean.h"
 
 #include <yaml-cpp/emitter.h>
@@ -15,8 +13,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -59,46 +55,6 @@ std::string rounded(double number)
     return textOf(std::stod(text.str()));
 }
 
-/// Named files must be tables; of a folder those that are.
-std::vector<fs::path> tablesOf(const std::vector<fs::path>& measured)
-{
-    static const std::set<std::string> endings = {".csv", ".txt", ".dat", ".tsv"};
-    std::set<fs::path> tables;
-    for (const auto& place : measured)
-    {
-        if (!fs::is_directory(place))
-        {
-            readTable(place);
-            tables.insert(place);
-            continue;
-        }
-        const std::size_t before = tables.size();
-        for (const auto& entry : fs::directory_iterator(place))
-        {
-            try
-            {
-                if (entry.is_regular_file() && endings.count(entry.path().extension().string()) > 0)
-                {
-                    readTable(entry.path());
-                    tables.insert(entry.path());
-                }
-            }
-            catch (const std::runtime_error&)
-            {
-                // other texts may lie beside the measurements
-            }
-        }
-        if (tables.size() == before)
-        {
-            throw std::runtime_error(
-                place.string()
-                + ": holds no table of numbers; looked for are files .csv, .txt, .dat and .tsv with a column "
-                  "of times and one of values");
-        }
-    }
-    return {tables.begin(), tables.end()};
-}
-
 class Draft
 {
 public:
@@ -114,8 +70,6 @@ public:
     }
 
 private:
-    Curve read(const fs::path& file, const fs::path& first) const;
-    void chooseColumns();
     void writeHead();
     void writeRig();
     void writeObservable();
@@ -140,10 +94,10 @@ private:
     std::string varied() const
     {
         const bool isHopper = rig_.has("orificeDiameter");
-        return conditions_.size() < 2     ? ""
-               : isHopper                 ? "orificeDiameter"
-               : rig_.has("beadDiameter") ? "beadDiameter"
-                                          : "";
+        return measured_.conditions.size() < 2 ? ""
+               : isHopper                      ? "orificeDiameter"
+               : rig_.has("beadDiameter")      ? "beadDiameter"
+                                               : "";
     }
     bool isUnderWater(const DraftedCondition& condition) const
     {
@@ -154,9 +108,7 @@ private:
     }
 
     DraftedRig rig_;
-    std::vector<DraftedCondition> conditions_;
-    GuessedColumns columns_;
-    Shape shape_;
+    MeasuredFiles measured_;
     fs::path folder_; // of the study file
     std::string name_;
     std::ostringstream text_;
@@ -165,11 +117,11 @@ private:
 
 Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study)
     : rig_(draftRig(caseFolder)),
-      conditions_(draftConditions(tablesOf(measured))),
+      measured_(readMeasuredFiles(measured, rig_)),
       folder_(fs::weakly_canonical(fs::absolute(study)).parent_path()),
-      name_(rig_.folder.filename().string())
+      name_(rig_.folder.filename().string()),
+      said_(measured_.remarks)
 {
-    chooseColumns();
     writeHead();
     writeRig();
     writeObservable();
@@ -177,83 +129,6 @@ Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, 
     writeConditions();
     writeParameters();
     writeEnd();
-}
-
-/// The columns of a file, which must be those of the first one.
-Curve Draft::read(const fs::path& file, const fs::path& first) const
-{
-    try
-    {
-        const Table table = readTable(file);
-        Curve curve{
-            table.columns[table.index(columns_.time.column)], table.columns[table.index(columns_.value.column)]};
-        curve = tidied(std::move(curve));
-        if (curve.time.size() < 3)
-        {
-            throw std::runtime_error("fewer than three rows with a time and a value");
-        }
-        return curve;
-    }
-    catch (const std::runtime_error& error)
-    {
-        throw std::runtime_error(file.string() + ": " + error.what() + " (the study has the columns of "
-                                 + first.string() + "; files of other kinds need one of their own)");
-    }
-}
-
-/// By the titles of the first training file. Of files of held-out conditions the form alone is looked at.
-void Draft::chooseColumns()
-{
-    std::vector<Curve> curves;
-    const auto training =
-        std::find_if(conditions_.begin(), conditions_.end(), [](const auto& each) { return !each.isHeldOut; });
-    const fs::path first = training->files.front();
-    columns_ = guessColumns(readTable(first));
-    for (const auto& condition : conditions_)
-    {
-        double shortest = std::numeric_limits<double>::infinity();
-        double longest = 0.0;
-        for (const auto& file : condition.files)
-        {
-            const Curve curve = read(file, first);
-            if (!condition.isHeldOut)
-            {
-                curves.push_back(curve);
-                shortest = std::min(shortest, curve.time.back() - curve.time.front());
-                longest = std::max(longest, curve.time.back() - curve.time.front());
-            }
-        }
-        if (longest > 1.5 * shortest)
-        {
-            say("condition " + condition.name + ": one record is " + rounded(longest / shortest)
-                + " times as long as another; are they repeats of one condition?");
-        }
-    }
-    const std::string written = rig_.observable == "massInHopper" ? "mass"
-                                : rig_.observable == "beadHeight" ? "length"
-                                                                  : "";
-    if (columns_.quantity.empty())
-    {
-        columns_.quantity = written;
-    }
-    const bool fits = written.empty() || columns_.quantity == written
-                      || (written == "mass" && columns_.quantity == "share")
-                      || (written == "length" && columns_.quantity == "speed");
-    if (!fits)
-    {
-        throw std::runtime_error(first.string() + ": column '" + columns_.value.column + "' is a " + columns_.quantity
-                                 + ", but the case " + rig_.folder.string() + " writes a " + written + " ("
-                                 + rig_.observable + "); is it the right case?");
-    }
-    shape_ = shapeOf(std::move(curves), columns_.quantity == "length");
-    shape_.bounces = columns_.quantity == "length" ? shape_.bounces : 0;
-    const auto unit = [](const GuessedColumn& column) { return column.unit.empty() ? "unit unknown" : column.unit; };
-    say("columns: time is '" + columns_.time.column + "' [" + unit(columns_.time) + "], value '" + columns_.value.column
-        + "' [" + unit(columns_.value) + "], "
-        + (columns_.quantity.empty() ? "of unknown kind" : "a " + columns_.quantity)
-        + (shape_.bounces > 0 ? " that bounces"
-            : shape_.falls    ? " that falls"
-                              : " that rises"));
 }
 
 void Draft::writeHead()
@@ -298,9 +173,9 @@ void Draft::writeRig()
     {
         text_ << "    vessel: tank        # or box: see the case's parameters\n";
     }
-    const bool isWet =
-        isBead || !rig_.hasStages
-        || std::any_of(conditions_.begin(), conditions_.end(), [&](const auto& c) { return isUnderWater(c); });
+    const bool isWet = isBead || !rig_.hasStages
+                       || std::any_of(measured_.conditions.begin(), measured_.conditions.end(),
+                           [&](const auto& c) { return isUnderWater(c); });
     for (const auto& [entry, unit] : apparatus)
     {
         const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isBead && entry.rfind("tank", 0) == 0);
@@ -309,20 +184,22 @@ void Draft::writeRig()
             text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + rig_.entries.at(entry)) << '\n';
         }
     }
-    const double seconds = 1.5 * shape_.duration * (columns_.time.unit.empty() ? 1.0 : siUnitsPer(columns_.time.unit));
+    const double seconds = 1.5 * measured_.shape.duration
+                           * (measured_.columns.time.unit.empty() ? 1.0 : siUnitsPer(measured_.columns.time.unit));
     for (const std::string entry : {"dryTime", "submergedTime", "endTime"})
     {
         if (rig_.has(entry) && (isWet || entry != "submergedTime"))
         {
             text_ << "    " << entry << ": "
-                  << (columns_.time.unit.empty() ? fillIn("s, more than the longest record")
-                                                 : rounded(seconds) + "        # 1.5 times the longest training record")
+                  << (measured_.columns.time.unit.empty()
+                             ? fillIn("s, more than the longest record")
+                             : rounded(seconds) + "        # 1.5 times the longest training record")
                   << '\n';
         }
     }
     for (const auto& [entry, value] : falling)
     {
-        if (isBead && shape_.bounces == 0 && rig_.has(entry))
+        if (isBead && measured_.shape.bounces == 0 && rig_.has(entry))
         {
             text_ << "    " << entry << ": " << value << '\n';
         }
@@ -341,7 +218,7 @@ void Draft::writeObservable()
     }
     else
     {
-        const bool isSpeed = columns_.quantity == "speed";
+        const bool isSpeed = measured_.columns.quantity == "speed";
         text_ << "  file: " << (rig_.hasStages ? "stages/dry/" : "") << "postProcessing/" << rig_.observable << "/*/"
               << rig_.observable << ".dat\n"
               << "  value: "
@@ -353,11 +230,11 @@ void Draft::writeObservable()
         {
             text_ << "  factor: -1            # the case counts speeds upwards\n";
         }
-        if (columns_.quantity == "length" && shape_.bounces > 0)
+        if (measured_.columns.quantity == "length" && measured_.shape.bounces > 0)
         {
             text_ << "  offset: -beadDiameter/2       # gap below the bead; without it the height of its centre\n";
         }
-        if (columns_.quantity == "length" && !shape_.falls)
+        if (measured_.columns.quantity == "length" && !measured_.shape.falls)
         {
             text_ << "  # The measured position grows while the bead falls: the way since its release\n"
                   << "  factor: -1\n  offset: releaseHeight\n";
@@ -372,16 +249,16 @@ void Draft::writeObservable()
 
 void Draft::writeFeatures()
 {
-    const bool isShare = columns_.quantity == "share";
-    if (columns_.quantity == "mass" || isShare)
+    const bool isShare = measured_.columns.quantity == "share";
+    if (measured_.columns.quantity == "mass" || isShare)
     {
-        writeWindows(shape_.falls ? shape_.largestRest : 0.2);
+        writeWindows(measured_.shape.falls ? measured_.shape.largestRest : 0.2);
     }
-    else if (columns_.quantity == "length")
+    else if (measured_.columns.quantity == "length")
     {
         writePositions();
     }
-    else if (columns_.quantity == "speed")
+    else if (measured_.columns.quantity == "speed")
     {
         text_ << "    - { kind: logMaximum }\n";
     }
@@ -412,7 +289,7 @@ void Draft::writeWindows(double last)
         text_ << "    - { name: " << names[i] << ", kind: logMeanRate, from: " << share(i) << ", to: " << share(i + 1)
               << " }\n";
     }
-    if (shape_.endsFlat)
+    if (measured_.shape.endsFlat)
     {
         text_ << "    - { kind: residue }   # all training files end flat\n";
     }
@@ -420,27 +297,28 @@ void Draft::writeWindows(double last)
 
 void Draft::writePositions()
 {
-    const double unit = columns_.value.unit.empty() ? 1.0 : siUnitsPer(columns_.value.unit);
-    const double way = (shape_.highest - shape_.lowest) * unit;
-    for (int bounce = 1; bounce <= shape_.bounces && bounce <= 3; ++bounce)
+    const double unit = measured_.columns.value.unit.empty() ? 1.0 : siUnitsPer(measured_.columns.value.unit);
+    const double way = (measured_.shape.highest - measured_.shape.lowest) * unit;
+    for (int bounce = 1; bounce <= measured_.shape.bounces && bounce <= 3; ++bounce)
     {
         const std::string number = std::to_string(bounce);
         text_ << "    - { name: height" << number << ", kind: logBounceHeight, bounce: " << number
               << ", level: " << rounded(0.02 * way) << " }\n";
-        if (bounce < shape_.bounces)
+        if (bounce < measured_.shape.bounces)
         {
             text_ << "    - { name: duration" << number << ", kind: logBounceDuration, bounce: " << number
                   << ", level: " << rounded(0.02 * way) << " }\n";
         }
     }
-    if (shape_.bounces > 0)
+    if (measured_.shape.bounces > 0)
     {
         return;
     }
-    const bool isKnown = way > 0.0 && !columns_.value.unit.empty();
+    const bool isKnown = way > 0.0 && !measured_.columns.value.unit.empty();
     text_ << "    # Speeds between two positions [m] that every training file passes\n";
     const auto position = [&](double share) {
-        const double at = shape_.falls ? shape_.highest * unit - share * way : shape_.lowest * unit + share * way;
+        const double at = measured_.shape.falls ? measured_.shape.highest * unit - share * way
+                                                : measured_.shape.lowest * unit + share * way;
         return isKnown ? rounded(at) : fillIn("m");
     };
     for (const auto& [name, from, to] : {std::tuple("first", 0.2, 0.5), std::tuple("second", 0.5, 0.8)})
@@ -456,35 +334,36 @@ void Draft::writeMeasured()
         return column.unit.empty() ? fillIn(allowed) : column.unit == "%" ? "\"%\"" : yamlWord(column.unit);
     };
     text_ << "\nmeasured:               # columns of all files, by name or number\n"
-          << "  time: { column: " << yamlWord(columns_.time.column)
-          << ", unit: " << unit(columns_.time, "s, ms, min or h") << " }\n"
-          << "  value: { column: " << yamlWord(columns_.value.column)
-          << ", unit: " << unit(columns_.value, "one of g, kg, mm, m, ...");
-    const bool isRising = !shape_.falls;
-    if (columns_.quantity == "share")
+          << "  time: { column: " << yamlWord(measured_.columns.time.column)
+          << ", unit: " << unit(measured_.columns.time, "s, ms, min or h") << " }\n"
+          << "  value: { column: " << yamlWord(measured_.columns.value.column)
+          << ", unit: " << unit(measured_.columns.value, "one of g, kg, mm, m, ...");
+    const bool isRising = !measured_.shape.falls;
+    if (measured_.columns.quantity == "share")
     {
         text_ << ", factor: "
               << fillIn(
                      isRising ? "minus the mass in the hopper at the start, in kg" : "that mass at the start, in kg");
     }
-    else if (columns_.quantity == "mass" && isRising)
+    else if (measured_.columns.quantity == "mass" && isRising)
     {
         text_ << ", factor: -1";
     }
-    else if (columns_.quantity == "speed" && shape_.lowest + shape_.highest < 0.0)
+    else if (measured_.columns.quantity == "speed" && measured_.shape.lowest + measured_.shape.highest < 0.0)
     {
         text_ << ", factor: -1";
     }
-    if ((columns_.quantity == "share" || columns_.quantity == "mass") && isRising)
+    if ((measured_.columns.quantity == "share" || measured_.columns.quantity == "mass") && isRising)
     {
         text_ << ", offset: " << fillIn("the mass in the hopper at the start, in kg; the files hold what has left it");
     }
-    const bool isValidKnown = shape_.hasBlanks && shape_.smallestSeen > 0.0 && !columns_.value.unit.empty();
+    const bool isValidKnown =
+        measured_.shape.hasBlanks && measured_.shape.smallestSeen > 0.0 && !measured_.columns.value.unit.empty();
     if (isValidKnown)
     {
-        const double si = siUnitsPer(columns_.value.unit);
-        text_ << ", valid: [" << rounded(0.5 * shape_.smallestSeen * si) << ", " << rounded(2.0 * shape_.largest * si)
-              << ']';
+        const double si = siUnitsPer(measured_.columns.value.unit);
+        text_ << ", valid: [" << rounded(0.5 * measured_.shape.smallestSeen * si) << ", "
+              << rounded(2.0 * measured_.shape.largest * si) << ']';
     }
     text_ << " }\n";
     if (isValidKnown)
@@ -503,11 +382,12 @@ void Draft::writeConditions()
 # any value of those files or any result has been looked at, and leave it so.
 conditions:
 )";
-    for (const auto& condition : conditions_)
+    for (const auto& condition : measured_.conditions)
     {
         writeCondition(condition, varied());
     }
-    if (std::none_of(conditions_.begin(), conditions_.end(), [](const auto& c) { return c.isHeldOut; }))
+    if (std::none_of(
+            measured_.conditions.begin(), measured_.conditions.end(), [](const auto& c) { return c.isHeldOut; }))
     {
         say("held out: none, for there are fewer than three conditions; an answer cannot be tested on others");
     }
