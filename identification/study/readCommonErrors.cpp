@@ -1,8 +1,8 @@
 #include "study/readCommonErrors.h"
 
+#include "study/entriesOfRuns.h"
 #include "study/namedItems.h"
 #include "study/readFormula.h"
-#include "study/readStudy.h"
 #include "words/didYouMean.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+#include "study/entriesOfRuns.h"
 #include "study/namedItems.h"
 #include "study/readFormula.h"
 #include "study/readStudy.h"
@@ -117,18 +118,6 @@ Effect readEffect(const YamlPlace& place)
 }
 
 } // namespace
-
-void requireEntryValue(const YamlPlace& value)
-{
-    const std::string text = value.text();
-    const std::string forbidden = ";{}#`\"'\\|&<>\n\r";
-    if (text.find_first_of(forbidden) != std::string::npos || text.find("$(") != std::string::npos)
-    {
-        value.fail("'" + text
-                   + "' is no value of an entry; allowed is a number, words, or $name, without ; { } # ` | & < > "
-                     "$( quotes, backslashes or line breaks");
-    }
-}
 
 std::vector<Effect> readEffects(const YamlPlace& list)
 {

@@ -1,41 +1,21 @@
 #include "study/readStudy.h"
 
 #include "effects/measuringChain.h"
-#include "study/readCommonErrors.h"
+#include "study/checkEffects.h"
+#include "study/entriesOfRuns.h"
 #include "study/namedItems.h"
+#include "study/readCommonErrors.h"
+#include "study/readConditions.h"
 #include "study/readFormula.h"
-#include "study/units.h"
 #include "words/didYouMean.h"
 
 #include <algorithm>
-#include <cmath>
-#include <map>
-#include <set>
 
 namespace clepsydra::identification
 {
 
 namespace
 {
-
-Entries readWords(const YamlPlace& place)
-{
-    Entries words;
-    for (const auto& [key, value] : place.map())
-    {
-        words[key] = value.text();
-    }
-    return words;
-}
-
-Entries readValues(const YamlPlace& place)
-{
-    for (const auto& [entry, value] : place.map())
-    {
-        requireEntryValue(value);
-    }
-    return readWords(place);
-}
 
 RigSpecification readRig(const YamlPlace& place)
 {
@@ -50,10 +30,6 @@ RigSpecification readRig(const YamlPlace& place)
     rig.keepRuns = place.flagOr("keepRuns", false);
     rig.costPerRun = place.has("costPerRun") ? place.at("costPerRun").positive() : rig.costPerRun;
     rig.timeLimit = place.has("timeLimit") ? place.at("timeLimit").positive() : 0.0;
-    if (place.has("set"))
-    {
-        rig.entries = readValues(place.at("set"));
-    }
     if (place.has("dependsOn"))
     {
         for (const auto& file : place.at("dependsOn").oneOrMore())
@@ -69,235 +45,25 @@ RigSpecification readRig(const YamlPlace& place)
     {
         place.at("case").fail("there is no file " + (rig.caseFolder / rig.entriesFile).string());
     }
+    if (!rig.seedEntry.empty())
+    {
+        requireEntry(place.at("seed"), rig.seedEntry, rig);
+    }
+    if (place.has("set"))
+    {
+        rig.entries = readValues(place.at("set"), rig);
+    }
     return rig;
 }
 
-Feature readFeature(const YamlPlace& place, double& modelError)
-{
-    const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
-    std::vector<std::string> allowed = {"name", "kind", "modelError"};
-    for (const auto& parameter : kind.parameters)
-    {
-        allowed.push_back(parameter.name);
-    }
-    place.allow(allowed);
-    Feature feature{place.textOr("name", kind.name), &kind, {}};
-    for (const auto& parameter : kind.parameters)
-    {
-        if (std::isnan(parameter.byDefault) && !place.has(parameter.name))
-        {
-            place.fail("a " + kind.name + " needs '" + parameter.name + "': " + parameter.meaning);
-        }
-        feature.parameters[parameter.name] = place.numberOr(parameter.name, parameter.byDefault);
-    }
-    modelError = place.numberOr("modelError", modelError);
-    return feature;
-}
-
-void readObservable(const YamlPlace& place, Study& study, std::string& file)
-{
-    place.allow({"file", "time", "value", "factor", "offset", "features", "modelError"});
-    file = place.at("file").text();
-    study.timeColumn = place.textOr("time", "time");
-    study.valueColumn = place.at("value").text();
-    std::vector<double> errors;
-    for (const auto& each : place.at("features").list())
-    {
-        errors.push_back(place.numberOr("modelError", 0.0));
-        study.features.push_back(readFeature(each, errors.back()));
-        requireOwnName(each, study.features, "features");
-    }
-    if (study.features.empty())
-    {
-        place.at("features").fail("needs at least one");
-    }
-    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
-}
-
-double unitOf(const YamlPlace& place)
-{
-    try
-    {
-        return siUnitsPer(place.at("unit").text());
-    }
-    catch (const std::invalid_argument& error)
-    {
-        place.at("unit").fail(error.what());
-    }
-}
-
-/// The unit must be stated; `factor` (of sign or scale) and `offset`, in SI units, come after it.
-ColumnSpecification readColumn(const YamlPlace& place)
-{
-    place.allow({"column", "unit", "factor", "offset", "valid"});
-    ColumnSpecification column;
-    column.column = place.at("column").text();
-    column.factor = unitOf(place) * place.numberOr("factor", 1.0);
-    column.offset = place.numberOr("offset", 0.0);
-    if (place.has("valid"))
-    {
-        const auto ends = place.at("valid").list();
-        if (ends.size() != 2 || ends[0].number() >= ends[1].number())
-        {
-            place.at("valid").fail("must be [lowest, highest], in SI units");
-        }
-        column.lowest = ends[0].number();
-        column.highest = ends[1].number();
-    }
-    return column;
-}
-
-MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
-{
-    place.allow({"feature", "values", "unit", "relativeError", "standardError"});
-    MeasuredNumber number;
-    number.feature = indexOf(place.at("feature"), study.features);
-    const bool isLog = study.features[number.feature].kind->isLog();
-    for (const auto& value : place.at("values").oneOrMore())
-    {
-        number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
-    }
-    number.standardError = isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0);
-    if (place.has(isLog ? "standardError" : "relativeError"))
-    {
-        place.fail(isLog ? "the feature is a logarithm: state a relativeError" : "state a standardError");
-    }
-    return number;
-}
-
-Measurement readMeasurement(const YamlPlace& place, const Study& study, const YamlPlace& root)
-{
-    place.allow({"files", "time", "value", "numbers"});
-    Measurement measured;
-    if (place.has("files"))
-    {
-        for (const auto& file : place.at("files").oneOrMore())
-        {
-            measured.files.push_back(file.path());
-            if (!std::filesystem::is_regular_file(measured.files.back()))
-            {
-                file.fail("no such file: " + measured.files.back().string());
-            }
-        }
-        const auto column = [&](const std::string& key) {
-            if (!place.has(key) && root.has("measured") && root.at("measured").has(key))
-            {
-                return readColumn(root.at("measured").at(key));
-            }
-            return readColumn(place.at(key));
-        };
-        measured.time = column("time");
-        measured.value = column("value");
-    }
-    if (place.has("numbers"))
-    {
-        for (const auto& number : place.at("numbers").list())
-        {
-            measured.numbers.push_back(readNumber(number, study));
-        }
-    }
-    if (measured.empty())
-    {
-        place.fail("needs 'files' or 'numbers'");
-    }
-    return measured;
-}
-
-Role roleOf(const YamlPlace& place)
-{
-    const std::string word = place.oneOf({"training", "heldOut", "candidate"});
-    return word == "training" ? Role::training : word == "heldOut" ? Role::heldOut : Role::candidate;
-}
-
-/// The condition's own, else that of all; tried with the condition's entries.
-ObservableScale readScale(
-    const YamlPlace& root, const YamlPlace& place, const RigSpecification& rig, const Condition& condition)
-{
-    if (place.has("observable"))
-    {
-        place.at("observable").allow({"factor", "offset"});
-    }
-    const auto numbers = numbersOf(plainEntries(rig, condition));
-    const auto read = [&](const std::string& key, Expression& formula) {
-        const bool isOwn = place.has("observable") && place.at("observable").has(key);
-        const YamlPlace parent = isOwn ? place.at("observable") : root.at("observable");
-        if (parent.has(key))
-        {
-            formula = readFormula(parent.at(key));
-            if (valueOf(parent.at(key), formula, numbers) == 0.0 && key == "factor")
-            {
-                parent.at(key).fail("must not be 0");
-            }
-        }
-    };
-    ObservableScale scale;
-    read("factor", scale.factor);
-    read("offset", scale.offset);
-    return scale;
-}
-
-Condition readCondition(const YamlPlace& place, const Study& study, const std::string& file, const YamlPlace& root)
-{
-    place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "observable", "measured", "cost"});
-    Condition condition;
-    condition.name = place.at("name").text();
-    condition.role = roleOf(place.at("role"));
-    condition.command = place.textOr("command", "");
-    condition.file = place.textOr("file", file);
-    condition.cost = place.has("cost") ? place.at("cost").positive() : 1.0;
-    if (place.has("set"))
-    {
-        condition.entries = readValues(place.at("set"));
-    }
-    condition.observable = readScale(root, place, study.rig, condition);
-    if (place.has("tags"))
-    {
-        condition.tags = readWords(place.at("tags"));
-    }
-    if (place.has("coordinates"))
-    {
-        for (const auto& [name, value] : place.at("coordinates").map())
-        {
-            condition.coordinates[name] = value.number();
-        }
-    }
-    if (place.has("measured"))
-    {
-        if (condition.role == Role::candidate)
-        {
-            place.at("measured")
-                .fail("nobody reads it: a candidate is not measured yet; with role: training or heldOut "
-                      "it would be read");
-        }
-        condition.measured = readMeasurement(place.at("measured"), study, root);
-    }
-    return condition;
-}
-
-void readConditions(const YamlPlace& root, Study& study, const std::string& file)
-{
-    if (root.has("measured"))
-    {
-        root.at("measured").allow({"time", "value"});
-    }
-    for (const auto& place : root.at("conditions").list())
-    {
-        study.conditions.push_back(readCondition(place, study, file, root));
-        requireOwnName(place, study.conditions, "conditions");
-    }
-    if (study.conditionsOf(Role::training).empty())
-    {
-        root.at("conditions").fail("at least one condition needs 'role: training'");
-    }
-}
-
-Parameter readParameter(const YamlPlace& place)
+Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
 {
     place.allow({"name", "set", "prior", "range"});
     Parameter parameter;
     parameter.name = place.at("name").text();
     for (const auto& [entry, value] : place.at("set").map())
     {
+        requireEntry(value, entry, rig);
         parameter.entries.emplace(entry, readFormula(value));
     }
     place.at("prior").allow({"mean", "sd"});
@@ -320,7 +86,7 @@ Parameter readParameter(const YamlPlace& place)
 /// A library is for many cases: what this one cannot switch on is left out, and said.
 std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
 {
-    const Entries known = readEntries(study.rig.caseFolder / study.rig.entriesFile);
+    const Entries known = ownEntries(study.rig);
     std::vector<Effect> kept;
     for (const auto& effect : library)
     {
@@ -367,7 +133,15 @@ void readAllEffects(const YamlPlace& root, Study& study)
     }
     if (root.has("effects"))
     {
-        add(readEffects(root.at("effects")));
+        const auto own = readEffects(root.at("effects"));
+        for (std::size_t i = 0; i < own.size(); ++i)
+        {
+            for (const auto& entry : missingEntries(own[i], ownEntries(study.rig)))
+            {
+                requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.rig);
+            }
+        }
+        add(own);
     }
     const auto chosen = [&](const std::string& key, bool keepListed) {
         if (!root.has(key))
@@ -471,194 +245,7 @@ ExecutorSpecification readExecutor(const YamlPlace& place)
     return executor;
 }
 
-/// Entries that the case does not have would be found only when the first run starts.
-void checkEntries(const YamlPlace& root, const Study& study)
-{
-    const auto file = study.rig.caseFolder / study.rig.entriesFile;
-    const Entries known = readEntries(file);
-    const auto check = [&](const std::string& entry, const std::string& where) {
-        if (known.count(entry) == 0)
-        {
-            root.fail(where + " sets '" + entry + "', but " + file.string() + " has no such entry"
-                      + didYouMean(entry, namesOf(known)));
-        }
-    };
-    for (const auto& [entry, value] : study.rig.entries)
-    {
-        check(entry, "rig");
-    }
-    if (!study.rig.seedEntry.empty())
-    {
-        check(study.rig.seedEntry, "rig.seed");
-    }
-    for (const auto& condition : study.conditions)
-    {
-        for (const auto& [entry, value] : condition.entries)
-        {
-            check(entry, "condition '" + condition.name + "'");
-        }
-    }
-    for (const auto& parameter : study.parameters)
-    {
-        for (const auto& [entry, value] : parameter.entries)
-        {
-            check(entry, "parameter '" + parameter.name + "'");
-        }
-    }
-    for (const auto& effect : study.effects)
-    {
-        for (const auto& entry : missingEntries(effect, known))
-        {
-            check(entry, "effect '" + effect.name + "'");
-        }
-    }
-}
-
-/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be told.
-void checkTags(const YamlPlace& root, const Study& study)
-{
-    std::map<std::string, std::set<std::string>> asked;
-    for (const auto& effect : study.effects)
-    {
-        for (const auto& [tag, values] : effect.actsIn)
-        {
-            asked[tag].insert(values.begin(), values.end());
-        }
-    }
-    const std::string file = study.file.string();
-    for (const auto& [tag, values] : asked)
-    {
-        std::vector<std::string> without;
-        std::vector<std::string> known;
-        for (const auto& condition : study.conditions)
-        {
-            if (condition.tags.count(tag) == 0)
-            {
-                without.push_back(condition.name);
-            }
-            const auto tags = namesOf(condition.tags);
-            known.insert(known.end(), tags.begin(), tags.end());
-        }
-        if (!without.empty() && without.size() < study.conditions.size())
-        {
-            root.at("conditions")
-                .fail("effects act by the tag '" + tag + "', which some conditions have, but not " + listed(without));
-        }
-        if (!without.empty())
-        {
-            const std::string near = didYouMean(tag, known);
-            if (!near.empty())
-            {
-                root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
-            }
-        }
-    }
-    for (const auto& condition : study.conditions)
-    {
-        for (const auto& [tag, value] : condition.tags)
-        {
-            const auto values = asked.find(tag);
-            if (values != asked.end() && values->second.count(value) == 0)
-            {
-                const std::string near = didYouMean(value, {values->second.begin(), values->second.end()});
-                if (!near.empty())
-                {
-                    root.at("conditions")
-                        .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '"
-                              + value + "'" + near);
-                }
-            }
-        }
-    }
-}
-
-/// A misspelt family would keep its effect apart from the other variants, and nobody would be told.
-void checkFamilies(const YamlPlace& root, const Study& study)
-{
-    std::map<std::string, int> members;
-    for (const auto& effect : study.effects)
-    {
-        ++members[effect.family];
-    }
-    for (const auto& effect : study.effects)
-    {
-        std::vector<std::string> others;
-        for (const auto& [family, count] : members)
-        {
-            if (!family.empty() && family != effect.family)
-            {
-                others.push_back(family);
-            }
-        }
-        const bool isAlone = !effect.family.empty() && members[effect.family] == 1;
-        if (const std::string near = isAlone ? didYouMean(effect.family, others) : ""; !near.empty())
-        {
-            root.fail("effect '" + effect.name + "' is alone in the family '" + effect.family + "'" + near);
-        }
-    }
-}
-
-/// Names in formulas that are no entries would be found only when the first run starts.
-void checkFormulas(const YamlPlace& root, const Study& study)
-{
-    Entries all = study.rig.entries;
-    const Entries known = readEntries(study.rig.caseFolder / study.rig.entriesFile);
-    all.insert(known.begin(), known.end());
-    for (const auto& condition : study.conditions)
-    {
-        all.insert(condition.entries.begin(), condition.entries.end());
-    }
-    const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
-                           const std::string& variable, double value) {
-        auto variables = numbersOf(all);
-        variables[variable] = value;
-        for (const auto& [entry, formula] : formulas)
-        {
-            try
-            {
-                formula(variables);
-            }
-            catch (const std::invalid_argument& error)
-            {
-                root.fail(where + ", entry '" + entry + "': " + error.what());
-            }
-        }
-    };
-    for (const auto& parameter : study.parameters)
-    {
-        check("parameter '" + parameter.name + "'", parameter.entries, parameter.name, parameter.mean);
-    }
-    for (const auto& effect : study.effects)
-    {
-        check("effect '" + effect.name + "'", effect.entries, "a", effect.bounds.upper);
-        if (effect.chainSize)
-        {
-            check(
-                "effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, "a", effect.bounds.upper);
-        }
-    }
-}
-
 } // namespace
-
-std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
-{
-    std::vector<std::string> missing = namesOf(effect.entries);
-    const auto words = namesOf(effect.words);
-    missing.insert(missing.end(), words.begin(), words.end());
-    missing.erase(std::remove_if(
-                      missing.begin(), missing.end(), [&](const std::string& entry) { return known.count(entry) > 0; }),
-        missing.end());
-    return missing;
-}
-
-Entries plainEntries(const RigSpecification& rig, const Condition& condition)
-{
-    Entries all = condition.entries;
-    all.insert(rig.entries.begin(), rig.entries.end());
-    all.merge(readEntries(rig.caseFolder / rig.entriesFile));
-    return all;
-}
 
 Study readStudy(const std::filesystem::path& file)
 {
@@ -670,14 +257,13 @@ Study readStudy(const std::filesystem::path& file)
     study.file = file;
     study.name = root.at("study").text();
     study.rig = readRig(root.at("rig"));
-    std::string observableFile;
-    readObservable(root.at("observable"), study, observableFile);
-    readConditions(root, study, observableFile);
+    readObservable(root.at("observable"), study);
+    readConditions(root, study);
     if (root.has("parameters"))
     {
         for (const auto& place : root.at("parameters").list())
         {
-            study.parameters.push_back(readParameter(place));
+            study.parameters.push_back(readParameter(place, study.rig));
             requireOwnName(place, study.parameters, "parameters");
         }
     }
@@ -705,10 +291,7 @@ Study readStudy(const std::filesystem::path& file)
     {
         root.at("magnitudeLimit").fail("must be above 1");
     }
-    checkEntries(root, study);
-    checkFormulas(root, study);
-    checkTags(root, study);
-    checkFamilies(root, study);
+    checkEffects(root, study);
     return study;
 }
 

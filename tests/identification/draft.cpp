@@ -3,6 +3,7 @@
 #include "study/draft/conditions.h"
 #include "study/draft/draftStudy.h"
 #include "study/measurements.h"
+#include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
 #include "temporaryFolder.h"
 

@@ -3,6 +3,7 @@
 #include "design/seeds.h"
 #include "runner/entries.h"
 #include "study/expression.h"
+#include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
 #include "study/units.h"
 #include "linearRig.h"
@@ -185,8 +186,9 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
         {"amplitude: [-1, 1]", "switch: true", "study.yaml:13:", "which a switch does not have"},
-        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:", "no such entry"},
-        {"seed: seed", "seed: seeds", "study.yaml:", "seeds"},
+        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:13:", "no such entry"},
+        {"seed: seed", "seed: seeds", "study.yaml:2:", "did you mean 'seed'"},
+        {"set: { friction: 0.2 }", "set: { frictoin: 0.2 }", "study.yaml:9:", "did you mean 'friction'"},
         {"case: case", "case: nowhere", "study.yaml:2:", "no file"},
         {"study: s", "study: s\nbudgets: 3", "study.yaml:2:", "budget"},
         {"study: s", "study: [", "study.yaml:", "YAML"},

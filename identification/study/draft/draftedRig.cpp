@@ -1,5 +1,6 @@
 #include "study/draft/draftedRig.h"
 
+#include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
 
 #include <algorithm>

@@ -1,0 +1,147 @@
+#include "study/checkEffects.h"
+
+#include "study/entriesOfRuns.h"
+#include "words/didYouMean.h"
+
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be told.
+void checkTags(const YamlPlace& root, const Study& study)
+{
+    std::map<std::string, std::set<std::string>> asked;
+    for (const auto& effect : study.effects)
+    {
+        for (const auto& [tag, values] : effect.actsIn)
+        {
+            asked[tag].insert(values.begin(), values.end());
+        }
+    }
+    for (const auto& [tag, values] : asked)
+    {
+        std::vector<std::string> without;
+        std::vector<std::string> known;
+        for (const auto& condition : study.conditions)
+        {
+            if (condition.tags.count(tag) == 0)
+            {
+                without.push_back(condition.name);
+            }
+            const auto tags = namesOf(condition.tags);
+            known.insert(known.end(), tags.begin(), tags.end());
+        }
+        if (!without.empty() && without.size() < study.conditions.size())
+        {
+            root.at("conditions")
+                .fail("effects act by the tag '" + tag + "', which some conditions have, but not " + listed(without));
+        }
+        if (!without.empty())
+        {
+            const std::string near = didYouMean(tag, known);
+            if (!near.empty())
+            {
+                root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
+            }
+        }
+    }
+    for (const auto& condition : study.conditions)
+    {
+        for (const auto& [tag, value] : condition.tags)
+        {
+            const auto values = asked.find(tag);
+            if (values != asked.end() && values->second.count(value) == 0)
+            {
+                const std::string near = didYouMean(value, {values->second.begin(), values->second.end()});
+                if (!near.empty())
+                {
+                    root.at("conditions")
+                        .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '"
+                              + value + "'" + near);
+                }
+            }
+        }
+    }
+}
+
+/// A misspelt family would keep its effect apart from the other variants, and nobody would be told.
+void checkFamilies(const YamlPlace& root, const Study& study)
+{
+    std::map<std::string, int> members;
+    for (const auto& effect : study.effects)
+    {
+        ++members[effect.family];
+    }
+    for (const auto& effect : study.effects)
+    {
+        std::vector<std::string> others;
+        for (const auto& [family, count] : members)
+        {
+            if (!family.empty() && family != effect.family)
+            {
+                others.push_back(family);
+            }
+        }
+        const bool isAlone = !effect.family.empty() && members[effect.family] == 1;
+        if (const std::string near = isAlone ? didYouMean(effect.family, others) : ""; !near.empty())
+        {
+            root.fail("effect '" + effect.name + "' is alone in the family '" + effect.family + "'" + near);
+        }
+    }
+}
+
+/// Names in formulas that are no entries would be found only when the first run starts.
+void checkFormulas(const YamlPlace& root, const Study& study)
+{
+    Entries all = plainEntries(study.rig, {});
+    for (const auto& condition : study.conditions)
+    {
+        all.insert(condition.entries.begin(), condition.entries.end());
+    }
+    const auto check = [&](const std::string& where, const std::map<std::string, Expression>& formulas,
+                           const std::string& variable, double value) {
+        auto variables = numbersOf(all);
+        variables[variable] = value;
+        for (const auto& [entry, formula] : formulas)
+        {
+            try
+            {
+                formula(variables);
+            }
+            catch (const std::invalid_argument& error)
+            {
+                root.fail(where + ", entry '" + entry + "': " + error.what());
+            }
+        }
+    };
+    for (const auto& parameter : study.parameters)
+    {
+        check("parameter '" + parameter.name + "'", parameter.entries, parameter.name, parameter.mean);
+    }
+    for (const auto& effect : study.effects)
+    {
+        check("effect '" + effect.name + "'", effect.entries, "a", effect.bounds.upper);
+        if (effect.chainSize)
+        {
+            check(
+                "effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, "a", effect.bounds.upper);
+        }
+    }
+}
+
+} // namespace
+
+void checkEffects(const YamlPlace& root, const Study& study)
+{
+    checkFormulas(root, study);
+    checkTags(root, study);
+    checkFamilies(root, study);
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "study/study.h"
+#include "study/yaml.h"
+
+namespace clepsydra::identification
+{
+
+/// What would be found only when runs have begun, or never: names in formulas of effects and parameters that are no
+/// entries, tags and families that are misspelt.
+/// \throws StudyError
+void checkEffects(const YamlPlace& root, const Study& study);
+
+} // namespace clepsydra::identification

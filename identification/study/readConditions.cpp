@@ -1,0 +1,241 @@
+#include "study/readConditions.h"
+
+#include "study/entriesOfRuns.h"
+#include "study/namedItems.h"
+#include "study/readFormula.h"
+#include "study/units.h"
+#include "words/didYouMean.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+Feature readFeature(const YamlPlace& place, double& modelError)
+{
+    const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
+    std::vector<std::string> allowed = {"name", "kind", "modelError"};
+    for (const auto& parameter : kind.parameters)
+    {
+        allowed.push_back(parameter.name);
+    }
+    place.allow(allowed);
+    Feature feature{place.textOr("name", kind.name), &kind, {}};
+    for (const auto& parameter : kind.parameters)
+    {
+        if (std::isnan(parameter.byDefault) && !place.has(parameter.name))
+        {
+            place.fail("a " + kind.name + " needs '" + parameter.name + "': " + parameter.meaning);
+        }
+        feature.parameters[parameter.name] = place.numberOr(parameter.name, parameter.byDefault);
+    }
+    modelError = place.numberOr("modelError", modelError);
+    return feature;
+}
+
+double unitOf(const YamlPlace& place)
+{
+    try
+    {
+        return siUnitsPer(place.at("unit").text());
+    }
+    catch (const std::invalid_argument& error)
+    {
+        place.at("unit").fail(error.what());
+    }
+}
+
+/// The unit must be stated; `factor` (of sign or scale) and `offset`, in SI units, come after it.
+ColumnSpecification readColumn(const YamlPlace& place)
+{
+    place.allow({"column", "unit", "factor", "offset", "valid"});
+    ColumnSpecification column;
+    column.column = place.at("column").text();
+    column.factor = unitOf(place) * place.numberOr("factor", 1.0);
+    column.offset = place.numberOr("offset", 0.0);
+    if (place.has("valid"))
+    {
+        const auto ends = place.at("valid").list();
+        if (ends.size() != 2 || ends[0].number() >= ends[1].number())
+        {
+            place.at("valid").fail("must be [lowest, highest], in SI units");
+        }
+        column.lowest = ends[0].number();
+        column.highest = ends[1].number();
+    }
+    return column;
+}
+
+MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
+{
+    place.allow({"feature", "values", "unit", "relativeError", "standardError"});
+    MeasuredNumber number;
+    number.feature = indexOf(place.at("feature"), study.features);
+    const bool isLog = study.features[number.feature].kind->isLog();
+    for (const auto& value : place.at("values").oneOrMore())
+    {
+        number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
+    }
+    number.standardError = isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0);
+    if (place.has(isLog ? "standardError" : "relativeError"))
+    {
+        place.fail(isLog ? "the feature is a logarithm: state a relativeError" : "state a standardError");
+    }
+    return number;
+}
+
+Measurement readMeasurement(const YamlPlace& place, const Study& study, const YamlPlace& root)
+{
+    place.allow({"files", "time", "value", "numbers"});
+    Measurement measured;
+    if (place.has("files"))
+    {
+        for (const auto& file : place.at("files").oneOrMore())
+        {
+            measured.files.push_back(file.path());
+            if (!std::filesystem::is_regular_file(measured.files.back()))
+            {
+                file.fail("no such file: " + measured.files.back().string());
+            }
+        }
+        const auto column = [&](const std::string& key) {
+            if (!place.has(key) && root.has("measured") && root.at("measured").has(key))
+            {
+                return readColumn(root.at("measured").at(key));
+            }
+            return readColumn(place.at(key));
+        };
+        measured.time = column("time");
+        measured.value = column("value");
+    }
+    if (place.has("numbers"))
+    {
+        for (const auto& number : place.at("numbers").list())
+        {
+            measured.numbers.push_back(readNumber(number, study));
+        }
+    }
+    if (measured.empty())
+    {
+        place.fail("needs 'files' or 'numbers'");
+    }
+    return measured;
+}
+
+Role roleOf(const YamlPlace& place)
+{
+    const std::string word = place.oneOf({"training", "heldOut", "candidate"});
+    return word == "training" ? Role::training : word == "heldOut" ? Role::heldOut : Role::candidate;
+}
+
+/// The condition's own, else that of all; tried with the condition's entries.
+ObservableScale readScale(
+    const YamlPlace& root, const YamlPlace& place, const RigSpecification& rig, const Condition& condition)
+{
+    if (place.has("observable"))
+    {
+        place.at("observable").allow({"factor", "offset"});
+    }
+    const auto numbers = numbersOf(plainEntries(rig, condition));
+    const auto read = [&](const std::string& key, Expression& formula) {
+        const bool isOwn = place.has("observable") && place.at("observable").has(key);
+        const YamlPlace parent = isOwn ? place.at("observable") : root.at("observable");
+        if (parent.has(key))
+        {
+            formula = readFormula(parent.at(key));
+            if (valueOf(parent.at(key), formula, numbers) == 0.0 && key == "factor")
+            {
+                parent.at(key).fail("must not be 0");
+            }
+        }
+    };
+    ObservableScale scale;
+    read("factor", scale.factor);
+    read("offset", scale.offset);
+    return scale;
+}
+
+Condition readCondition(const YamlPlace& place, const Study& study, const YamlPlace& root)
+{
+    place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "observable", "measured", "cost"});
+    Condition condition;
+    condition.name = place.at("name").text();
+    condition.role = roleOf(place.at("role"));
+    condition.command = place.textOr("command", "");
+    condition.file = place.textOr("file", root.at("observable").at("file").text());
+    condition.cost = place.has("cost") ? place.at("cost").positive() : 1.0;
+    if (place.has("set"))
+    {
+        condition.entries = readValues(place.at("set"), study.rig);
+    }
+    condition.observable = readScale(root, place, study.rig, condition);
+    if (place.has("tags"))
+    {
+        for (const auto& [tag, value] : place.at("tags").map())
+        {
+            condition.tags[tag] = value.text();
+        }
+    }
+    if (place.has("coordinates"))
+    {
+        for (const auto& [name, value] : place.at("coordinates").map())
+        {
+            condition.coordinates[name] = value.number();
+        }
+    }
+    if (place.has("measured"))
+    {
+        if (condition.role == Role::candidate)
+        {
+            place.at("measured")
+                .fail("nobody reads it: a candidate is not measured yet; with role: training or heldOut "
+                      "it would be read");
+        }
+        condition.measured = readMeasurement(place.at("measured"), study, root);
+    }
+    return condition;
+}
+
+} // namespace
+
+void readObservable(const YamlPlace& place, Study& study)
+{
+    place.allow({"file", "time", "value", "factor", "offset", "features", "modelError"});
+    study.timeColumn = place.textOr("time", "time");
+    study.valueColumn = place.at("value").text();
+    std::vector<double> errors;
+    for (const auto& each : place.at("features").list())
+    {
+        errors.push_back(place.numberOr("modelError", 0.0));
+        study.features.push_back(readFeature(each, errors.back()));
+        requireOwnName(each, study.features, "features");
+    }
+    if (study.features.empty())
+    {
+        place.at("features").fail("needs at least one");
+    }
+    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
+}
+
+void readConditions(const YamlPlace& root, Study& study)
+{
+    if (root.has("measured"))
+    {
+        root.at("measured").allow({"time", "value"});
+    }
+    for (const auto& place : root.at("conditions").list())
+    {
+        study.conditions.push_back(readCondition(place, study, root));
+        requireOwnName(place, study.conditions, "conditions");
+    }
+    if (study.conditionsOf(Role::training).empty())
+    {
+        root.at("conditions").fail("at least one condition needs 'role: training'");
+    }
+}
+
+} // namespace clepsydra::identification
