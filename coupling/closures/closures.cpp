@@ -39,6 +39,7 @@ struct Input
     double bulkDensity = 0;
     double orificeDiameter = 0;
     double ratio = 0;
+    double gap = 0;
     double reynolds = 0;
 
     double dynamicViscosity() const
@@ -238,6 +239,11 @@ void addWalls(CLI::App& program)
     Formula(program, "faxenPerpendicularFactor", "drag over free drag [-], creeping motion across a plane wall")
         .fraction("--lambda", "radius over distance of the centre")
         .prints([](const Input& in) { return std::vector<double>{faxenPerpendicularFactor(in.ratio)}; });
+    Formula gap(program, "brennerPerpendicularFactor",
+        "drag over free drag [-], creeping motion towards a plane wall, any gap");
+    gap.positive("--gap", gap.input().gap, "between surface and wall, in radii").prints([](const Input& in) {
+        return std::vector<double>{brennerPerpendicularFactor(in.gap)};
+    });
 }
 
 void addBeds(CLI::App& program)

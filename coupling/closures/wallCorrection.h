@@ -17,6 +17,14 @@
 ///
 /// Range: Re h/d << 1; perpendicular to 3 % for lambda < .43, 19 % low at .65 (Brenner 1961: 1.837, 3.036).
 /// At contact both are finite (3.08, 2.67): what diverges there is lubrication, see lubrication.h.
+///
+/// Plane ahead, creeping flow, any gap: H. Brenner, Chem. Eng. Sci. 16, 242 (1961), an exact series in bipolar
+/// coordinates, in the closed form of M. A. Bevan & D. C. Prieve, J. Chem. Phys. 113, 1228 (2000); s = gap/R:
+///
+///     (6 s^2 + 9 s + 2)/(6 s^2 + 2 s)
+///
+/// It is .7 % low at most (s = .05), .3 % high at most (s = 5) against the series, and has the 1/s of lubrication. Range:
+/// Re << 1 for the whole of it; near the wall, for s below some 1/Re, at any Re.
 #pragma once
 
 #include <cmath>
@@ -64,6 +72,12 @@ inline double faxenParallelFactor(double lambda) noexcept
 inline double faxenPerpendicularFactor(double lambda) noexcept
 {
     return 1.0 / (1.0 - 9.0 / 8.0 * lambda + 0.5 * lambda * lambda * lambda);
+}
+
+/// Drag over free drag, motion towards or from the wall [-]; unbounded at contact. \param gap  over the radius, > 0
+inline double brennerPerpendicularFactor(double gap) noexcept
+{
+    return ((6.0 * gap + 9.0) * gap + 2.0) / ((6.0 * gap + 2.0) * gap);
 }
 
 } // namespace clepsydra::closures
