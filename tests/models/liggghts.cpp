@@ -90,6 +90,10 @@ public:
             engine_->seePairs(pairReach);
         }
         engine_->initialise(forces);
+        if (forces)
+        {
+            engine_->feelFluid();
+        }
         return *engine_;
     }
 
