@@ -27,7 +27,7 @@ protected:
                 + "; voidFractionModel divided; smoothingModel off; forceModels (Archimedes); "
                   "momCoupleModels (implicitCouple); DEM { engine liggghts; script none; }");
         mesh_ = boxMesh(case_.time(), point::zero, point::one, {cellCount, 1, 1});
-        readFromCase(static_cast<fvSchemes&>(*mesh_));
+        readFromCase<fvSchemes>(*mesh_);
         voidFraction_ = std::make_unique<volScalarField>(IOobject("eps", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedScalar("eps", dimless, 0.5), "zeroGradient");
         rate_ = std::make_unique<VoidFractionRate>(*mesh_, CouplingSettings(case_.time()));

@@ -51,14 +51,6 @@ private:
     std::vector<CouplingState> shown_;
 };
 
-/// A mesh made in memory comes without its dictionaries.
-template<class Dictionary>
-void readFromCase(Dictionary& dictionary)
-{
-    dictionary.readOpt() = IOobject::MUST_READ;
-    dictionary.read();
-}
-
 /// Water, and beads in it.
 struct StreamSetup
 {
@@ -99,8 +91,8 @@ public:
                 + " gradPForce Archimedes); momCoupleModels (" + setup.momentumModel
                 + "); DEM { engine liggghts; script none; }");
         mesh_ = boxMesh(case_.time(), point::zero, point::one, setup.cells);
-        readFromCase(static_cast<fvSchemes&>(*mesh_));
-        readFromCase(static_cast<fvSolution&>(*mesh_));
+        readFromCase<fvSchemes>(*mesh_);
+        readFromCase<fvSolution>(*mesh_);
         addBeads(setup);
         const FluidProperties fluid{density, setup.viscosity, Vector3d::Zero()};
         settings_ = std::make_unique<CouplingSettings>(case_.time());

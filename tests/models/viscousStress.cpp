@@ -29,8 +29,7 @@ TEST(ViscousStress, OfABeadIsThatOfTheEquationWhereDivergenceIsNotZero)
         "forceModels (gradPForce viscForce); momCoupleModels (explicitCouple); "
         "DEM { engine liggghts; script none; }");
     const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
-    static_cast<fvSchemes&>(*mesh).readOpt() = IOobject::MUST_READ;
-    static_cast<fvSchemes&>(*mesh).read();
+    readFromCase<fvSchemes>(*mesh);
     volVectorField U(IOobject("U", folder.time().timeName(), *mesh), *mesh,
         dimensionedVector("U", dimVelocity, vector::zero), "zeroGradient");
     forAll (U, cell)

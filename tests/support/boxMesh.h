@@ -94,4 +94,13 @@ inline std::unique_ptr<Foam::fvMesh> boxMesh(
     return mesh;
 }
 
+/// A mesh made in memory comes without its dictionaries: reads one of them, fvSchemes or fvSolution.
+template<class Dictionary>
+void readFromCase(Foam::fvMesh& mesh)
+{
+    Dictionary& dictionary = mesh;
+    dictionary.readOpt() = Foam::IOobject::MUST_READ;
+    dictionary.read();
+}
+
 } // namespace clepsydra::tests
