@@ -16,7 +16,7 @@ constexpr double interval = 0.01;
 constexpr int cellCount = 4;
 
 /// A tank of one cubic metre, four cells, in which the void fraction of one cell has just risen by .04.
-class ClosedTank : public ThrowingErrors
+class ClosedTank : public testing::Test
 {
 protected:
     ClosedTank()

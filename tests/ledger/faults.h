@@ -4,42 +4,18 @@
 #include <gmock/gmock.h>
 
 #include "ledger/stream.h"
+#include "support/errorOf.h"
 
 #include <gtest/gtest.h>
 
 namespace clepsydra::tests
 {
 
-/// Lets a test go on where the program would end.
-class ThrowingErrors : public testing::Test
-{
-protected:
-    void SetUp() override
-    {
-        FatalError.throwExceptions();
-        FatalIOError.throwExceptions();
-    }
-
-    void TearDown() override
-    {
-        FatalError.dontThrowExceptions();
-        FatalIOError.dontThrowExceptions();
-    }
-};
-
-/// \param tolerance  the entry of `ledger` that the error must name
+/// An error must name `tolerance`, an entry of `ledger`.
 template<class Action>
 void expectFound(const Action& action, const std::string& tolerance)
 {
-    try
-    {
-        action();
-        ADD_FAILURE() << "the books balance";
-    }
-    catch (const Foam::error& error)
-    {
-        EXPECT_THAT(std::string(error.message()), testing::HasSubstr(tolerance));
-    }
+    EXPECT_THAT(errorOf(action), testing::HasSubstr(tolerance));
 }
 
 /// Water with a bead in each cell and a `smoothingModel` that smooths nothing, but multiplies what is in a cell by a

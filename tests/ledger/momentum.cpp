@@ -18,7 +18,7 @@ StreamSetup streamWith(const std::string& momentumModel)
     return setup;
 }
 
-class MomentumLedger : public ThrowingErrors, public testing::WithParamInterface<std::string>
+class MomentumLedger : public testing::TestWithParam<std::string>
 {
 protected:
     static void expectFound(Stream& stream, const std::function<void(fvVectorMatrix&)>& fault)

@@ -17,13 +17,10 @@ StreamSetup withForceTimes(double factor, const std::string& cells)
     return setup;
 }
 
-class PressureForceLedger : public ThrowingErrors
-{};
-
 } // namespace
 
 // The same water without a fault, and with honest smoothing over finer cells; without this the others would show nothing.
-TEST_F(PressureForceLedger, BalancesWhereNothingIsLost)
+TEST(PressureForceLedger, BalancesWhereNothingIsLost)
 {
     EXPECT_NO_THROW(Stream(withForceTimes(1, "all")).advance([](fvVectorMatrix&) {}));
     StreamSetup smoothed;
@@ -31,17 +28,17 @@ TEST_F(PressureForceLedger, BalancesWhereNothingIsLost)
     EXPECT_NO_THROW(Stream(smoothed).advance([](fvVectorMatrix&) {}));
 }
 
-TEST_F(PressureForceLedger, FindsAForceThatIsDoubled)
+TEST(PressureForceLedger, FindsAForceThatIsDoubled)
 {
     expectFound([] { const Stream stream(withForceTimes(2, "all")); }, "pressureForceTolerance");
 }
 
-TEST_F(PressureForceLedger, FindsAWrongSign)
+TEST(PressureForceLedger, FindsAWrongSign)
 {
     expectFound([] { const Stream stream(withForceTimes(-1, "all")); }, "pressureForceTolerance");
 }
 
-TEST_F(PressureForceLedger, FindsThatTheBeadOfOneCellDoesNotFeelIt)
+TEST(PressureForceLedger, FindsThatTheBeadOfOneCellDoesNotFeelIt)
 {
     expectFound([] { const Stream stream(withForceTimes(0, "one")); }, "pressureForceTolerance");
 }

@@ -15,28 +15,25 @@ StreamSetup withSolidVolumeTimes(double factor)
     return faultyStream(1, 0, factor, "one");
 }
 
-class SolidVolumeLedger : public ThrowingErrors
-{};
-
 } // namespace
 
 // The same stream without a fault; without this the others would show nothing.
-TEST_F(SolidVolumeLedger, BalancesWhereNothingIsLost)
+TEST(SolidVolumeLedger, BalancesWhereNothingIsLost)
 {
     EXPECT_NO_THROW(Stream(withSolidVolumeTimes(1)).advance([](fvVectorMatrix&) {}));
 }
 
-TEST_F(SolidVolumeLedger, FindsAShareThatIsLost)
+TEST(SolidVolumeLedger, FindsAShareThatIsLost)
 {
     expectFound([] { const Stream stream(withSolidVolumeTimes(0)); }, "solidVolumeTolerance");
 }
 
-TEST_F(SolidVolumeLedger, FindsACellWhoseSolidVolumeIsDoubled)
+TEST(SolidVolumeLedger, FindsACellWhoseSolidVolumeIsDoubled)
 {
     expectFound([] { const Stream stream(withSolidVolumeTimes(2)); }, "solidVolumeTolerance");
 }
 
-TEST_F(SolidVolumeLedger, FindsAMillionthOfACell)
+TEST(SolidVolumeLedger, FindsAMillionthOfACell)
 {
     expectFound([] { const Stream stream(withSolidVolumeTimes(1 + 1e-6)); }, "solidVolumeTolerance");
 }

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "checkpoint/caseLock.h"
+#include "support/errorOf.h"
 #include "support/temporaryCase.h"
 
 #include <gtest/gtest.h>
@@ -21,15 +22,7 @@ namespace
 /// The error of trying to lock, on this rank; empty where the lock was had (and let go).
 std::string errorOfLocking(const TemporaryCase& temporaryCase)
 {
-    try
-    {
-        const CaseLock lock(temporaryCase.time().globalPath());
-    }
-    catch (const Foam::error& error)
-    {
-        return error.message();
-    }
-    return {};
+    return errorOf([&] { const CaseLock lock(temporaryCase.time().globalPath()); });
 }
 
 /// A second lock on the case must fail on every rank, naming the case and the holder, and must succeed once the first

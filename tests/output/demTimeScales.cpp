@@ -4,6 +4,7 @@
 #include "output/demTimeScales.h"
 #include "output/startReport.h"
 #include "support/boxMesh.h"
+#include "support/errorOf.h"
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"
 
@@ -77,31 +78,23 @@ TEST(DemTimeScales, AreEmptyWhereNotKnown)
     EXPECT_TRUE(ofEmpty.courant.has_value());
 }
 
-std::string errorOf(double demStep, const std::string& demEntries)
+std::string errorWith(double demStep, const std::string& demEntries)
 {
     const Foam::dictionary dem(Foam::IStringStream("script \"DEM/in.hopper\"; " + demEntries)());
-    try
-    {
-        checkDemStep({demStep, 1e-3, 1, 1e-4, {}, {}, {}}, dem);
-    }
-    catch (const Foam::IOerror& error)
-    {
-        return error.message();
-    }
-    return {};
+    return errorOf([&] { checkDemStep({demStep, 1e-3, 1, 1e-4, {}, {}, {}}, dem); });
 }
 
 /// At a Rayleigh time of 1e-4 s the limit is 4e-5 s, or what the entry says; above it the error must name what is
 /// wrong and what is allowed. A check that never raises, or takes the entry for nothing, fails.
 TEST(StartReport, RefusesADemStepAboveTheStableOne)
 {
-    EXPECT_EQ(errorOf(3.9e-5, ""), "");
-    EXPECT_THAT(errorOf(4.1e-5, ""),
+    EXPECT_EQ(errorWith(3.9e-5, ""), "");
+    EXPECT_THAT(errorWith(4.1e-5, ""),
         testing::AllOf(testing::HasSubstr("DEM step above the stable one"), testing::HasSubstr("DEM/in.hopper"),
             testing::HasSubstr("'maxRayleighFraction'"), testing::HasSubstr("at most 4e-05 s")));
-    EXPECT_EQ(errorOf(4.1e-5, "maxRayleighFraction 0.5;"), "");
-    EXPECT_THAT(errorOf(2.1e-5, "maxRayleighFraction 0.2;"), testing::HasSubstr("at most 2e-05 s"));
-    EXPECT_THAT(errorOf(1e-5, "maxRayleighFraction -1;"), testing::HasSubstr("'maxRayleighFraction' is -1"));
+    EXPECT_EQ(errorWith(4.1e-5, "maxRayleighFraction 0.5;"), "");
+    EXPECT_THAT(errorWith(2.1e-5, "maxRayleighFraction 0.2;"), testing::HasSubstr("at most 2e-05 s"));
+    EXPECT_THAT(errorWith(1e-5, "maxRayleighFraction -1;"), testing::HasSubstr("'maxRayleighFraction' is -1"));
 }
 
 /// The log must hold the versions, the models handed in, and each time scale with its verdict.

@@ -5,6 +5,7 @@
 #include "output/observedBeads.h"
 #include "output/trailingRate.h"
 #include "support/boxMesh.h"
+#include "support/errorOf.h"
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"
 
@@ -262,35 +263,27 @@ TEST(MassInHopper, GoesOnAfterARestart)
     }
 }
 
-/// The text of the error that making the function object with these entries raises; empty for none. No file may be
-/// left behind, for OpenFOAM would then give the next run's another name.
-std::string errorOf(const std::string& entries)
+/// The text of the error that making the function object with these entries raises. No file may be left behind, for OpenFOAM would then give the next run's another name.
+std::string errorWith(const std::string& entries)
 {
     TemporaryCase temporaryCase;
     Discharge discharge(temporaryCase);
     const Foam::dictionary dict(Foam::IStringStream("type massInHopper; " + entries)());
-    try
-    {
-        Foam::functionObject::New("massInHopper", temporaryCase.time(), dict);
-    }
-    catch (const Foam::IOerror& error)
-    {
-        EXPECT_FALSE(std::filesystem::exists(temporaryCase.folder() / "postProcessing"));
-        return error.message();
-    }
-    return {};
+    std::string error = errorOf([&] { Foam::functionObject::New("massInHopper", temporaryCase.time(), dict); });
+    EXPECT_FALSE(std::filesystem::exists(temporaryCase.folder() / "postProcessing"));
+    return error;
 }
 
 /// Each must stop the run with words that help; a function object that takes anything gives no error at all.
 TEST(MassInHopper, RefusesWhatItCannotUse)
 {
-    EXPECT_THAT(errorOf("patch hoper;"),
+    EXPECT_THAT(errorWith("patch hoper;"),
         testing::AllOf(testing::HasSubstr("'hoper'"), testing::HasSubstr("xMin xMax yMin yMax zMin zMax")));
-    EXPECT_THAT(errorOf(""), testing::HasSubstr("patch"));
-    EXPECT_THAT(errorOf("patch xMin; sampleInterval 0.001;"),
+    EXPECT_THAT(errorWith(""), testing::HasSubstr("patch"));
+    EXPECT_THAT(errorWith("patch xMin; sampleInterval 0.001;"),
         testing::AllOf(testing::HasSubstr("'sampleInterval' is 0.001"), testing::HasSubstr("time step, 0.01 s")));
-    EXPECT_THAT(errorOf("patch xMin; rateWindow -1;"), testing::HasSubstr("'rateWindow' is -1"));
-    EXPECT_THAT(errorOf("patch xMin; axis (0 0 0);"), testing::HasSubstr("'axis'"));
+    EXPECT_THAT(errorWith("patch xMin; rateWindow -1;"), testing::HasSubstr("'rateWindow' is -1"));
+    EXPECT_THAT(errorWith("patch xMin; axis (0 0 0);"), testing::HasSubstr("'axis'"));
 }
 
 } // namespace
