@@ -7,6 +7,7 @@
 #include "closures/richardsonZaki.h"
 #include "closures/terminalVelocity.h"
 #include "closures/wallCorrection.h"
+#include "words/exactText.h"
 
 #include <CLI/CLI.hpp>
 
@@ -15,7 +16,6 @@
 #include <exception>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -150,10 +150,9 @@ public:
     void prints(const std::function<std::vector<double>(const Input&)>& values)
     {
         command_->callback([input = input_, values] {
-            std::cout.precision(std::numeric_limits<double>::max_digits10);
             for (const double value : values(*input))
             {
-                std::cout << value << '\n';
+                std::cout << clepsydra::exactText(value) << '\n';
             }
         });
     }

@@ -7,11 +7,10 @@
 
 #include "OSspecific.H"
 #include "runTimeSelection.h"
+#include "words/exactText.h"
 
 #include <cctype>
 #include <cmath>
-#include <limits>
-#include <sstream>
 
 namespace clepsydra
 {
@@ -23,7 +22,7 @@ namespace
 constexpr double sameTime = 1e-6;
 
 /// A value as LIGGGHTS is to read it, every digit kept.
-std::string exactText(const dictionary& variables, const word& name)
+std::string valueOf(const dictionary& variables, const word& name)
 {
     const ITstream& values = variables.lookup(name);
     if (values.size() != 1)
@@ -44,10 +43,7 @@ std::string exactText(const dictionary& variables, const word& name)
                 << "Entry '" << name << "' of DEM/variables is " << value.number()
                 << "; allowed: 0, or a number of a size from 1e-60 to 1e60" << exit(FatalIOError);
         }
-        std::ostringstream text;
-        text.precision(std::numeric_limits<double>::max_digits10);
-        text << value.number();
-        return text.str();
+        return exactText(value.number());
     }
     if (!value.isWord() && !value.isString())
     {
@@ -255,7 +251,7 @@ LiggghtsSetup CouplingSettings::engineSetup(const std::filesystem::path& resumeF
     const dictionary variables = dem.subOrEmptyDict("variables");
     for (const word& name : variables.toc())
     {
-        setup.variables.emplace_back(name, exactText(variables, name));
+        setup.variables.emplace_back(name, valueOf(variables, name));
     }
     checkMaterialValues(variables);
     setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));

@@ -1,6 +1,7 @@
 #include "output/beadFlux.h"
 
 #include "output/observableTable.h"
+#include "words/exactText.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -8,7 +9,6 @@
 #include "OStringStream.H"
 #include "stringList.H"
 
-#include <limits>
 #include <sstream>
 
 namespace clepsydra
@@ -20,9 +20,6 @@ addToRunTimeSelectionTable(functionObject, BeadFlux, dictionary);
 namespace
 {
 
-/// A time step's rounding must neither add nor drop a row.
-constexpr double sameTime = 1e-6;
-
 /// One text per passage; the time of the last row with the masses then, and the row. As text: OpenFOAM would write numbers
 /// with the fields' digits.
 const word passagesEntry = "passages";
@@ -33,10 +30,7 @@ const word rowsEntry = "rows";
 template<class... Numbers>
 std::string textOf(const Numbers&... numbers)
 {
-    std::ostringstream text;
-    text.precision(std::numeric_limits<double>::max_digits10);
-    ((text << numbers << ' '), ...);
-    return text.str();
+    return ((exactText(static_cast<double>(numbers)) + ' ') + ...);
 }
 
 } // namespace
@@ -97,9 +91,8 @@ void BeadFlux::resume(label rowsThatStay)
     {
         text >> mass;
     }
-    // A row of this very time has been dropped from its table, and is written again.
     getProperty(rowsEntry, rows_);
-    const bool again = lastSample_ > time_.value() - sameTime * time_.deltaTValue();
+    const bool again = isRowOfNow(time_, lastSample_);
     warnOfLostRows(rowsThatStay, again ? rows_ - 1 : rows_, name() + ".dat");
     if (again)
     {
@@ -120,9 +113,7 @@ bool BeadFlux::read(const dictionary& dict)
 bool BeadFlux::execute()
 {
     count();
-    // A row is due if waiting for the next step would make the gap too long.
-    const scalar nextTime = time_.value() + time_.deltaTValue();
-    if (nextTime > lastSample_ + sampleInterval_ + sameTime * time_.deltaTValue())
+    if (isRowDue(time_, lastSample_, sampleInterval_))
     {
         sample();
     }

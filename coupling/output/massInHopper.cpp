@@ -3,13 +3,11 @@
 #include "output/observableTable.h"
 #include "output/observedBeads.h"
 #include "vectors.h"
+#include "words/exactText.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
 #include "fvMesh.H"
-
-#include <limits>
-#include <sstream>
 
 namespace clepsydra
 {
@@ -19,9 +17,6 @@ addToRunTimeSelectionTable(functionObject, MassInHopper, dictionary);
 
 namespace
 {
-
-/// A time step's rounding must neither add nor drop a row.
-constexpr double sameTime = 1e-6;
 
 const word countEntry = "beadsInHopper";
 const word lastDepartureEntry = "lastDeparture";
@@ -36,10 +31,7 @@ stringList textOf(const std::deque<TrailingRate::Sample>& samples)
     {
         for (const double number : {sample.time, sample.amount})
         {
-            std::ostringstream text;
-            text.precision(std::numeric_limits<double>::max_digits10);
-            text << number;
-            numbers.append(text.str());
+            numbers.append(exactText(number));
         }
     }
     return numbers;
@@ -95,9 +87,8 @@ void MassInHopper::resume(label rowsThatStay)
     }
     getProperty(rowsEntry, rows_);
     getProperty(countEntry, lastBeads_);
-    // A row of this very time has been dropped from its table, and is written again.
     const scalar lastSample = samples.back().time;
-    if (lastSample > time_.value() - sameTime * time_.deltaTValue())
+    if (isRowOfNow(time_, lastSample))
     {
         samples.pop_back();
         --rows_;
@@ -142,7 +133,7 @@ bool MassInHopper::read(const dictionary& dict)
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
     sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
-    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue() * (1 - sameTime))
+    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue() * (1 - roundingOfTime))
     {
         FatalIOErrorInFunction(dict) << "Entry 'sampleInterval' is " << sampleInterval_
                                      << " s; allowed: at least the time step, " << time_.deltaTValue() << " s"
@@ -153,9 +144,7 @@ bool MassInHopper::read(const dictionary& dict)
 
 bool MassInHopper::execute()
 {
-    // A row is due if waiting for the next step would make the gap too long.
-    const scalar nextTime = time_.value() + time_.deltaTValue();
-    if (nextTime > lastSample_ + sampleInterval_ + sameTime * time_.deltaTValue())
+    if (isRowDue(time_, lastSample_, sampleInterval_))
     {
         sample();
         stopIfFlowStopped();
@@ -213,7 +202,7 @@ void MassInHopper::stopIfFlowStopped()
 {
     scalar lastDeparture = 0;
     if (stopping_ || stopAfter_ <= 0 || !getProperty(lastDepartureEntry, lastDeparture)
-        || time_.value() - lastDeparture < stopAfter_ * (1 - sameTime))
+        || time_.value() - lastDeparture < stopAfter_ * (1 - roundingOfTime))
     {
         return;
     }

@@ -2,7 +2,6 @@
 
 #include "IFstream.H"
 #include "OSspecific.H"
-#include "Time.H"
 
 #include <filesystem>
 #include <fstream>
@@ -63,6 +62,17 @@ label dropRowsFrom(scalar time, const fileName& table)
 }
 
 } // namespace
+
+bool isRowDue(const Time& time, scalar lastRow, scalar sampleInterval)
+{
+    const scalar nextTime = time.value() + time.deltaTValue();
+    return nextTime > lastRow + sampleInterval + roundingOfTime * time.deltaTValue();
+}
+
+bool isRowOfNow(const Time& time, scalar lastRow)
+{
+    return lastRow > time.value() - roundingOfTime * time.deltaTValue();
+}
 
 label makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
 {

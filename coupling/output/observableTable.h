@@ -1,11 +1,22 @@
 #pragma once
 
 #include "Ostream.H"
+#include "Time.H"
 #include "fileName.H"
 #include "scalar.H"
 
 namespace clepsydra
 {
+
+/// In time steps: their rounding must neither add nor drop a row.
+constexpr double roundingOfTime = 1e-6;
+
+/// Whether a row is due now: waiting for the next step would make the gap since the last one too long.
+bool isRowDue(const Foam::Time& time, Foam::scalar lastRow, Foam::scalar sampleInterval);
+
+/// Whether the last row is of this very time. Then makeRoomFrom() has dropped it from its table, and it is to be written
+/// again.
+bool isRowOfNow(const Foam::Time& time, Foam::scalar lastRow);
 
 /// Makes room for an observable's rows from the start time on: postProcessing/<name>/<startTime>/<name>.dat. Rows that
 /// a run wrote after the checkpoint from which it is resumed are dropped from the tables of earlier start times, since

@@ -6,6 +6,7 @@
 #include "closures/addedMass.h"
 #include "closures/constants.h"
 #include "closures/ergun.h"
+#include "words/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -37,7 +38,7 @@ double pressureDropOfFixedBed(const std::string& modelType, const std::string& m
     test.setFluid(10, 1.5e-4);
     test.box.upper = {side, side, length};
     test.cells = lattice;
-    test.setThroughFlow("uniform (0 0 " + number(0.02 / voidFraction) + ")");
+    test.setThroughFlow("uniform (0 0 " + exactText(0.02 / voidFraction) + ")");
     // An explicit source of momentum bears intervals up to 2 U/(dp/(rho L)), .06 ms here.
     const bool implicit = momentumModel == "implicitCouple";
     const double endTime = implicit ? 0.02 : 0.004;

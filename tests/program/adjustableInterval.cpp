@@ -2,6 +2,7 @@
 /// Coupling intervals that follow the Courant numbers.
 
 #include "support/testCase.h"
+#include "words/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 namespace
 {
 
+using clepsydra::exactText;
 using namespace clepsydra::tests;
 
 constexpr double demStep = 4e-5;
@@ -36,11 +38,11 @@ void fillIn(TestCase& test)
     test.dem.timeStep = demStep;
     test.dem.dumpEvery = endSteps;
     test.coupling()
-        .set("constDiffSmoothingProps/smoothingLength", number(smoothingLength))
+        .set("constDiffSmoothingProps/smoothingLength", exactText(smoothingLength))
         .set("adjustableInterval", "yes")
-        .set("maxCo", number(largestCourantNumber))
-        .set("minInterval", number(demStep))
-        .set("maxInterval", number(longest * demStep));
+        .set("maxCo", exactText(largestCourantNumber))
+        .set("minInterval", exactText(demStep))
+        .set("maxInterval", exactText(longest * demStep));
     test.control().set("functions/massInHopper/type", "massInHopper").set("functions/massInHopper/patch", "walls");
 }
 

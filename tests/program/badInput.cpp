@@ -3,6 +3,7 @@
 /// a script notices, and leave every file as it was: the case's own, and results of an earlier run.
 
 #include "support/testCase.h"
+#include "words/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +15,7 @@
 namespace
 {
 
+using clepsydra::exactText;
 using namespace clepsydra::tests;
 
 const std::string couplingProperties = "constant/couplingProperties";
@@ -70,9 +72,9 @@ std::string commandOn(int ranks)
 void decompose(TestCase& test, int ranks)
 {
     test.file("system/decomposeParDict")
-        .set("numberOfSubdomains", number(ranks))
+        .set("numberOfSubdomains", exactText(ranks))
         .set("method", "simple")
-        .set("simpleCoeffs/n", '(' + number(ranks) + " 1 1)")
+        .set("simpleCoeffs/n", '(' + exactText(ranks) + " 1 1)")
         .set("simpleCoeffs/delta", "0.001");
     test.write();
     ASSERT_TRUE(test.runCommand("decomposePar").succeeded());

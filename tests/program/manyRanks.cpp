@@ -2,6 +2,7 @@
 /// Beads that visit three ranks and more at once, with decompositions of all kinds.
 
 #include "support/testCase.h"
+#include "words/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -82,7 +83,7 @@ std::string beadWeights(const TestCase& test)
 void decompose(TestCase& test, const Decomposition& decomposition)
 {
     FoamFile& dict = test.file("system/decomposeParDict");
-    dict.set("numberOfSubdomains", number(decomposition.ranks)).set("method", decomposition.method);
+    dict.set("numberOfSubdomains", exactText(decomposition.ranks)).set("method", decomposition.method);
     if (*decomposition.coefficients)
     {
         dict.set(decomposition.method + std::string("Coeffs"), decomposition.coefficients);

@@ -1,10 +1,10 @@
 #include "support/foamFile.h"
 
+#include "words/exactText.h"
+
 #include <algorithm>
 #include <fstream>
-#include <iomanip>
 #include <iterator>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -63,7 +63,7 @@ FoamFile& FoamFile::set(const std::string& path, const std::string& value)
 
 FoamFile& FoamFile::set(const std::string& path, double value)
 {
-    return set(path, number(value));
+    return set(path, exactText(value));
 }
 
 FoamFile& FoamFile::remove(const std::string& path)
@@ -83,16 +83,9 @@ std::string FoamFile::text(const std::string& object) const
     return os.str();
 }
 
-std::string number(double value)
-{
-    std::ostringstream os;
-    os << std::setprecision(std::numeric_limits<double>::max_digits10) << value;
-    return os.str();
-}
-
 std::string vectorText(const Eigen::Vector3d& v)
 {
-    return '(' + number(v.x()) + ' ' + number(v.y()) + ' ' + number(v.z()) + ')';
+    return '(' + exactText(v.x()) + ' ' + exactText(v.y()) + ' ' + exactText(v.z()) + ')';
 }
 
 Eigen::MatrixXd readInternalField(const std::filesystem::path& file)

@@ -33,9 +33,6 @@ private:
     std::vector<std::pair<std::string, std::string>> entries_;
 };
 
-/// A number with all its digits.
-std::string number(double value);
-
 /// "(x y z)"
 std::string vectorText(const Eigen::Vector3d& v);
 

@@ -1,4 +1,5 @@
 #include "support/testCase.h"
+#include "words/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -233,9 +234,9 @@ Outcome TestCase::run(int ranks)
     if (ranks > 1 && files_.find("system/decomposeParDict") == files_.end())
     {
         file("system/decomposeParDict")
-            .set("numberOfSubdomains", number(ranks))
+            .set("numberOfSubdomains", exactText(ranks))
             .set("method", "simple")
-            .set("simpleCoeffs/n", '(' + number(ranks) + " 1 1)")
+            .set("simpleCoeffs/n", '(' + exactText(ranks) + " 1 1)")
             .set("simpleCoeffs/delta", "0.001");
         written_ = false;
     }
@@ -256,7 +257,7 @@ Outcome TestCase::run(int ranks)
     {
         return decomposed;
     }
-    Outcome solved = runCommand("mpirun -np " + number(ranks) + " $SOLVER -parallel");
+    Outcome solved = runCommand("mpirun -np " + exactText(ranks) + " $SOLVER -parallel");
     if (solved.succeeded())
     {
         Outcome reconstructed = runCommand("reconstructPar");
