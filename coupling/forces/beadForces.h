@@ -2,7 +2,7 @@
 
 #include "engine/demEngine.h"
 #include "forces/forceModel.h"
-#include "output/phaseTimers.h"
+#include "phaseTimers.h"
 
 #include "PtrList.H"
 

@@ -3,7 +3,7 @@
 #include "interval/fluidCoupling.h"
 #include "interval/fluidModels.h"
 #include "interval/intervalLength.h"
-#include "output/observedBeads.h"
+#include "functionObjects/observedBeads.h"
 #include "traffic/beadTraffic.h"
 
 #include <functional>

@@ -10,7 +10,7 @@
 #include "interval/selfDisturbance.h"
 #include "interval/voidFractionRate.h"
 #include "ledger/ledger.h"
-#include "output/phaseTimers.h"
+#include "phaseTimers.h"
 
 namespace clepsydra
 {

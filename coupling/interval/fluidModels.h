@@ -3,7 +3,7 @@
 #include "distribution/distribution.h"
 #include "forces/beadForces.h"
 #include "interval/couplingSettings.h"
-#include "output/phaseTimers.h"
+#include "phaseTimers.h"
 
 namespace clepsydra
 {

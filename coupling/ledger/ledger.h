@@ -1,7 +1,7 @@
 #pragma once
 
 #include "ledger/beadCensus.h"
-#include "output/phaseTimers.h"
+#include "phaseTimers.h"
 
 #include "Time.H"
 #include "dictionary.H"

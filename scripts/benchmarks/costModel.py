@@ -1,4 +1,4 @@
-"""The cost model that coupling/output/costModel.h states, and that every run prints its estimate from: measured, fitted,
+"""The cost model that coupling/run/costModel.h states, and that every run prints its estimate from: measured, fitted,
 held against a case that the fit has not seen. fitCostModel beside this file writes costModel.json."""
 
 import json

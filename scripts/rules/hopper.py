@@ -170,7 +170,7 @@ def checkMachine(p, cells, ranks, found):
 
 
 def seconds(p, cells, simulated):
-    """As pimpleDemFoam estimates it (coupling/output/costModel.h)."""
+    """As pimpleDemFoam estimates it (coupling/run/costModel.h)."""
     costs = json.loads((REPOSITORY / "scripts" / "benchmarks" / "costModel.json").read_text())
     perInterval = costs["perBead"] * p["beadCount"] + costs["perCell"] * cells + costs["perCell43"] * cells**(4 / 3)
     return simulated * (costs["perBeadStep"] * p["beadCount"] / p["demStep"] + perInterval * (cells > 0) / p["couplingInterval"])

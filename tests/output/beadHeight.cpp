@@ -1,8 +1,8 @@
 // First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
 #include <gmock/gmock.h>
 
-#include "output/beadHeight.h"
-#include "output/observedBeads.h"
+#include "functionObjects/beadHeight.h"
+#include "functionObjects/observedBeads.h"
 #include "support/boxMesh.h"
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include "output/costModel.h"
+#include "run/costModel.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
 #include <gmock/gmock.h>
 
-#include "output/demTimeScales.h"
-#include "output/startReport.h"
+#include "run/demTimeScales.h"
+#include "run/startReport.h"
 #include "support/boxMesh.h"
 #include "support/errorOf.h"
 #include "support/fakeEngine.h"

@@ -1,9 +1,9 @@
 // First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
 #include <gmock/gmock.h>
 
-#include "output/massInHopper.h"
-#include "output/observedBeads.h"
-#include "output/trailingRate.h"
+#include "functionObjects/massInHopper.h"
+#include "functionObjects/observedBeads.h"
+#include "functionObjects/trailingRate.h"
 #include "support/boxMesh.h"
 #include "support/errorOf.h"
 #include "support/fakeEngine.h"

@@ -1,7 +1,7 @@
 // First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
 #include <gmock/gmock.h>
 
-#include "output/progress.h"
+#include "run/progress.h"
 
 #include "Pstream.H"
 

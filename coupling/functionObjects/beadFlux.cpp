@@ -1,6 +1,6 @@
-#include "output/beadFlux.h"
+#include "functionObjects/beadFlux.h"
 
-#include "output/observableTable.h"
+#include "functionObjects/observableTable.h"
 #include "words/exactText.h"
 
 #include "Time.H"

@@ -5,9 +5,9 @@
 #include "checkpoint/stopRequest.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
-#include "output/progress.h"
-#include "output/runChecks.h"
-#include "output/scratchFolder.h"
+#include "run/progress.h"
+#include "run/runChecks.h"
+#include "run/scratchFolder.h"
 
 #include <memory>
 

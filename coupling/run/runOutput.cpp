@@ -1,10 +1,10 @@
-#include "output/runOutput.h"
+#include "run/runOutput.h"
 
-#include "output/caseSizes.h"
-#include "output/costModel.h"
-#include "output/massInHopper.h"
-#include "output/startReport.h"
-#include "output/unreadFields.h"
+#include "run/caseSizes.h"
+#include "run/costModel.h"
+#include "functionObjects/massInHopper.h"
+#include "run/startReport.h"
+#include "run/unreadFields.h"
 
 #include "IOmanip.H"
 #include "functionObject.H"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "output/demTimeScales.h"
+#include "run/demTimeScales.h"
 
 #include "dictionary.H"
 

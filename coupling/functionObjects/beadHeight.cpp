@@ -1,7 +1,7 @@
-#include "output/beadHeight.h"
+#include "functionObjects/beadHeight.h"
 
-#include "output/observableTable.h"
-#include "output/observedBeads.h"
+#include "functionObjects/observableTable.h"
+#include "functionObjects/observedBeads.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"

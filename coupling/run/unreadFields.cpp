@@ -1,4 +1,4 @@
-#include "output/unreadFields.h"
+#include "run/unreadFields.h"
 
 #include "IOobjectList.H"
 #include "knownEntries.h"

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "output/hopperCylinder.h"
-#include "output/trailingRate.h"
+#include "functionObjects/hopperCylinder.h"
+#include "functionObjects/trailingRate.h"
 #include "runTimeSelection.h"
 
 #include "fvMeshFunctionObject.H"

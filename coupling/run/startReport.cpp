@@ -1,4 +1,4 @@
-#include "output/startReport.h"
+#include "run/startReport.h"
 
 #include "runTimeSelection.h"
 

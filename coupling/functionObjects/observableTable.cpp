@@ -1,4 +1,4 @@
-#include "output/observableTable.h"
+#include "functionObjects/observableTable.h"
 
 #include "IFstream.H"
 #include "OSspecific.H"

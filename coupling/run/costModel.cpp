@@ -1,4 +1,4 @@
-#include "output/costModel.h"
+#include "run/costModel.h"
 
 #include <nlohmann/json.hpp>
 

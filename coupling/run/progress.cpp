@@ -1,4 +1,4 @@
-#include "output/progress.h"
+#include "run/progress.h"
 
 #include "Pstream.H"
 

@@ -1,4 +1,4 @@
-#include "output/hopperCylinder.h"
+#include "functionObjects/hopperCylinder.h"
 
 #include "vectors.h"
 

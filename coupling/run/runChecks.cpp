@@ -1,4 +1,4 @@
-#include "output/runChecks.h"
+#include "run/runChecks.h"
 
 #include "PstreamReduceOps.H"
 #include "globalMeshData.H"

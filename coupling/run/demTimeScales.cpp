@@ -1,4 +1,4 @@
-#include "output/demTimeScales.h"
+#include "run/demTimeScales.h"
 
 #include "closures/schillerNaumannDrag.h"
 #include "closures/timeScales.h"

@@ -1,4 +1,4 @@
-#include "output/caseSizes.h"
+#include "run/caseSizes.h"
 
 #include "PstreamReduceOps.H"
 #include "globalMeshData.H"

@@ -1,7 +1,7 @@
-#include "output/massInHopper.h"
+#include "functionObjects/massInHopper.h"
 
-#include "output/observableTable.h"
-#include "output/observedBeads.h"
+#include "functionObjects/observableTable.h"
+#include "functionObjects/observedBeads.h"
 #include "vectors.h"
 #include "words/exactText.h"
 
