@@ -1,13 +1,13 @@
 #pragma once
 
-#include "engine/liggghts/liggghtsEngine.h"
-
 #include "IOdictionary.H"
 #include "Switch.H"
 #include "Time.H"
 #include "fvMesh.H"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace clepsydra
 {
@@ -21,7 +21,7 @@ struct AdjustableInterval
 };
 
 /// What constant/couplingProperties says, checked. Every member of a case is read here and nowhere else, apart from
-/// the coefficients of run-time selected models.
+/// the coefficients of run-time selected models and what is the engine's.
 ///
 /// FatalIOError naming file, entry and what is allowed where something is missing or wrong.
 class CouplingSettings
@@ -85,11 +85,6 @@ public:
 
     /// The choices of this file for the start of the log, a line each.
     std::vector<std::string> descriptions() const;
-
-    /// The engine's script and variables, paths made absolute for a decomposed case.
-    /// \param resumeFrom  the beads' part of a checkpoint, empty for a fresh start.
-    /// \param writesNothing  the engine leaves no files, its log neither
-    LiggghtsSetup engineSetup(const std::filesystem::path& resumeFrom, bool writesNothing = false) const;
 
     /// The file that the beads are written to at the end of the run, empty for none.
     Foam::fileName finalRestart() const;

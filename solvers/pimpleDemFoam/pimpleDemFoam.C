@@ -6,6 +6,7 @@
 #include "checkpoint/runTime.h"
 #include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
+#include "liggghtsSetup.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
@@ -172,7 +173,7 @@ int main(int argc, char* argv[])
     }
     try
     {
-        LiggghtsEngine engine(settings.engineSetup(checkpoints.beads(), dryRun));
+        LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.beads(), dryRun));
         if (models)
         {
             requireSameGravity(fluid, engine);

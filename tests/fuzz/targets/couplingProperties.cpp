@@ -1,6 +1,7 @@
 // constant/couplingProperties, read as the solver reads it at its start: either refused with FatalError or FatalIOError,
 // or all settings are there. Nothing that OpenFOAM's dictionaries can compile and run (#calc, #codeStream) is run.
 #include "inputFile.h"
+#include "liggghtsSetup.h"
 
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
@@ -71,7 +72,7 @@ void read()
     const clepsydra::CouplingSettings settings(timeOfCase());
     settings.descriptions();
     settings.writeVtk();
-    settings.engineSetup({});
+    clepsydra::liggghtsSetup(settings, {});
     settings.finalRestart();
     settings.stepsPerInterval(demStep);
 }

@@ -1,0 +1,122 @@
+#include "liggghtsSetup.h"
+
+#include "runTimeSelection.h"
+#include "words/exactText.h"
+
+#include "OSspecific.H"
+
+#include <cctype>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// A value as LIGGGHTS is to read it, every digit kept.
+std::string valueOf(const dictionary& variables, const word& name)
+{
+    const ITstream& values = variables.lookup(name);
+    if (values.size() != 1)
+    {
+        FatalIOErrorInFunction(variables) << "Entry '" << name << "' of DEM/variables has " << values.size()
+                                          << " values; allowed: one number, word or \"text\"" << exit(FatalIOError);
+    }
+    const token& value = values[0];
+    if (value.isLabel())
+    {
+        return std::to_string(value.labelToken());
+    }
+    if (value.isNumber())
+    {
+        if (!isOfUsableSize(value.number()))
+        {
+            FatalIOErrorInFunction(variables)
+                << "Entry '" << name << "' of DEM/variables is " << value.number()
+                << "; allowed: 0, or a number of a size from 1e-60 to 1e60" << exit(FatalIOError);
+        }
+        return exactText(value.number());
+    }
+    if (!value.isWord() && !value.isString())
+    {
+        FatalIOErrorInFunction(variables) << "Entry '" << name << "' of DEM/variables is " << value.info()
+                                          << "; allowed: one number, word or \"text\"" << exit(FatalIOError);
+    }
+    return value.isString() ? value.stringToken() : value.wordToken();
+}
+
+/// No material has a negative friction, nor a density or diameter of zero; the script's own checks come too late or
+/// not at all. Variables are known by their names, since the script may call them what it likes.
+void checkMaterialValues(const dictionary& variables)
+{
+    const auto names = [](const word& name, const std::string& quantity) {
+        return name.find(quantity) != string::npos
+               || name.find(static_cast<char>(std::toupper(quantity[0])) + quantity.substr(1)) != string::npos;
+    };
+    for (const word& name : variables.toc())
+    {
+        if (names(name, "friction") || names(name, "cohesion"))
+        {
+            positiveEntry(variables, name, true);
+        }
+        else if (names(name, "density") || names(name, "diameter"))
+        {
+            positiveEntry(variables, name);
+        }
+    }
+}
+
+/// \param changes  the dictionary DEM/groupChanges, a sub-dictionary each.
+std::vector<GroupChange> readGroupChanges(const dictionary& changes)
+{
+    std::vector<GroupChange> read;
+    for (const entry& item : changes)
+    {
+        if (!item.isDict())
+        {
+            FatalIOErrorInFunction(changes)
+                << "Entry '" << item.keyword() << "' of DEM/groupChanges is no dictionary; allowed: "
+                << "name { from <group>; to <group>; below <z>; }" << exit(FatalIOError);
+        }
+        const dictionary& dict = item.dict();
+        requireKnownEntries(dict, {"from", "to", "below", "slowerThan", "during"});
+        GroupChange change{item.keyword(), dict.get<word>("from"), dict.get<word>("to"), dict.get<double>("below"), {}};
+        if (dict.found("slowerThan"))
+        {
+            change.rest = GroupChange::Rest{positiveEntry(dict, "slowerThan"), positiveEntry(dict, "during")};
+        }
+        read.push_back(std::move(change));
+    }
+    return read;
+}
+
+} // namespace
+
+LiggghtsSetup liggghtsSetup(
+    const CouplingSettings& settings, const std::filesystem::path& resumeFrom, bool writesNothing)
+{
+    const dictionary& dem = settings.demDict();
+    selectedModel(dem, "engine", {"liggghts"});
+
+    LiggghtsSetup setup;
+    setup.script = dem.get<fileName>("script").c_str();
+    if (!isFile(fileName(setup.script.string())))
+    {
+        FatalIOErrorInFunction(dem) << "Entry 'script' is " << setup.script.c_str()
+                                    << "; allowed: a file, relative to the case directory "
+                                    << settings.dict().time().globalPath() << exit(FatalIOError);
+    }
+    const dictionary variables = dem.subOrEmptyDict("variables");
+    for (const word& name : variables.toc())
+    {
+        setup.variables.emplace_back(name, valueOf(variables, name));
+    }
+    checkMaterialValues(variables);
+    setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));
+    setup.logFile = writesNothing ? "/dev/null" : "log.liggghts";
+    setup.writesNothing = writesNothing;
+    setup.resumeFrom = resumeFrom;
+    return setup;
+}
+
+} // namespace clepsydra
