@@ -12,8 +12,7 @@ using namespace Foam;
 
 CarriedMomentum::CarriedMomentum(const fvMesh& mesh, double fluidDensity)
     : fluidDensity_(fluidDensity),
-      coefficient_(IOobject("anticipatedDrag", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE),
-          mesh, dimensionedScalar("none", dimless / dimTime, 0)),
+      coefficient_(fieldOfInterval<volScalarField>("anticipatedDrag", mesh, dimless / dimTime)),
       beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
       unassigned_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero))
 {}

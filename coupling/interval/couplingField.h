@@ -23,4 +23,15 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
     return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
 }
 
+/// A field that is made anew in every interval: neither read nor written, uniform at first.
+template<class Field>
+Field fieldOfInterval(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
+    const typename Field::value_type& value = Foam::pTraits<typename Field::value_type>::zero,
+    const Foam::word& patchType = Field::Patch::calculatedType())
+{
+    using namespace Foam;
+    return Field(IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE), mesh,
+        dimensioned<typename Field::value_type>(name, dimensions, value), patchType);
+}
+
 } // namespace clepsydra

@@ -66,8 +66,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       exchange_(duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
       selfDisturbance_(settings, fluid, distribution.smoothingModel()),
       voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
-      pressureFactor_(IOobject("pressureFactor", mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE),
-          mesh, dimensionedScalar("pressureFactor", dimless, 1), zeroGradientFvPatchScalarField::typeName),
+      pressureFactor_(fieldOfInterval<volScalarField>(
+          "pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
       voidFractionRate_(mesh, settings),
       carriedMomentum_(mesh, fluid.density),
       solidFraction_(1 - voidFraction_.primitiveField())

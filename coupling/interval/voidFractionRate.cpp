@@ -16,13 +16,6 @@ using namespace Foam;
 namespace
 {
 
-template<class Field>
-Field fieldOfInterval(const word& name, const fvMesh& mesh, const dimensionSet& dimensions)
-{
-    return Field(IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE), mesh,
-        dimensioned<typename Field::value_type>(name, dimensions, pTraits<typename Field::value_type>::zero));
-}
-
 /// No bead is anticipated to leave or to come in.
 template<class Type>
 void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
