@@ -36,12 +36,12 @@ struct AnticipatedMotion
 inline AnticipatedMotion anticipatedMotion(
     const GivenToFluid& given, const Vector3d& changeOfVelocity, double mass, double lastInterval, double nextInterval)
 {
+    const double heldDrag = nextInterval / lastInterval * given.implicitCoefficientTime;
     if (changeOfVelocity.isZero(0))
     {
-        return {nextInterval / lastInterval * given.implicitCoefficientTime, 0, 0};
+        return {heldDrag, 0, 0};
     }
     const double inertia = mass + given.addedMassTime / lastInterval;
-    const double heldDrag = nextInterval / lastInterval * given.implicitCoefficientTime;
     const double freeDrag = -mass * std::expm1(-heldDrag / mass);
     const double impulseSqr = given.impulse.squaredNorm();
     const double takenUp =

@@ -180,7 +180,11 @@ void FluidCoupling::anticipate(double lastInterval, double nextInterval)
     const BeadsView beads = engine_.beads();
     anticipatedTime_ = nextInterval;
     anticipated_.assign(static_cast<std::size_t>(beads.size()), AnticipatedMotion());
-    for (Eigen::Index bead = 0; settings_.implicitCoupling() && bead < beads.size(); ++bead)
+    if (!settings_.implicitCoupling())
+    {
+        return;
+    }
+    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
         const CouplingState& state = beads.state[bead];
         // One that has left is given nothing in advance, for it is taken out before it could receive it.
