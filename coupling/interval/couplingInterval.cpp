@@ -1,11 +1,11 @@
 #include "interval/couplingInterval.h"
 
+#include "distribution/lengthOfChange.h"
 #include "vectors.h"
 
 #include "fvc.H"
 
 #include <algorithm>
-#include <cmath>
 
 namespace clepsydra
 {
@@ -39,8 +39,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
         fluid_ = std::make_unique<FluidCoupling>(
             mesh, settings, fluid, models->forces.needs(), engine, models->distribution, ledger_, timers_);
         fluid_->start(resumed);
-        fluidLength_ =
-            std::max(models->distribution.smoothingModel().bandwidth(), std::cbrt(Foam::gMin(mesh.cellVolumes())));
+        lengthOfChange_ = lengthOfChange(models->distribution.smoothingModel().bandwidth(), smallestCellWidth(mesh));
     }
 }
 
@@ -140,7 +139,7 @@ std::vector<IntervalLimit> CouplingInterval::limits(const Foam::surfaceScalarFie
     const double fastestHere = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff() : 0;
     const double fastest = returnReduce(fastestHere, Foam::maxOp<double>());
     return {{"Courant number of the fluid", courant / std::max(throughCells, Foam::VSMALL)},
-        {"Courant number of the beads", courant * fluidLength_ / std::max(fastest, Foam::VSMALL)}};
+        {"Courant number of the beads", courant * lengthOfChange_ / std::max(fastest, Foam::VSMALL)}};
 }
 
 void CouplingInterval::advanceBeads()

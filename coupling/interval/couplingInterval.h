@@ -102,8 +102,8 @@ private:
     IntervalLength length_;
     /// Of the interval that the fluid is solved for [s].
     double interval_;
-    /// Over which the fluid at a bead changes: the smoothing length, or the smallest cell where that is larger [m].
-    double fluidLength_ = 0;
+    /// By the smallest cell [m].
+    double lengthOfChange_ = 0;
     const bool resumed_;
     const double fluidDensity_;
     PhaseTimers& timers_;

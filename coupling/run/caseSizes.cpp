@@ -1,11 +1,11 @@
 #include "run/caseSizes.h"
 
+#include "distribution/lengthOfChange.h"
+
 #include "PstreamReduceOps.H"
 #include "globalMeshData.H"
 #include "runTimeSelection.h"
 
-#include <algorithm>
-#include <cmath>
 
 namespace clepsydra
 {
@@ -55,7 +55,7 @@ void checkCaseSizes(
     const double largest = returnReduce(beads.size() > 0 ? 2 * beads.radius.maxCoeff() : 0.0, maxOp<scalar>());
     const vector span = mesh.bounds().span();
     const label cells = mesh.globalData().nTotalCells();
-    const double cellWidth = std::cbrt(gSum(mesh.cellVolumes()) / cells);
+    const double cellWidth = meanCellWidth(mesh);
     const label fewestCells = returnReduce(mesh.nCells(), minOp<label>());
 
     Info << "Sizes" << nl << "    mesh           " << span << " m, " << cells << " cells of " << cellWidth
@@ -76,7 +76,7 @@ void checkCaseSizes(
             << " m; allowed: at most " << longestSmoothing << " times its length, which spreads beads evenly over it"
             << exit(FatalIOError);
     }
-    if (largest > std::max(smoothingLength, cellWidth))
+    if (largest > lengthOfChange(smoothingLength, cellWidth))
     {
         warn("A bead of " + Foam::name(largest) + " m is wider than the cells, " + Foam::name(cellWidth)
              + " m, and than the smoothing length, " + Foam::name(smoothingLength)

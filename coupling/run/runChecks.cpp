@@ -1,11 +1,10 @@
 #include "run/runChecks.h"
 
+#include "distribution/lengthOfChange.h"
+
 #include "PstreamReduceOps.H"
-#include "globalMeshData.H"
 #include "solverPerformance.H"
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace clepsydra
@@ -26,7 +25,7 @@ constexpr double farthestTravel = 10;
 
 RunChecks::RunChecks(const fvMesh& mesh, double smoothingLength)
     : mesh_(mesh),
-      reach_(std::max(smoothingLength, std::cbrt(gSum(mesh.cellVolumes()) / mesh.globalData().nTotalCells())))
+      lengthOfChange_(lengthOfChange(smoothingLength, meanCellWidth(mesh)))
 {}
 
 void RunChecks::afterInterval(const BeadsView& beads)
@@ -71,7 +70,7 @@ void RunChecks::checkTravel(const BeadsView& beads)
     const double here = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff(&fastest) : 0;
     const double speed = returnReduce(here, maxOp<scalar>());
     const double interval = mesh_.time().deltaTValue();
-    const double travel = speed * interval / reach_;
+    const double travel = speed * interval / lengthOfChange_;
     if (travel <= 1)
     {
         return;
@@ -80,12 +79,12 @@ void RunChecks::checkTravel(const BeadsView& beads)
     std::ostringstream text;
     text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling interval of " << interval
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing length or cell), "
-         << reach_ << " m, and the fluid at a bead is frozen for an interval";
+         << lengthOfChange_ << " m, and the fluid at a bead is frozen for an interval";
     if (travel > farthestTravel && here == speed)
     {
         FatalErrorInFunction << "Bead " << beads.id[fastest] << ' ' << text.str().c_str() << "; allowed: at most "
                              << farthestTravel << " times, by a shorter couplingInterval (and deltaT), "
-                             << farthestTravel * reach_ / speed << " s here" << exit(FatalError);
+                             << farthestTravel * lengthOfChange_ / speed << " s here" << exit(FatalError);
     }
     if (fast_ == 1 && Pstream::master())
     {

@@ -28,8 +28,8 @@ private:
     void checkTravel(const BeadsView& beads);
 
     const Foam::fvMesh& mesh_;
-    /// Over which the fluid at a bead changes [m].
-    double reach_;
+    /// By the cells' mean width [m]: refined cells somewhere are no reason to warn.
+    const double lengthOfChange_;
     long intervals_ = 0;
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
