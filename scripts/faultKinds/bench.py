@@ -69,7 +69,8 @@ class Bench:
 
     def pile(self, ranks=1, **entries):
         """The case with its mesh, not run yet."""
-        return self._copy(self._once("mesh" if ranks == 1 else f"mesh{ranks}", lambda: self._meshed(ranks)), ranks, entries)
+        name = "mesh" if ranks == 1 else f"mesh{ranks}"
+        return self._copy(self._once(name, lambda: self._meshed(ranks)), ranks, entries)
 
     def stopped(self, ranks=1, **entries):
         """The case as an undisturbed run to .06 s has left it; it goes on to the end."""
@@ -287,7 +288,8 @@ def differences(case, reference):
         if not (case / name).exists():
             found.append(f"{name} is missing")
             continue
-        found += [f"{file} is not that of {name}" for file, checksum in files(case / name).items() if checksum != sha256(case / file)]
+        found += [f"{file} is not that of {name}" for file, checksum in files(case / name).items()
+                  if checksum != sha256(case / file)]
     if rows(case) != rows(reference):
         found.append(f"m(t) has {len(rows(case))} rows in place of {len(rows(reference))}, or others")
     return found

@@ -32,7 +32,8 @@ class Runs:
         self.log = self.folder.with_name(self.folder.name + ".log")
 
     def command(self, action):
-        return ["env", f"CLEPSYDRA_BUILD={self.folder / 'build'}", CAMPAIGN, action, self.file, *["--cores", "1"] * (action == "run")]
+        return ["env", f"CLEPSYDRA_BUILD={self.folder / 'build'}", CAMPAIGN, action, self.file,
+                *["--cores", "1"] * (action == "run")]
 
     def start(self):
         return self.bench.start(self.command("run"), self.folder, self.log)
@@ -82,7 +83,8 @@ def killCampaign(bench):
     return "same results"
 
 
-@fault("SIGTERM or SIGINT to a campaign", "status 143 or 130, nobody lives on; the same command goes on to the same results",
+@fault("SIGTERM or SIGINT to a campaign",
+       "status 143 or 130, nobody lives on; the same command goes on to the same results",
        inQuick=False)
 def campaignStopped(bench):
     return [functools.partial(stopCampaign, bench, how) for how in (signal.SIGTERM, signal.SIGINT) for _ in range(2)]
@@ -104,7 +106,8 @@ def stopCampaign(bench, how):
     return "same results"
 
 
-@fault("a file of a campaign's state has half a line, is empty or is no JSON", "says so, or makes it anew: the same results")
+@fault("a file of a campaign's state has half a line, is empty or is no JSON",
+       "says so, or makes it anew: the same results")
 def campaignStateDamaged(bench):
     return [functools.partial(damageState, bench, *change) for change in bench.some((
         ("attempts", lambda text: text + '{"start": 17'), ("attempts", lambda text: ""),
@@ -132,7 +135,8 @@ def damageState(bench, name, damage):
     return "same results" if outcome.status == 0 else "file and line are named; without it the same results"
 
 
-@fault("the disk of a campaign is full after so many KiB", "fails with a message; with room again the same command goes on to the same results")
+@fault("the disk of a campaign is full after so many KiB",
+       "fails with a message; with room again the same command goes on to the same results")
 def campaignDiskFull(bench):
     return [functools.partial(fillCampaign, bench, room) for room in bench.some(range(0, 330, 15), quick=2)]
 

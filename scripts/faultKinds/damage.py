@@ -73,7 +73,8 @@ def damageManifest(bench, damage):
     case = bench.stopped()
     damage(case.folder / "checkpoints" / STOPPED / "complete")
     outcome = case.settle()
-    if not outcome.says(f"Resuming from the checkpoint of time {BEFORE_STOPPED}") or not outcome.says(f"time {STOPPED}"):
+    said = (f"Resuming from the checkpoint of time {BEFORE_STOPPED}", f"time {STOPPED}")
+    if not all(outcome.says(text) for text in said):
         raise Wrong("did not say so: " + outcome.output[:400])
     return "said so; from the checkpoint before to the same end"
 
@@ -135,7 +136,8 @@ def refusal(case, names):
         if not outcome.says(name):
             raise Wrong(f"{name} is not named")
     if state(case) != before:
-        raise Wrong("changed by a run that refused: " + ", ".join(sorted(set(before.items()) ^ set(state(case).items()))[0]))
+        changed = sorted(set(before.items()) ^ set(state(case).items()))
+        raise Wrong("changed by a run that refused: " + ", ".join(changed[0]))
     return "refused, nothing changed"
 
 
@@ -161,8 +163,8 @@ def damageTable(bench, damage):
     damage(case.folder / "postProcessing/massInHopper/0/massInHopper.dat")
     outcome = case.run()
     if outcome.status != 0 or not outcome.says("WARNING: massInHopper.dat has"):
-        raise Wrong(f"{damage.__name__}: m(t) has {len(rows(case.folder))} rows in place of {len(rows(bench.reference()))}, "
-                    f"and nothing is said; status {outcome.status}")
+        raise Wrong(f"{damage.__name__}: m(t) has {len(rows(case.folder))} rows in place of "
+                    f"{len(rows(bench.reference()))}, and nothing is said; status {outcome.status}")
     others = [name for name in differences(case.folder, bench.reference()) if not name.startswith("m(t)")]
     if others:
         raise Wrong(", ".join(others[:3]))

@@ -100,7 +100,8 @@ def diskFullForLog(bench):
     return [run]
 
 
-@fault("the case is read-only when a run starts", "refuses with a message, changes nothing; writable, the same end", inQuick=False)
+@fault("the case is read-only when a run starts",
+       "refuses with a message, changes nothing; writable, the same end", inQuick=False)
 def readOnly(bench):
     def run(case):
         mount(bench, case.folder, "--bind", case.folder)
@@ -114,7 +115,8 @@ def readOnly(bench):
     return [lambda: run(bench.pile()), lambda: run(bench.stopped())]
 
 
-@fault("the case folder is moved away in the midst of a run", "stops with a message; moved back, the same end", inQuick=False)
+@fault("the case folder is moved away in the midst of a run",
+       "stops with a message; moved back, the same end", inQuick=False)
 def folderMoved(bench):
     return [functools.partial(moveFolder, bench) for _ in bench.times(1, 3)]
 

@@ -6,7 +6,8 @@ import subprocess
 from faultKinds.disk import judgedWhereEnginesCrash
 from faultKinds.kinds import Wrong, fault
 
-STOPS = "ends with a message or by the signal that the system sends; without the limit the same command goes on to the same end"
+STOPS = ("ends with a message or by the signal that the system sends; "
+         "without the limit the same command goes on to the same end")
 
 
 def limited(bench, option):
@@ -56,7 +57,8 @@ def openFilesLimit(bench):
     return [functools.partial(limited, bench, f"--nofile={count}") for count in (10, 16, 20, 22, 23, 24, 25, 26, 28)]
 
 
-@fault("numbers that no run can go on with: NaN in a field, a time step or a bead far too fast, a liquid without density",
+@fault("numbers that no run can go on with: "
+       "NaN in a field, a time step or a bead far too fast, a liquid without density",
        "stops with a message")
 def numericalFaults(bench):
     return [functools.partial(unstable, bench, *change) for change in bench.some((
@@ -95,7 +97,8 @@ def damagePacking(bench, damage):
     case = bench.pile(endTime=0.02)
     script = case.folder / "DEM/in.beads"
     lines = [line for line in script.read_text().splitlines() if not line.startswith(("create_", "set "))]
-    lines = ["read_restart " + str(poured.folder / "packing.restart") if line.startswith("region") else line for line in lines]
+    packing = "read_restart " + str(poured.folder / "packing.restart")
+    lines = [packing if line.startswith("region") else line for line in lines]
     script.write_text("\n".join(lines) + "\n")
     packing = poured.folder / "packing.restart"
     content = packing.read_bytes()

@@ -104,7 +104,8 @@ def goOnAfterStop(case):
     return "goes on, every row and bead once"
 
 
-@fault("a bit flipped in a field of one rank", "names the file, goes on from the checkpoint before to the same end", inQuick=False)
+@fault("a bit flipped in a field of one rank",
+       "names the file, goes on from the checkpoint before to the same end", inQuick=False)
 def fieldOfRankDamaged(bench):
     names = [name for name in bench.stopped(2).manifest(STOPPED) if name.startswith("processor")]
     return [functools.partial(damageRank, bench, name) for name in bench.some(names, quick=1, full=6)]
@@ -119,7 +120,8 @@ def damageRank(bench, name):
     return "named; from the checkpoint before to the same end"
 
 
-@fault("going on with another number of ranks than before, without decomposing", "refuses with a message, nothing is lost", inQuick=False)
+@fault("going on with another number of ranks than before, without decomposing",
+       "refuses with a message, nothing is lost", inQuick=False)
 def otherRanks(bench):
     return [functools.partial(goOnWith, bench, before, after) for before, after in ((1, 2), (2, 1), (2, 3))]
 

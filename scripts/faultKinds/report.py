@@ -19,7 +19,8 @@ def row(kind, seen, wrong, seconds, skipped=None):
 
 @functools.cache
 def commit():
-    described = subprocess.run(["git", "-C", PAGE.parent, "describe", "--always", "--dirty"], capture_output=True, text=True)
+    described = subprocess.run(
+        ["git", "-C", PAGE.parent, "describe", "--always", "--dirty"], capture_output=True, text=True)
     return described.stdout.strip() or "unknown"
 
 
@@ -31,7 +32,8 @@ def line(found):
 def summary(rows):
     held = sum(found["holds"] is True for found in rows)
     skipped = sum(found["holds"] is None for found in rows)
-    return f"{held} of {len(rows)} kinds of fault hold, {skipped} skipped; {sum(found['tries'] for found in rows)} tries"
+    tries = sum(found["tries"] for found in rows)
+    return f"{held} of {len(rows)} kinds of fault hold, {skipped} skipped; {tries} tries"
 
 
 def write(file, rows):
@@ -44,6 +46,8 @@ def writePage(results):
     text = PAGE.read_text()
     before, rest = text.split(BEGIN)
     after = rest.split(END)[1]
-    table = [f"{summary(rows)}; commit {', '.join(sorted({found['commit'] for found in rows}))}.\n\n", "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
+    commits = ", ".join(sorted({found["commit"] for found in rows}))
+    table = [f"{summary(rows)}; commit {commits}.\n\n",
+             "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
     table += [f"| `{found['fault']}` | {found['done']} | {found['observed']} | {found['tries']} |\n" for found in rows]
     PAGE.write_text(before + BEGIN + "".join(table) + END + after)

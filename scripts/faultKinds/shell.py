@@ -6,11 +6,13 @@ import shlex
 from faultKinds.bench import REPOSITORY
 from faultKinds.kinds import Wrong, fault
 
-HOSTILE = ("x $(touch made)|e #", "`touch made`", "1|e touch made #", "$(touch made)", "1; touch made", "a[$(touch made)0]",
-           "'; touch made; '", "1\ntouch made", "system(\"touch made\")", "__import__('os').system('touch made')")
+HOSTILE = ("x $(touch made)|e #", "`touch made`", "1|e touch made #", "$(touch made)", "1; touch made",
+           "a[$(touch made)0]", "'; touch made; '", "1\ntouch made", "system(\"touch made\")",
+           "__import__('os').system('touch made')")
 
 
-@fault("an entry of parameters is text that a shell, sed, awk or Python would run", "no command is run; refused or kept as text")
+@fault("an entry of parameters is text that a shell, sed, awk or Python would run",
+       "no command is run; refused or kept as text")
 def hostileParameters(bench):
     return [functools.partial(hostile, bench, use, text)
             for text in bench.some(HOSTILE, quick=3) for use in ("get", "set", "merge", "at")]
@@ -25,7 +27,8 @@ def hostile(bench, use, text):
               "merge": "setParameters template parameters",
               "at": f"at {shlex.quote(text)}"}[use]
     functions = REPOSITORY / "scripts" / "runFunctions"
-    outcome = bench.call(["bash", "-c", f"set -eu; repository={shlex.quote(str(REPOSITORY))}; . {functions}; {action}"], folder)
+    script = f"set -eu; repository={shlex.quote(str(REPOSITORY))}; . {functions}; {action}"
+    outcome = bench.call(["bash", "-c", script], folder)
     if any(path.name == "made" for path in folder.rglob("*")):
         raise Wrong(f"{use}: {text!r} was run")
     if "Traceback" in outcome.output:

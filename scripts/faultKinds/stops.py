@@ -50,13 +50,15 @@ def atRandomMoment(case, process):
         time.sleep(random.uniform(0, 0.01))
 
 
-@fault("SIGTERM at a random moment", "status 0 with a checkpoint; then the end of a run that ended there by its endTime")
+@fault("SIGTERM at a random moment",
+       "status 0 with a checkpoint; then the end of a run that ended there by its endTime")
 def terminated(bench):
     return [functools.partial(askedToStop, bench, signal.SIGTERM) for _ in bench.times(2, 12)]
 
 
 @fault("SIGINT (Ctrl-C) at a random moment",
-       "a word at once, status 0 with a checkpoint; then the end of a run that ended there by its endTime", inQuick=False)
+       "a word at once, status 0 with a checkpoint; then the end of a run that ended there by its endTime",
+       inQuick=False)
 def interrupted(bench):
     return [functools.partial(askedToStop, bench, signal.SIGINT) for _ in bench.times(1, 8)]
 
@@ -99,7 +101,8 @@ def interruptTwice(bench):
     return "same end"
 
 
-@fault("maxClockTime is over", "status 0 with a checkpoint; then the end of a run that ended there by its endTime", inQuick=False)
+@fault("maxClockTime is over",
+       "status 0 with a checkpoint; then the end of a run that ended there by its endTime", inQuick=False)
 def clockTimeOver(bench):
     return [functools.partial(outOfTime, bench) for _ in bench.times(1, 3)]
 
@@ -127,7 +130,7 @@ def lastTime(outcome):
 
 
 def endedAndResumed(bench, stoppedAt):
-    """A checkpoint off the write times makes neighbour lists anew: so only a run that has one there, too, ends alike."""
+    """A checkpoint off the write times makes neighbour lists anew: only a run that has one there, too, ends alike."""
     case = bench.pile(endTime=stoppedAt)
     case.mustRun()
     case.set(endTime=END).mustRun()
@@ -155,7 +158,8 @@ def freeze(bench):
     return "same end"
 
 
-@fault("a second instance is started in the same case", "the second refuses and says who runs here; the first ends as ever")
+@fault("a second instance is started in the same case",
+       "the second refuses and says who runs here; the first ends as ever")
 def twoInstances(bench):
     return [functools.partial(startTwice, bench, ranks) for ranks in bench.some([1, 1, 1, 2], quick=1)]
 
@@ -166,7 +170,8 @@ def startTwice(bench, ranks):
     if not case.waitFor("\nTime = ", first):
         raise Wrong("the first ended: " + bench.finished(first, case.log).lastWords)
     os.kill(first.pid, signal.SIGSTOP)      # so that it is there still when the second starts
-    second = bench.finished(bench.start(case.command, case.folder, case.folder.with_name("second.log")), case.folder.with_name("second.log"))
+    log = case.folder.with_name("second.log")
+    second = bench.finished(bench.start(case.command, case.folder, log), log)
     os.kill(first.pid, signal.SIGCONT)
     if second.status == 0 or not second.says("Another program runs in this case"):
         raise Wrong(f"the second: status {second.status}, {second.lastWords}")

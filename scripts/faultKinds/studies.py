@@ -58,7 +58,8 @@ def measured(bench):
             files = []
             for repeat in range(3):
                 run = bench.freshFolder("measure")
-                given = dict(entry.split(": ") for entry in entries.split(", ")) | {"seed": str(seed), "addedMass": "0.7"}
+                given = dict(entry.split(": ") for entry in entries.split(", "))
+                given |= {"seed": str(seed), "addedMass": "0.7"}
                 seed += 2
                 original = (STAND_IN / "case/parameters").read_text()
                 (run / "parameters").write_text(parameterFile.withParameters(original, given))
@@ -67,9 +68,11 @@ def measured(bench):
                 rows = (run / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines()[1::2]
                 files.append(f"{name}{repeat}.csv")
                 (folder / files[-1]).write_text("t,m\n" + "".join(row.replace("\t", ",") + "\n" for row in rows))
-            text = text.replace(f"- name: {name}\n", f"- name: {name}\n    measured: {{ files: [{', '.join(files)}] }}\n")
+            measured = f"    measured: {{ files: [{', '.join(files)}] }}\n"
+            text = text.replace(f"- name: {name}\n", f"- name: {name}\n{measured}")
         text += ("measured:\n  time: { column: t, unit: s }\n  value: { column: m, unit: kg }\n"
-                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200, pairs: false }\nexecutor: { kind: pool, processes: 1 }\n")
+                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200, pairs: false }\n"
+                 "executor: { kind: pool, processes: 1 }\n")
         (folder / "study.yaml").write_text(text)
         bench.keep(folder)
         bench.study = folder
@@ -89,7 +92,8 @@ def undisturbed(bench):
     return bench.studyAnswer
 
 
-@fault("SIGKILL to a study and all that it has started, at random moments", "the same command goes on to the same answer", inQuick=False)
+@fault("SIGKILL to a study and all that it has started, at random moments",
+       "the same command goes on to the same answer", inQuick=False)
 def studyKilled(bench):
     return [functools.partial(killStudy, bench) for _ in bench.times(1, 6)]
 
@@ -106,7 +110,8 @@ def killStudy(bench):
     return "same answer"
 
 
-@fault("files of stored runs are cut, emptied, gone, have a bit flipped", "says so, makes those runs anew, comes to the same answer",
+@fault("files of stored runs are cut, emptied, gone, have a bit flipped",
+       "says so, makes those runs anew, comes to the same answer",
        inQuick=False)
 def studyStoreDamaged(bench):
     return [functools.partial(damageStore, bench, damage, pattern) for pattern in ("massInHopper.dat", "record.json")
@@ -128,10 +133,12 @@ def damageStore(bench, damage, pattern):
     return "said; same answer"
 
 
-@fault("the disk of a study is full after so many KiB", "stops with a message; with room again the same command comes to the same answer",
+@fault("the disk of a study is full after so many KiB",
+       "stops with a message; with room again the same command comes to the same answer",
        inQuick=False)
 def studyDiskFull(bench):
-    return [functools.partial(fillStudy, bench, room) for room in bench.some((0, 50, 200, 500, 1000, 2000, 4000), quick=1)]
+    rooms = bench.some((0, 50, 200, 500, 1000, 2000, 4000), quick=1)
+    return [functools.partial(fillStudy, bench, room) for room in rooms]
 
 
 def fillStudy(bench, room):
@@ -149,7 +156,8 @@ def fillStudy(bench, room):
     return said
 
 
-@fault("a run of a study starts a child that ignores SIGTERM, and is too long for rig.timeLimit", "nobody lives on when the study has ended")
+@fault("a run of a study starts a child that ignores SIGTERM, and is too long for rig.timeLimit",
+       "nobody lives on when the study has ended")
 def timeLimit(bench):
     return [functools.partial(overTime, bench)]
 
@@ -160,7 +168,8 @@ def overTime(bench):
     allrun.write_text("#!/bin/bash\ntrap '' TERM\n(trap '' TERM; sleep 1000) &\nsetsid sleep 1000 &\nsleep 1000\n")
     os.chmod(allrun, 0o755)
     text = (study.folder / "study.yaml").read_text()
-    text = text.replace("  seed: seed\n", "  seed: seed\n  timeLimit: 0.5\n", 1).replace("processes: 1 }", "processes: 40 }")
+    text = text.replace("  seed: seed\n", "  seed: seed\n  timeLimit: 0.5\n", 1)
+    text = text.replace("processes: 1 }", "processes: 40 }")
     (study.folder / "study.yaml").write_text(text
                                              + "failures: { attempts: 1, then: stop }\n")
     outcome = study.run()

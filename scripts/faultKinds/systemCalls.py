@@ -1,8 +1,8 @@
-"""The n-th call of one kind on one file fails, or is the last that a run makes; for each n between a resume and the next
-checkpoint.
+"""The n-th call of one kind on one file fails, or is the last that a run makes; for each n between a resume and the
+next checkpoint.
 
-strace injects the failures. libfiu's preloaded library, which fails calls by chance, counts none, and sees neither what the
-C library calls by itself (all that is written by fopen or a stream) nor what a static library does.
+strace injects the failures. libfiu's preloaded library, which fails calls by chance, counts none, and sees neither what
+the C library calls by itself (all that is written by fopen or a stream) nor what a static library does.
 """
 
 import functools
@@ -41,7 +41,8 @@ def callsOn(bench):
         bench.needs("strace", "strace")
         case = bench.stopped(endTime=NEXT)
         trace = bench.freshFolder("trace") / "trace"
-        outcome = case.run(["strace", "-f", "-y", "-o", trace, "-e", "trace=" + ",".join(WRITES + NAMES + READS + OPENS + SYNCS)])
+        calls = ",".join(WRITES + NAMES + READS + OPENS + SYNCS)
+        outcome = case.run(["strace", "-f", "-y", "-o", trace, "-e", "trace=" + calls])
         if outcome.status != 0:
             raise Wrong("does not run under strace: " + outcome.lastWords)
         bench.calls, times = [], Counter()
@@ -52,7 +53,8 @@ def callsOn(bench):
                 name = str(file.relative_to(case.folder))
                 times[match[1], name] += 1
                 if " = -1 E" not in line:
-                    bench.calls.append(Call(match[1], name, times[match[1], name], "O_WRONLY" in line or "O_RDWR" in line))
+                    writes = "O_WRONLY" in line or "O_RDWR" in line
+                    bench.calls.append(Call(match[1], name, times[match[1], name], writes))
     return bench.calls
 
 
@@ -83,7 +85,8 @@ def tries(bench, names, errors, quick, full=None, writing=None, judge=judged):
             for number, call in enumerate(chosen)]
 
 
-CRASH_EXPECTED = "stops with a message or by the crash of an engine, or does without; the same command goes on to the same end"
+CRASH_EXPECTED = ("stops with a message or by the crash of an engine, or does without; "
+                  "the same command goes on to the same end")
 EXPECTED = "stops with a message, or does without; the same command goes on to the same end"
 
 
@@ -121,10 +124,12 @@ def failingReads(bench):
        "the same command goes on to the same end, bit for bit")
 def killedAtCalls(bench):
     calls = each(bench, WRITES + SYNCS + NAMES) + each(bench, OPENS, True)
-    return [functools.partial(inject, bench, "signal=KILL", call, killed) for call in bench.some(calls, quick=4, full=120)]
+    return [functools.partial(inject, bench, "signal=KILL", call, killed)
+            for call in bench.some(calls, quick=4, full=120)]
 
 
-@fault("from the n-th call on all writes, openings, renames and fsyncs fail (EIO, EROFS): the disk dies", EXPECTED, inQuick=False)
+@fault("from the n-th call on all writes, openings, renames and fsyncs fail (EIO, EROFS): the disk dies",
+       EXPECTED, inQuick=False)
 def dyingDisk(bench):
     return [functools.partial(die, bench, call, error, number) for call in ("openat", "writev", "fsync", "mkdir")
             for error in ("EIO", "EROFS") for number in bench.some((1, 2, 5, 13), quick=1)]
