@@ -23,9 +23,8 @@ class FluidForces
 public:
     virtual ~FluidForces() = default;
 
-    /// \param beads  the beads of this rank as they are now; `beads.state[i].fluid` is the frozen fluid,
-    ///               `beads.otherForce` the sum of all other forces of this step. What the fluid must receive is added
-    ///               to `beads.state[i].given`.
+    /// \param beads  the beads of this rank as they are now; `beads.otherForce` is the sum of all other forces of this
+    ///               step, `beads.state` the coupling's own, to read and to write
     /// \param timeStep  DEM step [s]
     /// \param force  3 x beads.size(), overwritten with the force on each bead [N]
     virtual void evaluate(const BeadsView& beads, double timeStep, Vectors force) = 0;
@@ -55,18 +54,22 @@ public:
     /// `reach` times the sum of their radii. \pre not yet initialised, reach > 0.
     virtual void seePairs(double reach) = 0;
 
+    /// Asks for BeadsView::state. \pre not yet initialised.
+    /// \param ofNewBead  the numbers of the state of beads that are read, made or inserted
+    virtual void keepState(const std::vector<double>& ofNewBead) = 0;
+
     /// Asks for BeadsView::memory: so many numbers per bead, zero for a new bead, that travel with it and are part of
     /// checkpoints. \pre not yet initialised, numbers > 0.
     virtual void keepMemory(int numbers) = 0;
 
     /// Makes the engine ready to advance.
-    /// \pre  not yet initialised. \post beads() is valid; each bead has a default CouplingState and, until feelFluid(), no
+    /// \pre  not yet initialised. \post beads() is valid; each bead has the state of a new one and, until feelFluid(), no
     ///       force of the fluid but what a checkpoint holds.
     /// \param forces  called at every DEM step until the engine is destroyed; nullptr: no fluid.
     virtual void initialise(FluidForces* forces) = 0;
 
-    /// Advances by `steps` DEM steps with the fluid frozen as it stands in the coupling states.
-    /// \pre  initialised, steps > 0. \post earlier views are invalid; each bead's `given` has grown.
+    /// Advances by `steps` DEM steps; the beads' states change by FluidForces only.
+    /// \pre  initialised, steps > 0. \post earlier views are invalid.
     virtual void advance(int steps) = 0;
 
     /// Makes neighbour lists anew from the beads as they stand, as if this process had just been resumed from a checkpoint
@@ -74,8 +77,8 @@ public:
     /// \pre initialised. \post views are invalid.
     virtual void prepare() = 0;
 
-    /// As prepare(), but forces are made anew, the fluid's from the coupling states as they stand: those with which the first
-    /// step of a run begins. \pre initialised with forces. \post each bead's `given` has grown, views are invalid.
+    /// As prepare(), but forces are made anew, the fluid's from the beads' states as they stand: those with which the first
+    /// step of a run begins. \pre initialised with forces. \post views are invalid.
     virtual void feelFluid() = 0;
 
     /// Takes beads out, from wherever they are. \pre initialised. \post views are invalid; prepare() must follow.

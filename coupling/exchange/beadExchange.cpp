@@ -1,5 +1,7 @@
 #include "exchange/beadExchange.h"
 
+#include "couplingState.h"
+
 #include <algorithm>
 
 namespace clepsydra

@@ -3,6 +3,8 @@
 #include "wordList.H"
 
 #include <algorithm>
+#include <cstddef>
+#include <type_traits>
 
 namespace clepsydra
 {
@@ -25,6 +27,16 @@ void prefetch(const BeadsView& beads, Eigen::Index first, Eigen::Index end)
             __builtin_prefetch(state + byte, 1);
         }
     }
+}
+
+/// Beads `first` to `first + count`, with all the pairs.
+BeadsView segmentOf(const BeadsView& beads, Eigen::Index first, Eigen::Index count)
+{
+    const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
+    const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
+    return {values(beads.id), vectors(beads.position), vectors(beads.velocity), vectors(beads.angularVelocity),
+        values(beads.radius), values(beads.mass), beads.state + first, vectors(beads.otherForce), beads.pairs,
+        beads.memory + first * beads.memorySize, beads.memorySize, beads.memoryAges, values(beads.held)};
 }
 
 } // namespace
@@ -75,7 +87,7 @@ void BeadForces::evaluate(const BeadsView& beads, double timeStep, Vectors force
     {
         const Eigen::Index count = std::min(most, beads.size() - first);
         prefetch(beads, first + count, std::min(first + 2 * count, beads.size()));
-        evaluatePart(beads.segment(first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
+        evaluatePart(segmentOf(beads, first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
     }
 }
 

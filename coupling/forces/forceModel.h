@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "couplingState.h"
 #include "forces/modelType.h"
 
 namespace clepsydra

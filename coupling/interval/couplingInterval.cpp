@@ -31,6 +31,7 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
     {
         engine_.keepMemory(models->forces.needs().memory + FluidCoupling::memory);
     }
+    engine_.keepState(numbersOf(CouplingState::ofNewBead()));
     engine_.initialise(models ? &models->forces : nullptr);
     ledger_.countBeads(engine_.beads());
     ledger_.openSolidVolume(traffic_.start(engine_.beads(), !resumed));

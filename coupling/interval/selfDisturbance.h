@@ -1,7 +1,7 @@
 #pragma once
 
+#include "couplingState.h"
 #include "distribution/smoothingModel.h"
-#include "engine/beads.h"
 #include "forces/forceModel.h"
 #include "interval/couplingSettings.h"
 

@@ -1,5 +1,6 @@
 #include "output/beadWriter.h"
 
+#include "couplingState.h"
 #include "output/vtkBeads.h"
 #include "output/vtkSeries.h"
 

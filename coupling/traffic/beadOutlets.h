@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "couplingState.h"
 
 #include "fvMesh.H"
 #include "triSurfaceSearch.H"

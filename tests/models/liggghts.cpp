@@ -89,6 +89,7 @@ public:
         {
             engine_->seePairs(pairReach);
         }
+        engine_->keepState(numbersOf(CouplingState()));
         engine_->initialise(forces);
         if (forces)
         {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "couplingState.h"
 #include "engine/demEngine.h"
 
 #include <algorithm>
@@ -69,6 +70,10 @@ public:
     {
         seesPairs_ = true;
     }
+
+    /// Not heeded: every bead begins as one that has been in the fluid all along.
+    void keepState(const std::vector<double>&) override
+    {}
 
     /// For the beads that there are.
     void keepMemory(int numbers) override

@@ -278,21 +278,27 @@ public:
         }
     }
 
-    void addCouplingState()
+    void keepState(const std::vector<double>& ofNewBead)
     {
+        stateOfNewBead_ = ofNewBead;
+    }
+
+    void addState()
+    {
+        if (stateOfNewBead_.empty())
+        {
+            return;
+        }
         // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
         std::string command =
             std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
-        const CouplingState initial = CouplingState::ofNewBead();
-        std::array<double, couplingStateSize> defaults{};
-        std::copy_n(reinterpret_cast<const double*>(&initial), couplingStateSize, defaults.begin());
-        for (const double value : defaults)
+        for (const double value : stateOfNewBead_)
         {
             command += ' ' + std::to_string(value);
         }
         execute(command, "coupling state");
         stateFix_ = program_->modify->find_fix_property(
-            stateFixId, "property/atom", "vector", static_cast<int>(couplingStateSize), 0, "coupling");
+            stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewBead_.size()), 0, "coupling");
     }
 
     /// Part of LIGGGHTS' restart files. 1 of beads in files that do not have it.
@@ -518,7 +524,7 @@ public:
         memorySize_ = numbers;
     }
 
-    /// Unlike the coupling state it is part of LIGGGHTS' restart files.
+    /// Unlike the state it is part of LIGGGHTS' restart files.
     void addMemory()
     {
         if (memorySize_ == 0)
@@ -543,7 +549,7 @@ public:
         return BeadsView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
             ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
             ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
-            reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)),
+            stateFix_ ? reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)) : nullptr,
             ConstVectors(firstElement(atom.f), 3, count), BeadPairs{},
             memoryFix_ ? firstElement(memoryFix_->array_atom) : nullptr, memorySize_, true, ConstView<bool>(nullptr, 0),
             introducedFix_->vector_atom};
@@ -747,6 +753,7 @@ private:
     MPI_Comm communicator_;
     std::unique_ptr<lmp::LAMMPS> program_;
     lmp::Fix* stateFix_ = nullptr;
+    std::vector<double> stateOfNewBead_;
     FluidForces* forces_ = nullptr;
     lmp::Fix* lastForceFix_ = nullptr;
     bool lastForcesKnown_ = false;
@@ -778,6 +785,11 @@ void LiggghtsEngine::seePairs(double reach)
     implementation_->seePairs(reach);
 }
 
+void LiggghtsEngine::keepState(const std::vector<double>& ofNewBead)
+{
+    implementation_->keepState(ofNewBead);
+}
+
 void LiggghtsEngine::keepMemory(int numbers)
 {
     implementation_->keepMemory(numbers);
@@ -785,7 +797,7 @@ void LiggghtsEngine::keepMemory(int numbers)
 
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
-    implementation_->addCouplingState();
+    implementation_->addState();
     implementation_->addIntroduced();
     implementation_->addMemory();
     implementation_->addLastForces();
@@ -801,9 +813,6 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     implementation_->allowNoBeads();
     prepare();
     implementation_->checkOverlaps();
-    // LIGGGHTS has taken those that are here already for new ones.
-    const BeadsView beads = implementation_->beads();
-    std::fill_n(beads.state, beads.size(), CouplingState());
 }
 
 void LiggghtsEngine::prepare()

@@ -40,6 +40,7 @@ public:
     ~LiggghtsEngine() override;
 
     void seePairs(double reach) override;
+    void keepState(const std::vector<double>& ofNewBead) override;
     void keepMemory(int numbers) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
