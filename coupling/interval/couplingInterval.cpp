@@ -20,7 +20,6 @@ CouplingInterval::CouplingInterval(const Foam::fvMesh& mesh, const CouplingSetti
       fluidDensity_(fluid.density),
       timers_(timers),
       ledger_(settings.dict(), mesh.time()),
-      observedBeads_(mesh, engine),
       traffic_(settings.dict(), mesh, settings.couplingInterval())
 {
     if (models && models->forces.needs().pairReach > 0)

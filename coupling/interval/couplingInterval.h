@@ -3,7 +3,6 @@
 #include "interval/fluidCoupling.h"
 #include "interval/fluidModels.h"
 #include "interval/intervalLength.h"
-#include "functionObjects/observedBeads.h"
 #include "traffic/beadTraffic.h"
 
 #include <functional>
@@ -108,7 +107,6 @@ private:
     const double fluidDensity_;
     PhaseTimers& timers_;
     Ledger ledger_;
-    ObservedBeads observedBeads_;
     BeadTraffic traffic_;
     std::unique_ptr<FluidCoupling> fluid_;
 };

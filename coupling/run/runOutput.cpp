@@ -27,6 +27,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
       engine_(engine),
       interval_(interval),
       checkpoints_(checkpoints),
+      observedBeads_(mesh, engine),
       stopRequest_(time)
 {
     if (dryRun)

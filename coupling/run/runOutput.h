@@ -3,6 +3,7 @@
 #include "checkpoint/checkpoints.h"
 #include "checkpoint/runTime.h"
 #include "checkpoint/stopRequest.h"
+#include "functionObjects/observedBeads.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
 #include "run/progress.h"
@@ -60,6 +61,8 @@ private:
     DemEngine& engine_;
     CouplingInterval& interval_;
     const Checkpoints& checkpoints_;
+    /// For function objects.
+    ObservedBeads observedBeads_;
     std::unique_ptr<BeadWriter> beadWriter_;
     Progress progress_;
     StopRequest stopRequest_;
