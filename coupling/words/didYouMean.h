@@ -17,6 +17,7 @@ template<class Pairs>
 std::vector<std::string> namesOf(const Pairs& pairs)
 {
     std::vector<std::string> names;
+    names.reserve(pairs.size());
     for (const auto& [name, other] : pairs)
     {
         names.push_back(name);

@@ -57,36 +57,38 @@ char separatorOf(const std::string& line)
     return holds(line, ";") ? ';' : holds(line, ",") ? ',' : holds(line, "\t\t") ? '\t' : ' ';
 }
 
-/// Fields of a line. Commas, semicolons and tabs can stand round empty fields; blanks cannot.
+/// Parts of a line. Between commas, semicolons and tabs a part may be empty; between blanks it cannot.
+std::vector<std::string> split(const std::string& line, char separator)
+{
+    std::vector<std::string> parts;
+    std::istringstream words(line);
+    std::string word;
+    const auto next = [&] { return !(separator == ' ' ? words >> word : std::getline(words, word, separator)).fail(); };
+    while (next())
+    {
+        parts.push_back(trimmed(word));
+    }
+    if (separator != ' ' && line.back() == separator)
+    {
+        parts.emplace_back();
+    }
+    return parts;
+}
+
 std::vector<std::string> fields(std::string line)
 {
     std::replace_if(
         line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
-    std::vector<std::string> found;
     const char separator = separatorOf(line);
-    std::istringstream words(line);
-    std::string word;
-    if (separator == ' ')
+    auto parts = split(line, separator);
+    if (separator == ';')
     {
-        while (words >> word)
+        for (auto& part : parts)
         {
-            found.push_back(word);
+            std::replace(part.begin(), part.end(), ',', '.');
         }
-        return found;
     }
-    while (std::getline(words, word, separator))
-    {
-        if (separator == ';')
-        {
-            std::replace(word.begin(), word.end(), ',', '.');
-        }
-        found.push_back(trimmed(word));
-    }
-    if (line.back() == separator)
-    {
-        found.emplace_back();
-    }
-    return found;
+    return parts;
 }
 
 /// Titles of columns. Between blanks, a unit in brackets of its own belongs to the word before it.
@@ -94,19 +96,16 @@ std::vector<Title> titlesOf(const std::string& line)
 {
     const char separator = holds(line, "\t") ? '\t' : separatorOf(line);
     std::vector<std::string> texts;
-    std::istringstream words(line);
-    std::string word;
-    const auto next = [&] { return !(separator == ' ' ? words >> word : std::getline(words, word, separator)).fail(); };
-    while (next())
+    for (const auto& part : line.empty() ? std::vector<std::string>() : split(line, separator))
     {
-        const std::string ends = word.empty() ? "" : std::string{word.front(), word.back()};
+        const std::string ends = part.empty() ? "" : std::string{part.front(), part.back()};
         if (separator == ' ' && (ends == "[]" || ends == "()") && !texts.empty())
         {
-            texts.back() += word;
+            texts.back() += part;
         }
         else
         {
-            texts.push_back(word);
+            texts.push_back(part);
         }
     }
     std::vector<Title> titles(texts.size());

@@ -71,7 +71,8 @@ TEST(Curves, TablesOfSpreadsheets)
     const TemporaryFolder folder;
     const Curve expected{{0, .5, 1.5}, {10, 9.25, 7}};
     for (const std::string text : {"\xEF\xBB\xBFt [s];m [g]\r\n0;10\r\n0,5;9,25\r\n1;\r\n1,5;7\r\n",
-             "t [s]\tnote\tm [g]\n0\t\t10\n.5\t\t9.25\n1.5\t\t7\n", "\"t [s]\", \"m [g]\"\n0, 10\n.5, 9.25\n1.5, 7\n"})
+             "t [s]\tnote\tm [g]\n0\t\t10\n.5\t\t9.25\n1.5\t\t7\n", "t;m;\n0;10;\n0,5;9,25;\n1,5;7;\n",
+             "\"t [s]\", \"m [g]\"\n0, 10\n.5, 9.25\n1.5, 7\n"})
     {
         const Curve curve = readCurve(folder.write("a.csv", text), "t", "m");
         EXPECT_EQ(curve.time, expected.time) << text;

@@ -331,31 +331,30 @@ void Draft::writePositions()
 void Draft::writeMeasured()
 {
     const auto unit = [](const GuessedColumn& column, const std::string& allowed) {
-        return column.unit.empty() ? fillIn(allowed) : column.unit == "%" ? "\"%\"" : yamlWord(column.unit);
+        return column.unit.empty() ? fillIn(allowed) : yamlWord(column.unit);
     };
     text_ << "\nmeasured:               # columns of all files, by name or number\n"
           << "  time: { column: " << yamlWord(measured_.columns.time.column)
           << ", unit: " << unit(measured_.columns.time, "s, ms, min or h") << " }\n"
           << "  value: { column: " << yamlWord(measured_.columns.value.column)
           << ", unit: " << unit(measured_.columns.value, "one of g, kg, mm, m, ...");
-    const bool isRising = !measured_.shape.falls;
-    if (measured_.columns.quantity == "share")
+    const std::string fill = "the mass in the hopper at the start, in kg";
+    const bool isShare = measured_.columns.quantity == "share";
+    const bool isOfHopper = isShare || measured_.columns.quantity == "mass";
+    const bool isRising = isOfHopper && !measured_.shape.falls;
+    const bool isDownwards =
+        measured_.columns.quantity == "speed" && measured_.shape.lowest + measured_.shape.highest < 0.0;
+    if (isShare)
     {
-        text_ << ", factor: "
-              << fillIn(
-                     isRising ? "minus the mass in the hopper at the start, in kg" : "that mass at the start, in kg");
+        text_ << ", factor: " << fillIn((isRising ? "minus " : "") + fill);
     }
-    else if (measured_.columns.quantity == "mass" && isRising)
+    else if (isRising || isDownwards)
     {
         text_ << ", factor: -1";
     }
-    else if (measured_.columns.quantity == "speed" && measured_.shape.lowest + measured_.shape.highest < 0.0)
+    if (isRising)
     {
-        text_ << ", factor: -1";
-    }
-    if ((measured_.columns.quantity == "share" || measured_.columns.quantity == "mass") && isRising)
-    {
-        text_ << ", offset: " << fillIn("the mass in the hopper at the start, in kg; the files hold what has left it");
+        text_ << ", offset: " << fillIn(fill + "; the files hold what has left it");
     }
     const bool isValidKnown =
         measured_.shape.hasBlanks && measured_.shape.smallestSeen > 0.0 && !measured_.columns.value.unit.empty();

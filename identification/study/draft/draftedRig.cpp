@@ -28,7 +28,7 @@ bool holds(const fs::path& file, const std::string& word)
 /// The function object is named where the case is set up: in its own files, or in those of system/.
 std::string observableOf(const fs::path& folder)
 {
-    for (const std::string observable : {"massInHopper", "beadHeight"})
+    for (const char* observable : {"massInHopper", "beadHeight"})
     {
         for (const auto& place : {folder, folder / "system"})
         {
