@@ -88,6 +88,29 @@ double logSpeed(const Curve& curve, const Parameters& p)
     return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
 }
 
+/// Time at which a position is reached; none where the two rows around it lie further apart than `gap`.
+double timeAtSeenLevel(const Curve& curve, double level, double gap)
+{
+    const double time = timeAtLevel(curve, level);
+    const auto after = std::lower_bound(curve.time.begin(), curve.time.end(), time) - curve.time.begin();
+    if (!std::isfinite(time) || after == 0)
+    {
+        return time;
+    }
+    // the interpolated time may be past the last one by its rounding
+    const std::size_t i = std::min(static_cast<std::size_t>(after), curve.value.size() - 1);
+    return std::abs(curve.value[i] - curve.value[i - 1]) > gap ? none : time;
+}
+
+/// From the times of the two positions alone: where a track has gaps and the speed changes, a fit would follow the part
+/// that was seen.
+double logMeanSpeed(const Curve& curve, const Parameters& p)
+{
+    const double start = timeAtSeenLevel(curve, p.at("from"), p.at("gap"));
+    const double end = timeAtSeenLevel(curve, p.at("to"), p.at("gap"));
+    return logOfPositive(std::abs(p.at("to") - p.at("from")) / (end - start));
+}
+
 /// Change of speed from the first half of the way to the second, as a logarithm: zero for a bead at terminal velocity.
 double logSpeedRatio(const Curve& curve, const Parameters& p)
 {
@@ -242,6 +265,35 @@ double logMaximum(const Curve& curve, const Parameters& /*unused*/)
     return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
 }
 
+/// Time at which the curve passes a share of its largest value on the way to it, or after it; none where it does
+/// not.
+double timeAtShare(const Curve& curve, double share, bool after)
+{
+    const auto top = std::max_element(curve.value.begin(), curve.value.end());
+    const double level = share * *top;
+    const auto split = top - curve.value.begin();
+    Curve part;
+    part.time.assign(after ? curve.time.begin() + split : curve.time.begin(),
+        after ? curve.time.end() : curve.time.begin() + split + 1);
+    part.value.assign(after ? top : curve.value.begin(), after ? curve.value.end() : top + 1);
+    return timeAtLevel(part, level);
+}
+
+double logRiseTime(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeAtShare(curve, p.at("to"), false) - timeAtShare(curve, p.at("from"), false));
+}
+
+double logFallTime(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeAtShare(curve, p.at("to"), true) - timeAtShare(curve, p.at("from"), true));
+}
+
+double logTimeAbove(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeAtShare(curve, p.at("share"), true) - timeAtShare(curve, p.at("share"), false));
+}
+
 std::map<std::string, FeatureKind> makeKinds()
 {
     const FeatureKind::Parameter from{"from", none, "larger share of the first value"};
@@ -250,6 +302,10 @@ std::map<std::string, FeatureKind> makeKinds()
     const FeatureKind::Parameter end{"to", none, "position where it ends"};
     const FeatureKind::Parameter level{"level", 5e-4, "gap below which a minimum is a contact, SI units"};
     const FeatureKind::Parameter bounce{"bounce", 1, "number of the contact, from 1"};
+    const FeatureKind::Parameter lowerShare{"from", none, "smaller share of the largest value"};
+    const FeatureKind::Parameter upperShare{"to", none, "larger share of it"};
+    const FeatureKind::Parameter upperFirst{"from", none, "larger share of the largest value"};
+    const FeatureKind::Parameter lowerLast{"to", none, "smaller share of it"};
     const std::vector<FeatureKind> all = {
         {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to}, logMeanRate},
         {"rateSlope", "d(log rate)/d(share of the first value), from a parabola between two shares", {from, to},
@@ -261,6 +317,9 @@ std::map<std::string, FeatureKind> makeKinds()
         {"tailSlope", "slope at the end over the first value [1/s] (not a log)",
             {{"duration", none, "of the part at the end [s]"}}, tailSlope},
         {"logSpeed", "log of the speed between two positions, by least squares", {start, end}, logSpeed},
+        {"logMeanSpeed", "log of the way between two positions over its time",
+            {start, end, {"gap", 1e30, "of the rows around an end, at most: a larger one has no time, SI units"}},
+            logMeanSpeed},
         {"logSpeedRatio", "log of speed in the second half of the way over the first", {start, end}, logSpeedRatio},
         {"logTimeToLevel", "log of the time until a position is reached", {{"level", none, "position, SI units"}},
             logTimeToLevel},
@@ -279,6 +338,12 @@ std::map<std::string, FeatureKind> makeKinds()
             logMeanBetween},
         {"logFinalValue", "log of the last value", {}, logFinalValue},
         {"logMaximum", "log of the largest value", {}, logMaximum},
+        {"logRiseTime", "log of the time between two shares of the largest value, before it", {lowerShare, upperShare},
+            logRiseTime},
+        {"logFallTime", "log of the time between two shares of the largest value, after it", {upperFirst, lowerLast},
+            logFallTime},
+        {"logTimeAbove", "log of the time between a share of the largest value before it and after it",
+            {{"share", 0.5, "of the largest value"}}, logTimeAbove},
     };
     std::map<std::string, FeatureKind> byName;
     for (const auto& kind : all)

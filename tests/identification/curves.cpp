@@ -124,6 +124,39 @@ TEST(Features, OfAFallingBead)
     EXPECT_TRUE(std::isnan(feature("logSpeed", curve, {{"from", .02}, {"to", 1}}))) << "never got there";
 }
 
+/// Half as fast in the second half of the way, which the camera missed: .1 m in 2.5 + 5 s. A fit to the points seen gives
+/// .02 and not .1/7.5.
+TEST(Features, MeanSpeedOfATrackWithAGap)
+{
+    Curve curve = sampled(2.4, 25, [](double t) { return .02 * t; });
+    curve.time.push_back(7.5);
+    curve.value.push_back(.1);
+    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .1}, {"gap", 1}}), std::log(.1 / 7.5), 1e-9);
+    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .04}, {"gap", .01}}), std::log(.02), 1e-9);
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .07}, {"gap", .01}}))) << "not seen";
+    EXPECT_GT(feature("logSpeed", curve, {{"from", 0}, {"to", .1}}), std::log(.1 / 7.5) + 0.05);
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", .02}, {"to", 1}, {"gap", 1}})))
+        << "never got there";
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", .05}, {"to", .02}, {"gap", 1}})))
+        << "the other way";
+}
+
+/// Rises as 1 - exp(-t) up to t = 5, falls as exp(-2 (t - 5)): from .3 to .8 of the top in ln((1 - .3 q)/(1 - .8 q)) with
+/// q = 1 - exp(-5), from .8 to .2 in ln(4)/2, above a half from -ln(1 - q/2) to 5 + ln(2)/2. Levels that are looked for on
+/// the wrong side of the top, or shares of the last value, give other times.
+TEST(Features, OfASpeedThatRisesAndFalls)
+{
+    const double q = 1 - std::exp(-5.0);
+    const Curve curve =
+        sampled(8, 8001, [&](double t) { return t < 5 ? 1 - std::exp(-t) : q * std::exp(-2 * (t - 5)); });
+    const double rise = std::log((1 - .3 * q) / (1 - .8 * q));
+    EXPECT_NEAR(feature("logRiseTime", curve, {{"from", .3}, {"to", .8}}), std::log(rise), 1e-5);
+    EXPECT_NEAR(feature("logFallTime", curve, {{"from", .8}, {"to", .2}}), std::log(std::log(4.0) / 2), 1e-5);
+    EXPECT_NEAR(
+        feature("logTimeAbove", curve, {{"share", .5}}), std::log(5 + std::log(2.0) / 2 + std::log(1 - q / 2)), 1e-5);
+    EXPECT_TRUE(std::isnan(feature("logFallTime", curve, {{"from", .8}, {"to", .001}}))) << "never got there";
+}
+
 /// A ball without air: falls from .1 m, bounces with e = .5: height e^2 h, flight 2 e sqrt(2 h/g).
 TEST(Features, OfABounce)
 {
