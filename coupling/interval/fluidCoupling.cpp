@@ -112,6 +112,8 @@ void FluidCoupling::start(bool resumed)
         return;
     }
     updateVoidFraction(densities);
+    // No equation has been solved yet in which the drag took a part of the pressure from the beads.
+    updatePressureFactor(Eigen::RowVectorXd::Zero(mesh_.nCells()));
     voidFractionRate_.start(voidFraction_);
 }
 
@@ -157,16 +159,7 @@ void FluidCoupling::beadsToFluid(double interval, double next)
     // Their motion over the coming interval, per time of the one that is solved.
     densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / interval;
     updateVoidFraction(densities);
-    pressureFactor_ = voidFraction_;
-    if (modelType_ == ModelType::A)
-    {
-        columns(pressureFactor_.primitiveFieldRef()) += densities.row(motion);
-    }
-    else
-    {
-        pressureFactor_.primitiveFieldRef() = 1;
-    }
-    pressureFactor_.correctBoundaryConditions();
+    updatePressureFactor(densities.row(motion));
     voidFractionRate_.update(voidFraction_, densities.middleRows<VoidFractionRate::rowCount>(motion), interval);
     carriedMomentum_.update(densities.middleRows<CarriedMomentum::rowCount>(momentum), interval);
     if (resistance_)
@@ -319,6 +312,20 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
     voidFraction_.correctBoundaryConditions();
     ledger_.bookSolidVolume(returnReduce(beadVolume, sumOp<scalar>()), cellVolume,
         returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
+}
+
+void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following)
+{
+    pressureFactor_ = voidFraction_;
+    if (modelType_ == ModelType::A)
+    {
+        columns(pressureFactor_.primitiveFieldRef()) += following;
+    }
+    else
+    {
+        pressureFactor_.primitiveFieldRef() = 1;
+    }
+    pressureFactor_.correctBoundaryConditions();
 }
 
 void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)

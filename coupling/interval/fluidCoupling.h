@@ -118,6 +118,8 @@ private:
     static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> kept(
         const BeadsView& beads);
     void updateVoidFraction(const Eigen::MatrixXd& densities);
+    /// \param following  of the beads' volume, what the drag makes follow the pressure, per volume of each cell
+    void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following);
     void smooth(Eigen::MatrixXd& densities);
     void bookPressureForce(const Foam::vector& inFluid);
     [[noreturn]] void reportBeadOutsideMesh(const BeadsView& beads, Eigen::Index bead) const;
