@@ -100,12 +100,14 @@ Bounds readBounds(const YamlPlace& place)
 
 Effect readEffect(const YamlPlace& place)
 {
-    place.allow({"name", "meaning", "hint", "set", "chain", "amplitude", "switch", "prior", "actsIn"});
+    place.allow({"name", "meaning", "hint", "set", "chain", "amplitude", "switch", "scatter", "family", "prior", "actsIn"});
     Effect effect;
     effect.name = place.at("name").text();
     effect.meaning = place.textOr("meaning", "");
     effect.hint = place.textOr("hint", "");
     effect.isSwitch = place.flagOr("switch", false);
+    effect.raisesScatter = place.flagOr("scatter", false);
+    effect.family = place.textOr("family", "");
     effect.prior = place.has("prior") ? place.at("prior").positive() : 1.0;
     if (place.has("set") == place.has("chain"))
     {
