@@ -14,7 +14,7 @@ import series
 from series import Value
 
 SIGNIFICANT = 3             # standard errors
-SURGE_IS_SEEN = False       # what cases/README.md says of the fills that have been run; a deeper one may show it
+SURGE_IS_SEEN = False       # what cases/hopper5cm/README.md says of the fills that have been run; a deeper one may show it
 KEYS = ("quantity", "unit", "measured", "paperSimulation", "ours", "uncertainty", "residualPercent", "runs")
 
 
@@ -107,7 +107,7 @@ def surge():
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
-    require(f"submerged there is {'a' if SURGE_IS_SEEN else 'no'} rise beyond three standard errors, as cases/README.md says",
+    require(f"submerged there is {'a' if SURGE_IS_SEEN else 'no'} rise beyond three standard errors, as cases/hopper5cm/README.md says",
             (rises["submerged"].mean > SIGNIFICANT * rises["submerged"].error) == SURGE_IS_SEEN)
     return found
 

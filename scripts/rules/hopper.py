@@ -113,7 +113,7 @@ def checkResolution(p, found):
                               "which nothing is left to resolve")
     elif not 2 <= p["smoothingLength"] / bead * (1 + 1e-9) <= 6:
         found.warnings.append(f"smoothingLength is {p['smoothingLength'] / bead:.2g} bead diameters; 2 to 4 have been tried "
-                              "(README, independence)")
+                              "(cases/validation/README.md, independence)")
     if p["mesher"] == "hopperInTank" and p["smoothingLength"] < p["cellSize"]:
         found.warnings.append(f"smoothingLength {p['smoothingLength']:g} m is less than a cell, {p['cellSize']:g} m: it does nothing")
     if p["heapBelow"] > p["hopperLeftBelow"]:

@@ -2,7 +2,8 @@
 """Runs the commands of the pages (every *.md of the repository) as a reader does who has just opened a shell.
 
 usage: pages.py table BUILD                 each command of the pages has its row in commands.yaml, each row its command,
-                                            and the tests that rows name are tests of BUILD
+                                            the tests that rows name are tests of BUILD, links within the repository lead
+                                            to files, and README.md has at most 900 words
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
 A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with one of
@@ -24,6 +25,7 @@ import yaml
 ROOT = Path(__file__).resolve().parents[2]
 TABLE = Path(__file__).with_name("commands.yaml")
 PROGRAMS = (".", "Allrun", "closures", "cmake", "ctest", "mpirun", "pimpleDemFoam", "touch", "traceResidual")
+WORDS_OF_FRONT_PAGE = 900       # one screen: what is more belongs on the page beside what it describes
 KINDS = ("run", "long", "test")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
@@ -64,6 +66,12 @@ def isCommand(page, line):
     return program and not first.startswith("build/") and ("/" in first or bool(arguments))
 
 
+def links(text):
+    """Targets within the repository, without the part after #."""
+    found = re.findall(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)", re.sub(r"^```.*?^```|`[^`]+`", "", text, flags=re.S | re.M))
+    return [link for link in found if "://" not in link]
+
+
 def readTable():
     table = yaml.safe_load(TABLE.read_text())
     for page, rows in table.items():
@@ -76,7 +84,11 @@ def readTable():
 def checkTable(build):
     table, wrong = readTable(), []
     registered = registeredTests(build)
+    words = len((ROOT / "README.md").read_text().split())
+    if words > WORDS_OF_FRONT_PAGE:
+        wrong.append(f"README.md: {words} words; allowed: {WORDS_OF_FRONT_PAGE}")
     for page, text in pages().items():
+        wrong += [f"{page}: its link '{link}' leads to no file" for link in links(text) if not (ROOT / page).parent.joinpath(link).exists()]
         found, rows = commands(page, text), table.pop(page, {})
         wrong += [f"{page}: '{command}' has no row" for command in found if command not in rows]
         wrong += [f"{page}: '{command}' is not on the page" for command in rows if command not in found]
@@ -84,7 +96,7 @@ def checkTable(build):
                   for test in row.get("test", []) if test not in registered]
     wrong += [f"{page}: is no page" for page in table]
     if wrong:
-        raise SystemExit("commands.yaml:\n  " + "\n  ".join(wrong))
+        raise SystemExit("pages, commands.yaml:\n  " + "\n  ".join(wrong))
 
 
 def registeredTests(build):
