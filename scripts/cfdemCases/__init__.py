@@ -1,0 +1,1 @@
+"""Cases of CFDEMcoupling, read and rewritten: parts of scripts/importCfdem."""

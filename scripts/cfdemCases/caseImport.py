@@ -1,0 +1,365 @@
+"""A case of CFDEMcoupling (CFD/, DEM/) becomes one of ours: reads all of it first, then writes it as a whole."""
+
+import re
+import shutil
+import tempfile
+from pathlib import Path
+
+import foamText
+import inlets
+from demScript import DemScript, outputFolders
+from report import Report
+from settings import Settings
+
+# Files that need nothing done: fields that our coupling makes itself, and settings of what is not chosen.
+FIELDS_WITHOUT_COUNTERPART = ("Us", "Ksl", "f", "k", "epsilon", "omega", "nut", "nuSgs", "nuTilda", "R", "dSmoothing", "sSmoothField",
+                              "vSmoothField", "fSmooth", "phiIB", "partVel", "voidfraction_0")
+FIELDS_IN_PROBES = {"p": "p", "U": "U", "voidfraction": "voidFraction"}
+CONSTANT_FILES = ("couplingProperties", "liggghtsCommands", "transportProperties", "turbulenceProperties", "RASProperties", "LESProperties",
+                  "environmentalProperties", "g", "dynamicMeshDict", "polyMesh", "triSurface")
+SYSTEM_FILES = ("controlDict", "fvSchemes", "fvSolution", "blockMeshDict", "decomposeParDict")
+OFF = ("off", "false", "no")
+
+ALLRUN = """#!/bin/bash
+# Imported from a case of CFDEMcoupling: IMPORTED says what changed. Mesh, {beads}coupled run.
+set -euo pipefail
+cd "$(dirname "$0")"
+repository=${{CLEPSYDRA:?source scripts/environment of Clepsydra first}}
+. "$repository/scripts/runFunctions"
+. "$repository/scripts/environment"
+
+{steps}
+"""
+
+
+def importCase(case, target, without=()):
+    """The report. Writes target only where it has no errors."""
+    report = Report(without)
+    if not (case / "CFD").is_dir() or not (case / "DEM").is_dir():
+        raise foamText.FoamError(f"{case}: no case of CFDEMcoupling; allowed: a folder with CFD/ and DEM/")
+    if target.exists():
+        raise foamText.FoamError(f"{target}: is there already")
+    try:
+        files = Import(case, report).files
+    except foamText.FoamError as problem:
+        report.error("", str(problem), "the rest of the case was not read")
+        return report
+    for word in report.without - report.used:
+        report.errors.append(("--without", word, "names no error of this case"))
+    if not report.errors:
+        write(files, report, target)
+    return report
+
+
+def write(files, report, target):
+    """files: path -> text, or a Path to copy, or None for an empty folder. All of it or nothing."""
+    target.parent.mkdir(parents=True, exist_ok=True)
+    folder = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
+    try:
+        for name, content in {**files, "IMPORTED": "\n".join(report.lines()) + "\n"}.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            if content is None:
+                path.mkdir(parents=True, exist_ok=True)
+            elif isinstance(content, Path):
+                (shutil.copytree if content.is_dir() else shutil.copyfile)(content, path)
+            else:
+                path.write_text(content)
+        (folder / "Allrun").chmod(0o755)
+        folder.chmod(0o755)
+        folder.rename(target)
+    except BaseException:
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
+
+
+class Import:
+    def __init__(self, case, report):
+        self.case, self.report, self.files, self.openFiles = case, report, {}, []
+        self.settings = Settings(self.read("CFD/constant/couplingProperties"), report)
+        self.script = self.demScript()
+        self.control = self.read("CFD/system/controlDict")
+        self.interval = self.chosenInterval()
+        self.couplingProperties()
+        self.controlDict()
+        self.solvers()
+        self.mesh()
+        self.fluid()
+        self.fields()
+        self.otherFiles()
+        self.allrun()
+        for old in self.openFiles:
+            for where, name in old.unread():
+                report.error(where, name, "is stated, and nothing here reads it")
+
+    def read(self, name):
+        found = foamText.read(self.case / name, name)
+        self.openFiles.append(found)
+        return found
+
+    def has(self, name):
+        return (self.case / name).exists()
+
+    # --- beads ---------------------------------------------------------------------------------------
+
+    def demScript(self):
+        name = Path(self.settings.script).name
+        where = f"DEM/{name}"
+        if not self.settings.script.startswith("../DEM/") or not self.has(where):
+            raise foamText.FoamError(f"liggghtsPath '{self.settings.script}' leads to no file; allowed: ../DEM/NAME")
+        script = DemScript((self.case / where).read_text(), where, self.report)
+        self.files[where] = script.text()
+        steps = self.settings.intervalInSteps
+        if script.coupleEvery not in (None, steps):
+            self.report.error(where, f"couple_every {script.coupleEvery}", f"couplingInterval of couplingProperties is {steps:g}")
+        self.files |= {folder: None for folder in outputFolders(script.text())}
+        self.beforeIt = self.scriptThatWrites(script.restart)
+        return script
+
+    def scriptThatWrites(self, restart):
+        """The script that makes the beads which the other reads; it runs as it is."""
+        if restart is None:
+            return None
+        for path in sorted((self.case / "DEM").glob("in.*")):
+            text = path.read_text()
+            if re.search(rf"^\s*write_restart\s+\S*{re.escape(Path(restart).name)}\b", text, re.MULTILINE):
+                self.files[f"DEM/{path.name}"] = re.sub(r"^(\s*processors\b)", r"#\1", text, flags=re.MULTILINE)
+                self.files |= {f"DEM/{folder}": None for folder in outputFolders(text)}
+                return path.name
+        if not self.has(restart):
+            self.report.error(f"DEM/{Path(self.settings.script).name}", f"read_restart {restart}",
+                              "no script in DEM/ writes that file, nor is it there")
+        return None
+
+    # --- time ----------------------------------------------------------------------------------------
+
+    def chosenInterval(self):
+        """[s]. There the fluid's step and the coupling interval are two things, here one."""
+        step, deltaT = self.script.timeStep, self.control.number("deltaT")
+        there = self.settings.intervalInSteps * (step or 1)
+        where, what = self.settings.where, f"couplingInterval {self.settings.intervalInSteps:g}"
+        fits = step and abs(deltaT / step - round(deltaT / step)) < 1e-6 * deltaT / step
+        chosen = deltaT if deltaT < there * (1 - 1e-6) and fits else there
+        self.report.change(where, what, f"is in seconds here, {chosen:g} s: {there:g} s there, the fluid's step deltaT {deltaT:g} s; "
+                           "here both are one")
+        return chosen
+
+    def couplingProperties(self):
+        entries = {"fluid": self.settings.entries.pop("fluid"), "couplingInterval": f"{self.interval:.10g}", **self.settings.entries,
+                   "DEM": {"engine": "liggghts", "script": f'"DEM/{Path(self.settings.script).name}"'}}
+        if self.script.isOneBead:
+            entries["DEM"]["maxRayleighFraction"] = "100"
+            self.report.change(self.script.where, f"timestep {self.script.timeStep:g}", "is not held against the Rayleigh time, for there is one "
+                               "bead: where it meets a wall, take maxRayleighFraction out of DEM in constant/couplingProperties")
+        self.liggghtsCommands(entries["DEM"])
+        self.files["constant/couplingProperties"] = foamText.file("couplingProperties", "dictionary", entries)
+
+    def liggghtsCommands(self, dem):
+        if not self.has("CFD/constant/liggghtsCommands"):
+            return
+        old = self.read("CFD/constant/liggghtsCommands")
+        for name in old.words("liggghtsCommandModels"):
+            props = old.sub(f"{name}Props")
+            if name == "writeLiggghts":
+                props.isRead()
+                dem["writeRestart"] = '"DEM/atTheEnd.restart"'
+                self.report.change(old.where, name, "is DEM/writeRestart, at the end of the run; checkpoints hold the beads at write times")
+            elif name == "runLiggghts":
+                props.isRead()
+            else:
+                self.report.error(old.where, name, "has no counterpart; known: runLiggghts, writeLiggghts")
+        for name in list(old.entries):
+            if name.endswith("Props") and name not in old.asked:
+                old.sub(name).isRead()
+                self.report.leftOut(old.where, name, "of a command that is not chosen")
+
+    def controlDict(self):
+        old, where = self.control, self.control.where
+        entries = {"application": "pimpleDemFoam"}
+        old.text("application")
+        for name in ("startFrom", "startTime", "stopAt", "endTime"):
+            entries[name] = old.needed(name)
+        entries["deltaT"] = f"{self.interval:.10g}"
+        if old.text("adjustTimeStep", "no") not in OFF:
+            self.report.error(where, "adjustTimeStep", "is on; allowed: off, and adjustableInterval of couplingProperties in its place")
+        for name in ("maxCo", "maxDeltaT"):
+            if name in old:
+                old.text(name)
+                self.report.leftOut(where, name, "is read only where the time step adjusts itself")
+        control, interval = old.needed("writeControl"), old.number("writeInterval")
+        if control == "timeStep":
+            control, interval = "runTime", interval * old.number("deltaT")
+        entries["writeControl"] = "runTime" if control == "adjustableRunTime" else control
+        entries["writeInterval"] = f"{interval:.10g}"
+        if old.text("purgeWrite", "0") == "1":
+            self.report.error(where, "purgeWrite", "is 1; allowed: 0, or 2 and more: the last checkpoint must be whole before another goes")
+        for name, default in (("purgeWrite", "0"), ("writeFormat", "ascii"), ("writePrecision", "8"), ("timeFormat", "general"),
+                              ("timePrecision", "8")):
+            entries[name] = old.text(name, default)
+        if "writeCompression" in old:
+            entries["writeCompression"] = {"uncompressed": "off", "compressed": "on"}.get(old.text("writeCompression"), old.text("writeCompression"))
+        entries["runTimeModifiable"] = "no"
+        old.text("runTimeModifiable")
+        if "libs" in old:
+            self.report.error(where, "libs", f"{old.text('libs')}: libraries of CFDEMcoupling or others are not here")
+        entries["functions"] = self.functions()
+        self.files["system/controlDict"] = foamText.file("controlDict", "dictionary", entries)
+
+    def functions(self):
+        old = self.control.entries.get("functions")
+        self.control.asked.add("functions")
+        if isinstance(old, str):
+            old = foamText.listed(old, f"{self.control.where}/functions") if old else None
+        new = {}
+        for name, function in (old.entries if old else {}).items():
+            where = function.where
+            entries = dict(function.entries)
+            entries.pop("name", None) if entries.get("name") == name else None
+            for before, now in (("functionObjectLibs", "libs"), ("outputControl", "writeControl"), ("outputInterval", "writeInterval")):
+                if before in entries:
+                    entries[now] = entries.pop(before)
+            entries["writeControl"] = {"outputTime": "writeTime"}.get(entries.get("writeControl", "timeStep"), entries.get("writeControl", "timeStep"))
+            wanted = entries.get("fields", "").strip("() ").split()
+            kept = [FIELDS_IN_PROBES[field] for field in wanted if field in FIELDS_IN_PROBES]
+            for field in wanted:
+                if field == "voidfraction":
+                    self.report.change(where, field, "is voidFraction here")
+                elif field not in FIELDS_IN_PROBES:
+                    self.report.leftOut(where, field, f"no such field here; there are: {', '.join(FIELDS_IN_PROBES.values())}")
+            if wanted and not kept:
+                self.report.error(where, "fields", f"none of ({' '.join(wanted)}) is a field here")
+            if wanted:
+                entries["fields"] = f"( {' '.join(kept)} )"
+            new[name] = entries
+        return new
+
+    # --- fluid ---------------------------------------------------------------------------------------
+
+    def solvers(self):
+        old = self.read("CFD/system/fvSolution")
+        solvers = old.sub("solvers")
+        found = {}
+        for pattern, value in solvers.entries.items():
+            solvers.asked.add(pattern)
+            if isinstance(value, foamText.Dictionary):
+                value.isRead()
+            for name in ("p", "U"):
+                if re.fullmatch(pattern, name):
+                    found[name] = value.entries
+        for name in ("p", "U"):
+            if name not in found:
+                raise foamText.FoamError(f"{solvers.where}: no solver for {name}")
+        final = solvers.entries.get("pFinal")
+        new = {"p": found["p"], "pFinal": final.entries if final else {**found["p"], "relTol": "0"}, '(U|UFinal)': {**found["U"], "relTol": "0"}}
+        piso = old.sub("PISO" if "PISO" in old else "PIMPLE")
+        old.sub("PIMPLE").isRead()
+        pimple = {"nOuterCorrectors": "1", **piso.isRead().entries}
+        entries = {"solvers": new, "PIMPLE": pimple}
+        if "relaxationFactors" in old:
+            entries["relaxationFactors"] = old.sub("relaxationFactors").isRead()
+        self.files["system/fvSolution"] = foamText.file("fvSolution", "dictionary", entries)
+        self.report.leftOut(solvers.where, "all but p and U", "void fraction, momentum and smoothing are not solved for by OpenFOAM's solvers")
+
+        schemes = self.read("CFD/system/fvSchemes").isRead()
+        for name in ("fluxRequired", "wallDist"):
+            schemes.entries.pop(name, None)
+        self.files["system/fvSchemes"] = foamText.file("fvSchemes", "dictionary", schemes)
+        if self.has("CFD/system/decomposeParDict"):
+            self.files["system/decomposeParDict"] = self.case / "CFD/system/decomposeParDict"
+
+    def mesh(self):
+        for name in ("system", "constant/polyMesh"):
+            if self.has(f"CFD/{name}/blockMeshDict"):
+                self.files["system/blockMeshDict"] = self.case / f"CFD/{name}/blockMeshDict"
+                self.makesMesh = True
+                return
+        self.makesMesh = False
+        if not self.has("CFD/constant/polyMesh/points"):
+            raise foamText.FoamError("CFD: no mesh; allowed: system/blockMeshDict, constant/polyMesh/blockMeshDict, constant/polyMesh/points")
+        self.files["constant/polyMesh"] = self.case / "CFD/constant/polyMesh"
+
+    def fluid(self):
+        transport = self.read("CFD/constant/transportProperties")
+        if transport.text("transportModel", "Newtonian") != "Newtonian":
+            self.report.error(transport.where, "transportModel", f"is {transport.text('transportModel')}; allowed: Newtonian")
+        for name in list(transport.entries):
+            if name.endswith("Coeffs"):
+                transport.sub(name).isRead()
+        rho = self.read("CFD/0/rho").isRead()
+        density = rho.needed("internalField").split()
+        if density[:1] != ["uniform"] or len(density) != 2:
+            self.report.error(rho.where, "internalField", "allowed: uniform NUMBER, for the fluid has one density here")
+        self.report.change(rho.where, f"rho {density[-1]}", "is constant/transportProperties' rho here")
+        self.files["constant/transportProperties"] = foamText.file("transportProperties", "dictionary", {
+            "rho": f"rho [1 -3 0 0 0 0 0] {density[-1]}", "nu": f"nu [0 2 -1 0 0 0 0] {transport.number('nu'):.10g}"})
+        self.turbulence()
+        self.gravity()
+
+    def turbulence(self):
+        """Only laminar flow: every file that names a model must name none."""
+        if self.has("CFD/constant/turbulenceProperties"):
+            old = self.read("CFD/constant/turbulenceProperties")
+            kind = old.needed("simulationType")
+            model = {"RASModel": "RASProperties", "RAS": "RASProperties", "LESModel": "LESProperties", "LES": "LESProperties"}.get(kind)
+            inside = old.sub(kind)
+            chosen = inside if inside.entries else self.read(f"CFD/constant/{model}") if model and self.has(f"CFD/constant/{model}") else inside
+            name = chosen.text("RASModel") or chosen.text("LESModel") or "none"
+            if kind != "laminar" and name != "laminar" and chosen.text("turbulence", "on") not in OFF:
+                self.report.error(old.where, "simulationType", f"is {kind} with model {name}; allowed: laminar")
+            chosen.isRead()
+            old.isRead()
+        self.files["constant/turbulenceProperties"] = foamText.file("turbulenceProperties", "dictionary", {"simulationType": "laminar"})
+
+    def gravity(self):
+        ofBeads = self.script.gravity or [0, 0, 0]
+        for name in ("g", "environmentalProperties"):
+            if self.has(f"CFD/constant/{name}"):
+                old = self.read(f"CFD/constant/{name}").isRead()
+                text = old.text("value") or old.text("g") or ""
+                found = [float(word) for word in re.findall(r"[-+.\d][-+.\deE]*", text.split("(")[-1])]
+                if any(abs(one - other) > 1e-3 for one, other in zip(found, ofBeads)):
+                    self.report.error(old.where, "g", f"is {inlets.vector(found)}, that of the DEM script {inlets.vector(ofBeads)}")
+                break
+        else:
+            self.report.change("CFD/constant", "g", f"is not there; {inlets.vector(ofBeads)}, that of the DEM script")
+        self.files["constant/g"] = foamText.file("g", "uniformDimensionedVectorField", {
+            "dimensions": "[0 1 -2 0 0 0 0]", "value": inlets.vector(ofBeads)})
+
+    def fields(self):
+        U, p, voidFraction = (self.read(f"CFD/0/{name}") for name in ("U", "p", "voidfraction"))
+        inlets.converted(U, voidFraction.isRead(), self.report)
+        for field, kind in ((U, "volVectorField"), (p, "volScalarField")):
+            name = field.where.rsplit("/", 1)[1]
+            self.files[f"0/{name}"] = foamText.file(name, kind, field.isRead())
+
+    # --- the rest ------------------------------------------------------------------------------------
+
+    def otherFiles(self):
+        read = {old.where for old in self.openFiles}
+        for folder, known in (("0", FIELDS_WITHOUT_COUNTERPART), ("constant", CONSTANT_FILES), ("system", SYSTEM_FILES)):
+            for path in sorted((self.case / "CFD" / folder).iterdir()):
+                where = f"CFD/{folder}/{path.name}"
+                if where in read or path.name.startswith("."):
+                    continue
+                if path.name == "dynamicMeshDict" and self.read(where).isRead().text("dynamicFvMesh") != "staticFvMesh":
+                    self.report.error(where, path.name, "the mesh does not move here; allowed: staticFvMesh")
+                elif path.name not in known:
+                    self.report.error(where, path.name, "nothing here reads this file")
+                elif folder == "0":
+                    self.report.leftOut(where, path.name, "the coupling makes this field itself, or the flow is laminar")
+        for path in sorted((self.case / "DEM").iterdir()):
+            name = f"DEM/{path.name}"
+            if path.is_dir() and path.name != "post":
+                self.files[name] = path
+            elif path.is_file() and name not in self.files:
+                if path.name.startswith("in."):
+                    self.report.leftOut(name, path.name, "no part of the case names it")
+                elif not path.name.startswith("."):
+                    self.files[name] = path
+
+    def allrun(self):
+        steps = ["logged blockMesh"] if self.makesMesh else []
+        if self.beforeIt:
+            steps.append(f"(cd DEM && logged liggghts -in {self.beforeIt})")
+        steps.append("logged pimpleDemFoam")
+        self.files["Allrun"] = ALLRUN.format(beads="beads by LIGGGHTS alone, " if self.beforeIt else "", steps="\n".join(steps))

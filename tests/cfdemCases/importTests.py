@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+"""scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials ErgunTestMPI and
+settlingTestMPI. What it writes is run, and held against the law that the old case states; what it cannot carry over is an error.
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+sys.path.insert(0, str(ROOT / "scripts"))
+import caseFiles
+import closures
+import environment
+import numpy as np
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="clepsydra-import-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.target = self.folder / "new"
+
+    def case(self, name, file=None, old="", new=""):
+        """A copy of an old case, with a text in one of its files replaced."""
+        copy = self.folder / name
+        shutil.copytree(HERE / name, copy)
+        if file:
+            text = (copy / file).read_text() if (copy / file).exists() else ""
+            self.assertIn(old, text)
+            (copy / file).write_text(text.replace(old, new, 1))
+        return copy
+
+    def importing(self, case, *options):
+        return subprocess.run([ROOT / "scripts/importCfdem", case, self.target, *options], capture_output=True, text=True)
+
+    def imported(self, case, *options):
+        done = self.importing(case, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def run_(self):
+        done = subprocess.run([self.target / "Allrun"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+
+
+class Runs(Folder):
+    """Of the new cases: within 5 % of the law."""
+
+    def testSettlingBead(self):
+        self.imported(HERE / "settlingBead")
+        self.run_()
+        speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
+        law = closures.value("terminalVelocity", dragLaw="DiFeliceDrag", beadDiameter=1e-4, beadDensity=3000, fluidDensity=10,
+                             fluidViscosity=1e-5)
+        print(f"settlingBead: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
+        self.assertLess(abs(speed / law - 1), 0.05)
+
+    def testPackedColumn(self):
+        """Taken for a velocity between the beads, the inlet's .006 and .01 m/s would give less than half of the pressure drop."""
+        self.imported(HERE / "packedColumn")
+        self.run_()
+        probes = np.loadtxt(self.target / "postProcessing/probes/0/p")
+        for time, velocity in (("0.05", 0.006), ("0.1", 0.01)):
+            bottom, top = probes[np.abs(probes[:, 0] - float(time)).argmin(), 1:]
+            drop, law = 10 * (bottom - top), self.ergun(time, velocity)
+            print(f"packedColumn at {velocity} m/s: {drop:.2f} Pa, Ergun {law:.2f}: {100 * (drop / law - 1):+.2f} %")
+            self.assertLess(abs(drop / law - 1), 0.05)
+
+    def ergun(self, time, velocity):
+        """Over the layers of cells between the two probes, which are the middles of the lowest layer and of one above the bed."""
+        voidFraction = caseFiles.field(self.target, time, "voidFraction")[:, 0]      # one cell a layer
+        bed = voidFraction < 0.95
+        weight = np.where(np.arange(30) == 0, 0.5, 1.0)[bed]
+        gradient = closures.values("ergunPressureGradient", beadDiameter=1e-3, fluidDensity=10, fluidViscosity=1.5e-4,
+                                   voidFraction=voidFraction[bed], superficialVelocity=velocity)
+        return (weight * gradient).sum() * 1e-3
+
+
+class Meanings(Folder):
+    """What is written, where a word means something else."""
+
+    def testIntervalIsInSeconds(self):
+        said = self.imported(HERE / "settlingBead")
+        self.assertIn("couplingInterval        0.001;", (self.target / "constant/couplingProperties").read_text())
+        self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
+        self.assertIn("couplingInterval 100: is in seconds here", said)
+
+    def testSmoothingLengthSpreadsAlike(self):
+        self.imported(HERE / "settlingBead")
+        self.assertIn("smoothingLength         0.0006;", (self.target / "constant/couplingProperties").read_text())
+
+    def testConstantInletIsSuperficial(self):
+        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        table = re.search(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[0]
+        self.imported(self.case("packedColumn", "CFD/0/U", table, "type fixedValue; value uniform (0 0 0.01);\n"))
+        self.assertIn("interstitialInletVelocity", (self.target / "0/U").read_text())
+
+    def testInletBetweenTheBeadsStaysOne(self):
+        self.imported(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"\n    {\n        type            fixedValue;',
+                                '"(inlet|outlet)"\n    {\n        type            zeroGradient;'))
+        self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
+
+    def testProbesLookForOurField(self):
+        said = self.imported(HERE / "packedColumn")
+        self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
+        self.assertIn("volAverage_voidfraction: no such field here", said)
+
+    def testScriptLosesTheCoupling(self):
+        said = self.imported(HERE / "packedColumn")
+        script = (self.target / "DEM/in.liggghts_run").read_text()
+        for word in ("processors", "couple/cfd", "dragforce", "dragtotal", "../DEM", "thermo_log"):
+            self.assertNotIn(word, script)
+        self.assertNotRegex(script, r"(?m)^run")
+        self.assertIn("thermo_style custom step atoms ke c_centre[3]", script)
+        self.assertIn("processors 2 2 1: both engines", said)
+
+    def testReportStaysWithTheCase(self):
+        said = self.imported(HERE / "packedColumn")
+        self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
+
+
+class Errors(Folder):
+    """Nothing is written, and the message names the file and the entry."""
+
+    def testWhatNothingReads(self):
+        coupling, control, script = "CFD/constant/couplingProperties", "CFD/system/controlDict", "DEM/in.liggghts_run"
+        for file, old, new, named in (
+                (coupling, "modelType B;", "modelType B; useImplicitWhatever on;", "useImplicitWhatever"),
+                (coupling, "    treeSearch true;", "    treeSearch true; } DiFeliceDragProps { scaleDia 2;", "scaleDia"),
+                (coupling, "granVelFieldName \"Us\";\n    verbose", "slipFactor 2;\n    verbose", "slipFactor"),
+                (coupling, "modelType B;", "modelType Bfull;", "modelType"),
+                (coupling, "    Archimedes\n", "    Archimedes\n    magicForce\n", "magicForce"),
+                (coupling, "dataExchangeModel twoWayMPI", "dataExchangeModel twoWayM2M", "dataExchangeModel"),
+                (coupling, "scaleUpVol 1.0", "scaleUpVol 1.3", "scaleUpVol"),
+                (control, "adjustTimeStep  no", "adjustTimeStep  yes", "adjustTimeStep"),
+                (control, "endTime         0.15;", "endTime         0.15; libs (\"libmine.so\");", "libs"),
+                (control, "endTime         0.15;", "endTime         0.15; graphFormat raw;", "graphFormat"),
+                (script, "couple_every 100", "couple_every 50", "couple_every"),
+                (script, "run             0\n", "run             5000\n", "run"),
+                (script, "couple/cfd/force\n", "couple/cfd/convection\n", "couple/cfd/convection"),
+                ("CFD/constant/RASProperties", "RASModel        laminar;\nturbulence      off;", "RASModel kEpsilon; turbulence on;", "kEpsilon"),
+                ("CFD/constant/g", "0 -9.81 0", "0 0 -9.81", "DEM script"),
+                ("CFD/0/T", "", "internalField uniform 300;", "CFD/0/T"),
+                ("CFD/constant/liggghtsCommands", "runLiggghts", "runLiggghts execute", "execute")):
+            with self.subTest(named):
+                case = self.case("settlingBead", file, old, new)
+                done = self.importing(case)
+                shutil.rmtree(case)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn(named, done.stderr)
+                self.assertIn("nothing was written", done.stderr)
+                self.assertFalse(self.target.exists())
+
+    def testInletThatMayBeEither(self):
+        done = self.importing(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"', "outlet"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("inlet", done.stderr)
+
+    def testWithoutIsWhatTheUserSays(self):
+        case = self.case("settlingBead", "CFD/constant/couplingProperties", "modelType B;", "modelType B; useImplicitWhatever on;")
+        self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
+
+    def testWithoutThatNamesNothing(self):
+        done = self.importing(HERE / "settlingBead", "--without", "misspelt")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("misspelt: names no error", done.stderr)
+
+    def testTargetThatIsThere(self):
+        self.target.mkdir()
+        done = self.importing(HERE / "settlingBead")
+        self.assertIn("is there already", done.stderr)
+
+    def testBrokenFile(self):
+        done = self.importing(self.case("settlingBead", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("CFD/0/p", done.stderr)
+
+
+environment.load()
+unittest.main()
