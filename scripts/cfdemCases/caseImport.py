@@ -7,7 +7,7 @@ from pathlib import Path
 
 import foamText
 import inlets
-from demScript import DemScript, outputFolders
+from demScript import DemScript, outputFolders, withSeeds
 from report import Report
 from settings import Settings
 
@@ -123,6 +123,7 @@ class Import:
         for path in sorted((self.case / "DEM").glob("in.*")):
             text = path.read_text()
             if re.search(rf"^\s*write_restart\s+\S*{re.escape(Path(restart).name)}\b", text, re.MULTILINE):
+                text = withSeeds(text, f"DEM/{path.name}", self.report)
                 self.files[f"DEM/{path.name}"] = re.sub(r"^(\s*processors\b)", r"#\1", text, flags=re.MULTILINE)
                 self.files |= {f"DEM/{folder}": None for folder in outputFolders(text)}
                 return path.name
@@ -347,6 +348,9 @@ class Import:
                     self.report.error(where, path.name, "nothing here reads this file")
                 elif folder == "0":
                     self.report.leftOut(where, path.name, "the coupling makes this field itself, or the flow is laminar")
+        for path in [*sorted(self.case.iterdir()), *sorted((self.case / "CFD").iterdir())]:
+            if path.name not in ("CFD", "DEM", "0", "constant", "system") and not path.name.startswith("."):
+                self.report.leftOut(str(path.relative_to(self.case)), path.name, "starts or evaluates the old case, or is of its runs; Allrun is new")
         for path in sorted((self.case / "DEM").iterdir()):
             name = f"DEM/{path.name}"
             if path.is_dir() and path.name != "post":

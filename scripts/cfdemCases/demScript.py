@@ -24,6 +24,28 @@ def outputFolders(text):
             yield file[0].rsplit("/", 1)[0]
 
 
+SMALLEST_SEED = 10007
+
+
+def withSeeds(text, where, report):
+    """A script with seeds that LIGGGHTS 3.8 takes: primes above 10000."""
+    def replaced(line):
+        seed = int(line["seed"])
+        if isSeed(seed):
+            return line[0]
+        good = next(number for number in range(max(seed, SMALLEST_SEED), 2 * max(seed, SMALLEST_SEED)) if isSeed(number))
+        report.change(where, f"{' '.join(line['before'].split()[:2])}: seed {seed}", f"is {good}: LIGGGHTS 3.8 takes primes "
+                      "above 10000; other places of the beads")
+        return line['before'] + str(good)
+
+    return re.sub(r"^(?P<before>[ \t]*fix[^#\n]*?(?:particletemplate/\w+|particledistribution/\w+|\bseed)[ \t]+)(?P<seed>\d+)", replaced, text,
+                  flags=re.MULTILINE)
+
+
+def isSeed(number):
+    return number > 10000 and all(number % factor for factor in range(2, int(number**0.5) + 1))
+
+
 class DemScript:
     """lines: the new script. Beside it what was learnt of the old one."""
 
@@ -36,7 +58,7 @@ class DemScript:
         makers = re.findall(rf"^\s*(?!#).*?\b({'|'.join(MAKES_BEADS)})\b.*$", text, re.MULTILINE)
         self.isOneBead = makers == ["create_atoms"] and bool(re.search(r"^\s*create_atoms\s+\S+\s+single\b", text, re.MULTILINE))
         mapArray = False
-        for line in self.joined(text):
+        for line in self.joined(withSeeds(text, where, report)):
             words = line.split("#")[0].split()
             if words[:1] == ["atom_modify"] and "map" in words:
                 mapArray = True

@@ -148,12 +148,12 @@ def written(entries, indent=0):
     """Text of a Dictionary, or of a plain dict."""
     lines, blank = [], " " * indent
     for name, value in (entries.entries if isinstance(entries, Dictionary) else entries).items():
-        if isPattern(name):
+        if isPattern(name) and not name.startswith("$"):
             name = f'"{name}"'
         if isinstance(value, (dict, Dictionary)):
             lines += [f"{blank}{name}", f"{blank}{{", written(value, indent + 4), f"{blank}}}"]
         else:
-            lines.append(f"{blank}{name:24}{value};" if value != "" else f"{blank}{name};")
+            lines.append(f"{blank}{name:23} {value};" if value != "" else f"{blank}{name};")
     return "\n".join(lines)
 
 

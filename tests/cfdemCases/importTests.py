@@ -122,6 +122,23 @@ class Meanings(Folder):
         self.assertIn("thermo_style custom step atoms ke c_centre[3]", script)
         self.assertIn("processors 2 2 1: both engines", said)
 
+    def testSeedsArePrimesAbove10000(self):
+        for file, old, new in (("DEM/in.liggghts_init", "sphere 15485863", "sphere 1"), ("DEM/in.liggghts_init", "seed 100003", "seed 100001")):
+            with self.subTest(new):
+                case = self.case("packedColumn", file, old, new)
+                said = self.imported(case)
+                script = (self.target / file).read_text()
+                shutil.rmtree(case)
+                shutil.rmtree(self.target)
+                self.assertRegex(script, r"sphere 10007|seed 100003")
+                self.assertIn(f"seed {new.split()[1]}: is 100", said)
+
+    def testSolversKeepTheirWords(self):
+        self.imported(HERE / "packedColumn")
+        solution = (self.target / "system/fvSolution").read_text()
+        self.assertIn("        $p;", solution)
+        self.assertIn("    nNonOrthogonalCorrectors 0;", solution)
+
     def testReportStaysWithTheCase(self):
         said = self.imported(HERE / "packedColumn")
         self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
