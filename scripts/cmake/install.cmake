@@ -1,0 +1,50 @@
+# `cmake --install` and `cpack -G DEB`: the programs with all that a copied case needs, so that it runs without this folder.
+#
+#   bin/                      pimpleDemFoam, traceResidual, closures: each sets up its environment and starts the one below
+#   lib/clepsydra/            the programs themselves and their libraries
+#   share/clepsydra/          what $CLEPSYDRA is then: scripts, cases, meshes, pages; build/ leads to lib/clepsydra
+#
+# The tree may be moved as a whole.
+
+set(_programs lib/clepsydra)
+set(_shared share/clepsydra)
+
+set_target_properties(pimpleDemFoam traceResidual closuresProgram PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
+install(TARGETS pimpleDemFoam traceResidual closuresProgram RUNTIME DESTINATION ${_programs}/bin)
+install(TARGETS coupling LIBRARY DESTINATION ${_programs}/lib)
+install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
+foreach(_program IN ITEMS pimpleDemFoam traceResidual closures)
+    install(PROGRAMS "${PROJECT_SOURCE_DIR}/scripts/cmake/startInstalled" DESTINATION bin RENAME ${_program})
+endforeach()
+
+# What git tracks, since cases leave the results of runs beside their files.
+install(CODE "
+    execute_process(COMMAND git -C \"${PROJECT_SOURCE_DIR}\" ls-files -- cases scripts meshes identification/effects \"*.md\" LICENSE CITATION.cff
+        OUTPUT_VARIABLE files OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    string(REPLACE \"\\n\" \";\" files \"\${files}\")
+    set(shared \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${_shared}\")
+    foreach(file IN LISTS files)
+        if(EXISTS \"${PROJECT_SOURCE_DIR}/\${file}\")
+            get_filename_component(folder \"\${file}\" DIRECTORY)
+            file(COPY \"${PROJECT_SOURCE_DIR}/\${file}\" DESTINATION \"\${shared}/\${folder}\")
+        endif()
+    endforeach()
+    file(WRITE \"\${shared}/.installed\" \"scripts/setup has nothing to do here\\n\")
+    file(CREATE_LINK ../../lib/clepsydra \"\${shared}/build\" SYMBOLIC)
+")
+# Debian's OpenFOAM has no etc/, without which none of its programs starts.
+install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-1912)
+
+set(CPACK_PACKAGE_NAME clepsydra)
+set(CPACK_PACKAGE_CONTACT "The Clepsydra authors <clepsydra@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
+# What the scripts start: the groups of scripts/setup that are not for building
+set(CPACK_DEBIAN_PACKAGE_DEPENDS
+    "openfoam, libopenfoam, liggghts, openmpi-bin, make, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-yaml, xvfb, xauth")
+include(CPack)

@@ -1,0 +1,96 @@
+#!/usr/bin/python3
+"""What `cmake --install` and `cpack -G DEB` leave: programs and cases that need neither this repository nor its build.
+
+usage: installTests.py BUILD [unittest's options]
+
+The programs run where an empty file system lies over the repository, the build and OpenFOAM's headers; in a shell that has
+HOME and PATH and nothing else. Where the machine does not let us mount, that cover is missing.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+sys.dont_write_bytecode = True
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(sys.argv.pop(1)).resolve()
+DEPENDENCIES = Path(os.environ.get("CLEPSYDRA_DEPENDENCIES", ROOT / ".dependencies")).resolve()
+PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
+
+
+def covered(script):
+    """The script, with nothing to be seen of this repository."""
+    mounts = "; ".join(f"mount -t tmpfs none {folder}" for folder in (BUILD, DEPENDENCIES, ROOT) if folder.is_dir())
+    mayMount = subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode == 0
+    return ["unshare", "--mount", "bash", "-c", f"set -e; {mounts}; {script}"] if mayMount else ["bash", "-c", f"set -e; {script}"]
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="clepsydra-install-")
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = Path(folder.name)
+        cls.unpack()
+        cls.shared = cls.prefix / "share/clepsydra"
+
+    @classmethod
+    def unpack(cls):
+        cls.prefix = cls.folder / "usr"
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, stdout=subprocess.DEVNULL)
+
+    def types(self, script):
+        done = subprocess.run(covered(f"cd {self.folder}; {script}"), capture_output=True, text=True, stdin=subprocess.DEVNULL,
+                              env={"HOME": str(self.folder), "PATH": PATH})
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
+        return done.stdout
+
+    def testProgramsStartByTheirNames(self):
+        self.assertIn("Usage: pimpleDemFoam", self.types("usr/bin/pimpleDemFoam -help"))
+        self.assertIn("DiFeliceDrag", self.types("usr/bin/closures dragLaws"))
+        self.assertIn("study", self.types("usr/bin/traceResidual --help"))
+
+    def testCopiedCaseRuns(self):
+        self.types(f"cp -r {self.shared}/cases/singleBead bead; . {self.shared}/scripts/environment; bead/Allrun; "
+                   f"{self.shared}/scripts/plotBead bead bead.png")
+        last = (self.folder / "bead/postProcessing/beadHeight/0/beadHeight.dat").read_text().splitlines()[-1].split()
+        self.assertAlmostEqual(float(last[2]), -0.268, delta=0.003)
+
+    def testCopiedHopperMakesItsMesh(self):
+        said = self.types(f"cp -r {self.shared}/cases/hopperQuick hopper; . {self.shared}/scripts/environment; hopper/Allrun mesh; "
+                          "hopper/Allrun check")
+        self.assertIn("The case would start", said)
+
+    def testSetupHasNothingToDo(self):
+        self.assertEqual(self.types(f"{self.shared}/scripts/setup"), "")
+
+    def testResultsOfRunsHereStayHere(self):
+        tracked = set(subprocess.run(["git", "-C", ROOT, "ls-files"], check=True, capture_output=True, text=True).stdout.split("\n"))
+        installed = {str(path.relative_to(self.shared)) for path in (self.shared / "cases").rglob("*") if path.is_file()}
+        self.assertTrue(installed)
+        self.assertEqual(installed - tracked, set())
+
+
+class Package(Installed):
+    """The same from the package, unpacked beside what is there."""
+
+    @classmethod
+    def unpack(cls):
+        subprocess.run(["cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "packed"], check=True,
+                       stdout=subprocess.DEVNULL)
+        cls.package = next((cls.folder / "packed").glob("clepsydra_*.deb"))
+        subprocess.run(["dpkg-deb", "-x", cls.package, cls.folder / "unpacked"], check=True)
+        (cls.folder / "usr").symlink_to("unpacked/usr")
+        cls.prefix = cls.folder / "usr"
+
+    def testPackageNamesWhatItNeeds(self):
+        depends = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
+        for needed in ("openfoam", "liggghts", "libliggghts3", "libvtk9", "openmpi-bin", "python3-vtk9"):
+            self.assertIn(needed, depends)
+
+
+if __name__ == "__main__":
+    unittest.main()
