@@ -2,6 +2,7 @@
 #
 #   bin/                      pimpleDemFoam, traceResidual, closures: each sets up its environment and starts the one below
 #   lib/clepsydra/            the programs themselves and their libraries
+#   include/clepsydra/        headers of the coupling, for find_package(Clepsydra)
 #   share/clepsydra/          what $CLEPSYDRA is then: scripts, cases, meshes, pages; build/ leads to lib/clepsydra
 #
 # The tree may be moved as a whole.
@@ -34,6 +35,18 @@ install(CODE "
 ")
 # Debian's OpenFOAM has no etc/, without which none of its programs starts.
 install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-1912)
+
+include(CMakePackageConfigHelpers)
+set(library ${_programs}/lib/libcoupling.so)
+set(headers include/clepsydra)
+set(modules ${_shared}/scripts/cmake)
+get_filename_component(OpenFOAM_dependencies "${OpenFOAM_ROOT}" DIRECTORY)
+set(_config "${PROJECT_BINARY_DIR}/generated/ClepsydraConfig")
+configure_package_config_file("${PROJECT_SOURCE_DIR}/scripts/cmake/ClepsydraConfig.cmake.in" ${_config}.cmake
+    INSTALL_DESTINATION lib/cmake/Clepsydra PATH_VARS library headers modules)
+write_basic_package_version_file(${_config}Version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${_config}.cmake ${_config}Version.cmake DESTINATION lib/cmake/Clepsydra)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/coupling/" DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN liggghts EXCLUDE)
 
 set(CPACK_PACKAGE_NAME clepsydra)
 set(CPACK_PACKAGE_CONTACT "The Clepsydra authors <clepsydra@localhost>")

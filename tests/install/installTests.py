@@ -7,7 +7,9 @@ The programs run where an empty file system lies over the repository, the build 
 HOME and PATH and nothing else. Where the machine does not let us mount, that cover is missing.
 """
 
+import math
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,9 +23,9 @@ DEPENDENCIES = Path(os.environ.get("CLEPSYDRA_DEPENDENCIES", ROOT / ".dependenci
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
-def covered(script):
-    """The script, with nothing to be seen of this repository."""
-    mounts = "; ".join(f"mount -t tmpfs none {folder}" for folder in (BUILD, DEPENDENCIES, ROOT) if folder.is_dir())
+def covered(script, folders):
+    """The script, with nothing to be seen of these folders."""
+    mounts = "; ".join(f"mount -t tmpfs none {folder}" for folder in sorted(folders, reverse=True) if folder.is_dir())
     mayMount = subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode == 0
     return ["unshare", "--mount", "bash", "-c", f"set -e; {mounts}; {script}"] if mayMount else ["bash", "-c", f"set -e; {script}"]
 
@@ -42,8 +44,8 @@ class Installed(unittest.TestCase):
         cls.prefix = cls.folder / "usr"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, stdout=subprocess.DEVNULL)
 
-    def types(self, script):
-        done = subprocess.run(covered(f"cd {self.folder}; {script}"), capture_output=True, text=True, stdin=subprocess.DEVNULL,
+    def types(self, script, covering=(BUILD, DEPENDENCIES, ROOT)):
+        done = subprocess.run(covered(f"cd {self.folder}; {script}", covering), capture_output=True, text=True, stdin=subprocess.DEVNULL,
                               env={"HOME": str(self.folder), "PATH": PATH})
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
         return done.stdout
@@ -58,6 +60,26 @@ class Installed(unittest.TestCase):
                    f"{self.shared}/scripts/plotBead bead bead.png")
         last = (self.folder / "bead/postProcessing/beadHeight/0/beadHeight.dat").read_text().splitlines()[-1].split()
         self.assertAlmostEqual(float(last[2]), -0.268, delta=0.003)
+
+    def testForceOfOnesOwn(self):
+        """A bead that a force of a user's library holds against its buoyant weight stays where it is."""
+        shutil.copytree(ROOT / "tests/install/ownForce", self.folder / "ownForce")
+        shutil.copytree(self.shared / "cases/singleBead", self.folder / "held")
+        weight = math.pi / 6 * 2e-3**3 * (2500 - 1000) * 9.81
+        self.replace("held/constant/couplingProperties", "Archimedes virtualMassForce", "Archimedes ConstantForce virtualMassForce")
+        self.replace("held/constant/couplingProperties", "virtualMassForceProps",
+                     f"ConstantForceProps {{ force (0 0 {weight:.12e}); }}\nvirtualMassForceProps")
+        self.replace("held/system/controlDict", "functions\n", 'libs ("$FOAM_CASE/../ownForce/build/libownForce.so");\nfunctions\n')
+        self.types(f"cmake -S ownForce -B ownForce/build -DCMAKE_PREFIX_PATH={self.prefix} > log.cmake; cmake --build ownForce/build > log.build; "
+                   f". {self.shared}/scripts/environment; held/Allrun", covering=(ROOT, BUILD))
+        self.assertIn("ConstantForce: 6.16", (self.folder / "held/log.pimpleDemFoam").read_text())
+        last = (self.folder / "held/postProcessing/beadHeight/0/beadHeight.dat").read_text().splitlines()[-1].split()
+        self.assertLess(abs(float(last[2])), 1e-8)
+
+    def replace(self, file, old, new):
+        text = (self.folder / file).read_text()
+        self.assertIn(old, text)
+        (self.folder / file).write_text(text.replace(old, new, 1))
 
     def testCopiedHopperMakesItsMesh(self):
         said = self.types(f"cp -r {self.shared}/cases/hopperQuick hopper; . {self.shared}/scripts/environment; hopper/Allrun mesh; "
