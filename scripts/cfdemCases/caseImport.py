@@ -363,7 +363,7 @@ class Import:
 
     def allrun(self):
         steps = ["logged blockMesh"] if self.makesMesh else []
-        if self.beforeIt:
-            steps.append(f"(cd DEM && logged liggghts -in {self.beforeIt})")
+        if self.beforeIt:       # -log none: LIGGGHTS' own log has the name of the one that `logged` writes
+            steps.append(f"(cd DEM && logged liggghts -log none -in {self.beforeIt})")
         steps.append("logged pimpleDemFoam")
         self.files["Allrun"] = ALLRUN.format(beads="beads by LIGGGHTS alone, " if self.beforeIt else "", steps="\n".join(steps))

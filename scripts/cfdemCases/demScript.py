@@ -28,14 +28,18 @@ SMALLEST_SEED = 10007
 
 
 def withSeeds(text, where, report):
-    """A script with seeds that LIGGGHTS 3.8 takes: primes above 10000."""
+    """A script with seeds that LIGGGHTS 3.8 takes: primes above 10000, no two alike."""
+    taken = set()
+
     def replaced(line):
         seed = int(line["seed"])
-        if isSeed(seed):
+        least = max(seed, SMALLEST_SEED)
+        good = next(number for number in range(least, 10 * least) if isSeed(number) and number not in taken)
+        taken.add(good)
+        if good == seed:
             return line[0]
-        good = next(number for number in range(max(seed, SMALLEST_SEED), 2 * max(seed, SMALLEST_SEED)) if isSeed(number))
-        report.change(where, f"{' '.join(line['before'].split()[:2])}: seed {seed}", f"is {good}: LIGGGHTS 3.8 takes primes "
-                      "above 10000; other places of the beads")
+        report.change(where, f"{' '.join(line['before'].split()[:2])}: seed {seed}", f"is {good}: LIGGGHTS 3.8 takes different primes "
+                      "above 10000; so the beads lie at other places")
         return line['before'] + str(good)
 
     return re.sub(r"^(?P<before>[ \t]*fix[^#\n]*?(?:particletemplate/\w+|particledistribution/\w+|\bseed)[ \t]+)(?P<seed>\d+)", replaced, text,

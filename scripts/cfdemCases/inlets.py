@@ -4,6 +4,7 @@ import re
 
 import foamText
 
+TERMS_OF_A_VARIABLE = 10
 FIXED = ("fixedValue", "uniformFixedValue")
 
 
@@ -24,8 +25,9 @@ def converted(U, voidFraction, report):
             entries.entries = {"type": "interstitialInletVelocity", "inletVelocity": f"uniform {asVector}", "alpha": "voidFraction",
                                "value": f"uniform {asVector}"}
         else:
-            entries.entries = {"type": "exprFixedValue", "value": f"uniform {vector(superficial[0][1])}",
-                               "valueExpr": f'"{expression(superficial)}/voidFraction"'}
+            variables, parts = expression(superficial)
+            entries.entries = {"type": "exprFixedValue", "value": f"uniform {vector(superficial[0][1])}", "variables": f"( {variables} )",
+                               "valueExpr": f'"vector({", ".join(parts)})/voidFraction"'}
         report.change(U.where, f"{patch} of U", f"0/voidfraction is {fraction:g} there, so that the velocity is a superficial one; "
                       "it is divided by the void fraction of the beads at the patch now")
 
@@ -63,17 +65,34 @@ def vector(parts):
 
 
 def expression(table):
-    """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after."""
-    return f"vector({', '.join(component(table, axis) for axis in range(3))})"
+    """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after. Variables, and the
+    three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read more than
+    1024 characters at a time.
+    """
+    variables, parts = [], []
+    for axis, name in enumerate("xyz"):
+        terms = component(table, axis)
+        pieces = [" + ".join(terms[at:at + TERMS_OF_A_VARIABLE]) for at in range(0, len(terms), TERMS_OF_A_VARIABLE)]
+        if len(pieces) == 1:
+            parts.append(pieces[0])
+        else:
+            variables += [f'"{name}{number}={piece}"' for number, piece in enumerate(pieces)]
+            parts.append(" + ".join(f"{name}{number}" for number in range(len(pieces))))
+    return " ".join(variables), parts
 
 
 def component(table, axis):
-    rows = [(time, velocity[axis]) for time, velocity in table]
-    if all(value == rows[0][1] for _, value in rows):
-        return f"{rows[0][1]:.10g}"
-    text = f"{rows[-1][1]:.10g}"
-    for (before, low), (after, high) in reversed(list(zip(rows, rows[1:]))):
-        slope = (high - low) / (after - before) if after > before else 0
-        line = f"{low:.10g}" if slope == 0 else f"{low:.10g} + {slope:.10g}*(time() - {before:.10g})"
-        text = f"((time() < {after:.10g}) ? ({line}) : {text})"
-    return f"((time() < {rows[0][0]:.10g}) ? {rows[0][1]:.10g} : {text})" if rows[0][0] > 0 else text
+    """The terms of a sum: the first value, and ramps that begin at the table's times."""
+    terms, slope = [f"{table[0][1][axis]:.10g}"], 0
+    for (before, low), (after, high) in zip(table, table[1:]):
+        rise = high[axis] - low[axis]
+        if after == before:
+            terms += [f"{rise:.10g}*pos(time() - {after:.10g})"] if rise else []
+            continue
+        terms += ramp(rise / (after - before) - slope, before)
+        slope = rise / (after - before)
+    return terms + ramp(-slope, table[-1][0])
+
+
+def ramp(slope, start):
+    return [f"{slope:.10g}*max(time() - {start:.10g}, 0)"] if abs(slope) > 1e-12 else []

@@ -103,6 +103,22 @@ class Meanings(Folder):
         self.imported(self.case("packedColumn", "CFD/0/U", table, "type fixedValue; value uniform (0 0 0.01);\n"))
         self.assertIn("interstitialInletVelocity", (self.target / "0/U").read_text())
 
+    def testLongTableOfAnInlet(self):
+        """OpenFOAM reads the expression, and it has the table's values at and between its times."""
+        rows = [(0.001 * step, 0.002 + 0.001 * (step % 3)) for step in range(60)]
+        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        table = re.search(r"table\n        \(.*?\n        \);", text, re.DOTALL)[0]
+        self.imported(self.case("packedColumn", "CFD/0/U", table,
+                                "table (" + " ".join(f"({time:.6g} (0 0 {speed:.6g}))" for time, speed in rows) + ");"))
+        control = self.target / "system/controlDict"
+        control.write_text(re.sub(r"(?m)^(endTime|writeInterval) .*;", r"\1 0.03;", control.read_text()))
+        self.run_()
+        probes = (self.target / "postProcessing/probes/0/U").read_text().replace("(", " ").replace(")", " ")
+        for row in probes.splitlines():
+            if not row.startswith("#"):
+                time, *_, upwards = (float(number) for number in row.split())
+                self.assertAlmostEqual(upwards, np.interp(time, *zip(*rows)), delta=1e-6)
+
     def testInletBetweenTheBeadsStaysOne(self):
         self.imported(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"\n    {\n        type            fixedValue;',
                                 '"(inlet|outlet)"\n    {\n        type            zeroGradient;'))
