@@ -6,8 +6,8 @@ usage: pages.py table BUILD                 each command of the pages has its ro
                                             to files, and README.md has at most 900 words
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
-A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with one of
-PROGRAMS. It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
+A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a program
+(pageText.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
 """
 
 import json
@@ -22,9 +22,9 @@ from pathlib import Path
 sys.dont_write_bytecode = True
 import yaml
 
-ROOT = Path(__file__).resolve().parents[2]
+from pageText import ROOT, commands, links
+
 TABLE = Path(__file__).with_name("commands.yaml")
-PROGRAMS = (".", "Allrun", "closures", "cmake", "ctest", "mpirun", "pimpleDemFoam", "touch", "traceResidual")
 WORDS_OF_FRONT_PAGE = 900       # one screen: what is more belongs on the page beside what it describes
 KINDS = ("run", "long", "test")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
@@ -44,32 +44,6 @@ def pages():
     made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|runs|stages)/")
     found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
     return {page: (ROOT / page).read_text() for page in found if not made.match(page)}
-
-
-def commands(page, text):
-    """Of a page, in its order: the lines of its indented blocks, then what stands in backquotes."""
-    plain = re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
-    indented = re.sub(r" *\\\n *", " ", "\n".join(re.findall(r"^    .*$", plain, flags=re.M)))
-    lines = [re.sub(r"^ *(\$ )?|\s+#.*$", "", line) for line in indented.splitlines()]
-    spans = re.findall(r"`([^`]+)`", re.sub(r"^    .*$", "", plain, flags=re.M))
-    typed = [" ".join(line.split()) for line in lines + spans]
-    return list(dict.fromkeys(line for line in typed if isCommand(page, line)))
-
-
-def isCommand(page, line):
-    """A program by its name alone is only spoken of."""
-    first, *arguments = line.split() or [""]
-    if first.startswith("./"):
-        return True
-    places = [place / first for place in (ROOT, (ROOT / page).parent)]
-    program = first in PROGRAMS or any(place.is_file() and os.access(place, os.X_OK) for place in places)
-    return program and not first.startswith("build/") and ("/" in first or bool(arguments))
-
-
-def links(text):
-    """Targets within the repository, without the part after #."""
-    found = re.findall(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)", re.sub(r"^```.*?^```|`[^`]+`", "", text, flags=re.S | re.M))
-    return [link for link in found if "://" not in link]
 
 
 def readTable():
