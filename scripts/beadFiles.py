@@ -17,6 +17,11 @@ def writtenTimes(case):
     return times
 
 
+def timeNearest(times, wanted):
+    """The written time nearest to the wanted one; the last, where that is None."""
+    return max(times) if wanted is None else min(times, key=lambda written: abs(written - wanted))
+
+
 def readBeads(files):
     """Positions, radii and velocities."""
     parts = []

@@ -59,5 +59,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 # What the scripts start: the groups of scripts/setup that are not for building
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
-    "openfoam, libopenfoam, liggghts, openmpi-bin, make, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-yaml, xvfb, xauth")
+    "openfoam, libopenfoam, liggghts, openmpi-bin, make, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-yaml, xvfb, xauth, ffmpeg")
 include(CPack)

@@ -1,0 +1,6 @@
+"""Colours and lines that all pictures of runs share."""
+
+BEADS = "YlOrRd"                # by speed: beads at rest are pale, not black
+WATER = "Blues"                 # by speed
+STREAMLINES = "tab:blue"
+LINE, MARK = "tab:blue", "tab:red"
