@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""What is made of a run to look at: film, animation.
+"""What is made of a run to look at: film, animation, report.
 
 usage: pictureTests.py BUILD [unittest's options]
 """
 
+import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -45,6 +47,15 @@ class Pictures(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
+    def copied(self, name):
+        """A run whose files a test may change."""
+        case = self.folder / name
+        shutil.copytree(self.submerged, case, symlinks=True)
+        for link in ("constant", "system", "DEM"):
+            (case / link).unlink()
+            (case / link).symlink_to((self.submerged / link).resolve())
+        return case
+
     def pictures(self, film):
         """How many a film or an animation has, by decoding it."""
         counted = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries", "stream=nb_read_frames", "-of", "csv=p=0", film],
@@ -75,11 +86,7 @@ class Film(Pictures):
 
     def testOfARunningCase(self):
         """The newest time may be half written until its checkpoint is complete."""
-        running = self.folder / "running"
-        shutil.copytree(self.submerged, running, symlinks=True)
-        for link in ("constant", "system", "DEM"):
-            (running / link).unlink()
-            (running / link).symlink_to((self.submerged / link).resolve())
+        running = self.copied("running")
         (running / "checkpoints/0.5/complete").unlink()
         (running / "0.5/U").write_text("FoamFile { half")
         self.assertIn(f"film.gif: {TIMES - 1} pictures", self.makes("movie", running, "film.gif"))
@@ -98,6 +105,66 @@ class Film(Pictures):
         done = self.runs("movie", self.submerged, "none.mp4", env={"PATH": "/nowhere"})
         self.assertIn("apt-get install ffmpeg", done.stderr)
         self.assertFalse((self.folder / "none.mp4").exists())
+
+
+class Report(Pictures):
+    def page(self, case):
+        self.makes("runReport", case, "report.html")
+        return (self.folder / "report.html").read_text()
+
+    def testSaysWhatTheRunWrote(self):
+        page = self.page(self.submerged)
+        books = json.loads((self.submerged / "postProcessing/ledger/0/summary.json").read_text())
+        self.assertIn("<h1>submerged: ended at t = 0.5 s</h1>", page)
+        self.assertIn("100 beads at the start, 100 at the end, none lost", page)
+        self.assertIn(f"{books['momentumError']:.2e}", page)
+        self.assertIn("No warnings.", page)
+        phases = dict(re.findall(r"<tr><td>(\w+)</td><td class=number>([.\d]+) s</td>", page))
+        self.assertEqual(phases, {name: f"{seconds:.1f}" for name, seconds in books["phaseSeconds"].items()})
+        for said in ("Clepsydra 0.1.0, commit", "LIGGGHTS-PUBLIC 3.8.0", "DiFeliceDrag: fluid density", "Rayleigh time", "couplingInterval    2e-3;"):
+            self.assertIn(said, page)
+        self.assertEqual(page.count("<svg"), 1)
+
+    def testNeedsNothingBesideIt(self):
+        page = self.page(self.submerged)
+        self.assertNotRegex(re.sub(r"<svg.*?</svg>", "", page, flags=re.S), r"<(link|script|img|iframe)|url\(")
+        self.assertEqual(set(re.findall(r'(?:xlink:href|href|src)="([^#"][^"]*)"', page)), set())
+
+    def testSaysWhatWasNotReadAndWhatFailed(self):
+        case = self.copied("warned")
+        with open(case / "log.pimpleDemFoam", "a") as log:
+            log.write("--> FOAM Warning : Unless a function object does, nobody reads the field pp\n\n" * 2)
+        page = self.page(case)
+        self.assertIn("1 warnings", page)
+        self.assertIn("nobody reads the field pp\n(2 times)", page)
+        with open(case / "log.pimpleDemFoam", "a") as log:
+            log.write("--> FOAM FATAL ERROR:\nlost <beads> & more\n\n    From somewhere\n\nFOAM exiting\n")
+        page = self.page(case)
+        self.assertIn("ended by an error at t = 0.5 s", page)
+        self.assertIn("lost &lt;beads&gt; &amp; more", page)
+
+    def testOfARunThatHasNotEnded(self):
+        case = self.copied("unfinished")
+        log = case / "log.pimpleDemFoam"
+        log.write_text(log.read_text().split("\nTime = 0.31")[0])
+        shutil.rmtree(case / "postProcessing/ledger")
+        page = self.page(case)
+        self.assertIn("has not ended: at t = 0.308 s", page)
+        self.assertIn("No ledger", page)
+
+    def testCountsOverAllPartsOfARun(self):
+        case = self.copied("resumed")
+        books = json.loads((case / "postProcessing/ledger/0/summary.json").read_text())
+        (case / "postProcessing/ledger/0.3").mkdir()
+        (case / "postProcessing/ledger/0.3/summary.json").write_text(json.dumps(books | {"beadsLost": 3, "momentumError": 2.5e-3, "beadsEnd": 97}))
+        page = self.page(case)
+        for said in ("97 at the end", "3 lost", "2.50e-03"):
+            self.assertIn(said, page)
+
+    def testWithoutARun(self):
+        done = self.runs("runReport", self.folder, "report.html")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("has no log.pimpleDemFoam", done.stderr)
 
 
 if __name__ == "__main__":
