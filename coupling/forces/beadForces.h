@@ -2,6 +2,7 @@
 
 #include "engine/demEngine.h"
 #include "forces/forceModel.h"
+#include "forces/modelType.h"
 #include "phaseTimers.h"
 
 #include "PtrList.H"

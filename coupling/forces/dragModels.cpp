@@ -28,10 +28,12 @@ public:
     {
         ManyBeadsInFluid many;
         many.density = fluid_.density;
-        many.dynamicViscosity = fluid_.dynamicViscosity;
-        for (Eigen::Index first = 0; first < beads.size(); first += most)
+        // Beads that are taken together are in liquid of one viscosity.
+        const Eigen::Index atATime = fluid_.stratification.isThere() ? 1 : most;
+        for (Eigen::Index first = 0; first < beads.size(); first += atATime)
         {
-            addTo(beads, first, std::min(most, beads.size() - first), many, sum);
+            many.dynamicViscosity = fluid_.viscosityAt(beads.position.col(first), 2 * beads.radius[first]);
+            addTo(beads, first, std::min(atATime, beads.size() - first), many, sum);
         }
     }
 
@@ -54,7 +56,7 @@ private:
         {
             const FluidAtBead& at = beads.state[first + i].fluid;
             closures::BeadInFluid inFluid{2 * beads.radius[first + i], at.voidFraction, at.logVoidFraction,
-                slip(beads, first + i).norm(), fluid_.density, fluid_.dynamicViscosity};
+                slip(beads, first + i).norm(), many.density, many.dynamicViscosity};
             velocityRatio[i] = walls_.tubeVelocityRatio(inFluid);
             many.diameter[i] = inFluid.diameter;
             many.voidFraction[i] = inFluid.voidFraction;

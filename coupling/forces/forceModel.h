@@ -1,19 +1,11 @@
 #pragma once
 
 #include "couplingState.h"
-#include "forces/modelType.h"
+#include "forces/fluidProperties.h"
+#include "runTimeSelection.h"
 
 namespace clepsydra
 {
-
-/// Constants of the fluid and of the run. SI units.
-struct FluidProperties
-{
-    double density;
-    double dynamicViscosity;
-    Vector3d gravity;
-    ModelType modelType = ModelType::A;
-};
 
 /// What a force needs beyond what is always there.
 struct ForceNeeds

@@ -67,10 +67,12 @@ public:
                 history.begun = 1;
             }
             const double diameter = 2 * beads.radius[bead];
-            const double coefficient = closures::historyCoefficient(diameter, fluid_.density, fluid_.dynamicViscosity);
+            const double viscosity = fluid_.viscosityAt(beads.position.col(bead), diameter);
+            const double coefficient = closures::historyCoefficient(diameter, fluid_.density, viscosity);
             sum.addedMass[bead] += coefficient * step.ownPart;
             sum.source.col(bead) -=
-                coefficient * (history.modes * (mean * weights(diameter, velocity.norm())).matrix());
+                coefficient
+                * (history.modes * (mean * weights(diameter, velocity.norm(), viscosity / fluid_.density)).matrix());
         }
     }
 
@@ -91,13 +93,12 @@ public:
 private:
     using Modes = Eigen::Array<double, historyModes, 1>;
 
-    Modes weights(double diameter, double speed) const
+    Modes weights(double diameter, double speed, double kinematicViscosity) const
     {
         Modes weights = weight_;
         if (share_)
         {
-            const double logTime =
-                closures::meiAdrianLogTime(diameter, speed, fluid_.dynamicViscosity / fluid_.density);
+            const double logTime = closures::meiAdrianLogTime(diameter, speed, kinematicViscosity);
             for (int mode = 0; mode < historyModes; ++mode)
             {
                 weights[mode] *= (*share_)(closures::historyLogRate(mode) + logTime);

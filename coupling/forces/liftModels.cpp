@@ -29,8 +29,9 @@ public:
             const Vector3d rotation = Law::rotation == closures::Rotation::ofFluid
                                           ? at.vorticity
                                           : Vector3d(beads.angularVelocity.col(bead) - 0.5 * at.vorticity);
-            const double coefficient = law(closures::BeadInRotation{
-                2 * beads.radius[bead], slip.norm(), rotation.norm(), fluid_.density, fluid_.dynamicViscosity});
+            const double diameter = 2 * beads.radius[bead];
+            const double coefficient = law(closures::BeadInRotation{diameter, slip.norm(), rotation.norm(),
+                fluid_.density, fluid_.viscosityAt(beads.position.col(bead), diameter)});
             sum.source.col(bead) += coefficient * slip.cross(rotation);
         }
     }

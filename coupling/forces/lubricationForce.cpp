@@ -28,7 +28,7 @@ public:
     TypeName("lubricationForce");
 
     LubricationForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
-        : viscosity_(fluid.dynamicViscosity),
+        : fluid_(fluid),
           roughness_(positiveEntry(coefficients, "roughness")),
           reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
           walls_(readWallPlanes(coefficients))
@@ -76,9 +76,10 @@ private:
             const double distance = apart.norm();
             const Vector3d normal = apart / distance;
             const double approach = (near.velocity.col(first) - near.velocity.col(second)).dot(normal);
-            const double coefficient = closures::squeezeCoefficient(viscosity_,
-                closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_,
-                reach);
+            const double coefficient =
+                closures::squeezeCoefficient(fluid_.viscosityAt(near.position.col(first) + 0.5 * apart),
+                    closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_,
+                    reach);
             requireStable(coefficient, beads.mass[first], sum.timeStep);
             const Vector3d force = coefficient * approach * normal;
             sum.mutual.col(first) -= force;
@@ -95,8 +96,8 @@ private:
         {
             const double radius = beads.radius[bead];
             const double gap = wall.distance(beads.position.col(bead)) - radius;
-            const double coefficient =
-                closures::squeezeCoefficient(viscosity_, radius, gap, roughness_, 2 * radius * reach_);
+            const double coefficient = closures::squeezeCoefficient(
+                fluid_.viscosityAt(beads.position.col(bead)), radius, gap, roughness_, 2 * radius * reach_);
             requireStable(coefficient, beads.mass[bead], sum.timeStep);
             sum.mutual.col(bead) -= coefficient * wall.normal.dot(beads.velocity.col(bead)) * wall.normal;
         }
@@ -115,7 +116,7 @@ private:
         }
     }
 
-    const double viscosity_;
+    const FluidProperties fluid_;
     const double roughness_;
     const double reach_;
     const std::vector<WallPlane> walls_;

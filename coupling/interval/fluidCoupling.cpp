@@ -2,7 +2,6 @@
 
 #include "interval/couplingField.h"
 #include "interval/sampledFields.h"
-#include "interval/viscousStress.h"
 #include "vectors.h"
 
 #include "fvc.H"
@@ -70,6 +69,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
           "pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
       voidFractionRate_(mesh, settings),
       carriedMomentum_(mesh, fluid.density),
+      viscousStress_(mesh, fluid),
       solidFraction_(1 - voidFraction_.primitiveField())
 {
     if (needs_.acceleration)
@@ -344,7 +344,6 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     const PhaseTimers::Scope timing = timers_.time("distribute");
     keepDisturbance();
     const BeadsView beads = engine_.beads();
-    const dimensionedScalar viscosity("nu", dimViscosity, fluid_.dynamicViscosity / fluid_.density);
     const tmp<volVectorField> gradient = fvc::grad(p);
 
     Eigen::MatrixXd pascalPerMetre = fluid_.density * columns(gradient().primitiveField());
@@ -376,7 +375,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         fluid.velocityInCells = fluid.velocity;
     });
     sampleVector(pascalPerMetre, &FluidAtBead::pressureGradient);
-    sampleVector(fluid_.density * columns(divergenceOfViscousStress(viscosity, U)().primitiveField()),
+    sampleVector(fluid_.density * columns(viscousStress_.divergence(U)().primitiveField()),
         &FluidAtBead::viscousStressDivergence);
     if (needs_.acceleration)
     {
@@ -392,8 +391,8 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         surroundings << columns(resistance_->primitiveField()),
             columns(mesh_.V().field()).array().pow(1.0 / 3.0).matrix();
         sampled.add(surroundings, [&, beads](Eigen::Index bead, const double* value) {
-            beads.state[bead].fluid.selfMobility = selfDisturbance_.mobility(
-                beads.state[bead], beads.radius[bead], beads.velocity.col(bead), value[0], value[1]);
+            beads.state[bead].fluid.selfMobility = selfDisturbance_.mobility(beads.state[bead],
+                beads.position.col(bead), beads.radius[bead], beads.velocity.col(bead), value[0], value[1]);
         });
     }
     sampled.keep(exchange_.sumAtHome(distribution_.sample(sampled.inCells())));

@@ -5,9 +5,11 @@
 #include "exchange/beadExchange.h"
 #include "forces/anticipatedMotion.h"
 #include "forces/forceModel.h"
+#include "forces/modelType.h"
 #include "interval/carriedMomentum.h"
 #include "interval/couplingSettings.h"
 #include "interval/selfDisturbance.h"
+#include "interval/viscousStress.h"
 #include "interval/voidFractionRate.h"
 #include "ledger/ledger.h"
 #include "phaseTimers.h"
@@ -142,6 +144,7 @@ private:
     Foam::volScalarField pressureFactor_;
     VoidFractionRate voidFractionRate_;
     CarriedMomentum carriedMomentum_;
+    const ViscousStress viscousStress_;
     /// Of the beads of this rank, over the next interval [s].
     std::vector<AnticipatedMotion> anticipated_;
     double anticipatedTime_ = 0;

@@ -59,8 +59,8 @@ SelfDisturbance::SelfDisturbance(
       smoothingLength_(smoothing.bandwidth())
 {}
 
-double SelfDisturbance::mobility(
-    const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance, double cellSize) const
+double SelfDisturbance::mobility(const CouplingState& state, const Vector3d& position, double radius,
+    const Vector3d& beadVelocity, double resistance, double cellSize) const
 {
     // The force is spread by the bead's sphere and the smoothing, the velocity is sampled through the sphere. Variances
     // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
@@ -81,7 +81,7 @@ double SelfDisturbance::mobility(
     const double bandwidth = std::sqrt(bandwidthSqr + latticeBandwidthSqr * sqr(cellSize));
     return lone
            * closures::velocityPerForce(
-               {bandwidth, fluid_.density, fluid_.dynamicViscosity, slip, (1 - lone) * resistance});
+               {bandwidth, fluid_.density, fluid_.viscosityAt(position), slip, (1 - lone) * resistance});
 }
 
 } // namespace clepsydra

@@ -23,8 +23,8 @@ public:
     /// See FluidAtBead::selfMobility.
     /// \param resistance  of all beads, this one included [kg/(m3 s)]
     /// \param cellSize  [m]
-    double mobility(const CouplingState& state, double radius, const Vector3d& beadVelocity, double resistance,
-        double cellSize) const;
+    double mobility(const CouplingState& state, const Vector3d& position, double radius, const Vector3d& beadVelocity,
+        double resistance, double cellSize) const;
 
 private:
     const Foam::dictionary& dict_;

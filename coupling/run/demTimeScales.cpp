@@ -33,11 +33,12 @@ private:
     Foam::scalar shortest_ = Foam::GREAT;
 };
 
-double relaxationTime(double radius, double mass, const FluidProperties& fluid)
+double relaxationTime(const BeadsView& beads, Eigen::Index bead, const FluidProperties& fluid)
 {
-    const auto bead =
-        closures::makeBeadInFluid(2 * radius, 1.0, DemTimeScales::speed, fluid.density, fluid.dynamicViscosity);
-    return closures::relaxationTime(mass, closures::SchillerNaumannDrag{}(bead));
+    const double diameter = 2 * beads.radius[bead];
+    const auto inFluid = closures::makeBeadInFluid(
+        diameter, 1.0, DemTimeScales::speed, fluid.density, fluid.viscosityAt(beads.position.col(bead), diameter));
+    return closures::relaxationTime(beads.mass[bead], closures::SchillerNaumannDrag{}(inFluid));
 }
 
 /// Through the faces' projected areas, as OpenFOAM's Courant number has it: right for flat cells and for cells with
@@ -84,7 +85,7 @@ DemTimeScales demTimeScales(
         }
         if (fluid != nullptr)
         {
-            relaxation.see(relaxationTime(radius, beads.mass[bead], *fluid));
+            relaxation.see(relaxationTime(beads, bead, *fluid));
         }
     }
     if (fluid != nullptr)

@@ -12,11 +12,26 @@
 #include "memInfo.H"
 
 #include <cstdlib>
+#include <sstream>
 
 namespace clepsydra
 {
 
 using namespace Foam;
+
+namespace
+{
+
+std::string describe(const closures::Stratification& liquid)
+{
+    std::ostringstream line;
+    line << "viscosity      of layers: ln(nu) less by " << liquid.step << " above " << liquid.height << " m, the edge "
+         << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; beads feel what is "
+         << liquid.lag << " d above them";
+    return line.str();
+}
+
+} // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
     DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints,
@@ -52,6 +67,10 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
         for (const ForceModel& force : models->forces.models())
         {
             lines.push_back("force          " + force.description());
+        }
+        if (fluid.stratification.isThere())
+        {
+            lines.push_back(describe(fluid.stratification));
         }
         lines.push_back("void fraction  " + models->distribution.voidFractionModel().description());
         lines.push_back("smoothing      " + models->distribution.smoothingModel().description());

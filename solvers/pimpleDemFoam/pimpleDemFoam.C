@@ -37,13 +37,14 @@ void requireLaminar(const Time& runTime, const dictionary& transportProperties)
     }
 }
 
-FluidProperties readFluidProperties(const Time& runTime)
+FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
 {
     const IOdictionary transportProperties(
         IOobject("transportProperties", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
     const uniformDimensionedVectorField g(
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
+    requireKnownEntries(transportProperties, {"transportModel", "rho", "nu"}, {"stratification"});
     requireLaminar(runTime, transportProperties);
     const auto positive = [&](const word& entry, const dimensionSet& dimensions) {
         const dimensionedScalar value(entry, dimensions, transportProperties);
@@ -53,7 +54,8 @@ FluidProperties readFluidProperties(const Time& runTime)
     const double density = positive("rho", dimDensity);
     const double kinematicViscosity = positive("nu", dimViscosity);
 
-    return {density, density * kinematicViscosity, toEigen(g.value())};
+    const Vector3d gravity = toEigen(g.value());
+    return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
 }
 
 /// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
@@ -163,7 +165,7 @@ int main(int argc, char* argv[])
 
     const CouplingSettings settings(runTime);
     requireBeadsWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
-    const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime) : FluidProperties{};
+    const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     const Checkpoints checkpoints(runTime, !dryRun);

@@ -1,7 +1,5 @@
 #include "voidFractionFlow.h"
 
-#include "interval/viscousStress.h"
-
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
 #include "fvCFD.H"
@@ -57,7 +55,7 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
       p_(readAndWritten("p", mesh), mesh),
       U_(readAndWritten("U", mesh), mesh),
       phi_(readFlux(U_)),
-      nu_("nu", dimViscosity, fluid.dynamicViscosity / fluid.density)
+      viscousStress_(mesh, fluid)
 {
     setRefCell(p_, pimple_.dict(), pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
@@ -99,7 +97,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
       + fvm::div(alphaPhi, U_, "div(phi,U)")
       // alphaPhi is the last interval's: what it lacks in continuity must not act as a source of momentum.
       - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
-      - implicitDivergenceOfViscousStress(nu_, U_)
+      - viscousStress_.implicitDivergence(U_)
      ==
         beadSource
     );

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "interval/couplingInterval.h"
+#include "interval/viscousStress.h"
 
 #include "pimpleControl.H"
 #include "surfaceFields.H"
@@ -51,7 +52,7 @@ private:
     Foam::surfaceScalarField phi_;
     Foam::label pRefCell_ = 0;
     Foam::scalar pRefValue_ = 0;
-    const Foam::dimensionedScalar nu_;
+    const ViscousStress viscousStress_;
 };
 
 } // namespace clepsydra

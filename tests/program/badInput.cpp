@@ -319,6 +319,13 @@ TEST(BadInput, NegativeQuantities)
                 {transportProperties, "'" + entry + "' is " + value, "a number > 0"}, SeenBy::dictionaries);
         }
     }
+    expectRefused([](TestCase& test) { test.transport().set("stratification", "{ height 0.02; width 0; step 0.7; }"); },
+        {transportProperties, "'width' is 0", "a number > 0"}, SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) { test.transport().set("stratification", "{ height 0.02; width 1e-3; step 70; }"); },
+        {transportProperties, "'step' is 70", "allowed:", "-20 to 20"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.transport().set("stratificaton/step", "0.7"); },
+        {transportProperties, "'stratificaton'", "did you mean 'stratification'?"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.dem.friction = -0.1; },
         {script, "coefficientFriction", "-0.1", "a number >= 0"}, SeenBy::engine);
     expectLineRefused("set group all density -1", "Invalid density");
