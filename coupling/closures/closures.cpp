@@ -235,9 +235,6 @@ void addWalls(CLI::App& program)
     Formula(program, "faxenParallelFactor", "drag over free drag [-], creeping motion along a plane wall")
         .fraction("--lambda", "radius over distance of the centre")
         .prints([](const Input& in) { return std::vector<double>{faxenParallelFactor(in.ratio)}; });
-    Formula(program, "faxenPerpendicularFactor", "drag over free drag [-], creeping motion across a plane wall")
-        .fraction("--lambda", "radius over distance of the centre")
-        .prints([](const Input& in) { return std::vector<double>{faxenPerpendicularFactor(in.ratio)}; });
     Formula gap(program, "brennerPerpendicularFactor",
         "drag over free drag [-], creeping motion towards a plane wall, any gap");
     gap.positive("--gap", gap.input().gap, "between surface and wall, in radii").prints([](const Input& in) {

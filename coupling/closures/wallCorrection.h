@@ -9,16 +9,14 @@
 /// The same force moves the bead k times as fast; so at a given speed v the drag is that of a free bead at v/k. Range:
 /// lambda < .9; at Re -> 0 within 1 % of Faxen's series for a tube's axis for lambda <= .2, 3 % faster at .3, 9 % at .5.
 ///
-/// Plane, creeping flow: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), series in lambda = R/h, h from centre to wall;
-/// in Happel & Brenner, Low Reynolds Number Hydrodynamics (1965), ch. 7:
+/// Plane, creeping flow, motion along it: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), series in lambda = R/h, h from
+/// centre to wall; in Happel & Brenner, Low Reynolds Number Hydrodynamics (1965), ch. 7:
 ///
-///     parallel        1/(1 - 9/16 lambda + 1/8 lambda^3 - 45/256 lambda^4 - 1/16 lambda^5)
-///     perpendicular   1/(1 - 9/8 lambda + 1/2 lambda^3)
+///     1/(1 - 9/16 lambda + 1/8 lambda^3 - 45/256 lambda^4 - 1/16 lambda^5)
 ///
-/// Range: Re h/d << 1; perpendicular to 3 % for lambda < .43, 19 % low at .65 (Brenner 1961: 1.837, 3.036).
-/// At contact both are finite (3.08, 2.67): what diverges there is lubrication, see lubrication.h.
+/// Range: Re h/d << 1. At contact it is finite (3.08), where the true one grows as ln(1/gap).
 ///
-/// Plane ahead, creeping flow, any gap: H. Brenner, Chem. Eng. Sci. 16, 242 (1961), an exact series in bipolar
+/// The same, motion towards it, any gap: H. Brenner, Chem. Eng. Sci. 16, 242 (1961), an exact series in bipolar
 /// coordinates, in the closed form of M. A. Bevan & D. C. Prieve, J. Chem. Phys. 113, 1228 (2000); s = gap/R:
 ///
 ///     (6 s^2 + 9 s + 2)/(6 s^2 + 2 s)
@@ -66,12 +64,6 @@ inline double faxenParallelFactor(double lambda) noexcept
     const double cubed = lambda * lambda * lambda;
     return 1.0
            / (1.0 - 9.0 / 16.0 * lambda + cubed / 8.0 - 45.0 / 256.0 * cubed * lambda - cubed * lambda * lambda / 16.0);
-}
-
-/// Drag over free drag, motion towards or from the wall [-]. \param lambda  R/h in [0, 1]
-inline double faxenPerpendicularFactor(double lambda) noexcept
-{
-    return 1.0 / (1.0 - 9.0 / 8.0 * lambda + 0.5 * lambda * lambda * lambda);
 }
 
 /// Drag over free drag, motion towards or from the wall [-]; unbounded at contact. \param gap  over the radius, > 0

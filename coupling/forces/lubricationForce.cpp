@@ -18,6 +18,7 @@ namespace
 ///         roughness 1e-6;     // [m], gap at which the surfaces touch
 ///         reach     0.1;      // gap beyond which the drag law has it all, in sums of the two radii; default 0.1
 ///         walls     ( ((0 0 0) (0 0 1)) );    // point and normal of planes; default none
+///         wallReach 1.25;     // as reach, at the walls; default reach
 ///     }
 ///
 /// It acts explicitly at every DEM step, so that steps must stay below m/(6 pi mu R_eff^2/roughness): 0.5 ms for 2 mm
@@ -31,9 +32,10 @@ public:
         : fluid_(fluid),
           roughness_(positiveEntry(coefficients, "roughness")),
           reach_(coefficients.found("reach") ? positiveEntry(coefficients, "reach") : 0.1),
+          wallReach_(coefficients.found("wallReach") ? positiveEntry(coefficients, "wallReach") : reach_),
           walls_(readWallPlanes(coefficients))
     {
-        requireKnownEntries(coefficients, {"roughness", "reach", "walls"});
+        requireKnownEntries(coefficients, {"roughness", "reach", "wallReach", "walls"});
     }
 
     void add(const BeadsView& beads, ForceSum& sum) const override
@@ -55,7 +57,8 @@ public:
     Foam::string description() const override
     {
         return "lubricationForce: normal squeeze, roughness " + Foam::name(roughness_) + " m, reach "
-               + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size())) + " walls";
+               + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size()))
+               + " walls, felt from gaps of " + Foam::name(wallReach_) + " diameters on";
     }
 
 private:
@@ -96,8 +99,8 @@ private:
         {
             const double radius = beads.radius[bead];
             const double gap = wall.distance(beads.position.col(bead)) - radius;
-            const double coefficient = closures::squeezeCoefficient(
-                fluid_.viscosityAt(beads.position.col(bead)), radius, gap, roughness_, 2 * radius * reach_);
+            const double coefficient = closures::wallSqueezeCoefficient(
+                fluid_.viscosityAt(beads.position.col(bead)), radius, gap, roughness_, 2 * radius * wallReach_);
             requireStable(coefficient, beads.mass[bead], sum.timeStep);
             sum.mutual.col(bead) -= coefficient * wall.normal.dot(beads.velocity.col(bead)) * wall.normal;
         }
@@ -119,6 +122,7 @@ private:
     const FluidProperties fluid_;
     const double roughness_;
     const double reach_;
+    const double wallReach_;
     const std::vector<WallPlane> walls_;
 };
 

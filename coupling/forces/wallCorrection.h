@@ -16,7 +16,8 @@ namespace clepsydra
 ///     wallCorrection { law DiFelice1996; tubeDiameter 0.094; }            // [m], any Re
 ///     wallCorrection { law Faxen; walls ( ((0 0 0) (0 0 1)) ); }          // point and normal of planes, Re << 1
 ///
-/// Several planes add up (Oseen). The drag of a bead is then F = Sp (slip + addedSlip).
+/// Towards a plane it is Brenner's factor, and from a gap of a fifth of a radius on constant: that is where
+/// lubricationForce begins, by default, which adds what is left of it. Several planes add up (Oseen). The drag of a bead is then F = Sp (slip + addedSlip).
 class WallCorrection
 {
 public:
@@ -70,10 +71,12 @@ public:
         Vector3d added = Vector3d::Zero();
         for (const WallPlane& plane : planes_)
         {
-            const double lambda = radius / std::max(radius, plane.distance(position));
+            const double distance = plane.distance(position);
+            const double lambda = radius / std::max(radius, distance);
+            const double gap = std::max(distance / radius - 1, lubricatedGap);
             const Vector3d across = plane.normal.dot(slip) * plane.normal;
             added += (closures::faxenParallelFactor(lambda) - 1) * (slip - across)
-                     + (closures::faxenPerpendicularFactor(lambda) - 1) * across;
+                     + (closures::brennerPerpendicularFactor(gap) - 1) * across;
         }
         return added;
     }
@@ -90,6 +93,9 @@ public:
     }
 
 private:
+    /// Over the radius: lubricationForce's default reach, .1, in diameters.
+    static constexpr double lubricatedGap = 0.2;
+
     double tubeDiameter_ = 0;
     std::vector<WallPlane> planes_;
 };

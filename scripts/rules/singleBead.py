@@ -11,7 +11,7 @@ RULES = {
     "viscosityGradient": number(-100, 100, "1/m"), "inclination": number(-90, 90, "degrees"),
     "dragLaw": Rule("a word", lambda value: isinstance(value, str)),
     "addedMassCoefficient": number(0, 5), "historyForce": oneOf("none", "Basset", "MeiAdrian"), "lubrication": SWITCH,
-    "roughness": length(1e-12, 1e-2), "wallCorrection": oneOf("none", "DiFelice1996", "Faxen"),
+    "lubricationReach": number(1e-3, 1e4), "roughness": length(1e-12, 1e-2), "wallCorrection": oneOf("none", "DiFelice1996", "Faxen"),
     "vessel": oneOf("box", "tank"), "cellsHigh": whole(1, 10**4), "cellsAcross": whole(1, 10**4), "cellSize": length(1e-6, 10),
     "tankDiameter": length(1e-4, 100), "tankHeight": length(1e-4, 100), "cellsCore": whole(1, 10**4),
     "cellsRing": whole(1, 10**4), "smoothingLength": length(1e-6, 1e3), "selfDisturbance": oneOf("off", "Oseen"),

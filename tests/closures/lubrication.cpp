@@ -39,6 +39,27 @@ TEST(Lubrication, IsNoneInContact)
     }
 }
 
+/// At a wall R 1 mm, h 10 um, reach 100 um: Brenner's factor 2.0906/.0206 = 101.485437 less 2.96/.26 = 11.384615, times
+/// 6 pi * 1e-3 * 1e-3 = 1.884956e-5: 1.698360e-3 kg/s, .1 % above the leading term alone. From far away on, a gap of one
+/// radius has 2.125 - 1 of Stokes' drag, where the leading term has 1 - .005 with a reach of 200 R.
+TEST(Lubrication, OfAWallIsBrennersFromAfar)
+{
+    EXPECT_RELATIVE(wallSqueezeCoefficient(1e-3, 1e-3, 1e-5, 1e-6, 1e-4), 1.69836047e-3, 1e-8);
+    EXPECT_RELATIVE(wallSqueezeCoefficient(1e-3, 1e-3, 1e-3, 1e-6, 1e4), 1.125 * 1.884955592e-5, 1e-6);
+    EXPECT_EQ(
+        wallSqueezeCoefficient(1e-3, 1e-3, 1e-8, 1e-6, 1e-4), wallSqueezeCoefficient(1e-3, 1e-3, 1e-6, 1e-6, 1e-4));
+    EXPECT_EQ(wallSqueezeCoefficient(1e-3, 1e-3, -1e-9, 1e-6, 1e-4), 0.0);
+    EXPECT_EQ(wallSqueezeCoefficient(1e-3, 1e-3, 1e-4, 1e-6, 1e-4), 0.0);
+    EXPECT_LT(wallSqueezeCoefficient(1e-3, 1e-3, 0.9999e-4, 1e-6, 1e-4), 1e-7);
+}
+
+/// Asperities that touch beyond the reach leave no film: no force, and none that pulls.
+TEST(Lubrication, HasNoFilmBetweenAsperitiesThatAreLarger)
+{
+    EXPECT_EQ(squeezeCoefficient(1e-3, 1e-3, 1e-5, 2e-4, 1e-4), 0.0);
+    EXPECT_EQ(wallSqueezeCoefficient(1e-3, 1e-3, 1e-5, 2e-4, 1e-4), 0.0);
+}
+
 /// It ends at the reach without a jump.
 TEST(Lubrication, EndsAtItsReach)
 {
