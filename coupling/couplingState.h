@@ -69,9 +69,8 @@ struct CouplingState
 {
     GivenToFluid given;
     FluidAtBead fluid;
-    /// Of the last DEM step: the force on the bead whose reaction is a source of the fluid [N]. Kept only where
-    /// selfMobility is not zero, and by FluidCoupling over checkpoints.
-    Vector3d handedOver = Vector3d::Zero();
+    /// Of the last DEM step [N]. Kept only where selfMobility is not zero, and by FluidCoupling over checkpoints.
+    Vector3d drag = Vector3d::Zero();
     /// The bead's own, when the interval began [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
     PartWithin part;

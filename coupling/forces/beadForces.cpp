@@ -122,7 +122,7 @@ void BeadForces::evaluatePart(const BeadsView& beads, double timeStep, Vectors f
         force.col(bead) = handedOver + notHandedOver;
         if (state.fluid.selfMobility > 0)
         {
-            state.handedOver = handedOver;
+            state.drag = coefficient * (state.fluid.velocity - beads.velocity.col(bead));
         }
         state.given.impulse += timeStep * handedOver;
         state.given.implicitCoefficientTime += timeStep * coefficient;
@@ -136,8 +136,10 @@ void BeadForces::removeSelfDisturbance(const BeadsView& beads)
         FluidAtBead& fluid = beads.state[bead].fluid;
         if (fluid.selfMobility > 0)
         {
-            // The fluid has the opposite force. The one of the step before: it changes little from step to step.
-            fluid.velocity = fluid.velocityInCells + fluid.selfMobility * beads.state[bead].handedOver;
+            // The fluid has the opposite force. The one of the step before: it changes little from step to step. Only the drag,
+            // for the disturbance is a steady one; added mass and history force answer a change of the fluid's velocity
+            // with so large a force that each step would change it more.
+            fluid.velocity = fluid.velocityInCells + fluid.selfMobility * beads.state[bead].drag;
         }
     }
 }

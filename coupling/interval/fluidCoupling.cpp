@@ -36,7 +36,7 @@ enum GivenRow : Eigen::Index
 enum KeptRow : Eigen::Index
 {
     inAdvance = 0,
-    handedOver = 3,
+    drag = 3,
     selfMobility = 6
 };
 
@@ -122,7 +122,7 @@ void FluidCoupling::keepDisturbance()
     const BeadsView beads = engine_.beads();
     for (Eigen::Index bead = 0; resistance_ && bead < beads.size(); ++bead)
     {
-        kept(beads).col(bead).segment<3>(handedOver) = beads.state[bead].handedOver;
+        kept(beads).col(bead).segment<3>(drag) = beads.state[bead].drag;
         kept(beads)(selfMobility, bead) = beads.state[bead].fluid.selfMobility;
     }
 }
@@ -132,7 +132,7 @@ void FluidCoupling::recallDisturbance()
     const BeadsView beads = engine_.beads();
     for (Eigen::Index bead = 0; resistance_ && bead < beads.size(); ++bead)
     {
-        beads.state[bead].handedOver = kept(beads).col(bead).segment<3>(handedOver);
+        beads.state[bead].drag = kept(beads).col(bead).segment<3>(drag);
         beads.state[bead].fluid.selfMobility = kept(beads)(selfMobility, bead);
     }
 }

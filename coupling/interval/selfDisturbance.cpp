@@ -77,7 +77,7 @@ double SelfDisturbance::mobility(const CouplingState& state, const Vector3d& pos
     const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));
     const double lone = std::min(1.0, ownSolid / std::max(1 - state.fluid.voidFraction, VSMALL));
     const double slip =
-        (state.fluid.velocityInCells + state.fluid.selfMobility * state.handedOver - beadVelocity).norm();
+        (state.fluid.velocityInCells + state.fluid.selfMobility * state.drag - beadVelocity).norm();
     const double bandwidth = std::sqrt(bandwidthSqr + latticeBandwidthSqr * sqr(cellSize));
     return lone
            * closures::velocityPerForce(
