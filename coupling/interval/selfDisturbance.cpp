@@ -76,8 +76,7 @@ double SelfDisturbance::mobility(const CouplingState& state, const Vector3d& pos
     // as the solid at the bead is its own: all of it from a lone bead, next to nothing in a bed.
     const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));
     const double lone = std::min(1.0, ownSolid / std::max(1 - state.fluid.voidFraction, VSMALL));
-    const double slip =
-        (state.fluid.velocityInCells + state.fluid.selfMobility * state.drag - beadVelocity).norm();
+    const double slip = (state.fluid.velocityInCells + state.fluid.selfMobility * state.drag - beadVelocity).norm();
     const double bandwidth = std::sqrt(bandwidthSqr + latticeBandwidthSqr * sqr(cellSize));
     return lone
            * closures::velocityPerForce(
