@@ -4,6 +4,7 @@
 #include "autoPtr.H"
 #include "dictionary.H"
 #include "knownEntries.h"
+#include "modelLines.h"
 #include "runTimeSelectionTables.H"
 #include "wordList.H"
 

@@ -6,6 +6,7 @@
 ///     struct MyDrag
 ///     {
 ///         static constexpr const char* name = "MyDrag";
+///         static constexpr const char* line = "drag of what, in which range (source)";
 ///         double operator()(const BeadInFluid&) const noexcept;   // Sp >= 0 [kg/s]
 ///     };
 ///

@@ -19,6 +19,7 @@ namespace clepsydra::closures
 struct BeetstraDrag
 {
     static constexpr const char* name = "BeetstraDrag";
+    static constexpr const char* line = "drag of beds, Re to 1000 (Beetstra et al. 2007)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

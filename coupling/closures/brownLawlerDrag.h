@@ -16,6 +16,7 @@ namespace clepsydra::closures
 struct BrownLawlerDrag
 {
     static constexpr const char* name = "BrownLawlerDrag";
+    static constexpr const char* line = "drag of lone beads, fit to measured ones (Brown & Lawler 2003)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

@@ -36,6 +36,7 @@ inline double transitionBump(double reynolds) noexcept
 struct DiFeliceDrag
 {
     static constexpr const char* name = "DiFeliceDrag";
+    static constexpr const char* line = "drag from beds to lone beads, Re to 1e4 (Di Felice 1994)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

@@ -23,6 +23,7 @@ namespace clepsydra::closures
 struct ErgunDrag
 {
     static constexpr const char* name = "ErgunDrag";
+    static constexpr const char* line = "drag of packed beds only (Ergun 1952)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {
@@ -36,6 +37,7 @@ struct ErgunDrag
 struct WenYuDrag
 {
     static constexpr const char* name = "WenYuDrag";
+    static constexpr const char* line = "drag of dilute suspensions (Wen & Yu 1966)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {
@@ -47,6 +49,7 @@ struct WenYuDrag
 struct GidaspowDrag
 {
     static constexpr const char* name = "GidaspowDrag";
+    static constexpr const char* line = "drag: Ergun in beds, Wen & Yu above a void fraction of 0.8 (Gidaspow 1994)";
     static constexpr double switchingVoidFraction = 0.8;
 
     double operator()(const BeadInFluid& bead) const noexcept

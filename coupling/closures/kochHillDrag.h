@@ -27,6 +27,7 @@ namespace clepsydra::closures
 struct KochHillDrag
 {
     static constexpr const char* name = "KochHillDrag";
+    static constexpr const char* line = "drag of beds, Re to about 100 (Hill, Koch & Ladd 2001)";
     static constexpr double switchingSolidFraction = 0.4;
 
     double operator()(const BeadInFluid& bead) const noexcept

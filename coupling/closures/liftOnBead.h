@@ -6,6 +6,7 @@
 ///     struct MyLift
 ///     {
 ///         static constexpr const char* name = "MyLiftForce";
+///         static constexpr const char* line = "lift of what, in which range (source)";
 ///         static constexpr Rotation rotation = Rotation::ofFluid;
 ///         double operator()(const BeadInRotation&) const noexcept;   // C >= 0 [kg]
 ///     };

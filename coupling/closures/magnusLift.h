@@ -21,6 +21,7 @@ namespace clepsydra::closures
 struct RubinowKellerLift
 {
     static constexpr const char* name = "MagnusLiftForce";
+    static constexpr const char* line = "lift of turning beads, Re -> 0 (Rubinow & Keller 1961)";
     static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
 
     double operator()(const BeadInRotation& bead) const noexcept
@@ -32,6 +33,7 @@ struct RubinowKellerLift
 struct OesterleBuiDinhLift
 {
     static constexpr const char* name = "MagnusLiftForceOesterle";
+    static constexpr const char* line = "lift of turning beads, Re to 140 (Oesterle & Bui Dinh 1998)";
     static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
 
     double operator()(const BeadInRotation& bead) const noexcept

@@ -18,6 +18,7 @@ namespace clepsydra::closures
 struct MorrisonDrag
 {
     static constexpr const char* name = "MorrisonDrag";
+    static constexpr const char* line = "drag of lone beads, the hopper paper's C_d (Morrison 2013)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

@@ -20,6 +20,7 @@ namespace clepsydra::closures
 struct RongDrag
 {
     static constexpr const char* name = "RongDrag";
+    static constexpr const char* line = "drag of beds, Re to 3000 (Rong et al. 2013)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

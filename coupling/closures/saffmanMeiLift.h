@@ -18,6 +18,7 @@ namespace clepsydra::closures
 struct SaffmanMeiLift
 {
     static constexpr const char* name = "SaffmanLiftForce";
+    static constexpr const char* line = "lift in sheared fluid, Re to 100 (Saffman 1965, Mei 1992)";
     static constexpr Rotation rotation = Rotation::ofFluid;
 
     double operator()(const BeadInRotation& bead) const noexcept

@@ -23,6 +23,7 @@ inline double schillerNaumannFactor(double reynolds) noexcept
 struct SchillerNaumannDrag
 {
     static constexpr const char* name = "SchillerNaumannDrag";
+    static constexpr const char* line = "drag of lone beads, Re to 2e5 (Schiller & Naumann 1933)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

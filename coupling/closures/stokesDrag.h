@@ -11,6 +11,7 @@ namespace clepsydra::closures
 struct StokesDrag
 {
     static constexpr const char* name = "StokesDrag";
+    static constexpr const char* line = "drag of lone beads, Re << 1 (Stokes 1851)";
 
     double operator()(const BeadInFluid& bead) const noexcept
     {

@@ -66,6 +66,8 @@ private:
 
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, ConstDiffSmoothing, dictionary);
+const ModelLines lines(
+    "smoothingModel", {{ConstDiffSmoothing::typeName_(), "diffusion over smoothingLength, stopped by walls"}});
 
 } // namespace
 

@@ -57,6 +57,8 @@ private:
 
 defineTypeNameAndDebug(Gaussian, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Gaussian, dictionary);
+const ModelLines lines(
+    "voidFractionModel", {{Gaussian::typeName_(), "a Gaussian round the centre, of a bandwidth in metres"}});
 
 } // namespace
 

@@ -83,6 +83,9 @@ defineTypeNameAndDebug(Divided, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
 defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
+const ModelLines lines(
+    "voidFractionModel", {{Divided::typeName_(), "each cell has the part of the sphere in it"},
+                             {Centre::typeName_(), "the cell of the centre has all of the bead; with smoothing only"}});
 
 } // namespace
 

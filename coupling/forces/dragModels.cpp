@@ -90,7 +90,15 @@ private:
 };
 
 template<class Law>
-using Register = ForceModel::adddictionaryConstructorToTable<Drag<Law>>;
+struct Register : ForceModel::adddictionaryConstructorToTable<Drag<Law>>
+{
+    Register()
+        : ForceModel::adddictionaryConstructorToTable<Drag<Law>>(Law::name),
+          line("forceModels", {{Law::name, Law::line}})
+    {}
+
+    const ModelLines line;
+};
 
 /// Makes every law known under its own name.
 template<class Laws>
@@ -98,11 +106,7 @@ struct RegisterEach;
 
 template<class... Laws>
 struct RegisterEach<std::tuple<Laws...>> : Register<Laws>...
-{
-    RegisterEach()
-        : Register<Laws>(Laws::name)...
-    {}
-};
+{};
 
 const RegisterEach<closures::DragLaws> allLaws;
 

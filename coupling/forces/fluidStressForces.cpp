@@ -104,6 +104,10 @@ defineTypeNameAndDebug(ViscousForce, 0);
 addToRunTimeSelectionTable(ForceModel, ViscousForce, dictionary);
 defineTypeNameAndDebug(Archimedes, 0);
 addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
+const ModelLines lines(
+    "forceModels", {{PressureGradientForce::typeName_(), "-V grad p, p without its hydrostatic part (model A)"},
+                       {ViscousForce::typeName_(), "V div(tau) (model A)"},
+                       {Archimedes::typeName_(), "buoyancy; always, with either model"}});
 
 } // namespace
 

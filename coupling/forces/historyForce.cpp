@@ -13,6 +13,9 @@ namespace
 
 using closures::historyModes;
 
+const ModelLines laws(
+    "historyForceProps { law }", {{"Basset", "creeping flow"}, {"MeiAdrian", "finite Re (the default)"}});
+
 /// What a bead keeps, all zero before its first step.
 struct MotionHistory
 {
@@ -39,7 +42,7 @@ public:
         : fluid_(fluid)
     {
         requireKnownEntries(coefficients, {"law"});
-        if (!coefficients.found("law") || selectedModel(coefficients, "law", {"Basset", "MeiAdrian"}) == "MeiAdrian")
+        if (!coefficients.found("law") || selectedModel(coefficients, "law", laws.names()) == "MeiAdrian")
         {
             share_ = std::make_unique<closures::MeiAdrianShare>();
         }
@@ -114,6 +117,8 @@ private:
 
 defineTypeNameAndDebug(HistoryForce, 0);
 addToRunTimeSelectionTable(ForceModel, HistoryForce, dictionary);
+const ModelLines lines(
+    "forceModels", {{HistoryForce::typeName_(), "drag that remembers how the bead moved (Basset; Mei & Adrian 1992)"}});
 
 } // namespace
 

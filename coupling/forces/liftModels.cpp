@@ -54,12 +54,20 @@ private:
 
 /// Makes a law known under its own name.
 template<class Law>
-using Register = ForceModel::adddictionaryConstructorToTable<Lift<Law>>;
+struct Register : ForceModel::adddictionaryConstructorToTable<Lift<Law>>
+{
+    Register()
+        : ForceModel::adddictionaryConstructorToTable<Lift<Law>>(Law::name),
+          line("forceModels", {{Law::name, Law::line}})
+    {}
+
+    const ModelLines line;
+};
 
 // Adding a lift law to the program is one line here.
-const Register<closures::RubinowKellerLift> rubinowKeller(closures::RubinowKellerLift::name);
-const Register<closures::OesterleBuiDinhLift> oesterleBuiDinh(closures::OesterleBuiDinhLift::name);
-const Register<closures::SaffmanMeiLift> saffmanMei(closures::SaffmanMeiLift::name);
+const Register<closures::RubinowKellerLift> rubinowKeller;
+const Register<closures::OesterleBuiDinhLift> oesterleBuiDinh;
+const Register<closures::SaffmanMeiLift> saffmanMei;
 
 } // namespace
 

@@ -128,6 +128,8 @@ private:
 
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
+const ModelLines lines("forceModels",
+    {{LubricationForce::typeName_(), "fluid squeezed from the gap of two beads, or a bead and a wall (Cox 1974)"}});
 
 } // namespace
 

@@ -17,6 +17,10 @@ enum class ModelType
     B
 };
 
+inline const ModelLines modelTypes(
+    "modelType", {{"A", "the fluid keeps eps grad p; beads feel drag, -V grad p and V div(tau)"},
+                     {"B", "the fluid keeps all of grad p and div(tau); beads feel drag/eps"}});
+
 /// Entry `modelType` of couplingProperties; A where there is none. FatalIOError for anything but A and B.
 inline ModelType readModelType(const Foam::dictionary& couplingProperties)
 {
@@ -24,7 +28,7 @@ inline ModelType readModelType(const Foam::dictionary& couplingProperties)
     {
         return ModelType::A;
     }
-    return selectedModel(couplingProperties, "modelType", {"A", "B"}) == "B" ? ModelType::B : ModelType::A;
+    return selectedModel(couplingProperties, "modelType", modelTypes.names()) == "B" ? ModelType::B : ModelType::A;
 }
 
 } // namespace clepsydra

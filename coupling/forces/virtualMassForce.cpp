@@ -9,6 +9,10 @@ namespace clepsydra
 namespace
 {
 
+const ModelLines laws(
+    "virtualMassForceProps { law }", {{"constant", "Cadd of the bead's volume: 0.5 unless given (the default)"},
+                                         {"Zuber", "grows with the solid fraction (Zuber 1964)"}});
+
 /// m_a (DU/Dt - dv/dt), implicit in the bead's inertia: see closures/addedMass.h and ForceSum::addedMass.
 ///
 ///     virtualMassForceProps { law constant; Cadd 0.5; }     // the default
@@ -24,7 +28,7 @@ public:
         requireKnownEntries(coefficients, {"law", "Cadd"});
         if (coefficients.found("law"))
         {
-            zuber_ = selectedModel(coefficients, "law", {"constant", "Zuber"}) == "Zuber";
+            zuber_ = selectedModel(coefficients, "law", laws.names()) == "Zuber";
         }
         if (coefficients.found("Cadd"))
         {
@@ -63,6 +67,7 @@ private:
 
 defineTypeNameAndDebug(VirtualMassForce, 0);
 addToRunTimeSelectionTable(ForceModel, VirtualMassForce, dictionary);
+const ModelLines lines("forceModels", {{VirtualMassForce::typeName_(), "added mass (Auton, Hunt & Prud'homme 1988)"}});
 
 } // namespace
 

@@ -10,6 +10,10 @@
 namespace clepsydra
 {
 
+inline const ModelLines wallCorrections("<drag law>Props { wallCorrection { law } }",
+    {{"none", "none (the default)"}, {"DiFelice1996", "on the axis of a tube, any Re (Di Felice 1996)"},
+        {"Faxen", "beside plane walls, Re << 1 (Faxen 1923)"}});
+
 /// Drag beside walls, in the coefficients of any drag law; see closures/wallCorrection.h.
 ///
 ///     wallCorrection { law none; }                                        // as without the entry
@@ -26,7 +30,7 @@ public:
     {
         requireKnownEntries(dict, {"law", "tubeDiameter", "walls"});
         const Foam::word law =
-            dict.found("law") ? selectedModel(dict, "law", {"none", "DiFelice1996", "Faxen"}) : Foam::word("none");
+            dict.found("law") ? selectedModel(dict, "law", wallCorrections.names()) : Foam::word("none");
         if (law == "DiFelice1996")
         {
             tubeDiameter_ = positiveEntry(dict, "tubeDiameter");

@@ -1,6 +1,7 @@
 #include "functionObjects/beadFlux.h"
 
 #include "functionObjects/observableTable.h"
+#include "modelLines.h"
 #include "words/exactText.h"
 
 #include "Time.H"
@@ -16,6 +17,8 @@ namespace clepsydra
 
 defineTypeNameAndDebug(BeadFlux, 0);
 addToRunTimeSelectionTable(functionObject, BeadFlux, dictionary);
+static const ModelLines lines(
+    "functions { type }", {{BeadFlux::typeName_(), "beads that come in and that leave through outlets"}});
 
 namespace
 {

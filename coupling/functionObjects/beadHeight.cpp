@@ -2,6 +2,7 @@
 
 #include "functionObjects/observableTable.h"
 #include "functionObjects/observedBeads.h"
+#include "modelLines.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -12,6 +13,7 @@ namespace clepsydra
 
 defineTypeNameAndDebug(BeadHeight, 0);
 addToRunTimeSelectionTable(functionObject, BeadHeight, dictionary);
+static const ModelLines lines("functions { type }", {{BeadHeight::typeName_(), "height and velocity of one bead"}});
 
 BeadHeight::BeadHeight(const word& name, const Time& time, const dictionary& dict)
     : fvMeshFunctionObject(name, time, dict),

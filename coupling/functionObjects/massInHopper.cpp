@@ -2,6 +2,7 @@
 
 #include "functionObjects/observableTable.h"
 #include "functionObjects/observedBeads.h"
+#include "modelLines.h"
 #include "vectors.h"
 #include "words/exactText.h"
 
@@ -14,6 +15,8 @@ namespace clepsydra
 
 defineTypeNameAndDebug(MassInHopper, 0);
 addToRunTimeSelectionTable(functionObject, MassInHopper, dictionary);
+static const ModelLines lines("functions { type }",
+    {{MassInHopper::typeName_(), "mass, number and rate of the beads in a hopper: what a scale reads"}});
 
 namespace
 {

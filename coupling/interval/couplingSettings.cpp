@@ -3,6 +3,7 @@
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
 #include "forces/forceModel.h"
+#include "forces/modelType.h"
 #include "interval/dictionaryText.h"
 
 #include "runTimeSelection.h"
@@ -14,6 +15,11 @@ namespace clepsydra
 
 namespace
 {
+
+const ModelLines fluids("fluid", {{"incompressible", "solved by PIMPLE"}, {"none", "a dry run: the beads move alone"}});
+const ModelLines momentumCouplings("momCoupleModels",
+    {{"implicitCouple", "the fluid's equation holds the beads' drag of the next interval"},
+        {"explicitCouple", "the fluid is given the drag afterwards: stable at short intervals only"}});
 
 /// Times that should be equal or whole multiples may differ by rounding of their decimal fractions.
 constexpr double sameTime = 1e-6;
@@ -62,13 +68,13 @@ CouplingSettings::CouplingSettings(const Time& time)
 void CouplingSettings::readChoices()
 {
     couplingInterval_ = positiveEntry(dict_, "couplingInterval");
-    hasFluid_ = selectedModel(dict_, "fluid", {"incompressible", "none"}) != "none";
+    hasFluid_ = selectedModel(dict_, "fluid", fluids.names()) != "none";
     if (!hasFluid_)
     {
         return;
     }
     readAdjustableInterval();
-    selectedModel(dict_, "modelType", {"A", "B"});
+    selectedModel(dict_, "modelType", modelTypes.names());
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
     const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");
@@ -88,8 +94,7 @@ void CouplingSettings::readChoices()
     // The name with the file's path, for the message.
     dictionary choice(static_cast<const dictionary&>(dict_).name());
     choice.add("momCoupleModels", momentumModels.first());
-    implicitCoupling_ =
-        selectedModel(choice, "momCoupleModels", {"implicitCouple", "explicitCouple"}) == "implicitCouple";
+    implicitCoupling_ = selectedModel(choice, "momCoupleModels", momentumCouplings.names()) == "implicitCouple";
 
     const dictionary voidFractionProps = dict_.subOrEmptyDict(dict_.get<word>("voidFractionModel") + "Props");
     if (voidFractionProps.found("alphaMin"))

@@ -27,11 +27,15 @@ double latticePeak(double bandwidthSqr, double cellSize)
 /// simple cubic lattice's Green's function at its origin, 0.2527/h (Watson's integral).
 constexpr double latticeBandwidthSqr = 0.126;
 
+const ModelLines selfDisturbances(
+    "selfDisturbance", {{"off", "a bead feels what it stirs up itself"},
+                           {"Oseen", "what a lone bead stirs up at its own place is taken out of what it feels"}});
+
 bool readSelfDisturbance(const CouplingSettings& settings)
 {
     const dictionary& dict = settings.dict();
     const word entry = "selfDisturbance";
-    if (!dict.found(entry) || selectedModel(dict, entry, {"off", "Oseen"}) == "off")
+    if (!dict.found(entry) || selectedModel(dict, entry, selfDisturbances.names()) == "off")
     {
         return false;
     }

@@ -20,7 +20,7 @@ struct DrawnBeads
 };
 
 /// Writes the beads as vertices with point data id, radius, velocity, angularVelocity, voidFraction and speed, for
-/// ParaView (binary, appended). Local. \throws std::runtime_error naming the file where it cannot be written.
+/// ParaView (binary). Local. \throws std::runtime_error naming the file where it cannot be written.
 void writeVtp(const std::filesystem::path& file, const DrawnBeads& beads);
 
 } // namespace clepsydra

@@ -3,6 +3,7 @@
 #   bin/                      pimpleDemFoam, traceResidual, closures: each sets up its environment and starts the one below
 #   lib/clepsydra/            the programs themselves and their libraries
 #   include/clepsydra/        headers of the coupling, for find_package(Clepsydra)
+#   share/man, share/bash-completion
 #   share/clepsydra/          what $CLEPSYDRA is then: scripts, cases, meshes, pages; build/ leads to lib/clepsydra
 #
 # The tree may be moved as a whole.
@@ -14,9 +15,32 @@ set_target_properties(pimpleDemFoam traceResidual closuresProgram PROPERTIES INS
 install(TARGETS pimpleDemFoam traceResidual closuresProgram RUNTIME DESTINATION ${_programs}/bin)
 install(TARGETS coupling LIBRARY DESTINATION ${_programs}/lib)
 install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
+# Manual pages, of what the programs say of themselves; what bash completes.
+set(_manual_of_pimpleDemFoam "grains in water: PIMPLE with LIGGGHTS beads" -help)
+set(_manual_of_traceResidual "from a measured residual to a named effect" --help)
+set(_manual_of_closures "values of closed formulas for grains in a fluid" --help)
+set(_more_of_pimpleDemFoam -listModels Models)
+set(_target_of_closures closuresProgram)
 foreach(_program IN ITEMS pimpleDemFoam traceResidual closures)
     install(PROGRAMS "${PROJECT_SOURCE_DIR}/scripts/cmake/startInstalled" DESTINATION bin RENAME ${_program})
+    install(FILES "${PROJECT_SOURCE_DIR}/scripts/completion" DESTINATION share/bash-completion/completions RENAME ${_program})
+    set(_target ${_program})
+    if(DEFINED _target_of_${_program})
+        set(_target ${_target_of_${_program}})
+    endif()
+    set(_page "${PROJECT_BINARY_DIR}/man/${_program}.1")
+    add_custom_command(OUTPUT "${_page}"
+        COMMAND ${CMAKE_COMMAND} -E make_directory "${PROJECT_BINARY_DIR}/man"
+        COMMAND "${PROJECT_SOURCE_DIR}/tests/support/inEnvironment" "${OpenFOAM_ROOT}" "${PROJECT_SOURCE_DIR}/scripts/cmake/manPage"
+            "$<TARGET_FILE:${_target}>" ${_manual_of_${_program}} "${_page}" ${_more_of_${_program}}
+        DEPENDS ${_target} "${PROJECT_SOURCE_DIR}/scripts/cmake/manPage"
+        VERBATIM)
+    list(APPEND _pages "${_page}")
 endforeach()
+add_custom_target(manPages ALL DEPENDS ${_pages})
+# All that is installed: what `scripts/setup --programs` builds.
+add_custom_target(programs DEPENDS pimpleDemFoam traceResidual closuresProgram scotchDecomp manPages)
+install(FILES ${_pages} DESTINATION share/man/man1)
 
 # What git tracks, since cases leave the results of runs beside their files.
 install(CODE "
@@ -60,4 +84,6 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTOR
 # What the scripts start: the groups of scripts/setup that are not for building
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "openfoam, libopenfoam, liggghts, openmpi-bin, make, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-yaml, xvfb, xauth, ffmpeg")
+# liggghts recommends ParaView, whose Python conflicts with VTK's: apt looks no further where we do not say so, too.
+set(CPACK_DEBIAN_PACKAGE_CONFLICTS "python3-paraview")
 include(CPack)

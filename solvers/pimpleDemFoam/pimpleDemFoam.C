@@ -7,6 +7,7 @@
 #include "files/wholeFile.h"
 #include "interval/couplingInterval.h"
 #include "liggghtsSetup.h"
+#include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
@@ -16,6 +17,9 @@
 
 #include "fvCFD.H"
 #include "uniformDimensionedFields.H"
+
+#include <algorithm>
+#include <string_view>
 
 namespace
 {
@@ -149,6 +153,13 @@ int main(int argc, char* argv[])
     argList::addNote("Grains in water: PIMPLE with LIGGGHTS beads, coupled by constant/couplingProperties");
     // OpenFOAM's own -dry-run puts a column of cells in the mesh's place; this tries the case as it is.
     argList::addBoolOption("dryRun", "Check the case as a start does, solve one interval, write nothing");
+    argList::addBoolOption("listModels", "List every model that a case may name, with one line on each");
+    // Before OpenFOAM's banner, and in any folder.
+    if (std::find(argv, argv + argc, std::string_view("-listModels")) != argv + argc)
+    {
+        listModels();
+        return 0;
+    }
 #include "setRootCase.H"
     const bool dryRun = args.found("dryRun");
     const MpiSession mpi;

@@ -55,6 +55,24 @@ class Installed(unittest.TestCase):
         self.assertIn("DiFeliceDrag", self.types("usr/bin/closures dragLaws"))
         self.assertIn("study", self.types("usr/bin/traceResidual --help"))
 
+    def testManualPages(self):
+        for program, words in (("pimpleDemFoam", ("-listModels", "DiFeliceDrag", "massInHopper")), ("traceResidual", ("plan",)),
+                               ("closures", ("terminalVelocity",))):
+            page = subprocess.run(["man", "-l", self.prefix / f"share/man/man1/{program}.1"] if shutil.which("man") else
+                                  ["cat", self.prefix / f"share/man/man1/{program}.1"], check=True, capture_output=True, text=True).stdout
+            for word in words:
+                self.assertIn(word, page.replace("\\-", "-"))
+
+    def testCompletions(self):
+        for program, typed, before, completed in (("pimpleDemFoam", ["-listM"], "", ["-listModels"]), ("traceResidual", ["pl"], "", ["plan"]),
+                                                  ("closures", ["drag", "--dragL"], "drag", ["--dragLaw"]),
+                                                  ("closures", ["drag", "--dragLaw", "DiF"], "--dragLaw", ["DiFeliceDrag"])):
+            words = " ".join([program, *typed])
+            said = self.types(f"export PATH={self.prefix}/bin:$PATH; . {self.prefix}/share/bash-completion/completions/{program}; complete -p {program} > /dev/null; "
+                              f"COMP_WORDS=({words}); COMP_CWORD={len(typed)}; _clepsydra_complete {program} {typed[-1]} {before or program}; "
+                              'printf "%s\\n" "${COMPREPLY[@]}"')
+            self.assertEqual(said.split(), completed)
+
     def testCopiedCaseRuns(self):
         self.types(f"cp -r {self.shared}/cases/singleBead bead; . {self.shared}/scripts/environment; bead/Allrun; "
                    f"{self.shared}/scripts/plotBead bead bead.png")
@@ -111,6 +129,11 @@ class Package(Installed):
         subprocess.run(["dpkg-deb", "-x", cls.package, cls.folder / "unpacked"], check=True)
         (cls.folder / "usr").symlink_to("unpacked/usr")
         cls.prefix = cls.folder / "usr"
+
+    def testPackageConflictsWithParaViewsPython(self):
+        """Else apt, which liggghts recommends ParaView to, finds no way to install ours."""
+        conflicts = subprocess.run(["dpkg-deb", "-f", self.package, "Conflicts"], check=True, capture_output=True, text=True).stdout
+        self.assertIn("python3-paraview", conflicts)
 
     def testPackageNamesWhatItNeeds(self):
         depends = subprocess.run(["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True).stdout
