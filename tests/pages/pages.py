@@ -109,7 +109,7 @@ def linkBuild(folder, build):
         (folder / part).symlink_to(build / part)
     (folder / "CMakeCache.txt").write_text("CMAKE_PROJECT_NAME:STATIC=clepsydra\nCMAKE_GENERATOR:INTERNAL=Ninja\n"
                                            f"CMAKE_MAKE_PROGRAM:FILEPATH={shutil.which('ninja')}\n")
-    (folder / "build.ninja").write_text("build all: phony\n")
+    (folder / "build.ninja").write_text("build all: phony\nbuild programs: phony\n")
     (folder / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
 
 
