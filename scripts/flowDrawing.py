@@ -25,11 +25,7 @@ class View:
 
     def __init__(self, case, extent=None):
         _, patches = foamMesh.read(case)
-        plane = vtk.vtkPlane()
-        # not in the faces of a mesh that has some at y = 0
-        plane.SetOrigin(0, 1e-7, 0)
-        plane.SetNormal(0, 1, 0)
-        self.walls = [line for patch in patches.values() for line in segments(foamMesh.cut(patch, plane))]
+        self.walls = [line for patch in patches.values() for line in wallsOf(patch)]
         if not self.walls:
             sys.exit(f"{case}: the plane y = 0, which is drawn, does not cut its mesh")
         self.x0, self.x1, self.z0, self.z1 = extent or hoppersExtent(case) or wholeExtent(self.walls)
@@ -48,10 +44,15 @@ class View:
         return (position[:, 0] > self.x0) & (position[:, 0] < self.x1) & (position[:, 2] > self.z0) & (position[:, 2] < self.z1)
 
 
-def segments(lines):
-    points = lines.GetPoints()
+def wallsOf(patch):
+    """The lines in which the plane y = 0 cuts a patch: pairs of (x, z) in m."""
+    plane = vtk.vtkPlane()
+    # not in the faces of a mesh that has some at y = 0
+    plane.SetOrigin(0, 1e-7, 0)
+    plane.SetNormal(0, 1, 0)
+    lines = foamMesh.cut(patch, plane)
     return [[[lines.GetCell(cell).GetPoints().GetPoint(end)[axis] for axis in (0, 2)] for end in (0, 1)]
-            for cell in range(lines.GetNumberOfCells())] if points else []
+            for cell in range(lines.GetNumberOfCells())]
 
 
 def hoppersExtent(case):

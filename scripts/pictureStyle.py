@@ -4,3 +4,6 @@ BEADS = "YlOrRd"                # by speed: beads at rest are pale, not black
 WATER = "Blues"                 # by speed
 STREAMLINES = "tab:blue"
 LINE, MARK = "tab:blue", "tab:red"
+STAGES = {"dry": "tab:red", "submerged": "tab:blue"}
+CELL, CELL_EDGE = "#edf2ff", "#404d66"
+DPI = 130

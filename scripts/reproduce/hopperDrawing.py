@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.collections import EllipseCollection
 
 from repository import hopper
+import pictureStyle
 
 
 def walls(axes, whole=False):
@@ -32,10 +33,10 @@ def beads(axes, position, velocity, radius, fastest, arrows=False):
     position, velocity, radius = position[order], velocity[order], radius[order]
     cut = 2 * np.sqrt(radius**2 - position[:, 1] ** 2)
     circles = EllipseCollection(cut, cut, np.zeros(len(cut)), units="xy", offsets=position[:, [0, 2]],
-                                transOffset=axes.transData, cmap="viridis", edgecolors="k", linewidths=0.3)
+                                transOffset=axes.transData, cmap=pictureStyle.BEADS, edgecolors="k", linewidths=0.3)
     circles.set_array(np.linalg.norm(velocity, axis=1))
     circles.set_clim(0, fastest)
     axes.add_collection(circles)
     if arrows:
-        axes.quiver(position[:, 0], position[:, 2], velocity[:, 0], velocity[:, 2], color="w", scale=4, width=0.003)
+        axes.quiver(position[:, 0], position[:, 2], velocity[:, 0], velocity[:, 2], color="0.2", scale=4, width=0.003)
     return circles

@@ -10,13 +10,15 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as pyplot
+import matplotlib.ticker
 
 from repository import CAMPAIGN, CASE, RESULTS, SCRIPTS
+import pictureStyle
 import series
 
 
 # the paper's: dry red and open, submerged blue and filled
-COLOUR = {"dry": "tab:red", "submerged": "tab:blue"}
+COLOUR = pictureStyle.STAGES
 MARKER = {"dry": dict(marker="o", markerfacecolor="none"), "submerged": dict(marker="s")}
 MEASURED = {"dry": dict(marker="x", color="tab:red"), "submerged": dict(marker="+", color="tab:blue")}
 PANEL = {"dry": "(a) dry", "submerged": "(b) submerged"}
@@ -65,7 +67,7 @@ class Folder:
         path.mkdir(parents=True, exist_ok=True)
 
     def picture(self, figure, name):
-        figure.savefig(self.path / f"{name}.png", dpi=130, metadata={"Software": None})
+        figure.savefig(self.path / f"{name}.png", dpi=pictureStyle.DPI, metadata={"Software": None})
         pyplot.close(figure)
         print(self.path / f"{name}.png")
 

@@ -167,5 +167,21 @@ class Report(Pictures):
         self.assertIn("has no log.pimpleDemFoam", done.stderr)
 
 
+@unittest.skipUnless(shutil.which("pvpython"), "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)")
+class ParaView(Pictures):
+    def testStateWithBeadsAndWater(self):
+        display = [] if "DISPLAY" in os.environ else ["xvfb-run", "--auto-servernum"]
+        subprocess.run([*display, "pvpython", SCRIPTS / "paraviewState", self.submerged, "state.png"], check=True, cwd=self.folder, capture_output=True)
+        state = (self.submerged / "run.pvsm").read_text()
+        for part in ("beads.pvd", "run.foam", "SphereSource", "velocity"):
+            self.assertIn(part, state)
+        picture = matplotlib.image.imread(self.folder / "state.png")[:, :, :3]
+        left = picture[:, :int(0.75 * picture.shape[1])]        # without the colour bars
+        beads = (left[:, :, 0] > 0.5) & (left[:, :, 2] < 0.75 * left[:, :, 0])
+        water = left[:, :, 2] > 1.1 * left[:, :, 0]
+        self.assertGreater(beads.mean(), 0.002)
+        self.assertGreater(water.mean(), 0.01)
+
+
 if __name__ == "__main__":
     unittest.main()
