@@ -18,8 +18,10 @@ constexpr int mostDraws = 200;
 
 constexpr double coverageOfIntervals = 0.95;
 
-/// An effect explains data that fit it as well as this share of its own draws do.
-constexpr double stillFits = 0.98;
+/// An effect explains data whose means, and whose scatter, fit it as well as these shares of its own draws do. The scatter
+/// of few repeats has a long tail, behind which an effect that does not raise it would hide.
+constexpr double meansStillFit = 0.99;
+constexpr double scatterStillFits = 0.96;
 
 /// What a wrong name may cost in right ones.
 constexpr double smallestPrice = 0.1;
@@ -82,7 +84,8 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     }
     all(count) = evidences.other + std::log(study.settings.otherWeight);
     const double sum = logSumExp(all);
-    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum, evidences.misfits};
+    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum, evidences.misfits,
+        evidences.scatterMisfits};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)
@@ -103,7 +106,7 @@ std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& o
     for (Eigen::Index e = 0; e < odds.effects.size(); ++e)
     {
         if (odds.effects(e) >= calibration.membership(e) && odds.misfits(e) <= calibration.misfits(e)
-            && std::isfinite(odds.effects(e)))
+            && odds.scatterMisfits(e) <= calibration.scatterMisfits(e) && std::isfinite(odds.effects(e)))
         {
             members.push_back(static_cast<std::size_t>(e));
         }
@@ -263,20 +266,24 @@ void Calibrator::setMembership()
         calibration_.membership(static_cast<Eigen::Index>(e)) = quantileOf(e);
     }
     calibration_.otherMembership = quantileOf(study_.effects.size());
-    calibration_.misfits.resize(calibration_.membership.size());
-    for (Eigen::Index e = 0; e < calibration_.misfits.size(); ++e)
-    {
-        std::vector<double> own;
-        for (const auto& draw : detected_)
+    const auto limitsOf = [&](const Eigen::VectorXd Odds::*misfits, double stillFits) {
+        Eigen::VectorXd limits(calibration_.membership.size());
+        for (Eigen::Index e = 0; e < limits.size(); ++e)
         {
-            if (draw.truth == static_cast<std::size_t>(e))
+            std::vector<double> own;
+            for (const auto& draw : detected_)
             {
-                own.push_back(draw.odds.misfits(e));
+                if (draw.truth == static_cast<std::size_t>(e))
+                {
+                    own.push_back((draw.odds.*misfits)(e));
+                }
             }
+            limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : upperQuantile(own, stillFits);
         }
-        calibration_.misfits(e) =
-            own.empty() ? std::numeric_limits<double>::infinity() : upperQuantile(own, stillFits);
-    }
+        return limits;
+    };
+    calibration_.misfits = limitsOf(&Odds::misfits, meansStillFit);
+    calibration_.scatterMisfits = limitsOf(&Odds::scatterMisfits, scatterStillFits);
 }
 
 /// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected foils

@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -82,6 +83,7 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
     : study_(study),
       emulator_(emulator),
       layout_(layout),
+      parts_(partsOf(layout)),
       around_(around),
       aroundEffects_(study.effects.size(), around),
       workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
@@ -95,6 +97,29 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
                                  + " parameters; allowed: " + std::to_string(FewNumbers::MaxRowsAtCompileTime));
     }
     prepare();
+}
+
+std::vector<Evidence::Part> Evidence::partsOf(const Layout& layout)
+{
+    if (layout.sharesErrors)
+    {
+        return {{0, layout.rows}};
+    }
+    std::vector<Part> parts;
+    for (const auto& block : layout.blocks)
+    {
+        parts.push_back({block.first, block.size()});
+    }
+    return parts;
+}
+
+void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const
+{
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+        const auto [first, size] = parts_[p];
+        transformed.segment(first, size) = node.transform[p].lazyProduct(values.segment(first, size));
+    }
 }
 
 void Evidence::prepare()
@@ -122,6 +147,7 @@ Evidence::Evidence(const Evidence& like, const Emulator& emulator)
     : study_(like.study_),
       emulator_(emulator),
       layout_(like.layout_),
+      parts_(like.parts_),
       around_(like.around_),
       aroundEffects_(like.aroundEffects_),
       workspace_(like.workspace_),
@@ -150,25 +176,23 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
     node.present = present;
     node.extra.resize(layout_.rows);
     node.terms.resize(layout_.rows, parameterTerms(static_cast<Eigen::Index>(study_.parameters.size())));
+    Eigen::MatrixXd allNoise = Eigen::MatrixXd::Zero(layout_.rows, layout_.rows);
+    Eigen::MatrixXd allExtra = allNoise;
     for (const auto& block : layout_.blocks)
     {
         const ConditionEmulator& emulator = *emulator_[block.condition];
         const auto& places = block.places;
         const Eigen::MatrixXd single =
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noiseOf(present)(places, places));
-        Eigen::MatrixXd noise = single.cwiseProduct(block.meanShare);
-        const Eigen::MatrixXd extra =
+        allNoise.block(block.first, block.first, block.size(), block.size()) = single.cwiseProduct(block.meanShare);
+        allExtra.block(block.first, block.first, block.size(), block.size()) =
             Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
-        // What is exact to the last digit could not be inverted.
-        noise.diagonal() += 1e-9 * (noise + extra).diagonal() + Eigen::VectorXd::Constant(noise.rows(), 1e-18);
-        const Eigen::LLT<Eigen::MatrixXd> factor(noise);
-        const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd::Identity(noise.rows(), noise.rows()));
-        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(half * extra * half.transpose());
-        node.transform.emplace_back(eigen.eigenvectors().transpose() * half);
-        node.extra.segment(block.first, block.size()) = eigen.eigenvalues().cwiseMax(0.0);
-        node.logDeterminant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
-        node.terms.middleRows(block.first, block.size()) =
-            node.transform.back() * emulator.mean(present)(places, Eigen::all);
+        for (const auto& other : layout_.blocks)
+        {
+            allExtra.block(block.first, other.first, block.size(), other.size()) +=
+                block.shared * other.shared.transpose();
+        }
+        node.terms.middleRows(block.first, block.size()) = emulator.mean(present)(places, Eigen::all);
         if (block.freedom > 0.0)
         {
             const Eigen::LLT<Eigen::MatrixXd> one(single);
@@ -179,10 +203,23 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         {
             node.whiten.emplace_back(Eigen::MatrixXd::Zero(single.rows(), single.rows()));
         }
-        for (const auto& [effect, amplitude] : present)
-        {
-            node.scatters = node.scatters || (amplitude != 0.0 && emulator.scatters(effect));
-        }
+        node.scatters.push_back(std::any_of(present.begin(), present.end(), [&](const Present& one) {
+            return one.amplitude != 0.0 && emulator.scatters(one.effect);
+        }));
+    }
+    for (const auto& [first, size] : parts_)
+    {
+        Eigen::MatrixXd noise = allNoise.block(first, first, size, size);
+        const Eigen::MatrixXd extra = allExtra.block(first, first, size, size);
+        // What is exact to the last digit could not be inverted.
+        noise.diagonal() += 1e-9 * (noise + extra).diagonal() + Eigen::VectorXd::Constant(size, 1e-18);
+        const Eigen::LLT<Eigen::MatrixXd> factor(noise);
+        const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd::Identity(size, size));
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(half * extra * half.transpose());
+        node.transform.emplace_back(eigen.eigenvectors().transpose() * half);
+        node.extra.segment(first, size) = eigen.eigenvalues().cwiseMax(0.0);
+        node.logDeterminant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
+        node.terms.middleRows(first, size) = (node.transform.back() * node.terms.middleRows(first, size)).eval();
     }
     return node;
 }
@@ -218,19 +255,30 @@ Evidence::Explanation Evidence::explanationOf(std::size_t e) const
 
 Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) const
 {
-    double trace = 0.0;
-    double numbers = 0.0;
+    // Of blocks that scatter as without effects, and of the others
+    std::array<double, 2> traces{};
+    std::array<double, 2> numbers{};
     for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
     {
         const Layout::Block& block = layout_.blocks[b];
         if (block.freedom > 0.0)
         {
-            trace += traceOf(node.whiten[b], measured.scatter[b]);
-            numbers += block.freedom * static_cast<double>(block.size());
+            const std::size_t group = node.scatters[b] ? 1 : 0;
+            traces[group] += traceOf(node.whiten[b], measured.scatter[b]);
+            numbers[group] += block.freedom * static_cast<double>(block.size());
         }
     }
-    return {(spreadFreedom + trace) / (spreadFreedom + numbers),
-        logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant};
+    const double trace = traces[0] + traces[1];
+    const double all = numbers[0] + numbers[1];
+    double misfit = 0.0;
+    for (std::size_t group = 0; group < traces.size(); ++group)
+    {
+        misfit += numbers[group] > 0.0
+                      ? traces[group] - numbers[group] * (1.0 + std::log(std::max(traces[group], 1e-12) / numbers[group]))
+                      : 0.0;
+    }
+    return {(spreadFreedom + trace) / (spreadFreedom + all),
+        logSpread(trace, all, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
 }
 
 double Evidence::otherSpread(const Measured& measured) const
@@ -256,12 +304,7 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
     Eigen::VectorXd& r = workspace_.residual;
     Eigen::ArrayXd& weight = workspace_.weight;
     Eigen::MatrixXd& slope = workspace_.slope;
-    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
-    {
-        const Layout::Block& block = layout_.blocks[b];
-        y.segment(block.first, block.size()) =
-            node.transform[b].lazyProduct(measured.mean.segment(block.first, block.size()));
-    }
+    transformTo(node, measured.mean, y);
     weight = (node.extra.array() + factor).inverse();
     Solution solution;
     solution.parameters.setZero(q);
@@ -346,13 +389,14 @@ Evidence::Posterior Evidence::posterior(
 {
     // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
     // likelihood is; the likelihood itself it would not.
-    Eigen::MatrixXd nodes(static_cast<Eigen::Index>(explanation.nodes.size()), 2);
+    Eigen::MatrixXd nodes(static_cast<Eigen::Index>(explanation.nodes.size()), 3);
     for (Eigen::Index i = 0; i < nodes.rows(); ++i)
     {
         const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
-        const Spread spread = node.scatters ? spreadOf(node, measured) : usual;
+        const bool scatters = std::find(node.scatters.begin(), node.scatters.end(), true) != node.scatters.end();
+        const Spread spread = scatters ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
-        nodes.row(i) << solution.misfit, solution.logVolume + spread.logLikelihood;
+        nodes.row(i) << solution.misfit, solution.logVolume + spread.logLikelihood, spread.misfit;
     }
     const Eigen::MatrixXd fine = explanation.interpolation * nodes;
     Eigen::VectorXd logs = explanation.logWeights;
@@ -362,7 +406,7 @@ Evidence::Posterior Evidence::posterior(
     }
     Eigen::Index best = 0;
     logs.maxCoeff(&best);
-    return {logs, fine(best, 0)};
+    return {logs, fine(best, 0), fine(best, 2)};
 }
 
 Evidences Evidence::operator()(const Measured& measured) const
@@ -374,6 +418,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     evidences.effects.setConstant(
         static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
     evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
+    evidences.scatterMisfits = evidences.misfits;
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
         if (!effects_[e].nodes.empty())
@@ -381,6 +426,7 @@ Evidences Evidence::operator()(const Measured& measured) const
             const Posterior found = posterior(effects_[e], measured, usual);
             evidences.effects(static_cast<Eigen::Index>(e)) = logSumExp(found.logs);
             evidences.misfits(static_cast<Eigen::Index>(e)) = found.misfit;
+            evidences.scatterMisfits(static_cast<Eigen::Index>(e)) = found.scatterMisfit;
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
@@ -417,10 +463,13 @@ void Evidence::prepareOther()
     const Eigen::VectorXd typical = squares.cwiseQuotient(counts.cwiseMax(1.0)).cwiseSqrt();
     Eigen::MatrixXd pattern(n, n);
     Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(n, n);
-    for (std::size_t a = 0; a < layout_.blocks.size(); ++a)
+    for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-        const Layout::Block& one = layout_.blocks[a];
-        transform.block(one.first, one.first, one.size(), one.size()) = null_.transform[a];
+        const auto [first, size] = parts_[p];
+        transform.block(first, first, size, size) = null_.transform[p];
+    }
+    for (const auto& one : layout_.blocks)
+    {
         for (const auto& other : layout_.blocks)
         {
             for (Eigen::Index i = 0; i < one.size(); ++i)
@@ -463,13 +512,9 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
 {
     const auto q = static_cast<Eigen::Index>(study_.parameters.size());
     // Linear in the parameters from where the null fits.
-    Eigen::VectorXd r = -(null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters)));
-    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
-    {
-        const Layout::Block& block = layout_.blocks[b];
-        r.segment(block.first, block.size()).noalias() +=
-            null_.transform[b] * measured.mean.segment(block.first, block.size());
-    }
+    Eigen::VectorXd& r = workspace_.data;
+    transformTo(null_, measured.mean, r);
+    r -= null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters));
     r += null_.terms.middleCols(1, q) * Eigen::VectorXd(null.parameters);
     const double nu = layout_.noiseFreedom;
     const double rows = static_cast<double>(layout_.rows);
@@ -592,10 +637,10 @@ Eigen::VectorXd Evidence::drawOther(double size, std::mt19937_64& random) const
     std::normal_distribution<double> normal;
     Eigen::VectorXd pattern =
         size * otherRoot_ * Eigen::VectorXd::NullaryExpr(layout_.rows, [&] { return normal(random); });
-    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
+    for (std::size_t p = 0; p < parts_.size(); ++p)
     {
-        auto own = pattern.segment(layout_.blocks[b].first, layout_.blocks[b].size());
-        own = null_.transform[b].partialPivLu().solve(Eigen::VectorXd(own)).eval();
+        auto own = pattern.segment(parts_[p].first, parts_[p].size);
+        own = null_.transform[p].partialPivLu().solve(Eigen::VectorXd(own)).eval();
     }
     return pattern;
 }

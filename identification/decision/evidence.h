@@ -18,7 +18,9 @@ struct Evidences
     double null = 0.0;
     Eigen::VectorXd effects; // by effect of the study; -infinity for those that are not known
     double other = 0.0;      // something that is not in the library
-    Eigen::VectorXd misfits; // of each effect at its likeliest amplitude, as in `Fit`
+    // Of each effect at its likeliest amplitude:
+    Eigen::VectorXd misfits;        // of the means, as in `Fit`
+    Eigen::VectorXd scatterMisfits; // of the spread between repeats: deviance, where it scatters otherwise and where not
 };
 
 /// Where an explanation fits best, and how well that is known.
@@ -38,13 +40,13 @@ struct Fit
 struct Node
 {
     std::vector<Present> present;
-    std::vector<Eigen::MatrixXd> transform; // by block
+    std::vector<Eigen::MatrixXd> transform; // by part of the rows
     std::vector<Eigen::MatrixXd> whiten;    // by block: of single measurements
     Eigen::VectorXd extra;                  // variances beside the noise
     Eigen::MatrixXd terms;                  // rows x parameterTerms
     double logDeterminant = 0.0;            // of the transform's inverse, twice
     double spreadLogDeterminant = 0.0;      // of the noise of single measurements, times their degrees of freedom
-    bool scatters = false;                  // other scatter than without effects
+    std::vector<bool> scatters;             // by block: other scatter than without effects
 };
 
 /// Evidence of explanations for data of one layout, by one emulator.
@@ -108,6 +110,7 @@ private:
     {
         double factor = 1.0; // of the noise's variance
         double logLikelihood = 0.0;
+        double misfit = 0.0; // deviance of variances, too small or too large, from what the explanation says
     };
 
     /// Parameters are few: their vectors need no memory of their own.
@@ -143,18 +146,31 @@ private:
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     double logLikelihood(double misfit, double logVolume) const;
-    /// Of the explanation's amplitudes, with their prior, and the misfit of the likeliest.
+    /// Of the explanation's amplitudes, with their prior, and the misfits of the likeliest.
     struct Posterior
     {
         Eigen::VectorXd logs;
         double misfit = 0.0;
+        double scatterMisfit = 0.0;
     };
     Posterior posterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
+    /// Rows that errors go across: those of a block, or all.
+    struct Part
+    {
+        Eigen::Index first;
+        Eigen::Index size;
+    };
+
+    static std::vector<Part> partsOf(const Layout& layout);
+    /// Measured numbers, or what else is stacked like them, in the coordinates of a node.
+    void transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const;
+
     const Study& study_;
     const Emulator& emulator_;
     const Layout& layout_;
+    std::vector<Part> parts_;
     Eigen::VectorXd around_;
     std::vector<Eigen::VectorXd> aroundEffects_;
     FewNumbers lower_; // ends of the parameters' ranges

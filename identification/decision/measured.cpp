@@ -85,6 +85,7 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     };
     Measured drawn;
     drawn.mean.resize(layout.rows);
+    const Eigen::MatrixXd errors = numbers(layout.blocks.front().shared.cols(), 1);
     for (const auto& block : layout.blocks)
     {
         const ConditionEmulator& here = *world[block.condition];
@@ -95,7 +96,7 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
         ofMean.diagonal().array() += 1e-18;
         drawn.mean.segment(block.first, block.size()) =
             Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places)
-            + ofMean.llt().matrixL() * numbers(block.size(), 1);
+            + block.shared * errors + ofMean.llt().matrixL() * numbers(block.size(), 1);
         const Eigen::MatrixXd deviations =
             block.freedom > 0.0
                 ? Eigen::MatrixXd(single.llt().matrixL() * numbers(block.size(), std::lround(block.freedom)))
@@ -106,7 +107,8 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
 }
 
 std::pair<Layout, Measured> arrange(
-    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data)
+    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data,
+    const std::vector<Eigen::MatrixXd>& errorSlopes)
 {
     Layout layout;
     Measured measured;
@@ -142,6 +144,8 @@ std::pair<Layout, Measured> arrange(
         const Eigen::VectorXd variance =
             data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
         block.common = variance.asDiagonal();
+        block.shared = errorSlopes.empty() ? Eigen::MatrixXd(block.size(), 0) : Eigen::MatrixXd(errorSlopes[c](kept, Eigen::all));
+        layout.sharesErrors = layout.sharesErrors || block.shared.cols() > 0;
         Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(block.size(), block.size());
         if (emulator.scatters())
         {

@@ -21,6 +21,7 @@ struct Layout
         std::vector<Eigen::Index> places; // of its features among those of the condition's emulator
         Eigen::MatrixXd meanShare;  // covariance of the mean over that of one measurement, by element
         Eigen::MatrixXd common;     // covariance of the mean that repeats do not show: declared errors, the simulation's own
+        Eigen::MatrixXd shared;     // rows x common errors of the study: by one sd of each
         Eigen::MatrixXd noise;      // of one measurement, where the simulator's noise does not stand for it; else empty
         double freedom = 0.0;       // repeats - 1, where their spread can be compared with the simulator's
 
@@ -28,9 +29,16 @@ struct Layout
         {
             return static_cast<Eigen::Index>(places.size());
         }
+
+        /// Covariance of the mean that repeats do not show, common errors included.
+        Eigen::MatrixXd unshown() const
+        {
+            return common + shared * shared.transpose();
+        }
     };
 
     std::vector<Block> blocks;
+    bool sharesErrors = false; // between blocks, or features of one
     Eigen::Index rows = 0;
     double noiseFreedom = 0.0; // degrees of freedom behind the noise
     Eigen::MatrixXd noise;     // of one measurement, over all features of the study, as it is on average
@@ -44,9 +52,11 @@ struct Measured
 };
 
 /// \param data  by condition of the study; only those that the emulator has are looked at
+/// \param errorSlopes  as in Library; empty: there are no common errors
 /// \throws std::runtime_error where there is no noise to be had, or fewer features than parameters
 std::pair<Layout, Measured> arrange(
-    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data);
+    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data,
+    const std::vector<Eigen::MatrixXd>& errorSlopes = {});
 
 /// Measurements in a world that is as an emulator says on average, at a setting.
 Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,

@@ -822,7 +822,7 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
         {
             const Curve& curve = *curves[static_cast<std::size_t>(row)];
             after.row(row) =
-                simulator.featuresOf(simulator.throughChain(curve, c, setting.amplitudes))(kept).transpose();
+                simulator.featuresOf(simulator.throughChain(curve, c, setting))(kept).transpose();
             if (after.row(row).array().isFinite().all())
             {
                 good.push_back(row);

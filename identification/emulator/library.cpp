@@ -1,5 +1,6 @@
 #include "emulator/library.h"
 
+#include "emulator/commonErrors.h"
 #include "emulator/plackettBurman.h"
 
 #include <algorithm>
@@ -179,6 +180,8 @@ std::vector<SimulationOrder> libraryOrders(const Simulator& simulator)
         Orders orders(simulator, condition);
         const auto more = study.rig.seedEntry.empty() ? orders.exact() : orders.scattering();
         all.insert(all.end(), more.begin(), more.end());
+        const auto errors = commonErrorOrders(simulator, condition);
+        all.insert(all.end(), errors.begin(), errors.end());
     }
     return all;
 }
@@ -192,7 +195,10 @@ Library makeLibrary(Simulator& simulator)
     std::vector<SimulationOrder> rest;
     for (const auto& order : orders)
     {
-        (order.purpose == "base" ? first : rest).push_back(order);
+        if (order.setting.errors.size() == 0)
+        {
+            (order.purpose == "base" ? first : rest).push_back(order);
+        }
     }
     Library library;
     const auto run = [&](const std::vector<SimulationOrder>& some) {
@@ -214,6 +220,19 @@ Library makeLibrary(Simulator& simulator)
         }
     }
     run(rest);
+    library.errorSlopes.resize(study.conditions.size());
+    for (const auto condition : study.conditionsOf(Role::training))
+    {
+        std::vector<Simulation> base;
+        for (std::size_t i = 0; i < first.size(); ++i)
+        {
+            if (first[i].condition == condition)
+            {
+                base.push_back(library.runs[i].simulation);
+            }
+        }
+        library.errorSlopes[condition] = commonErrorSlopes(simulator, condition, base);
+    }
     return library;
 }
 

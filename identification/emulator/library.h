@@ -23,6 +23,7 @@ struct Run
 struct Library
 {
     std::vector<Run> runs;
+    std::vector<Eigen::MatrixXd> errorSlopes; // by condition: what the common errors do, as commonErrorSlopes gives it
 };
 
 /// All runs that makeLibrary asks for.

@@ -3,6 +3,7 @@
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
 #include "heldOut/draws.h"
+#include "emulator/commonErrors.h"
 #include "emulator/settings.h"
 
 #include <boost/math/distributions/normal.hpp>
@@ -78,7 +79,7 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
     }
     const Simulator extended(study, simulator.rig());
     const Emulator emulator(study, extended, runs, measuredFeatures(study, training));
-    const auto [layout, measured] = arrange(study, emulator, training);
+    const auto [layout, measured] = arrange(study, emulator, training, library.errorSlopes);
     const Evidence evidence(study, emulator, layout, inSds(study, answer.null.setting.parameters));
     const Fit fit = evidence.fit(study.effects.size() - 1, measured);
     return {largestChange * fit.amplitude, physical(study, fit.parameters)};
@@ -213,6 +214,7 @@ private:
         for (const auto c : result_.conditions)
         {
             predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_));
+            predictions.back().variance += errorSlopes_.at(c).rowwise().squaredNorm();
         }
         return predictions;
     }
@@ -227,6 +229,14 @@ private:
     void scoreNull()
     {
         result_.simulations.push_back(simulated(answer_.null.setting, "before"));
+        for (const auto c : result_.conditions)
+        {
+            std::vector<Simulation> plain = result_.simulations.back();
+            plain.erase(std::remove_if(plain.begin(), plain.end(),
+                            [&](const Simulation& simulation) { return simulation.condition != c; }),
+                plain.end());
+            errorSlopes_.emplace(c, commonErrorSlopes(simulator_, c, plain));
+        }
         result_.predictedBefore = predictionsOf(result_.simulations.back());
         noise_ = drawDataNoise(result_.data, result_.predictedBefore, draws, random_);
         before_ = scored(result_.predictedBefore);
@@ -334,6 +344,7 @@ private:
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
     const std::vector<Eigen::Index> logs_; // the features that are scored
+    std::map<std::size_t, Eigen::MatrixXd> errorSlopes_; // by condition
     DataNoise noise_;
     Scored before_;
     Scored after_;

@@ -26,7 +26,7 @@ public:
             means_.emplace_back((here.mean(contender.present) * parameterTermsAt(contender.parameters))(places));
             unknown_.emplace_back(here.uncertainty(contender.parameters, contender.present)(places, places));
             runs_.push_back(run);
-            data_.emplace_back(single.cwiseProduct(block.meanShare) + block.common);
+            data_.emplace_back(single.cwiseProduct(block.meanShare) + block.unshown());
         }
         differences_ = unknown_;
     }

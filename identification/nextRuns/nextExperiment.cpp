@@ -77,10 +77,11 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
     for (const auto& block : answer.layout.blocks)
     {
         const auto& features = (*answer.emulator)[block.condition]->features;
+        const Eigen::VectorXd variances = block.unshown().diagonal();
         for (Eigen::Index k = 0; k < block.size(); ++k)
         {
             double& largest = common(features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])]);
-            largest = std::max(largest, block.common(k, k));
+            largest = std::max(largest, variances(k));
         }
     }
     std::vector<NextExperiment> all;

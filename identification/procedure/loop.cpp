@@ -120,7 +120,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
     const Library library = makeLibrary(simulator);
     const auto planned = plannedData(study, library, measured);
     const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, planned));
-    const auto [layout, numbers] = arrange(study, emulator, planned);
+    const auto [layout, numbers] = arrange(study, emulator, planned, library.errorSlopes);
     const Evidence evidence(
         study, emulator, layout, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.parameters.size())));
     Replicas replicas(emulator, layout, evidence, random);

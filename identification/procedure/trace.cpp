@@ -33,6 +33,7 @@ public:
           data_(data),
           features_(measuredFeatures(study_, data)),
           runs_(library.runs),
+          errorSlopes_(library.errorSlopes),
           random_(random)
     {}
 
@@ -62,7 +63,7 @@ private:
     void learn()
     {
         answer_.emulator = std::make_shared<Emulator>(study_, simulator_, runs_, features_);
-        std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_);
+        std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_, errorSlopes_);
     }
 
     Setting settingOf(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
@@ -237,6 +238,7 @@ private:
     const std::vector<MeasuredCondition>& data_;
     const std::vector<std::vector<Eigen::Index>> features_;
     std::vector<Run> runs_;
+    const std::vector<Eigen::MatrixXd>& errorSlopes_;
     const std::size_t librarySize_ = runs_.size();
     std::mt19937_64& random_;
     Answer answer_;

@@ -19,7 +19,7 @@ std::vector<Residual> residualsOf(const Findings& findings)
         const Eigen::MatrixXd single =
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noise(block.places, block.places));
         const Eigen::MatrixXd unknown = emulator.uncertainty(parameters, {})(block.places, block.places);
-        const Eigen::VectorXd variance = (single.cwiseProduct(block.meanShare) + block.common + unknown).diagonal();
+        const Eigen::VectorXd variance = (single.cwiseProduct(block.meanShare) + block.unshown() + unknown).diagonal();
         for (Eigen::Index k = 0; k < block.size(); ++k)
         {
             const auto place = static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)]);

@@ -66,7 +66,7 @@ Simulator::Simulator(const Study& study, Rig& rig)
 
 Setting Simulator::plainSetting(const Eigen::VectorXd& parameters) const
 {
-    Setting setting{parameters, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size()))};
+    Setting setting{parameters, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size())), {}};
     if (parameters.size() == 0)
     {
         setting.parameters.resize(static_cast<Eigen::Index>(study_.parameters.size()));
@@ -108,20 +108,36 @@ Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) cons
         }
         assign(entries, effect.words);
     }
+    for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
+    {
+        if (setting.errors(i) != 0.0)
+        {
+            assign(entries, defaults_, study_.commonErrors[static_cast<std::size_t>(i)].entries, "z", setting.errors(i));
+        }
+    }
     return entries;
 }
 
-Curve Simulator::throughChain(Curve curve, std::size_t condition, const Eigen::VectorXd& amplitudes) const
+Curve Simulator::throughChain(Curve curve, std::size_t condition, const Setting& setting) const
 {
+    const auto operate = [&](const std::string& operation, const Expression& size, const char* variable, double value) {
+        curve = chainOperations().at(operation).apply(std::move(curve), size({{variable, value}}));
+    };
     for (std::size_t i = 0; i < study_.effects.size(); ++i)
     {
         const Effect& effect = study_.effects[i];
-        const double amplitude = amplitudes(static_cast<Eigen::Index>(i));
+        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(i));
         if (effect.isOfChain() && amplitude != 0.0 && acts(effect, study_.conditions[condition]))
         {
-            curve = chainOperations()
-                        .at(effect.chainOperation)
-                        .apply(std::move(curve), (*effect.chainSize)({{"a", amplitude}}));
+            operate(effect.chainOperation, *effect.chainSize, "a", amplitude);
+        }
+    }
+    for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
+    {
+        const CommonError& error = study_.commonErrors[static_cast<std::size_t>(i)];
+        if (error.chainSize && setting.errors(i) != 0.0)
+        {
+            operate(error.chainOperation, *error.chainSize, "z", setting.errors(i));
         }
     }
     return curve;
@@ -217,7 +233,7 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
             simulation.curve = simulation.plain.time.size() < 2
                                    ? simulation.plain
-                                   : throughChain(simulation.plain, order.condition, order.setting.amplitudes);
+                                   : throughChain(simulation.plain, order.condition, order.setting);
             simulation.features = featuresOf(simulation.curve);
             ++runs_[order.purpose];
             seeds_[order.purpose].push_back(runs[k].seed);

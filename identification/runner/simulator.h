@@ -17,6 +17,7 @@ struct Setting
 {
     Eigen::VectorXd parameters; // physical values
     Eigen::VectorXd amplitudes; // of all effects, those of the measuring chain too
+    Eigen::VectorXd errors = {}; // z of the study's common errors; empty: all zero
 };
 
 /// A simulation that is wanted; its seed follows from seeds (or, where that is empty, purpose), condition and number.
@@ -69,7 +70,7 @@ public:
     /// Entries of a run. \throws std::runtime_error that names the effect whose formula fails
     Entries entriesOf(std::size_t condition, const Setting& setting) const;
 
-    Curve throughChain(Curve curve, std::size_t condition, const Eigen::VectorXd& amplitudes) const;
+    Curve throughChain(Curve curve, std::size_t condition, const Setting& setting) const;
     Eigen::VectorXd featuresOf(const Curve& curve) const;
 
     /// How many of the orders are not stored yet.

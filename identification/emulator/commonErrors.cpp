@@ -1,0 +1,111 @@
+#include "emulator/commonErrors.h"
+
+#include "emulator/settings.h"
+#include "study/measurements.h"
+
+#include <algorithm>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Both ways from zero [sd]: where runs scatter as far as the error may be, elsewhere as far as it mostly is.
+constexpr double farStep = 2.0;
+constexpr double usualStep = 1.0;
+
+double stepOf(const Study& study)
+{
+    return study.rig.seedEntry.empty() ? usualStep : farStep;
+}
+
+bool concerns(const CommonError& error, std::size_t condition)
+{
+    return std::find(error.conditions.begin(), error.conditions.end(), condition) != error.conditions.end();
+}
+
+Setting moved(const Simulator& simulator, std::size_t error, double z)
+{
+    Setting setting = simulator.plainSetting();
+    setting.errors = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(simulator.study().commonErrors.size()));
+    setting.errors(static_cast<Eigen::Index>(error)) = z;
+    return setting;
+}
+
+/// One side's runs of an error in the entries. Both sides have the same seeds.
+std::vector<SimulationOrder> ordersOf(const Simulator& simulator, std::size_t condition, std::size_t error, double z)
+{
+    const Study& study = simulator.study();
+    const int repeats = study.rig.seedEntry.empty() ? 1 : study.settings.repeatsAlone;
+    std::vector<SimulationOrder> orders;
+    for (int number = 0; number < repeats; ++number)
+    {
+        orders.push_back(
+            {condition, moved(simulator, error, z), "common error: " + study.commonErrors[error].name, number});
+    }
+    return orders;
+}
+
+} // namespace
+
+std::vector<SimulationOrder> commonErrorOrders(const Simulator& simulator, std::size_t condition)
+{
+    const Study& study = simulator.study();
+    std::vector<SimulationOrder> all;
+    for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
+    {
+        if (concerns(study.commonErrors[i], condition) && !study.commonErrors[i].entries.empty())
+        {
+            for (const double side : {-1.0, 1.0})
+            {
+                const auto more = ordersOf(simulator, condition, i, side * stepOf(study));
+                all.insert(all.end(), more.begin(), more.end());
+            }
+        }
+    }
+    return all;
+}
+
+Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, const std::vector<Simulation>& plain)
+{
+    const Study& study = simulator.study();
+    const double step = stepOf(study);
+    const auto meanAt = [&](std::size_t error, double z) {
+        std::vector<Simulation> simulations;
+        if (!study.commonErrors[error].entries.empty())
+        {
+            simulations = simulator.run(ordersOf(simulator, condition, error, z));
+        }
+        else
+        {
+            simulations = plain;
+            for (auto& simulation : simulations)
+            {
+                if (!simulation.failed)
+                {
+                    simulation.features = simulator.featuresOf(
+                        simulator.throughChain(simulation.plain, condition, moved(simulator, error, z)));
+                }
+            }
+        }
+        return meanFeatures(featureRows(simulations, condition, study.featureCount()));
+    };
+    Eigen::MatrixXd slopes =
+        Eigen::MatrixXd::Zero(study.featureCount(), static_cast<Eigen::Index>(study.commonErrors.size()));
+    for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
+    {
+        const CommonError& error = study.commonErrors[i];
+        if (!concerns(error, condition))
+        {
+            continue;
+        }
+        auto slope = slopes.col(static_cast<Eigen::Index>(i));
+        slope = error.featureErrors.isZero() ? Eigen::VectorXd((meanAt(i, step) - meanAt(i, -step)) / (2.0 * step))
+                                             : error.featureErrors;
+        slope = slope.array().isFinite().select(slope, 0.0);
+    }
+    return slopes;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "runner/simulator.h"
+
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Runs that show what the study's common errors do in a condition: those of entries, moved to either side.
+std::vector<SimulationOrder> commonErrorOrders(const Simulator& simulator, std::size_t condition);
+
+/// Change of each feature by one sd of each common error: features x errors, to first order; 0 where a curve lacks the
+/// feature.
+/// \param plain  runs of that condition without any effect: what the measuring chain's errors do is seen in their curves
+Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, const std::vector<Simulation>& plain);
+
+} // namespace clepsydra::identification
