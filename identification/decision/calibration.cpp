@@ -18,26 +18,10 @@ constexpr int mostDraws = 200;
 
 constexpr double coverageOfIntervals = 0.95;
 
-/// An effect explains data whose means, and whose scatter, fit it as well as these shares of its own draws do. The scatter
-/// of few repeats has a long tail, behind which an effect that does not raise it would hide.
-constexpr double meansStillFit = 0.99;
-constexpr double scatterStillFits = 0.96;
-
 /// What a wrong name may cost in right ones.
 constexpr double smallestPrice = 0.1;
 constexpr double largestPrice = 1e4;
 constexpr double priceStep = 1.3;
-
-Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
-{
-    std::normal_distribution<double> normal;
-    if (fit.parameters.size() == 0)
-    {
-        return fit.parameters;
-    }
-    const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(fit.parameters.size(), [&] { return normal(random); });
-    return fit.parameters + fit.covariance.llt().matrixL() * z;
-}
 
 /// How many times as wide an interval must be to hold an amplitude.
 double widthNeeded(const Fit& fit, double amplitude)
@@ -45,18 +29,6 @@ double widthNeeded(const Fit& fit, double amplitude)
     const double distance = amplitude - fit.amplitude;
     const double own = distance < 0.0 ? fit.amplitude - fit.lower : fit.upper - fit.amplitude;
     return std::abs(distance) / std::max(own, 1e-12);
-}
-
-/// The observed set counts as one more draw.
-double upperQuantile(std::vector<double> values, double share)
-{
-    if (values.empty())
-    {
-        return 1.0;
-    }
-    std::sort(values.begin(), values.end());
-    const auto place = static_cast<std::size_t>(std::ceil(share * (static_cast<double>(values.size()) + 1.0)));
-    return values[std::min(place, values.size()) - 1];
 }
 
 /// Weight of an effect: variants of one thing share it.
@@ -71,6 +43,28 @@ double logPrior(const Study& study, std::size_t e)
 }
 
 } // namespace
+
+Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    if (fit.parameters.size() == 0)
+    {
+        return fit.parameters;
+    }
+    const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(fit.parameters.size(), [&] { return normal(random); });
+    return fit.parameters + fit.covariance.llt().matrixL() * z;
+}
+
+double upperQuantile(std::vector<double> values, double share)
+{
+    if (values.empty())
+    {
+        return 1.0;
+    }
+    std::sort(values.begin(), values.end());
+    const auto place = static_cast<std::size_t>(std::ceil(share * (static_cast<double>(values.size()) + 1.0)));
+    return values[std::min(place, values.size()) - 1];
+}
 
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
 {

@@ -38,6 +38,17 @@ struct Calibration
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
 
+/// An effect explains data whose means, and whose scatter, fit it as well as these shares of its own draws do. The scatter
+/// of few repeats has a long tail, behind which an effect that does not raise it would hide.
+constexpr double meansStillFit = 0.99;
+constexpr double scatterStillFits = 0.96;
+
+/// Parameters that a fit leaves possible [prior sd].
+Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
+
+/// The value that a share of the draws stays below; the observed set counts as one more draw.
+double upperQuantile(std::vector<double> values, double share);
+
 class Calibrator
 {
 public:

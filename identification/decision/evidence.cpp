@@ -5,10 +5,10 @@
 #include <Eigen/LU>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -23,11 +23,10 @@ constexpr double spreadFreedom = 30.0;
 constexpr double otherSpreadFreedom = 3.0;
 constexpr double otherSpreadShare = 0.3;
 
-/// Amplitudes that are integrated over.
-constexpr Eigen::Index fineSteps = 512;
-
-/// Of amplitudes of pairs, from end to end.
-constexpr int pairSteps = 8;
+/// Amplitudes that are integrated over, by effect: first from end to end, then where they are not unlikely (log of the
+/// likelihood over its maximum).
+constexpr Eigen::Index fineSteps = 64;
+constexpr double unlikely = -12.0;
 
 /// Gauss-Newton steps for the parameters at most, how often one is halved, and the fall of the misfit that is still
 /// worth one more: the emulator is all but linear in them.
@@ -63,6 +62,32 @@ double logProduct(const Eigen::ArrayXd& values)
         sum += std::log(values.segment(first, std::min(atOnce, values.size() - first)).prod());
     }
     return sum;
+}
+
+/// What a distribution over evenly spaced amplitudes says. Linear within a step.
+Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
+{
+    constexpr double tail = 0.025;
+    const auto& a = amplitudes.array();
+    const double half = a.size() > 1 ? (a(1) - a(0)) / 2.0 : 0.0;
+    Fit fit;
+    fit.amplitude = (share * a).sum();
+    fit.sd = std::sqrt(std::max(0.0, (share * (a - fit.amplitude).square()).sum()));
+    const auto quantile = [&](double level) {
+        double below = 0.0;
+        for (Eigen::Index i = 0; i < a.size(); ++i)
+        {
+            if (below + share(i) >= level)
+            {
+                return a(i) - half + 2.0 * half * (level - below) / share(i);
+            }
+            below += share(i);
+        }
+        return a(a.size() - 1) + half;
+    };
+    fit.lower = quantile(tail);
+    fit.upper = quantile(1.0 - tail);
+    return fit;
 }
 
 } // namespace
@@ -137,7 +162,7 @@ void Evidence::prepare()
     {
         if (emulator_.knows(e))
         {
-            effects_[e] = explanationOf(e);
+            effects_[e] = explanationOf({e});
         }
     }
     prepareOther();
@@ -164,7 +189,7 @@ void Evidence::refine(const Measured& measured)
         if (!effects_[e].nodes.empty())
         {
             aroundEffects_[e] = fit(e, measured).parameters;
-            effects_[e] = explanationOf(e);
+            effects_[e] = explanationOf({e});
         }
     }
 }
@@ -224,61 +249,56 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
     return node;
 }
 
-Evidence::Explanation Evidence::explanationOf(std::size_t e) const
+Evidence::Explanation Evidence::explanationOf(const std::vector<std::size_t>& effects) const
 {
-    const Effect& effect = study_.effects[e];
-    Explanation explanation;
-    if (effect.isSwitch)
+    Explanation explanation{effects, {}, {}};
+    std::vector<std::vector<Present>> settings(1);
+    for (const auto e : effects)
     {
-        explanation.nodes.push_back(nodeAt({{e, 1.0}}));
-        explanation.amplitudes = Eigen::VectorXd::Ones(1);
-        explanation.interpolation = Eigen::MatrixXd::Ones(1, 1);
-        explanation.logWeights = Eigen::VectorXd::Zero(1);
-        return explanation;
+        explanation.grids.emplace_back(study_.effects[e]);
+        const auto before = std::exchange(settings, {});
+        for (const auto& setting : before)
+        {
+            for (const double amplitude : explanation.grids.back().amplitudes())
+            {
+                settings.push_back(setting);
+                settings.back().push_back({e, amplitude});
+            }
+        }
     }
-    const Grid grid(effect);
-    for (const double amplitude : grid.amplitudes())
+    for (const auto& setting : settings)
     {
-        explanation.nodes.push_back(nodeAt({{e, amplitude}}));
-    }
-    const auto [lower, upper] = effect.bounds;
-    explanation.amplitudes.resize(fineSteps);
-    explanation.interpolation.resize(fineSteps, grid.amplitudes().size());
-    explanation.logWeights = Eigen::VectorXd::Constant(fineSteps, -std::log(static_cast<double>(fineSteps)));
-    for (Eigen::Index i = 0; i < fineSteps; ++i)
-    {
-        explanation.amplitudes(i) = lower + (upper - lower) * (static_cast<double>(i) + 0.5) / fineSteps;
-        explanation.interpolation.row(i) = grid.weightsAt(explanation.amplitudes(i));
+        explanation.nodes.push_back(nodeAt(setting));
     }
     return explanation;
 }
 
 Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) const
 {
-    // Of blocks that scatter as without effects, and of the others
-    std::array<double, 2> traces{};
-    std::array<double, 2> numbers{};
+    double trace = 0.0;
+    double numbers = 0.0;
+    // Of blocks that do not scatter as without effects
+    double otherTrace = 0.0;
+    double otherNumbers = 0.0;
     for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
     {
         const Layout::Block& block = layout_.blocks[b];
         if (block.freedom > 0.0)
         {
-            const std::size_t group = node.scatters[b] ? 1 : 0;
-            traces[group] += traceOf(node.whiten[b], measured.scatter[b]);
-            numbers[group] += block.freedom * static_cast<double>(block.size());
+            const double own = traceOf(node.whiten[b], measured.scatter[b]);
+            const double ownNumbers = block.freedom * static_cast<double>(block.size());
+            trace += own;
+            numbers += ownNumbers;
+            otherTrace += node.scatters[b] ? own : 0.0;
+            otherNumbers += node.scatters[b] ? ownNumbers : 0.0;
         }
     }
-    const double trace = traces[0] + traces[1];
-    const double all = numbers[0] + numbers[1];
-    double misfit = 0.0;
-    for (std::size_t group = 0; group < traces.size(); ++group)
-    {
-        misfit += numbers[group] > 0.0
-                      ? traces[group] - numbers[group] * (1.0 + std::log(std::max(traces[group], 1e-12) / numbers[group]))
-                      : 0.0;
-    }
-    return {(spreadFreedom + trace) / (spreadFreedom + all),
-        logSpread(trace, all, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
+    const double misfit =
+        otherNumbers > 0.0
+            ? otherTrace - otherNumbers * (1.0 + std::log(std::max(otherTrace, 1e-12) / otherNumbers))
+            : 0.0;
+    return {(spreadFreedom + trace) / (spreadFreedom + numbers),
+        logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
 }
 
 double Evidence::otherSpread(const Measured& measured) const
@@ -389,24 +409,88 @@ Evidence::Posterior Evidence::posterior(
 {
     // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
     // likelihood is; the likelihood itself it would not.
-    Eigen::MatrixXd nodes(static_cast<Eigen::Index>(explanation.nodes.size()), 3);
-    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+    const Grid& first = explanation.grids.front();
+    const auto rows = explanation.grids.size() > 1 ? explanation.grids.back().amplitudes().size() : 1;
+    const auto columns = first.amplitudes().size();
+    Eigen::MatrixXd misfits(rows, columns);
+    Eigen::MatrixXd volumes(rows, columns);
+    Eigen::MatrixXd scatterMisfits(rows, columns);
+    for (Eigen::Index i = 0; i < misfits.size(); ++i)
     {
         const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
         const bool scatters = std::find(node.scatters.begin(), node.scatters.end(), true) != node.scatters.end();
         const Spread spread = scatters ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
-        nodes.row(i) << solution.misfit, solution.logVolume + spread.logLikelihood, spread.misfit;
+        misfits(i) = solution.misfit;
+        volumes(i) = solution.logVolume + spread.logLikelihood;
+        scatterMisfits(i) = spread.misfit;
     }
-    const Eigen::MatrixXd fine = explanation.interpolation * nodes;
-    Eigen::VectorXd logs = explanation.logWeights;
-    for (Eigen::Index i = 0; i < logs.size(); ++i)
+    std::vector<Bounds> ranges;
+    for (const auto e : explanation.effects)
     {
-        logs(i) += logLikelihood(std::max(0.0, fine(i, 0)), fine(i, 1));
+        ranges.push_back(study_.effects[e].bounds);
     }
-    Eigen::Index best = 0;
-    logs.maxCoeff(&best);
-    return {logs, fine(best, 0), fine(best, 2)};
+    Posterior posterior;
+    std::vector<Bounds> looked = ranges;
+    for (const bool zooms : {true, false})
+    {
+        posterior.amplitudes.clear();
+        std::vector<Eigen::MatrixXd> weights;
+        double logCell = 0.0;
+        for (std::size_t k = 0; k < ranges.size(); ++k)
+        {
+            const bool isSwitch = study_.effects[explanation.effects[k]].isSwitch;
+            const Eigen::Index steps = isSwitch ? 1 : fineSteps;
+            const auto [lower, upper] = looked[k];
+            const double cell = (upper - lower) / static_cast<double>(steps);
+            posterior.amplitudes.emplace_back(
+                Eigen::VectorXd::LinSpaced(steps, isSwitch ? 1.0 : lower + cell / 2.0, isSwitch ? 1.0 : upper - cell / 2.0));
+            weights.emplace_back(steps, explanation.grids[k].amplitudes().size());
+            for (Eigen::Index i = 0; i < steps; ++i)
+            {
+                weights.back().row(i) = explanation.grids[k].weightsAt(posterior.amplitudes.back()(i));
+            }
+            logCell += isSwitch ? 0.0 : std::log(cell / (ranges[k].upper - ranges[k].lower));
+        }
+        const auto interpolated = [&](const Eigen::MatrixXd& atNodes) -> Eigen::MatrixXd {
+            const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
+            return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
+        };
+        const Eigen::MatrixXd misfit = interpolated(misfits);
+        const Eigen::MatrixXd volume = interpolated(volumes);
+        posterior.logs.resize(misfit.rows(), misfit.cols());
+        for (Eigen::Index i = 0; i < misfit.size(); ++i)
+        {
+            posterior.logs(i) = logCell + logLikelihood(std::max(0.0, misfit(i)), volume(i));
+        }
+        Eigen::Index row = 0;
+        Eigen::Index column = 0;
+        const double best = posterior.logs.maxCoeff(&row, &column);
+        posterior.judgement = {logSumExp(posterior.logs.reshaped()), misfit(row, column),
+            interpolated(scatterMisfits)(row, column)};
+        for (std::size_t k = 0; zooms && k < ranges.size(); ++k)
+        {
+            const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
+                                                 : Eigen::VectorXd(posterior.logs.colwise().maxCoeff());
+            const Eigen::VectorXd& a = posterior.amplitudes[k];
+            const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // the step beside what is likely, too
+            looked[k] = {ranges[k].upper, ranges[k].lower};
+            for (Eigen::Index i = 0; i < a.size(); ++i)
+            {
+                if (along(i) > best + unlikely)
+                {
+                    looked[k].lower = std::max(ranges[k].lower, std::min(looked[k].lower, a(i) - margin));
+                    looked[k].upper = std::min(ranges[k].upper, std::max(looked[k].upper, a(i) + margin));
+                }
+            }
+        }
+    }
+    return posterior;
+}
+
+Evidence::Judgement Evidence::judge(const Explanation& explanation, const Measured& measured) const
+{
+    return posterior(explanation, measured, spreadOf(null_, measured)).judgement;
 }
 
 Evidences Evidence::operator()(const Measured& measured) const
@@ -423,14 +507,20 @@ Evidences Evidence::operator()(const Measured& measured) const
     {
         if (!effects_[e].nodes.empty())
         {
-            const Posterior found = posterior(effects_[e], measured, usual);
-            evidences.effects(static_cast<Eigen::Index>(e)) = logSumExp(found.logs);
+            const Judgement found = posterior(effects_[e], measured, usual).judgement;
+            evidences.effects(static_cast<Eigen::Index>(e)) = found.logEvidence;
             evidences.misfits(static_cast<Eigen::Index>(e)) = found.misfit;
             evidences.scatterMisfits(static_cast<Eigen::Index>(e)) = found.scatterMisfit;
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
     return evidences;
+}
+
+double Evidence::otherEvidence(const Measured& measured) const
+{
+    const Spread usual = spreadOf(null_, measured);
+    return otherEvidence(measured, usual, solve(null_, usual.factor, measured));
 }
 
 //--- Something else -------------------------------------------------------------------------------------------------
@@ -557,79 +647,31 @@ Fit Evidence::fitNull(const Measured& measured) const
 
 Fit Evidence::fit(std::size_t effect, const Measured& measured) const
 {
-    const Explanation& explanation = effects_[effect];
-    Fit fit;
-    if (explanation.nodes.empty())
-    {
-        return fit;
-    }
-    const Spread usual = spreadOf(null_, measured);
-    const Eigen::VectorXd logs = posterior(explanation, measured, usual).logs;
-    const Eigen::ArrayXd share = (logs.array() - logSumExp(logs)).exp();
-    const Eigen::ArrayXd a = explanation.amplitudes.array();
-    fit.amplitude = (share * a).sum();
-    fit.sd = std::sqrt(std::max(0.0, (share * (a - fit.amplitude).square()).sum()));
-    constexpr double tail = 0.025;
-    const double half = a.size() > 1 ? (a(1) - a(0)) / 2.0 : 0.0;
-    double below = 0.0;
-    fit.lower = a(0) - half;
-    fit.upper = a(a.size() - 1) + half;
-    for (Eigen::Index i = 0; i < a.size(); ++i)
-    {
-        // Linear within a step of the grid.
-        const double after = below + share(i);
-        if (below < tail && after >= tail)
-        {
-            fit.lower = a(i) - half + 2.0 * half * (tail - below) / share(i);
-        }
-        if (below < 1.0 - tail && after >= 1.0 - tail)
-        {
-            fit.upper = a(i) - half + 2.0 * half * (1.0 - tail - below) / share(i);
-        }
-        below = after;
-    }
-    const Node node = nodeAt({{effect, fit.amplitude}});
-    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
-    fit.parameters = solution.parameters;
-    fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
-    fit.misfit = solution.misfit;
-    return fit;
+    return effects_[effect].nodes.empty() ? Fit{} : fits(effects_[effect], measured).front();
 }
 
-Evidence::Pair Evidence::pair(std::size_t one, std::size_t other, const Measured& measured) const
+std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& measured) const
 {
-    const auto amplitudes = [&](std::size_t e) {
-        const Effect& effect = study_.effects[e];
-        std::vector<double> all;
-        for (int i = 0; i < pairSteps; ++i)
-        {
-            all.push_back(effect.bounds.lower + (effect.bounds.upper - effect.bounds.lower) * (i + 0.5) / pairSteps);
-        }
-        return effect.isSwitch ? std::vector<double>{1.0} : all;
-    };
-    Pair best;
-    std::vector<double> logs;
-    double largest = best.logEvidence;
-    for (const double a : amplitudes(one))
+    const Posterior found = posterior(explanation, measured, spreadOf(null_, measured));
+    const Eigen::ArrayXXd share = (found.logs.array() - found.judgement.logEvidence).exp();
+    std::vector<Fit> all;
+    std::vector<Present> present;
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        for (const double b : amplitudes(other))
-        {
-            const Node node = nodeAt({{one, a}, {other, b}});
-            const Spread spread = spreadOf(node, measured);
-            const Solution solution = solve(node, spread.factor, measured);
-            logs.push_back(logLikelihood(solution.misfit, solution.logVolume) + spread.logLikelihood);
-            if (logs.back() > largest)
-            {
-                largest = logs.back();
-                best.first = a;
-                best.second = b;
-                best.parameters = solution.parameters;
-            }
-        }
+        all.push_back(marginal(found.amplitudes[k],
+            k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
+        present.push_back({explanation.effects[k], all.back().amplitude});
     }
-    best.logEvidence = logSumExp(Eigen::Map<const Eigen::VectorXd>(logs.data(), static_cast<Eigen::Index>(logs.size())))
-                       - std::log(static_cast<double>(logs.size()));
-    return best;
+    const Node node = nodeAt(present);
+    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
+    for (auto& fit : all)
+    {
+        fit.parameters = solution.parameters;
+        fit.covariance =
+            solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
+        fit.misfit = solution.misfit;
+    }
+    return all;
 }
 
 Eigen::VectorXd Evidence::drawOther(double size, std::mt19937_64& random) const

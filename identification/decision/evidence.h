@@ -20,7 +20,7 @@ struct Evidences
     double other = 0.0;      // something that is not in the library
     // Of each effect at its likeliest amplitude:
     Eigen::VectorXd misfits;        // of the means, as in `Fit`
-    Eigen::VectorXd scatterMisfits; // of the spread between repeats: deviance, where it scatters otherwise and where not
+    Eigen::VectorXd scatterMisfits; // of the spread between repeats, where it is not that of runs without effects
 };
 
 /// Where an explanation fits best, and how well that is known.
@@ -72,19 +72,31 @@ public:
 
     Evidences operator()(const Measured& measured) const;
 
+    /// Log evidence of something that is not in the library.
+    double otherEvidence(const Measured& measured) const;
+
     /// Most likely parameters without any effect, or with one.
     Fit fitNull(const Measured& measured) const;
     Fit fit(std::size_t effect, const Measured& measured) const;
 
-    /// Log evidence and fit of any two effects at once; amplitudes on a grid.
-    struct Pair
+    /// One effect or two at once, at amplitudes from end to end of their ranges.
+    struct Explanation
     {
-        double logEvidence = -std::numeric_limits<double>::infinity();
-        double first = 0.0;
-        double second = 0.0;
-        Eigen::VectorXd parameters;
+        std::vector<std::size_t> effects;
+        std::vector<Grid> grids; // by effect
+        std::vector<Node> nodes; // the last effect's amplitude goes first
     };
-    Pair pair(std::size_t one, std::size_t other, const Measured& measured) const;
+    Explanation explanationOf(const std::vector<std::size_t>& effects) const;
+
+    struct Judgement
+    {
+        double logEvidence = 0.0;
+        double misfit = 0.0; // at the likeliest amplitudes, as in `Evidences`
+        double scatterMisfit = 0.0;
+    };
+    Judgement judge(const Explanation& explanation, const Measured& measured) const;
+    /// Fits of its effects, which share parameters.
+    std::vector<Fit> fits(const Explanation& explanation, const Measured& measured) const;
 
     /// Amplitudes at which an effect is looked at; nothing for one that is not known.
     std::vector<double> amplitudes(std::size_t effect) const;
@@ -98,19 +110,11 @@ public:
     static const std::vector<double>& sizes();
 
 private:
-    struct Explanation
-    {
-        std::vector<Node> nodes;
-        Eigen::VectorXd amplitudes;    // of a fine grid
-        Eigen::MatrixXd interpolation; // from nodes to these
-        Eigen::VectorXd logWeights;    // of the amplitude's prior
-    };
-
     struct Spread
     {
         double factor = 1.0; // of the noise's variance
         double logLikelihood = 0.0;
-        double misfit = 0.0; // deviance of variances, too small or too large, from what the explanation says
+        double misfit = 0.0; // deviance, too small or too large, where the scatter is not that of runs without effects
     };
 
     /// Parameters are few: their vectors need no memory of their own.
@@ -139,19 +143,18 @@ private:
         double logDeterminant = 0.0;
     };
 
-    Explanation explanationOf(std::size_t effect) const;
     void prepare();
     void prepareOther();
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     double logLikelihood(double misfit, double logVolume) const;
-    /// Of the explanation's amplitudes, with their prior, and the misfits of the likeliest.
+    /// Over amplitudes of the first effect, and of the second if there is one, where they are likely.
     struct Posterior
     {
-        Eigen::VectorXd logs;
-        double misfit = 0.0;
-        double scatterMisfit = 0.0;
+        std::vector<Eigen::VectorXd> amplitudes; // by effect, evenly spaced
+        Eigen::MatrixXd logs;                    // with the prior
+        Judgement judgement;
     };
     Posterior posterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;

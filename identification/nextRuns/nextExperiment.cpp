@@ -17,24 +17,25 @@ namespace
 constexpr int draws = 4;
 
 /// A setting that the data allow for an explanation.
-Setting drawn(const Study& study, const Answer& answer, const Explanation& explanation, std::mt19937_64& random)
+Setting drawn(const Study& study, const Explanation& explanation, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
     Setting setting = explanation.setting;
-    const bool single = explanation.effects.size() == 1;
-    const Eigen::MatrixXd covariance =
-        single ? answer.effects[explanation.effects.front()].fit.covariance : answer.nullCovariance;
+    const Eigen::MatrixXd& covariance = explanation.fits.front().covariance;
     if (covariance.size() > 0)
     {
         const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(covariance.rows(), [&] { return normal(random); });
         setting.parameters = physical(study, inSds(study, setting.parameters) + covariance.llt().matrixL() * z);
     }
-    if (single && !study.effects[explanation.effects.front()].isSwitch)
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        const auto [lower, upper] = study.effects[explanation.effects.front()].bounds;
-        const Fit& fit = answer.effects[explanation.effects.front()].fit;
-        setting.amplitudes(static_cast<Eigen::Index>(explanation.effects.front())) =
-            std::clamp(fit.amplitude + fit.sd * normal(random), lower, upper);
+        const Effect& effect = study.effects[explanation.effects[k]];
+        if (!effect.isSwitch)
+        {
+            const Fit& fit = explanation.fits[k];
+            setting.amplitudes(static_cast<Eigen::Index>(explanation.effects[k])) =
+                std::clamp(fit.amplitude + fit.sd * normal(random), effect.bounds.lower, effect.bounds.upper);
+        }
     }
     return setting;
 }
@@ -96,7 +97,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
             for (int number = 0; number < draws; ++number)
             {
                 orders.push_back(
-                    {condition, drawn(study, answer, explanation, random), "next experiment, " + name, number});
+                    {condition, drawn(study, explanation, random), "next experiment, " + name, number});
             }
             const auto rows = featureRows(simulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);

@@ -37,7 +37,9 @@ struct Explanation
 {
     std::vector<std::size_t> effects;
     Setting setting;
-    double logOdds = 0.0; // against no effect
+    std::vector<Fit> fits;    // by effect
+    double logOdds = 0.0;     // against no effect
+    double probability = 0.0; // given that there is something; of two effects: that no single one explains
     double misfit = 0.0;
     std::vector<Simulation> simulations; // with it switched on, nearest to the last fit; empty: it was not simulated
 };
@@ -57,7 +59,6 @@ struct Answer
     double otherProbability = 0.0;
     double otherThreshold = 0.0;
     Explanation null;                   // refitted parameters, no effect
-    Eigen::MatrixXd nullCovariance;     // of these, in prior sd
     std::vector<EffectFinding> effects; // as in the study
     Calibration calibration;
     Visibility visibility; // what these data could have shown

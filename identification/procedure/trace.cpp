@@ -1,5 +1,6 @@
 #include "procedure/trace.h"
 
+#include "decision/pairs.h"
 #include "emulator/settings.h"
 #include "nextRuns/chooseRuns.h"
 
@@ -52,9 +53,15 @@ public:
                 learn();
             }
         }
-        Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
-        evidence.refine(answer_.measured);
-        decide(evidence);
+        {
+            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            evidence.refine(answer_.measured);
+            decide(evidence);
+        }
+        if (answer_.decision == Decision::unknown)
+        {
+            tryPairs(around);
+        }
         return std::move(answer_);
     }
 
@@ -135,17 +142,71 @@ private:
             // The root of the odds: what is behind by chance must get its runs, too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
         }
+        return simulateAmong(contenders, "deciding, round " + std::to_string(round));
+    }
+
+    /// Runs where they tell contenders apart.
+    bool simulateAmong(const std::vector<Contender>& contenders, const std::string& purpose)
+    {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
         for (const auto& [contender, condition] :
             chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound()))
         {
             const auto& [present, parameters, weight] = contenders[contender];
-            const std::string what = present.empty() ? "no effect" : study_.effects[present.front().effect].name;
-            orders.push_back({condition, settingOf(present, parameters),
-                "deciding, round " + std::to_string(round) + ": " + what, numbers[{contender, condition}]++});
+            std::string what = present.empty() ? "no effect" : "";
+            for (const auto& [effect, amplitude] : present)
+            {
+                what += (what.empty() ? "" : " with ") + study_.effects[effect].name;
+            }
+            orders.push_back({condition, settingOf(present, parameters), purpose + ": " + what,
+                numbers[{contender, condition}]++});
         }
         return !orders.empty() && simulate(orders);
+    }
+
+    /// Two effects at once, where no single one explains the data.
+    void tryPairs(const Eigen::VectorXd& around)
+    {
+        const auto evidenceNow = [&] { return Evidence(study_, *answer_.emulator, answer_.layout, around); };
+        const auto leading = leadingPairs(study_, evidenceNow(), answer_.measured);
+        std::vector<Contender> contenders;
+        for (const auto& pair : leading)
+        {
+            contenders.push_back({presentOf(pair), pair.fits.front().parameters,
+                std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
+        }
+        if (contenders.empty())
+        {
+            return;
+        }
+        if (simulateAmong(contenders, "deciding between pairs"))
+        {
+            learn();
+        }
+        const Evidence evidence = evidenceNow();
+        auto pairs = leadingPairs(study_, evidence, answer_.measured);
+        Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
+        judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
+        for (const auto& pair : pairs)
+        {
+            if (pair.inSet)
+            {
+                answer_.set.push_back(explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability));
+                answer_.decision = pair.mayBeNamed ? Decision::named : Decision::set;
+                answer_.somethingElseInSet = !pair.mayBeNamed;
+            }
+        }
+    }
+
+    static std::vector<Present> presentOf(const PairFinding& pair)
+    {
+        std::vector<Present> present;
+        for (std::size_t k = 0; k < pair.effects.size(); ++k)
+        {
+            present.push_back({pair.effects[k], pair.fits[k].amplitude});
+        }
+        return present;
     }
 
     void decide(const Evidence& evidence)
@@ -161,8 +222,7 @@ private:
         answer_.otherProbability = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
         const Fit null = evidence.fitNull(measured);
-        answer_.null = explanation({}, null, 0.0);
-        answer_.nullCovariance = null.covariance;
+        answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
             const auto i = static_cast<Eigen::Index>(e);
@@ -186,7 +246,8 @@ private:
         {
             EffectFinding& finding = answer_.effects[e];
             finding.inSet = true;
-            answer_.set.push_back(explanation({{e, finding.fit.amplitude}}, finding.fit, finding.logOdds));
+            answer_.set.push_back(
+                explanation({{e, finding.fit.amplitude}}, {finding.fit}, finding.logOdds, finding.probability));
         }
         answer_.somethingElseInSet = odds.other >= calibration.otherMembership;
         const auto sole = soleMember(study_, calibration, odds);
@@ -208,16 +269,20 @@ private:
         }
     }
 
-    Explanation explanation(const std::vector<Present>& present, const Fit& fit, double logOdds) const
+    /// \param fits  which share their parameters
+    Explanation explanation(
+        const std::vector<Present>& present, const std::vector<Fit>& fits, double logOdds, double probability) const
     {
         Explanation found;
+        found.fits = fits;
+        found.probability = probability;
         for (const auto& one : present)
         {
             found.effects.push_back(one.effect);
         }
-        found.setting = settingOf(present, fit.parameters);
+        found.setting = settingOf(present, fits.front().parameters);
         found.logOdds = logOdds;
-        found.misfit = fit.misfit;
+        found.misfit = fits.front().misfit;
         for (const auto& run : runs_)
         {
             const auto on = (run.setting.amplitudes.array() != 0.0).count();

@@ -4,6 +4,7 @@
 #include "report/numbers.h"
 
 #include <cmath>
+#include <map>
 
 namespace clepsydra::identification
 {
@@ -34,12 +35,12 @@ std::size_t shownCondition(const Study& study, const Effect* effect)
     return trained.front();
 }
 
-/// A fit: where it is, and the standard errors of its parameters (physical) and amplitude.
+/// A fit: where it is, and the standard errors of its parameters (physical) and, by effect of the study, amplitudes.
 struct Fitted
 {
     Setting setting;
     Eigen::VectorXd parameterErrors;
-    double amplitudeError = 0.0;
+    std::map<std::size_t, double> amplitudeErrors;
 };
 
 Eigen::VectorXd physicalErrors(const Study& study, const Eigen::MatrixXd& covariance)
@@ -53,14 +54,14 @@ Eigen::VectorXd physicalErrors(const Study& study, const Eigen::MatrixXd& covari
     return errors;
 }
 
-Fitted fittedOf(const Study& study, const Answer& answer, const Explanation& explanation)
+Fitted fittedOf(const Study& study, const Explanation& explanation)
 {
-    if (explanation.effects.size() != 1)
+    Fitted fitted{explanation.setting, physicalErrors(study, explanation.fits.front().covariance), {}};
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        return {explanation.setting, physicalErrors(study, answer.nullCovariance)};
+        fitted.amplitudeErrors[explanation.effects[k]] = explanation.fits[k].sd;
     }
-    const Fit& fit = answer.effects[explanation.effects.front()].fit;
-    return {explanation.setting, physicalErrors(study, fit.covariance), fit.sd};
+    return fitted;
 }
 
 /// An entry at a fit, its error to first order from those of parameters and amplitude.
@@ -82,7 +83,8 @@ Estimate entryAt(const Simulator& simulator, std::size_t condition, const Fitted
     {
         Setting moved = fitted.setting;
         double& amplitude = moved.amplitudes(static_cast<Eigen::Index>(e));
-        amplitude += amplitude > 0.0 ? -fitted.amplitudeError : fitted.amplitudeError; // inwards: formulas hold there
+        const double error = fitted.amplitudeErrors.at(e);
+        amplitude += amplitude > 0.0 ? -error : error; // inwards: formulas hold there
         add(moved);
     }
     return estimate;
@@ -99,11 +101,11 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const Fitted null{answer.null.setting, physicalErrors(study, answer.nullCovariance)};
+    const Fitted null = fittedOf(study, answer.null);
     std::optional<Fitted> best;
     if (!answer.set.empty())
     {
-        best = fittedOf(study, answer, answer.set.front());
+        best = fittedOf(study, answer.set.front());
     }
     std::vector<FittedNumber> all;
     const auto addEntry = [&](const std::string& entry, std::size_t condition) {
@@ -143,7 +145,8 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
         if (effect.isOfChain())
         {
             const double size = sizeOfChain(effect, amplitude);
-            const double inwards = amplitude > 0.0 ? -best->amplitudeError : best->amplitudeError;
+            const double error = best->amplitudeErrors.at(e);
+            const double inwards = amplitude > 0.0 ? -error : error;
             all.push_back({effect.chainOperation, chainOperations().at(effect.chainOperation).unit, {}, {0.0, 0.0},
                 Estimate{size, std::abs(sizeOfChain(effect, amplitude + inwards) - size)}});
         }

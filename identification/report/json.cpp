@@ -324,7 +324,7 @@ Json jsonOf(const Findings& findings)
     json["pValue"] = answer.pValue;
     json["logOdds"] = number(answer.logOdds);
     json["null"] = explanationJson(study, answer.null);
-    json["null"]["parameterSds"] = numbers(answer.nullCovariance.diagonal().cwiseSqrt());
+    json["null"]["parameterSds"] = numbers(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
     json["residual"] = residualJson(findings);
     json["heldOut"] = heldOutJson(findings);

@@ -153,12 +153,7 @@ std::string probabilitiesInWords(const Findings& findings)
     std::vector<std::string> shares;
     for (const auto& explanation : answer.set)
     {
-        double probability = 0.0;
-        if (explanation.effects.size() == 1)
-        {
-            probability = answer.effects[explanation.effects.front()].probability;
-        }
-        shares.push_back(nameOf(*findings.study, explanation) + ' ' + percent(probability));
+        shares.push_back(nameOf(*findings.study, explanation) + ' ' + percent(explanation.probability));
     }
     shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherProbability));
     return "How likely: " + joined(shares, ", ") + '.';

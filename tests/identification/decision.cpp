@@ -135,6 +135,31 @@ TEST(Decision, SpreadIsADatum)
     EXPECT_GT(logOdds(), before + 4);
 }
 
+/// What a common error does to all conditions alike is no residual, however small the noise of each.
+TEST(Decision, CommonErrorsExplain)
+{
+    Bench bench;
+    const double shift = .08;
+    for (auto& condition : bench.data)
+    {
+        condition.features.leftCols(3).array() += shift; // the rates
+    }
+    const auto statistic = [&] {
+        const auto [layout, measured] = arrange(bench.study, *bench.emulator, bench.data, bench.library.errorSlopes);
+        const Evidence evidence(bench.study, *bench.emulator, layout, atPrior);
+        return oddsOf(bench.study, evidence(measured)).statistic;
+    };
+    const double before = statistic();
+    Eigen::VectorXd ofRates = Eigen::VectorXd::Zero(bench.study.featureCount());
+    ofRates.head(3).setConstant(shift);
+    for (const auto c : bench.study.conditionsOf(Role::training))
+    {
+        bench.library.errorSlopes[c] = ofRates;
+    }
+    EXPECT_GT(before, 5);
+    EXPECT_LT(statistic(), before / 3);
+}
+
 /// A pattern that no effect makes, many times its noise, is something else.
 TEST(Decision, SomethingElseIsSeen)
 {

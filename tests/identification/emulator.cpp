@@ -228,6 +228,30 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
     EXPECT_EQ(emulator[0]->logScatter.count(0), 0U);
 }
 
+/// ln W = 3 x + ...: an error of .01 in x is one of .03; a scale's gain of 2 % is one of .02; what is stated is taken.
+TEST(CommonErrors, SlopesAreThoseOfTheRig)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.commonErrors.resize(3);
+    for (auto& error : study.commonErrors)
+    {
+        error.conditions = {0};
+        error.featureErrors = Eigen::VectorXd::Zero(1);
+    }
+    study.commonErrors[0].entries.emplace("x", Expression("x + 0.01*z"));
+    study.commonErrors[1].chainOperation = "gain";
+    study.commonErrors[1].chainSize = Expression("0.02*z");
+    study.commonErrors[2].featureErrors(0) = .05;
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    EXPECT_NEAR(library.errorSlopes[0](0, 0), .03, 1e-6);
+    EXPECT_NEAR(library.errorSlopes[0](0, 1), .02, 1e-4);
+    EXPECT_EQ(library.errorSlopes[0](0, 2), .05);
+    EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors are the other condition's";
+}
+
 } // namespace
 
 } // namespace clepsydra::identification::tests

@@ -3,11 +3,14 @@
 #include "heldOut/heldOut.h"
 #include "linearRig.h"
 #include "procedure/trace.h"
+#include "standIn/standIn.h"
+#include "study/readStudy.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <random>
 
 namespace clepsydra::identification::tests
@@ -36,6 +39,13 @@ struct Bench
     std::vector<MeasuredCondition> nothing{study.conditions.size()};
     std::mt19937_64 random{1};
 };
+
+std::size_t indexOf(const Study& study, const std::string& effect)
+{
+    const auto found = std::find_if(
+        study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == effect; });
+    return static_cast<std::size_t>(found - study.effects.begin());
+}
 
 /// Held-out measurements may be in memory, as in checkIdentification: whatever they are, the answer is the same.
 TEST(Trace, HeldOutDataTellNothing)
@@ -82,14 +92,52 @@ TEST(Trace, NoAnswerWithoutSimulations)
     }
 }
 
+/// One effect at a setting, as a member of a set.
+Explanation explanationBy(std::size_t effect, const Setting& setting)
+{
+    Explanation explanation;
+    explanation.effects = {effect};
+    explanation.setting = setting;
+    explanation.fits.resize(1);
+    return explanation;
+}
+
+/// The mean start is late and the scale drifts: neither alone explains both, and the two are found together.
+TEST(Trace, TwoEffectsAtOnce)
+{
+    Study study = readStudy(std::filesystem::path(STAND_IN) / "study.yaml");
+    study.settings.draws = 200;
+    StandInRig rig{readEntries(study.rig.caseFolder / study.rig.entriesFile)};
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    const std::vector<std::size_t> truth = {indexOf(study, "addedMass"), indexOf(study, "drift")};
+    Setting setting = simulator.plainSetting();
+    for (const auto e : truth)
+    {
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = .8;
+    }
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (std::size_t c = 0; c < data.size(); ++c)
+    {
+        data[c].features = featureRows(simulator.repeats({c}, setting, "measured", 3), c, study.featureCount());
+        data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+    }
+    std::mt19937_64 random(1);
+    const Answer answer = trace(simulator, library, data, random);
+    ASSERT_FALSE(answer.set.empty());
+    EXPECT_EQ(answer.set.front().effects, truth);
+    for (const auto& fit : answer.set.front().fits)
+    {
+        EXPECT_NEAR(fit.amplitude, .8, .3);
+    }
+}
+
 /// Data made by one effect at full size, predicted with it switched on, as a name or as a set.
 HeldOutResult heldOutOf(const std::string& truth, Decision decision)
 {
     Bench bench;
     Setting setting = bench.simulator.plainSetting();
-    const auto effect = std::find_if(
-        bench.study.effects.begin(), bench.study.effects.end(), [&](const Effect& one) { return one.name == truth; });
-    const auto index = static_cast<std::size_t>(effect - bench.study.effects.begin());
+    const std::size_t index = indexOf(bench.study, truth);
     setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
 
     std::vector<MeasuredCondition> data(bench.study.conditions.size());
@@ -101,7 +149,7 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision)
     }
     Answer answer = trace(bench.simulator, bench.library, data, bench.random);
     answer.decision = decision;
-    answer.set = {{{index}, setting, 0, 0, {}}};
+    answer.set = {explanationBy(index, setting)};
     return evaluateHeldOut(bench.simulator, bench.library, answer, data, data, bench.random);
 }
 
@@ -123,7 +171,7 @@ TEST(HeldOut, NothingWithoutMeasurements)
     Bench bench(false);
     Answer answer;
     answer.decision = Decision::named;
-    answer.set = {{{0}, bench.simulator.plainSetting(), 0, 0, {}}};
+    answer.set = {explanationBy(0, bench.simulator.plainSetting())};
     const int before = bench.simulator.executed();
     const HeldOutResult result =
         evaluateHeldOut(bench.simulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);

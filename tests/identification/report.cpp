@@ -52,7 +52,8 @@ struct Bench
         study.parameters[0].unit = "rad";
         answer.null.setting = simulator.plainSetting();
         answer.null.setting.parameters(0) = .2;
-        answer.nullCovariance = Eigen::MatrixXd::Constant(1, 1, .25);
+        answer.null.fits.resize(1);
+        answer.null.fits.front().covariance = Eigen::MatrixXd::Constant(1, 1, .25);
         answer.pValue = .0009995;
         answer.effects.resize(study.effects.size());
         for (auto& finding : answer.effects)
@@ -71,6 +72,7 @@ struct Bench
         {
             Explanation one;
             one.effects = {effect};
+            one.fits = {answer.effects[effect].fit};
             one.setting = simulator.plainSetting();
             one.setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
             answer.set.push_back(one);

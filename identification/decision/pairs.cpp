@@ -1,0 +1,189 @@
+#include "decision/pairs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// How many pairs are followed up, and how much less likely than the best they may be (log odds).
+constexpr std::size_t mostPairs = 4;
+constexpr double hopeless = 8.0;
+
+/// Trials with each of them.
+constexpr int trials = 100;
+
+/// A pair has two amplitudes to imitate something else with: it is named only where it fits as well as this share of its own
+/// trials do, and leaves everything else this probability.
+constexpr double fitsWell = 0.8;
+constexpr double roomForElse = 0.01;
+
+bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one, std::size_t other)
+{
+    return !areVariants(study, one, other) && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
+}
+
+/// Log weight of a pair a priori.
+class PairPrior
+{
+public:
+    PairPrior(const Study& study, const Evidence& evidence)
+        : study_(study)
+    {
+        for (std::size_t other = 0; other < study.effects.size(); ++other)
+        {
+            for (std::size_t one = 0; one < other; ++one)
+            {
+                sum_ += mayGoTogether(study, evidence, one, other) ? product(one, other) : 0.0;
+            }
+        }
+    }
+
+    double operator()(const std::vector<std::size_t>& effects) const
+    {
+        return std::log(product(effects.front(), effects.back()) / sum_);
+    }
+
+private:
+    double product(std::size_t one, std::size_t other) const
+    {
+        return study_.effects[one].prior * study_.effects[other].prior;
+    }
+
+    const Study& study_;
+    double sum_ = 0.0;
+};
+
+/// Pairs against each other and something else, by one judge.
+class PairJudge
+{
+public:
+    PairJudge(const Study& study, const Evidence& evidence, const std::vector<PairFinding>& pairs)
+        : study_(study),
+          evidence_(evidence)
+    {
+        const PairPrior prior(study, evidence);
+        for (const auto& pair : pairs)
+        {
+            explanations_.push_back(evidence.explanationOf(pair.effects));
+            priors_.push_back(prior(pair.effects));
+        }
+    }
+
+    struct Verdict
+    {
+        std::vector<Evidence::Judgement> judgements; // by pair
+        Eigen::VectorXd probabilities;               // by pair; last: something else
+    };
+
+    Verdict operator()(const Measured& data) const
+    {
+        Verdict verdict;
+        Eigen::VectorXd logs(static_cast<Eigen::Index>(explanations_.size()) + 1);
+        for (std::size_t i = 0; i < explanations_.size(); ++i)
+        {
+            verdict.judgements.push_back(evidence_.judge(explanations_[i], data));
+            logs(static_cast<Eigen::Index>(i)) = verdict.judgements.back().logEvidence + priors_[i];
+        }
+        logs.tail<1>()(0) = evidence_.otherEvidence(data) + std::log(study_.settings.otherWeight);
+        verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
+        return verdict;
+    }
+
+private:
+    const Study& study_;
+    const Evidence& evidence_;
+    std::vector<Evidence::Explanation> explanations_;
+    std::vector<double> priors_;
+};
+
+/// A pair's amplitudes as its fit leaves them possible, within their ranges.
+std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    std::vector<Present> present;
+    for (std::size_t k = 0; k < pair.effects.size(); ++k)
+    {
+        const Effect& effect = study.effects[pair.effects[k]];
+        const double amplitude = pair.fits[k].amplitude + pair.fits[k].sd * normal(random);
+        present.push_back(
+            {pair.effects[k], effect.isSwitch ? 1.0 : std::clamp(amplitude, effect.bounds.lower, effect.bounds.upper)});
+    }
+    return present;
+}
+
+} // namespace
+
+std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured)
+{
+    const PairPrior prior(study, evidence);
+    const double null = evidence(measured).null;
+    std::vector<PairFinding> pairs;
+    for (std::size_t other = 0; other < study.effects.size(); ++other)
+    {
+        for (std::size_t one = 0; one < other; ++one)
+        {
+            if (mayGoTogether(study, evidence, one, other))
+            {
+                PairFinding pair;
+                pair.effects = {one, other};
+                pair.logOdds = evidence.judge(evidence.explanationOf(pair.effects), measured).logEvidence - null
+                               + prior(pair.effects);
+                pairs.push_back(pair);
+            }
+        }
+    }
+    std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+    pairs.resize(std::min(pairs.size(), mostPairs));
+    while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - hopeless))
+    {
+        pairs.pop_back();
+    }
+    for (auto& pair : pairs)
+    {
+        pair.fits = evidence.fits(evidence.explanationOf(pair.effects), measured);
+    }
+    return pairs;
+}
+
+void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
+    const Measured& measured, std::mt19937_64& random)
+{
+    const auto verdict = PairJudge(study, evidence, pairs)(measured);
+    std::map<const Evidence*, PairJudge> judges;
+    std::size_t members = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+        PairFinding& pair = pairs[i];
+        const auto place = static_cast<Eigen::Index>(i);
+        std::vector<double> misfits;
+        std::vector<double> scatterMisfits;
+        std::vector<double> improbabilities;
+        for (int trial = 0; trial < trials; ++trial)
+        {
+            const auto [data, judge] =
+                replicas.draw(drawn(study, pair, random), around(pair.fits.front(), random), random);
+            const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
+            misfits.push_back(own.judgements[i].misfit);
+            scatterMisfits.push_back(own.judgements[i].scatterMisfit);
+            improbabilities.push_back(1.0 - own.probabilities(place));
+        }
+        pair.probability = verdict.probabilities(place);
+        pair.inSet = verdict.judgements[i].misfit <= upperQuantile(misfits, meansStillFit)
+                     && verdict.judgements[i].scatterMisfit <= upperQuantile(scatterMisfits, scatterStillFits)
+                     && 1.0 - pair.probability <= std::max(0.5, upperQuantile(improbabilities, study.settings.coverage));
+        pair.mayBeNamed = pair.inSet && pair.probability >= 1.0 - roomForElse
+                          && verdict.judgements[i].misfit <= upperQuantile(misfits, fitsWell);
+        members += pair.inSet ? 1 : 0;
+    }
+    for (auto& pair : pairs)
+    {
+        pair.mayBeNamed = pair.mayBeNamed && members == 1;
+    }
+}
+
+} // namespace clepsydra::identification

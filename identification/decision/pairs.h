@@ -1,0 +1,32 @@
+#pragma once
+
+#include "decision/calibration.h"
+
+#include <random>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Two effects at once.
+struct PairFinding
+{
+    std::vector<std::size_t> effects;
+    std::vector<Fit> fits;    // by effect
+    double logOdds = 0.0;     // against no effect, prior weight included
+    double probability = 0.0; // among pairs and something that is not in the library
+    bool inSet = false;
+    bool mayBeNamed = false;
+};
+
+/// Pairs of effects, for data that no single effect explains: all pairs together weigh as much as one effect. The likeliest
+/// come first, down to those that are hopeless.
+std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured);
+
+/// Which of these pairs belong to the set, by trials in known worlds with each of them in: such as fit as well as their own
+/// trials do, and are as likely as most of them. One may be named where it is the only one left, fits well and leaves no room
+/// for anything else; how often something that is not in the library passes for a pair is not learnt from foils.
+void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
+    const Measured& measured, std::mt19937_64& random);
+
+} // namespace clepsydra::identification
