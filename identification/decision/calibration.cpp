@@ -66,6 +66,14 @@ double upperQuantile(std::vector<double> values, double share)
     return values[std::min(place, values.size()) - 1];
 }
 
+double misfitLimit(const std::vector<double>& draws, double sds)
+{
+    const Eigen::ArrayXd roots =
+        Eigen::Map<const Eigen::ArrayXd>(draws.data(), static_cast<Eigen::Index>(draws.size())).max(0.0).pow(1.0 / 3.0);
+    const double sd = std::sqrt((roots - roots.mean()).square().mean());
+    return std::pow(roots.mean() + sds * sd, 3);
+}
+
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
 {
     const Eigen::Index count = evidences.effects.size();
@@ -251,8 +259,9 @@ void Calibrator::setMembership()
         std::sort(own.begin(), own.end());
         // The observed set counts as one more draw.
         const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
-        // What is likelier than all else belongs to the set; what its draws say too little of, where it is not unlikely.
-        return std::log(place < 1.0 ? 1.0 - study_.settings.coverage : std::min(0.5, std::exp(own[static_cast<std::size_t>(place) - 1])));
+        // Known worlds are a little better known than this one: what is not unlikely belongs to the set, whatever they say.
+        const double notUnlikely = std::log(1.0 - study_.settings.coverage);
+        return place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
     };
     calibration_.membership.resize(static_cast<Eigen::Index>(study_.effects.size()));
     for (std::size_t e = 0; e < study_.effects.size(); ++e)
@@ -260,7 +269,7 @@ void Calibrator::setMembership()
         calibration_.membership(static_cast<Eigen::Index>(e)) = quantileOf(e);
     }
     calibration_.otherMembership = quantileOf(study_.effects.size());
-    const auto limitsOf = [&](const Eigen::VectorXd Odds::*misfits, double stillFits) {
+    const auto limitsOf = [&](const Eigen::VectorXd Odds::*misfits, double sds) {
         Eigen::VectorXd limits(calibration_.membership.size());
         for (Eigen::Index e = 0; e < limits.size(); ++e)
         {
@@ -272,7 +281,7 @@ void Calibrator::setMembership()
                     own.push_back((draw.odds.*misfits)(e));
                 }
             }
-            limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : upperQuantile(own, stillFits);
+            limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : misfitLimit(own, sds);
         }
         return limits;
     };

@@ -38,10 +38,14 @@ struct Calibration
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
 
-/// An effect explains data whose means, and whose scatter, fit it as well as these shares of its own draws do. The scatter
+/// What misfits, sums of squares, stay below but for chance: standard deviations above the mean of the draws' cube roots,
+/// which are all but normal (Wilson & Hilferty, PNAS 17, 684 (1931)).
+double misfitLimit(const std::vector<double>& draws, double sds);
+
+/// An effect explains data whose means, and whose scatter, fit it as well as its own draws do, within these [sd]. The scatter
 /// of few repeats has a long tail, behind which an effect that does not raise it would hide.
-constexpr double meansStillFit = 0.99;
-constexpr double scatterStillFits = 0.96;
+constexpr double meansStillFit = 3.0;
+constexpr double scatterStillFits = 2.0;
 
 /// Parameters that a fit leaves possible [prior sd].
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);

@@ -228,9 +228,12 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         {
             node.whiten.emplace_back(Eigen::MatrixXd::Zero(single.rows(), single.rows()));
         }
-        node.scatters.push_back(std::any_of(present.begin(), present.end(), [&](const Present& one) {
-            return one.amplitude != 0.0 && emulator.scatters(one.effect);
-        }));
+        const auto any = [&](auto has) {
+            return std::any_of(present.begin(), present.end(),
+                [&](const Present& one) { return one.amplitude != 0.0 && has(one.effect); });
+        };
+        node.scatters.push_back(any([&](std::size_t effect) { return emulator.logScatter.count(effect) > 0; }));
+        node.scattersAnywhere = node.scattersAnywhere || any([&](std::size_t e) { return emulator.scatters(e); });
     }
     for (const auto& [first, size] : parts_)
     {
@@ -418,8 +421,7 @@ Evidence::Posterior Evidence::posterior(
     for (Eigen::Index i = 0; i < misfits.size(); ++i)
     {
         const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
-        const bool scatters = std::find(node.scatters.begin(), node.scatters.end(), true) != node.scatters.end();
-        const Spread spread = scatters ? spreadOf(node, measured) : usual;
+        const Spread spread = node.scattersAnywhere ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
         misfits(i) = solution.misfit;
         volumes(i) = solution.logVolume + spread.logLikelihood;

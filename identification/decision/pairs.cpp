@@ -17,9 +17,9 @@ constexpr double hopeless = 8.0;
 /// Trials with each of them.
 constexpr int trials = 100;
 
-/// A pair has two amplitudes to imitate something else with: it is named only where it fits as well as this share of its own
-/// trials do, and leaves everything else this probability.
-constexpr double fitsWell = 0.8;
+/// A pair has two amplitudes to imitate something else with: it is named only where it fits as well as its own trials do
+/// [sd], and leaves everything else this probability.
+constexpr double fitsWell = 1.0;
 constexpr double roomForElse = 0.01;
 
 bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one, std::size_t other)
@@ -173,11 +173,11 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
             improbabilities.push_back(1.0 - own.probabilities(place));
         }
         pair.probability = verdict.probabilities(place);
-        pair.inSet = verdict.judgements[i].misfit <= upperQuantile(misfits, meansStillFit)
-                     && verdict.judgements[i].scatterMisfit <= upperQuantile(scatterMisfits, scatterStillFits)
-                     && 1.0 - pair.probability <= std::max(0.5, upperQuantile(improbabilities, study.settings.coverage));
+        pair.inSet = verdict.judgements[i].misfit <= misfitLimit(misfits, meansStillFit)
+                     && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
+                     && 1.0 - pair.probability <= std::max(study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
         pair.mayBeNamed = pair.inSet && pair.probability >= 1.0 - roomForElse
-                          && verdict.judgements[i].misfit <= upperQuantile(misfits, fitsWell);
+                          && verdict.judgements[i].misfit <= misfitLimit(misfits, fitsWell);
         members += pair.inSet ? 1 : 0;
     }
     for (auto& pair : pairs)
