@@ -184,11 +184,16 @@ Calibration Calibrator::calibrate()
 
 void Calibrator::drawNull()
 {
-    const Fit fit = evidence_.fitNull(measured_);
+    // Parameters as they are known beforehand: data that take them far from there are a residual, too (Box, J. R. Stat. Soc.
+    // A 143, 383 (1980)).
+    Fit prior;
+    const auto parameters = static_cast<Eigen::Index>(study_.parameters.size());
+    prior.parameters = Eigen::VectorXd::Zero(parameters);
+    prior.covariance = Eigen::MatrixXd::Identity(parameters, parameters);
     auto& all = calibration_.nullStatistics;
     for (int i = 0; i < study_.settings.draws; ++i)
     {
-        const auto [data, judge] = replicas_.draw({}, around(fit, random_), random_);
+        const auto [data, judge] = replicas_.draw({}, around(prior, random_), random_);
         all.push_back(oddsOf(study_, judge(data)).statistic);
     }
     std::sort(all.begin(), all.end());
