@@ -35,10 +35,9 @@ double widthNeeded(const Fit& fit, double amplitude)
 double logPrior(const Study& study, std::size_t e)
 {
     const Effect& effect = study.effects[e];
-    const auto variants = effect.family.empty()
-                              ? 1
-                              : std::count_if(study.effects.begin(), study.effects.end(),
-                                  [&](const Effect& other) { return other.family == effect.family; });
+    const auto variants = effect.family.empty() ? 1
+                                                : std::count_if(study.effects.begin(), study.effects.end(),
+                                                    [&](const Effect& other) { return other.family == effect.family; });
     return std::log(effect.prior / static_cast<double>(variants));
 }
 
@@ -163,8 +162,8 @@ Fit Calibration::widened(std::size_t effect, Fit fit, const Bounds& bounds) cons
     return fit;
 }
 
-Calibrator::Calibrator(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
-    std::mt19937_64& random)
+Calibrator::Calibrator(
+    const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured, std::mt19937_64& random)
     : study_(study),
       evidence_(evidence),
       replicas_(replicas),
@@ -311,8 +310,8 @@ void Calibrator::setNaming()
     {
         draws[draw.truth] += 1.0;
     }
-    const auto classes = static_cast<double>(
-        std::count_if(draws.begin(), draws.end(), [](double number) { return number > 0.0; }));
+    const auto classes =
+        static_cast<double>(std::count_if(draws.begin(), draws.end(), [](double number) { return number > 0.0; }));
     for (const auto& draw : detected_)
     {
         const double weight = 1.0 / (draws[draw.truth] * classes);

@@ -296,10 +296,9 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
             otherNumbers += node.scatters[b] ? ownNumbers : 0.0;
         }
     }
-    const double misfit =
-        otherNumbers > 0.0
-            ? otherTrace - otherNumbers * (1.0 + std::log(std::max(otherTrace, 1e-12) / otherNumbers))
-            : 0.0;
+    const double misfit = otherNumbers > 0.0
+                              ? otherTrace - otherNumbers * (1.0 + std::log(std::max(otherTrace, 1e-12) / otherNumbers))
+                              : 0.0;
     return {(spreadFreedom + trace) / (spreadFreedom + numbers),
         logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
 }
@@ -445,8 +444,8 @@ Evidence::Posterior Evidence::posterior(
             const Eigen::Index steps = isSwitch ? 1 : fineSteps;
             const auto [lower, upper] = looked[k];
             const double cell = (upper - lower) / static_cast<double>(steps);
-            posterior.amplitudes.emplace_back(
-                Eigen::VectorXd::LinSpaced(steps, isSwitch ? 1.0 : lower + cell / 2.0, isSwitch ? 1.0 : upper - cell / 2.0));
+            posterior.amplitudes.emplace_back(Eigen::VectorXd::LinSpaced(
+                steps, isSwitch ? 1.0 : lower + cell / 2.0, isSwitch ? 1.0 : upper - cell / 2.0));
             weights.emplace_back(steps, explanation.grids[k].amplitudes().size());
             for (Eigen::Index i = 0; i < steps; ++i)
             {
@@ -468,8 +467,8 @@ Evidence::Posterior Evidence::posterior(
         Eigen::Index row = 0;
         Eigen::Index column = 0;
         const double best = posterior.logs.maxCoeff(&row, &column);
-        posterior.judgement = {logSumExp(posterior.logs.reshaped()), misfit(row, column),
-            interpolated(scatterMisfits)(row, column)};
+        posterior.judgement = {
+            logSumExp(posterior.logs.reshaped()), misfit(row, column), interpolated(scatterMisfits)(row, column)};
         for (std::size_t k = 0; zooms && k < ranges.size(); ++k)
         {
             const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
@@ -501,8 +500,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
     evidences.null = logLikelihood(null.misfit, null.logVolume) + usual.logLikelihood;
-    evidences.effects.setConstant(
-        static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
+    evidences.effects.setConstant(static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
     evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
     evidences.scatterMisfits = evidences.misfits;
     for (std::size_t e = 0; e < effects_.size(); ++e)

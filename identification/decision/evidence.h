@@ -46,8 +46,8 @@ struct Node
     Eigen::MatrixXd terms;                  // rows x parameterTerms
     double logDeterminant = 0.0;            // of the transform's inverse, twice
     double spreadLogDeterminant = 0.0;      // of the noise of single measurements, times their degrees of freedom
-    std::vector<bool> scatters;             // by block: other scatter than without effects, in the simulations themselves
-    bool scattersAnywhere = false;          // the same, or by the measuring chain
+    std::vector<bool> scatters;    // by block: other scatter than without effects, in the simulations themselves
+    bool scattersAnywhere = false; // the same, or by the measuring chain
 };
 
 /// Evidence of explanations for data of one layout, by one emulator.

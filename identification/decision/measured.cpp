@@ -58,8 +58,7 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
 
 } // namespace
 
-std::vector<std::vector<Eigen::Index>> measuredFeatures(
-    const Study& study, const std::vector<MeasuredCondition>& data)
+std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, const std::vector<MeasuredCondition>& data)
 {
     std::vector<std::vector<Eigen::Index>> features(study.conditions.size());
     for (const auto c : study.conditionsOf(Role::training))
@@ -95,8 +94,8 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
         Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
         ofMean.diagonal().array() += 1e-18;
         drawn.mean.segment(block.first, block.size()) =
-            Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places)
-            + block.shared * errors + ofMean.llt().matrixL() * numbers(block.size(), 1);
+            Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places) + block.shared * errors
+            + ofMean.llt().matrixL() * numbers(block.size(), 1);
         const Eigen::MatrixXd deviations =
             block.freedom > 0.0
                 ? Eigen::MatrixXd(single.llt().matrixL() * numbers(block.size(), std::lround(block.freedom)))
@@ -106,9 +105,8 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     return drawn;
 }
 
-std::pair<Layout, Measured> arrange(
-    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data,
-    const std::vector<Eigen::MatrixXd>& errorSlopes)
+std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
+    const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes)
 {
     Layout layout;
     Measured measured;
@@ -141,10 +139,10 @@ std::pair<Layout, Measured> arrange(
             continue;
         }
         block.meanShare = shareOfMean(data[c].features)(kept, kept);
-        const Eigen::VectorXd variance =
-            data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
+        const Eigen::VectorXd variance = data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
         block.common = variance.asDiagonal();
-        block.shared = errorSlopes.empty() ? Eigen::MatrixXd(block.size(), 0) : Eigen::MatrixXd(errorSlopes[c](kept, Eigen::all));
+        block.shared =
+            errorSlopes.empty() ? Eigen::MatrixXd(block.size(), 0) : Eigen::MatrixXd(errorSlopes[c](kept, Eigen::all));
         layout.sharesErrors = layout.sharesErrors || block.shared.cols() > 0;
         Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(block.size(), block.size());
         if (emulator.scatters())

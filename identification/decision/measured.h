@@ -16,14 +16,15 @@ struct Layout
 {
     struct Block
     {
-        std::size_t condition = 0; // of the study
-        Eigen::Index first = 0;    // row among those of all blocks
+        std::size_t condition = 0;        // of the study
+        Eigen::Index first = 0;           // row among those of all blocks
         std::vector<Eigen::Index> places; // of its features among those of the condition's emulator
-        Eigen::MatrixXd meanShare;  // covariance of the mean over that of one measurement, by element
-        Eigen::MatrixXd common;     // covariance of the mean that repeats do not show: declared errors, the simulation's own
-        Eigen::MatrixXd shared;     // rows x common errors of the study: by one sd of each
-        Eigen::MatrixXd noise;      // of one measurement, where the simulator's noise does not stand for it; else empty
-        double freedom = 0.0;       // repeats - 1, where their spread can be compared with the simulator's
+        Eigen::MatrixXd meanShare;        // covariance of the mean over that of one measurement, by element
+        Eigen::MatrixXd
+            common; // covariance of the mean that repeats do not show: declared errors, the simulation's own
+        Eigen::MatrixXd shared; // rows x common errors of the study: by one sd of each
+        Eigen::MatrixXd noise;  // of one measurement, where the simulator's noise does not stand for it; else empty
+        double freedom = 0.0;   // repeats - 1, where their spread can be compared with the simulator's
 
         Eigen::Index size() const
         {
@@ -47,23 +48,21 @@ struct Layout
 /// The numbers that go with a layout.
 struct Measured
 {
-    Eigen::VectorXd mean;                // of the repeats
+    Eigen::VectorXd mean;                 // of the repeats
     std::vector<Eigen::MatrixXd> scatter; // by block: sum of squares and products of deviations from the mean
 };
 
 /// \param data  by condition of the study; only those that the emulator has are looked at
 /// \param errorSlopes  as in Library; empty: there are no common errors
 /// \throws std::runtime_error where there is no noise to be had, or fewer features than parameters
-std::pair<Layout, Measured> arrange(
-    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data,
-    const std::vector<Eigen::MatrixXd>& errorSlopes = {});
+std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
+    const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes = {});
 
 /// Measurements in a world that is as an emulator says on average, at a setting.
 Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
     const Eigen::VectorXd& parameters, std::mt19937_64& random);
 
 /// Features of the training conditions that measurements have, by condition of the study.
-std::vector<std::vector<Eigen::Index>> measuredFeatures(
-    const Study& study, const std::vector<MeasuredCondition>& data);
+std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, const std::vector<MeasuredCondition>& data);
 
 } // namespace clepsydra::identification

@@ -175,7 +175,8 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
         pair.probability = verdict.probabilities(place);
         pair.inSet = verdict.judgements[i].misfit <= misfitLimit(misfits, meansStillFit)
                      && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
-                     && 1.0 - pair.probability <= std::max(study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
+                     && 1.0 - pair.probability <= std::max(
+                            study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
         pair.mayBeNamed = pair.inSet && pair.probability >= 1.0 - roomForElse
                           && verdict.judgements[i].misfit <= misfitLimit(misfits, fitsWell);
         members += pair.inSet ? 1 : 0;

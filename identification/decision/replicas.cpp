@@ -10,8 +10,7 @@ constexpr int worlds = 40;
 
 } // namespace
 
-Replicas::Replicas(
-    const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
+Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
     : layout_(layout),
       evidence_(evidence)
 {

@@ -138,7 +138,8 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) con
             const std::size_t second = basis.placeOf(present[other].effect);
             if (second < basis.effects.size())
             {
-                whitened.col(0) += a * present[other].amplitude * coefficients.row(basis.pairTerm(place, second)).transpose();
+                whitened.col(0) +=
+                    a * present[other].amplitude * coefficients.row(basis.pairTerm(place, second)).transpose();
             }
         }
     }
@@ -216,8 +217,7 @@ Emulator Emulator::possibleWorld(std::mt19937_64& random) const
             const Eigen::LDLT<Eigen::MatrixXd> factor(condition->covariances[static_cast<std::size_t>(f)]);
             Eigen::VectorXd z = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
             z = z.unaryExpr([&](double sd) { return sd * normal(random); }).eval();
-            const Eigen::VectorXd error =
-                factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
+            const Eigen::VectorXd error = factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
             condition->coefficients.col(f) += error;
         }
     }
@@ -240,7 +240,8 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
         for (Eigen::Index row = 0; row < whitened.rows(); ++row)
         {
             const double missed = rows.severalOn[static_cast<std::size_t>(row)] ? lackOfFit_ : 0.0;
-            whitened.row(row) = whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
+            whitened.row(row) =
+                whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
             const Eigen::MatrixXd root = here.noiseOf(rows.scattering[static_cast<std::size_t>(row)]).llt().matrixL();
             const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(whitened.cols(), [&] { return normal(random); });
             rows.values.row(row) = (here.root * whitened.row(row).transpose() + root * z).transpose();
@@ -303,8 +304,9 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         }
         else
         {
-            remarks_.push_back("feature " + study_->features[static_cast<std::size_t>(f)].name + " is left out in condition "
-                               + study_->conditions[c].name + ": too many runs do not have it");
+            remarks_.push_back("feature " + study_->features[static_cast<std::size_t>(f)].name
+                               + " is left out in condition " + study_->conditions[c].name
+                               + ": too many runs do not have it");
         }
     }
     if (emulator.features.empty())
@@ -361,9 +363,8 @@ void Emulator::append(std::size_t c, const Simulator& simulator, const std::vect
         {
             present.push_back({e, setting.amplitudes(static_cast<Eigen::Index>(e))});
         }
-        const bool several = std::count_if(present.begin(), present.end(), [](const Present& one) {
-            return one.amplitude != 0.0;
-        }) > 1;
+        const bool several =
+            std::count_if(present.begin(), present.end(), [](const Present& one) { return one.amplitude != 0.0; }) > 1;
         const Eigen::Index row = rows.values.rows();
         rows.values.conservativeResize(row + 1, values.size());
         rows.values.row(row) = values.transpose();
@@ -373,9 +374,8 @@ void Emulator::append(std::size_t c, const Simulator& simulator, const std::vect
         rows.terms(row, emulator.basis.designTerm()) = several ? 1.0 : 0.0;
         rows.severalOn.push_back(several);
         std::vector<Present> scattering;
-        std::copy_if(present.begin(), present.end(), std::back_inserter(scattering), [&](const Present& one) {
-            return one.amplitude != 0.0 && emulator.logScatter.count(one.effect) > 0;
-        });
+        std::copy_if(present.begin(), present.end(), std::back_inserter(scattering),
+            [&](const Present& one) { return one.amplitude != 0.0 && emulator.logScatter.count(one.effect) > 0; });
         rows.scattering.push_back(std::move(scattering));
     }
     conditions_[c]->runs = static_cast<int>(rows.settings.size());
@@ -483,7 +483,8 @@ void Emulator::learnNoise(bool ofPlainRuns)
         for (std::size_t k = 0; k < kept.size(); ++k)
         {
             const auto place = static_cast<Eigen::Index>(k);
-            standardised.col(kept[k]).tail(deviations[c].rows()) = deviations[c].col(place) * std::exp(-logSds[c](place));
+            standardised.col(kept[k]).tail(deviations[c].rows()) =
+                deviations[c].col(place) * std::exp(-logSds[c](place));
         }
     }
     Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(features, features);
@@ -494,8 +495,7 @@ void Emulator::learnNoise(bool ofPlainRuns)
         correlation = scale.asDiagonal() * correlation * scale.asDiagonal();
         correlation.diagonal().setOnes();
     }
-    const Eigen::VectorXd typical =
-        (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
+    const Eigen::VectorXd typical = (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
     noise_ = typical.asDiagonal() * correlation * typical.asDiagonal();
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
@@ -556,8 +556,7 @@ double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) con
             emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
         const Eigen::MatrixXd left = factor.matrixL().solve(whitened);
         sum -= 0.5 * left.squaredNorm()
-               + static_cast<double>(whitened.cols())
-                     * factor.matrixLLT().diagonal().array().abs().log().sum();
+               + static_cast<double>(whitened.cols()) * factor.matrixLLT().diagonal().array().abs().log().sum();
     }
     return sum;
 }
@@ -583,7 +582,8 @@ void Emulator::chooseScales()
             };
             std::uintmax_t most = mostEvaluations;
             scales_[kind] = std::exp(boost::math::tools::brent_find_minima(
-                misfit, std::log(smallestScale), std::log(largestScale / 10.0), bits, most).first);
+                misfit, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
+                                         .first);
         }
         if (scatters_)
         {
@@ -593,7 +593,8 @@ void Emulator::chooseScales()
             };
             std::uintmax_t most = mostEvaluations;
             lackOfFit_ = std::exp(
-                boost::math::tools::brent_find_minima(misfit, std::log(smallestScale), std::log(10.0), bits, most).first);
+                boost::math::tools::brent_find_minima(misfit, std::log(smallestScale), std::log(10.0), bits, most)
+                    .first);
         }
     }
 }
@@ -687,12 +688,13 @@ void Emulator::learnScatter()
                 const Eigen::MatrixXd values = rows_[c].values(group, Eigen::all);
                 const Eigen::MatrixXd deviations = values.rowwise() - Eigen::RowVectorXd(values.colwise().mean());
                 const double nu = static_cast<double>(group.size()) - 1.0;
-                const Eigen::VectorXd ratio = deviations.colwise().squaredNorm().transpose().cwiseQuotient(
-                    conditions_[c]->noise.diagonal());
+                const Eigen::VectorXd ratio =
+                    deviations.colwise().squaredNorm().transpose().cwiseQuotient(conditions_[c]->noise.diagonal());
                 squares(kept) += ratio;
                 freedom(kept).array() += nu;
                 own[c] = {ratio, nu};
-                statistic += conditions_[c]->root.triangularView<Eigen::Lower>().solve(deviations.transpose()).squaredNorm();
+                statistic +=
+                    conditions_[c]->root.triangularView<Eigen::Lower>().solve(deviations.transpose()).squaredNorm();
                 statisticFreedom += nu * static_cast<double>(kept.size());
             }
         }
@@ -702,7 +704,8 @@ void Emulator::learnScatter()
         }
         // The noise is an estimate itself.
         const boost::math::fisher_f chance(statisticFreedom,
-            std::max(1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));
+            std::max(
+                1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));
         if (!study_->effects[e].raisesScatter
             && boost::math::cdf(boost::math::complement(chance, statistic / statisticFreedom)) > otherScatter)
         {
@@ -800,7 +803,10 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
             if (own.size() > 1)
             {
                 const Eigen::MatrixXd chosen = values(own, Eigen::all);
-                sum += (chosen.rowwise() - Eigen::RowVectorXd(chosen.colwise().mean())).colwise().squaredNorm().transpose();
+                sum += (chosen.rowwise() - Eigen::RowVectorXd(chosen.colwise().mean()))
+                           .colwise()
+                           .squaredNorm()
+                           .transpose();
             }
         }
         return sum;
@@ -821,8 +827,7 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
         for (Eigen::Index row = 0; row < rows; ++row)
         {
             const Curve& curve = *curves[static_cast<std::size_t>(row)];
-            after.row(row) =
-                simulator.featuresOf(simulator.throughChain(curve, c, setting))(kept).transpose();
+            after.row(row) = simulator.featuresOf(simulator.throughChain(curve, c, setting))(kept).transpose();
             if (after.row(row).array().isFinite().all())
             {
                 good.push_back(row);
@@ -831,7 +836,8 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
         if (good.empty())
         {
             known_[e] = false;
-            remarks_.push_back("effect " + effect.name + " is not judged: with it no curve has the features of condition "
+            remarks_.push_back("effect " + effect.name
+                               + " is not judged: with it no curve has the features of condition "
                                + study_->conditions[c].name);
             return;
         }

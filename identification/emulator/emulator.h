@@ -38,13 +38,13 @@ public:
     };
 
     Basis basis;
-    std::vector<Eigen::Index> features; // of the study
-    Eigen::MatrixXd noise;              // covariance of one run without effects that raise the scatter
-    Eigen::MatrixXd root;               // lower triangular; root root' = noise
-    Eigen::MatrixXd coefficients;       // terms x features, in units of `root`
-    std::vector<Eigen::MatrixXd> covariances;           // of these, by feature
-    std::map<std::size_t, Chain> chain;                 // by effect
-    std::map<std::size_t, Eigen::VectorXd> logScatter;  // by simulated effect: log sd that amplitude 1 adds, by feature
+    std::vector<Eigen::Index> features;                // of the study
+    Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
+    Eigen::MatrixXd root;                              // lower triangular; root root' = noise
+    Eigen::MatrixXd coefficients;                      // terms x features, in units of `root`
+    std::vector<Eigen::MatrixXd> covariances;          // of these, by feature
+    std::map<std::size_t, Chain> chain;                // by effect
+    std::map<std::size_t, Eigen::VectorXd> logScatter; // by simulated effect: log sd that amplitude 1 adds, by feature
     int runs = 0;
 
     /// Mean of the features as a polynomial in the parameters: features x parameterTerms.
@@ -147,7 +147,8 @@ private:
     void learnScatter();
     void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
     void learnChain(const Simulator& simulator, const std::vector<Run>& runs);
-    void learnChain(std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
+    void learnChain(
+        std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
 
     const Study* study_;

@@ -65,7 +65,8 @@ public:
                 designed.push_back(e);
                 // The design has no middle: whether an effect grows as its amplitude is seen where it acts alone.
                 const auto [lower, upper] = effect.bounds;
-                if(lower>=0.0) add(with(e, upper / 2.0), effect.name + " alone", 1);
+                if (lower >= 0.0)
+                    add(with(e, upper / 2.0), effect.name + " alone", 1);
             }
         }
         addDesign(designed);

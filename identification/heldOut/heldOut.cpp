@@ -343,7 +343,7 @@ private:
     const Answer& answer_;
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
-    const std::vector<Eigen::Index> logs_; // the features that are scored
+    const std::vector<Eigen::Index> logs_;               // the features that are scored
     std::map<std::size_t, Eigen::MatrixXd> errorSlopes_; // by condition
     DataNoise noise_;
     Scored before_;

@@ -28,11 +28,11 @@ struct HeldOutResult
     HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
     HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
     std::vector<MemberScore> members;
-    Estimate improvement;                      // of the rms error, before minus after, with the noise they share
-    Estimate overOneMore;                      // the same, control 1 minus after
-    double noiseFloor = 0.0;                   // rms error that noise alone would give
-    double noiseLimit = 0.0;                   // 99 % of right predictions have a smaller one
-    double oneMoreAmplitude = 0.0;             // what control 1 fitted
+    Estimate improvement;          // of the rms error, before minus after, with the noise they share
+    Estimate overOneMore;          // the same, control 1 minus after
+    double noiseFloor = 0.0;       // rms error that noise alone would give
+    double noiseLimit = 0.0;       // 99 % of right predictions have a smaller one
+    double oneMoreAmplitude = 0.0; // what control 1 fitted
     std::vector<std::string> notAcceptedBecause;
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;

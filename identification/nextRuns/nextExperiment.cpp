@@ -50,8 +50,7 @@ double divergence(const PredictedOutcome& a, const PredictedOutcome& b)
         const double va = a.sd(f) * a.sd(f);
         const double vb = b.sd(f) * b.sd(f);
         const double difference = a.features(f) - b.features(f);
-        const double both =
-            0.25 * (va / vb + vb / va - 2.0 + difference * difference * (1.0 / va + 1.0 / vb));
+        const double both = 0.25 * (va / vb + vb / va - 2.0 + difference * difference * (1.0 / va + 1.0 / vb));
         sum += std::isfinite(both) ? both : 0.0;
     }
     return sum;
@@ -96,8 +95,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
             std::vector<SimulationOrder> orders;
             for (int number = 0; number < draws; ++number)
             {
-                orders.push_back(
-                    {condition, drawn(study, explanation, random), "next experiment, " + name, number});
+                orders.push_back({condition, drawn(study, explanation, random), "next experiment, " + name, number});
             }
             const auto rows = featureRows(simulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);

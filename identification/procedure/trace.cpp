@@ -159,8 +159,8 @@ private:
             {
                 what += (what.empty() ? "" : " with ") + study_.effects[effect].name;
             }
-            orders.push_back({condition, settingOf(present, parameters), purpose + ": " + what,
-                numbers[{contender, condition}]++});
+            orders.push_back(
+                {condition, settingOf(present, parameters), purpose + ": " + what, numbers[{contender, condition}]++});
         }
         return !orders.empty() && simulate(orders);
     }

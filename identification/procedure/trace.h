@@ -12,7 +12,7 @@ namespace clepsydra::identification
 
 /// From training data to an answer: emulator, evidence, runs where they decide, calibration, decision.
 /// \param data  by condition; only training conditions are looked at
-Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
-    std::mt19937_64& random);
+Answer trace(
+    Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data, std::mt19937_64& random);
 
 } // namespace clepsydra::identification

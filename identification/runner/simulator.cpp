@@ -112,7 +112,8 @@ Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) cons
     {
         if (setting.errors(i) != 0.0)
         {
-            assign(entries, defaults_, study_.commonErrors[static_cast<std::size_t>(i)].entries, "z", setting.errors(i));
+            assign(
+                entries, defaults_, study_.commonErrors[static_cast<std::size_t>(i)].entries, "z", setting.errors(i));
         }
     }
     return entries;

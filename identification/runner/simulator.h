@@ -15,8 +15,8 @@ namespace clepsydra::identification
 /// Where in the space of parameters and effects a simulation stands.
 struct Setting
 {
-    Eigen::VectorXd parameters; // physical values
-    Eigen::VectorXd amplitudes; // of all effects, those of the measuring chain too
+    Eigen::VectorXd parameters;  // physical values
+    Eigen::VectorXd amplitudes;  // of all effects, those of the measuring chain too
     Eigen::VectorXd errors = {}; // z of the study's common errors; empty: all zero
 };
 

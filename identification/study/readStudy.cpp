@@ -241,7 +241,7 @@ Study readStudy(const std::filesystem::path& file)
     const YamlPlace root = YamlPlace::fileAt(file);
     root.allow({"study", "about", "rig", "observable", "measured", "conditions", "parameters", "effectsFrom", "effects",
         "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures", "inference",
-            "executor", "work", "assumptions", "magnitudeLimit"});
+        "executor", "work", "assumptions", "magnitudeLimit"});
     Study study;
     study.file = file;
     study.name = root.at("study").text();

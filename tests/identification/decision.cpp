@@ -190,7 +190,8 @@ TEST(Decision, VariantsShareTheirWeight)
         study.effects[e].name = "history" + std::to_string(e);
         study.effects[e].family = "history";
     }
-    const Odds odds = oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100, Eigen::VectorXd::Ones(4), Eigen::VectorXd::Ones(4)});
+    const Odds odds =
+        oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100, Eigen::VectorXd::Ones(4), Eigen::VectorXd::Ones(4)});
     EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
     EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
     Calibration calibration;

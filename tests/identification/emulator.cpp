@@ -183,7 +183,8 @@ TEST(Emulator, IntervalsCover)
             const Eigen::VectorXd& a = order.setting.amplitudes;
             identification::Run run{order.setting, {}};
             run.simulation.condition = order.condition;
-            run.simulation.features = Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
+            run.simulation.features =
+                Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
             run.simulation.plain.time = {0, 1};
             run.simulation.plain.value = {1, 0};
             runs.push_back(run);

@@ -42,8 +42,8 @@ struct Bench
 
 std::size_t indexOf(const Study& study, const std::string& effect)
 {
-    const auto found = std::find_if(
-        study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == effect; });
+    const auto found =
+        std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == effect; });
     return static_cast<std::size_t>(found - study.effects.begin());
 }
 

@@ -204,7 +204,8 @@ public:
         if (truth.effects.size() == 1 && truth.effects.front() < answer.effects.size())
         {
             const EffectFinding& finding = answer.effects[truth.effects.front()];
-            outcome.covered = finding.fit.lower <= truth.amplitudes.front() && truth.amplitudes.front() <= finding.fit.upper;
+            outcome.covered =
+                finding.fit.lower <= truth.amplitudes.front() && truth.amplitudes.front() <= finding.fit.upper;
             // The best one, whatever the set holds.
             outcome.topOne = std::all_of(answer.effects.begin(), answer.effects.end(),
                 [&](const EffectFinding& other) { return other.probability <= finding.probability; });
@@ -294,15 +295,15 @@ Json check(const Options& options)
         {
             for (int i = 0; i < options.unknowns; ++i, ++number)
             {
-                const std::size_t e =
-                    study.effects.size() + number % (world.effects.size() - study.effects.size());
+                const std::size_t e = study.effects.size() + number % (world.effects.size() - study.effects.size());
                 const Truth truth{{e}, {part}};
                 const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
                 const std::string label = std::to_string(part).substr(0, 4);
                 outside[label].add(outcome);
                 if (outcome.decision == Decision::named)
                 {
-                    ++wrongNames[world.effects[e].name + ' ' + label + ": " + study.effects[outcome.set.front().front()].name];
+                    ++wrongNames[world.effects[e].name + ' ' + label + ": "
+                                 + study.effects[outcome.set.front().front()].name];
                 }
             }
         }
@@ -313,11 +314,11 @@ Json check(const Options& options)
             const Truth truth{{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}};
             pairs.add(rigged.answer(rigged.measure(truth, number), truth, number));
         }
-        std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials << ", detected "
-                  << effects.detected << " of " << effects.trials << ", best is the truth " << effects.topOne << ", in the set "
-                  << effects.inSet << ", named " << effects.named << ", rightly " << effects.namedRight << ", sizes "
-                  << effects.setSize << ", amplitude covered " << effects.covered << ", same " << sameAnswer << " of "
-                  << askedAgain << std::endl;
+        std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials
+                  << ", detected " << effects.detected << " of " << effects.trials << ", best is the truth "
+                  << effects.topOne << ", in the set " << effects.inSet << ", named " << effects.named << ", rightly "
+                  << effects.namedRight << ", sizes " << effects.setSize << ", amplitude covered " << effects.covered
+                  << ", same " << sameAnswer << " of " << askedAgain << std::endl;
     }
     const auto all = [](const std::map<std::string, Tally>& tallies) {
         Json json = Json::object();
@@ -331,8 +332,7 @@ Json check(const Options& options)
         {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
         {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", foils.json()},
-        {"outsideLibrary", all(outside)},
-        {"wrongNames", wrongNames}, {"pairs", pairs.json()}};
+        {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()}};
 }
 
 /// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
@@ -371,7 +371,8 @@ int main(int argc, char** argv)
     app.add_option("--effects", options.effects, "data sets with one effect of the library");
     app.add_option("--foils", options.foils, "of these, answered with that effect not in the library, too");
     app.add_option("--again", options.again, "of these, answered with other seeds of the program's runs, too");
-    app.add_option("--unknowns", options.unknowns, "data sets with an effect that no library has, for each of three sizes");
+    app.add_option(
+        "--unknowns", options.unknowns, "data sets with an effect that no library has, for each of three sizes");
     app.add_option("--pairs", options.pairs, "data sets with two effects");
     app.add_option("--seed", options.seed, "of everything");
     app.add_option("--draws", options.draws, "of the test's null distribution");
