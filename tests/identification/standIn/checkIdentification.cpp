@@ -251,6 +251,7 @@ Json check(const Options& options)
     std::map<std::string, Tally> bySize;
     std::map<std::string, Tally> outside;
     std::map<std::string, int> wrongNames; // "truth at its size: name"
+    double oneOfTwo = 0; // pairs of which one is named by itself
     double sameAnswer = 0;
     double askedAgain = 0;
     double below = 0;
@@ -312,7 +313,11 @@ Json check(const Options& options)
             const auto a = anyOf(study.effects.size() - 1);
             const auto b = a + 1 + anyOf(study.effects.size() - a - 1);
             const Truth truth{{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}};
-            pairs.add(rigged.answer(rigged.measure(truth, number), truth, number));
+            const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+            pairs.add(outcome);
+            const bool isOne = outcome.decision == Decision::named && outcome.set.front().size() == 1
+                               && (outcome.set.front().front() == a || outcome.set.front().front() == b);
+            oneOfTwo += isOne ? 1 : 0;
         }
         std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials
                   << ", detected " << effects.detected << " of " << effects.trials << ", best is the truth "
@@ -332,7 +337,8 @@ Json check(const Options& options)
         {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
         {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", foils.json()},
-        {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()}};
+        {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()},
+        {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}};
 }
 
 /// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
