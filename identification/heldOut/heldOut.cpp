@@ -2,8 +2,10 @@
 
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
-#include "noise/draws.h"
-#include "procedure/assemble.h"
+#include "heldOut/draws.h"
+#include "emulator/settings.h"
+
+#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -15,7 +17,7 @@ namespace
 {
 
 constexpr int draws = 1000;
-constexpr double smallChange = 0.01; // of control 1's operation on a curve, for its derivative
+constexpr double largestChange = 0.2; // of control 1's operation on a curve
 
 std::vector<Eigen::Index> logFeatures(const Study& study)
 {
@@ -32,53 +34,54 @@ std::vector<Eigen::Index> logFeatures(const Study& study)
     return logs.empty() ? all : logs;
 }
 
-Prediction predictionOf(const Eigen::MatrixXd& features, const Noise& noise)
+Prediction predictionOf(const Eigen::MatrixXd& features, const Study& study, const Answer& answer)
 {
     const double seeds = std::max(1.0, static_cast<double>(features.array().isFinite().rowwise().any().count()));
     Prediction prediction;
     prediction.mean = meanFeatures(features);
-    prediction.variance = noise.simulation.matrix.diagonal() / seeds + noise.modelError.cwiseAbs2();
-    prediction.dataCovariance = noise.data.matrix;
+    prediction.variance = answer.emulator->noise().diagonal() / seeds + study.modelError.cwiseAbs2();
+    prediction.dataCovariance = answer.layout.noise;
     return prediction;
 }
-
-/// Control 1: one operation on the curves with a free size, fitted together with the parameters.
-struct FreeOperation
-{
-    double size = 0.0;
-    Eigen::VectorXd parameters;
-};
 
 Curve changed(const Study& study, const Curve& curve, double size)
 {
     return chainOperations().at(study.settings.oneMoreParameter).apply(curve, size);
 }
 
-FreeOperation fitOneMore(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+/// Control 1: one operation on the curves with a free size, fitted together with the parameters, as if it were an effect.
+struct FreeOperation
+{
+    double size = 0.0;
+    Eigen::VectorXd parameters;
+};
+
+FreeOperation fitOneMore(const Simulator& simulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training)
 {
-    const Study& study = simulator.study();
-    const Eigen::VectorXd anchor = physical(study, answer.problem.parameterOffset);
-    ResidualProblem problem = assemble(study, library, training, answer.atFit, anchor);
-    // The derivative of the features by the operation's size, as one more effect without bounds.
-    auto moved = answer.atFit;
-    for (auto& simulation : moved)
+    Study study = simulator.study();
+    Effect operation;
+    operation.name = "one more parameter";
+    operation.chainOperation = study.settings.oneMoreParameter;
+    operation.chainSize = Expression(std::to_string(largestChange) + "*a");
+    operation.bounds = {-1.0, 1.0};
+    study.effects.push_back(operation);
+    std::vector<Run> runs = library.runs;
+    for (const auto& simulation : answer.null.simulations)
     {
-        if (!simulation.failed)
-        {
-            simulation.features = simulator.featuresOf(changed(study, simulation.curve, smallChange));
-        }
+        runs.push_back({answer.null.setting, simulation});
     }
-    const ResidualProblem shifted = assemble(study, library, training, moved, anchor);
-    if (shifted.residual.size() != problem.residual.size())
+    for (auto& run : runs)
     {
-        return {0.0, answer.null.setting.parameters};
+        run.setting.amplitudes.conservativeResize(static_cast<Eigen::Index>(study.effects.size()));
+        run.setting.amplitudes.tail<1>().setZero();
     }
-    problem.effectColumns = (problem.residual - shifted.residual) / smallChange;
-    problem.columnShare = Eigen::MatrixXd::Zero(problem.columnShare.rows(), 1);
-    const Fits fits(whitened(problem, answer.noise));
-    const auto fit = fits.effect(0, -0.5, 0.5);
-    return {fit.amplitude, physical(study, problem.parameterOffset + fits.parameterShift(0, fit.amplitude))};
+    const Simulator extended(study, simulator.rig());
+    const Emulator emulator(study, extended, runs, measuredFeatures(study, training));
+    const auto [layout, measured] = arrange(study, emulator, training);
+    const Evidence evidence(study, emulator, layout, inSds(study, answer.null.setting.parameters));
+    const Fit fit = evidence.fit(study.effects.size() - 1, measured);
+    return {largestChange * fit.amplitude, physical(study, fit.parameters)};
 }
 
 Eigen::VectorXd coordinatesOf(const Study& study, std::size_t condition)
@@ -104,6 +107,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
     {
         return predictions;
     }
+    const Eigen::VectorXd parameters = inSds(study, answer.null.setting.parameters);
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
     {
         std::vector<double> residuals;
@@ -111,15 +115,21 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
         std::vector<std::size_t> at;
         for (const auto c : trained)
         {
-            const Eigen::MatrixXd simulated = featureRows(answer.atFit, c, study.featureCount());
-            const double residual = meanFeatures(training[c].features)(f) - meanFeatures(simulated)(f);
-            if (std::isfinite(residual))
+            const auto& emulator = (*answer.emulator)[c];
+            if (!emulator)
             {
-                residuals.push_back(residual);
-                variances.push_back(answer.noise.data.matrix(f, f) * shareOfMean(training[c].features)(f, f)
-                                    + answer.noise.simulation.matrix(f, f) / static_cast<double>(simulated.rows())
+                continue;
+            }
+            const auto place = std::find(emulator->features.begin(), emulator->features.end(), f);
+            const double measured = meanFeatures(training[c].features)(f);
+            if (place != emulator->features.end() && std::isfinite(measured))
+            {
+                const auto k = place - emulator->features.begin();
+                const double unknown = emulator->uncertainty(parameters, {})(k, k);
+                residuals.push_back(measured - (emulator->mean({}) * parameterTermsAt(parameters))(k));
+                variances.push_back(answer.layout.noise(f, f) * shareOfMean(training[c].features)(f, f) + unknown
                                     + training[c].declaredError(f) * training[c].declaredError(f)
-                                    + answer.noise.modelError(f) * answer.noise.modelError(f) + 1e-12);
+                                    + study.modelError(f) * study.modelError(f) + 1e-12);
                 at.push_back(c);
             }
         }
@@ -149,7 +159,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
 class Comparison
 {
 public:
-    Comparison(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+    Comparison(Simulator& simulator, const Library& library, const Answer& answer,
         const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
         std::mt19937_64& random)
         : simulator_(simulator),
@@ -180,7 +190,6 @@ public:
         scoreNull();
         scoreMembers();
         scoreControls();
-        scoreBestOfUnknown();
         findNoise();
         judge();
         return std::move(result_);
@@ -203,7 +212,7 @@ private:
         std::vector<Prediction> predictions;
         for (const auto c : result_.conditions)
         {
-            predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), answer_.noise));
+            predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_));
         }
         return predictions;
     }
@@ -260,15 +269,6 @@ private:
             scored(withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore)).score;
     }
 
-    void scoreBestOfUnknown()
-    {
-        if (answer_.bestOfUnknown)
-        {
-            result_.bestOfUnknown =
-                scored(predictionsOf(simulated(answer_.bestOfUnknown->setting, "best of unknown"))).score;
-        }
-    }
-
     /// What noise alone does to the error of a prediction: one whose mean is what was measured, moved by the draws.
     void findNoise()
     {
@@ -298,7 +298,7 @@ private:
         }
         if (!isBeyondItsError(result_.improvement))
         {
-            reasons.emplace_back("the error does not fall by more than its standard error");
+            reasons.emplace_back("the error does not fall beyond chance");
         }
         if (!isBeyondItsError(result_.overOneMore))
         {
@@ -310,9 +310,10 @@ private:
         }
     }
 
-    static bool isBeyondItsError(const Estimate& estimate)
+    bool isBeyondItsError(const Estimate& estimate) const
     {
-        return estimate.value > estimate.standardError;
+        const double sds = boost::math::quantile(boost::math::normal(), 1.0 - study_.settings.level);
+        return estimate.value > sds * estimate.standardError;
     }
 
     /// Of two rms errors, draw by draw, so that what they share does not count.
@@ -328,7 +329,7 @@ private:
 
     Simulator& simulator_;
     const Study& study_;
-    const EffectLibrary& library_;
+    const Library& library_;
     const Answer& answer_;
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
@@ -342,7 +343,7 @@ private:
 
 } // namespace
 
-HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+HeldOutResult evaluateHeldOut(Simulator& simulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random)
 {

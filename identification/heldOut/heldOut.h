@@ -1,6 +1,6 @@
 #pragma once
 
-#include "design/effectLibrary.h"
+#include "emulator/library.h"
 #include "heldOut/scores.h"
 #include "procedure/answer.h"
 #include "study/measurements.h"
@@ -28,7 +28,6 @@ struct HeldOutResult
     HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
     HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
     std::vector<MemberScore> members;
-    std::optional<HeldOutScore> bestOfUnknown; // of Answer::bestOfUnknown: for people to see, never accepted
     Estimate improvement;                      // of the rms error, before minus after, with the noise they share
     Estimate overOneMore;                      // the same, control 1 minus after
     double noiseFloor = 0.0;                   // rms error that noise alone would give
@@ -41,8 +40,8 @@ struct HeldOutResult
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
 
-    /// Whether the best explanation may enter the model: it is a name, the error falls by more than the standard error of
-    /// that, is smaller than with one more free parameter by more than the standard error of that, and reaches the noise.
+    /// Whether the best explanation may enter the model: it is a name, the error falls and is smaller than with one more
+    /// free parameter, both beyond chance (one-sided, at the study's level), and reaches the noise.
     bool accepted() const
     {
         return after && notAcceptedBecause.empty();
@@ -51,7 +50,7 @@ struct HeldOutResult
 
 /// Simulates the held-out conditions with fresh seeds, then reads their measurements.
 /// \param data  of training conditions, by condition of the study
-HeldOutResult evaluateHeldOut(Simulator& simulator, const EffectLibrary& library, const Answer& answer,
+HeldOutResult evaluateHeldOut(Simulator& simulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random);
 

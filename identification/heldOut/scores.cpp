@@ -1,6 +1,6 @@
 #include "heldOut/scores.h"
 
-#include "noise/draws.h"
+#include "heldOut/draws.h"
 #include "study/measurements.h"
 
 #include <Eigen/Cholesky>

@@ -1,11 +1,9 @@
 #pragma once
 
-#include "inference/evidence.h"
-#include "inference/significance.h"
-#include "noise/spread.h"
+#include "decision/visibility.h"
 #include "runner/simulator.h"
 
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,27 +13,23 @@ namespace clepsydra::identification
 enum class Decision
 {
     noResidual, // nothing beyond noise
-    named,      // one effect is left
+    named,      // one effect, or one family of variants, is left
     set,        // several that the data cannot tell apart
     unknown     // a residual that the library does not explain
 };
 
 std::string nameOf(Decision decision);
 
-/// What was found about one effect of the library.
+/// What was found about one effect of the library, taken by itself.
 struct EffectFinding
 {
-    Score linear;                   // from the library's columns
-    Eigen::VectorXd parameters;     // physical values that go with it
-    std::optional<Score> confirmed; // from simulations with the effect switched on
-    double logOdds = 0.0;           // log evidence + log prior weight, of the best score there is
-    double misfitLimit = 0.0;       // 99 % of the cases that it explains lie below
+    Fit fit;
+    Eigen::VectorXd parameters; // physical values that go with it
+    double logOdds = 0.0;       // against no effect, prior weight included
+    double probability = 0.0;   // given that there is something
+    double threshold = 0.0;     // of the probability, from which it belongs to the set
+    bool known = true;          // otherwise its runs have failed, and nothing is said of it
     bool inSet = false;
-
-    const Score& score() const
-    {
-        return confirmed ? *confirmed : linear;
-    }
 };
 
 /// One explanation: no effect, one or two, with the setting that predicts with it.
@@ -43,11 +37,9 @@ struct Explanation
 {
     std::vector<std::size_t> effects;
     Setting setting;
-    double logOdds = 0.0;
+    double logOdds = 0.0; // against no effect
     double misfit = 0.0;
-    double misfitLimit = 0.0;
-    bool confirmed = false;
-    std::vector<Simulation> simulations; // the last ones with it switched on; empty: it was not simulated
+    std::vector<Simulation> simulations; // with it switched on, nearest to the last fit; empty: it was not simulated
 };
 
 /// "effect" or "effect with other effect"
@@ -57,22 +49,21 @@ std::string nameOf(const Study& study, const Explanation& explanation);
 struct Answer
 {
     Decision decision = Decision::noResidual;
-    std::vector<Explanation> set; // best first; more than one is never given as a name
-    std::vector<std::string>
-        somethingElseBecause; // why something outside the library belongs to the set; empty: it does not
-    std::optional<Explanation> bestOfUnknown; // the most likely one where none is enough; no part of the answer
-    Explanation null;                         // refitted parameters, no effect
-    double otherLogOdds = 0.0;
-    std::vector<EffectFinding> effects;  // as in the study
-    std::vector<Explanation> pairs;      // those simulated
-    std::vector<Explanation> pairsAlike; // not simulated; by the effects' columns as likely as the best one, a pair
-
-    Noise noise;
-    Spread spread;
-    Significance significance;
-    ResidualProblem problem;          // at the null fit
-    Eigen::VectorXd parameterSd;      // of the refitted parameters, in prior sd
-    std::vector<Simulation> atFit;    // the null's simulations on the training conditions
+    std::vector<Explanation> set;    // best first
+    bool somethingElseInSet = false; // beside them
+    std::string family;              // where all members are variants of one thing
+    double pValue = 1.0;
+    double logOdds = 0.0; // of anything against no effect
+    double otherProbability = 0.0;
+    double otherThreshold = 0.0;
+    Explanation null;                   // refitted parameters, no effect
+    Eigen::MatrixXd nullCovariance;     // of these, in prior sd
+    std::vector<EffectFinding> effects; // as in the study
+    Calibration calibration;
+    Visibility visibility; // what these data could have shown
+    std::shared_ptr<const Emulator> emulator;
+    Layout layout;
+    Measured measured;
     std::vector<std::string> remarks; // what had to be left out or could not be done
 };
 

@@ -1,9 +1,8 @@
 #include "procedure/loop.h"
 
 #include "files/wholeFile.h"
-#include "identifiability/identifiability.h"
-#include "nextExperiment/nextExperiment.h"
-#include "procedure/assemble.h"
+#include "emulator/settings.h"
+#include "nextRuns/nextExperiment.h"
 #include "procedure/magnitudes.h"
 #include "report/html.h"
 #include "report/json.h"
@@ -48,13 +47,14 @@ void requireMeasurements(const Study& study)
     }
 }
 
-/// Runs after the library: at the null fit, confirmations, held-out conditions, candidates.
+/// Runs after the library: where they decide, held-out conditions, candidates.
 int runsPerDataSet(const Study& study)
 {
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
-    const int training = count(Role::training);
-    return training * (study.settings.repeatsAtFit + study.settings.confirmations * study.settings.repeatsConfirmation)
-           + count(Role::heldOut) * 3 * study.settings.repeatsHeldOut + count(Role::candidate) * 2 * 2;
+    constexpr int predictions = 3; // of the null, of the best explanation, of one more parameter
+    constexpr int outcomes = 8;    // of two explanations, four draws each
+    return count(Role::training) * study.settings.decidingRuns
+           + count(Role::heldOut) * predictions * study.settings.repeatsHeldOut + count(Role::candidate) * outcomes;
 }
 
 void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostream& out)
@@ -69,44 +69,34 @@ void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostrea
         << "budget: " << study.settings.budget << " runs" << std::endl;
 }
 
-/// Data that are not there yet: as many repeats as planned, exactly at the base.
-std::vector<MeasuredCondition> plannedData(const Study& study, const EffectLibrary& library)
+/// Data that are not there yet: exactly at the base, as many repeats as there are files, or as are planned.
+std::vector<MeasuredCondition> plannedData(
+    const Study& study, const Library& library, const std::vector<MeasuredCondition>& measured)
 {
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (const auto c : study.conditionsOf(Role::training))
     {
-        const auto files = static_cast<Eigen::Index>(study.conditions[c].measured.files.size());
-        data[c].features = library.conditions[c].base.transpose().replicate(files > 0 ? files : plannedRepeats, 1);
-        data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+        Eigen::MatrixXd rows(0, study.featureCount());
+        for (const auto& run : library.runs)
+        {
+            if (run.simulation.condition == c && run.setting.amplitudes.isZero() && !run.simulation.failed)
+            {
+                rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+                rows.bottomRows<1>() = run.simulation.features.transpose();
+            }
+        }
+        const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
+        const bool isMeasured = measured[c].features.rows() > 0;
+        data[c].features = base.replicate(isMeasured ? measured[c].features.rows() : plannedRepeats, 1);
+        data[c].declaredError = isMeasured ? measured[c].declaredError : Eigen::VectorXd::Zero(study.featureCount());
+        if (isMeasured)
+        {
+            // The scatter that was measured, about the base.
+            const Eigen::RowVectorXd mean = meanFeatures(measured[c].features).transpose();
+            data[c].features += measured[c].features.rowwise() - mean;
+        }
     }
     return data;
-}
-
-std::vector<Simulation> plannedSimulations(const Study& study, const EffectLibrary& library)
-{
-    std::vector<Simulation> simulations;
-    for (const auto c : study.conditionsOf(Role::training))
-    {
-        for (int repeat = 0; repeat < study.settings.repeatsAtFit; ++repeat)
-        {
-            simulations.push_back({c, library.conditions[c].base, {}, {}, 0, false});
-        }
-    }
-    return simulations;
-}
-
-Noise plannedNoise(const Study& study, const EffectLibrary& library, const std::vector<MeasuredCondition>& data)
-{
-    std::vector<std::size_t> measured;
-    for (const auto c : study.conditionsOf(Role::training))
-    {
-        if (!study.conditions[c].measured.empty())
-        {
-            measured.push_back(c);
-        }
-    }
-    const auto [repeats, declared] = scatterOf(data, measured);
-    return noiseModel(repeats, library.scatter, study.modelError, true, declared);
 }
 
 } // namespace
@@ -126,13 +116,14 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
         return;
     }
     std::mt19937_64 random(study.settings.seed);
-    const EffectLibrary library = makeLibrary(simulator);
-    const Noise noise = plannedNoise(study, library, measured);
-    const ResidualProblem problem = assemble(study, library, plannedData(study, library),
-        plannedSimulations(study, library), simulator.plainSetting().parameters);
-    const Significance test = significance(problem, noise, study.bounds(), study.settings.draws, random);
-    const Identifiability table = identifiability(problem, noise, study.bounds(), test.bestGainCritical);
-    writePlan(study, library, noise, table, out);
+    const Library library = makeLibrary(simulator);
+    const auto planned = plannedData(study, library, measured);
+    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, planned));
+    const auto [layout, numbers] = arrange(study, emulator, planned);
+    const Evidence evidence(
+        study, emulator, layout, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.parameters.size())));
+    const Calibration calibration = Calibrator(study, evidence, numbers, random).calibrate();
+    writePlan(study, emulator, layout, calibration, visibility(study, evidence, calibration, numbers, random), out);
 }
 
 namespace
@@ -150,12 +141,15 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     checkMagnitudes(simulator, training, true);
     std::mt19937_64 random(study.settings.seed);
 
-    const EffectLibrary library = makeLibrary(simulator);
-    const Answer answer = trace(simulator, library, training, random);
-    const auto next = nextExperiments(simulator, answer, training);
-    Findings findings{&study, &library, &answer, nullptr, &next, &simulator, &training};
+    const Library library = makeLibrary(simulator);
+    Answer answer = trace(simulator, library, training, random);
+    answer.visibility = visibility(study,
+        Evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters)), answer.calibration,
+        answer.measured, random);
+    const auto next = nextExperiments(simulator, answer, random);
+    Findings findings{&study, &answer, nullptr, &next, &simulator, &training};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
-    out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.significance.pValue) << "; written to "
+    out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
         << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);

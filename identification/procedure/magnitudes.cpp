@@ -75,7 +75,7 @@ void checkMagnitudes(Simulator& simulator, const std::vector<MeasuredCondition>&
     for (const auto c : study.conditionsOf(Role::training))
     {
         // The same run as the library's first.
-        const SimulationOrder order{c, simulator.plainSetting(), "check of units", 0, "repeats"};
+        const SimulationOrder order{c, simulator.plainSetting(), "check of units", 0, "base"};
         if (data[c].features.rows() > 0 && (execute || simulator.missing({order}) == 0))
         {
             orders.push_back(order);

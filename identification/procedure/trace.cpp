@@ -1,14 +1,11 @@
 #include "procedure/trace.h"
 
-#include "procedure/assemble.h"
-#include "procedure/decide.h"
-#include "procedure/doubts.h"
-#include "procedure/effectPairs.h"
-#include "procedure/nullFit.h"
-#include "procedure/singleEffects.h"
+#include "emulator/settings.h"
+#include "nextRuns/chooseRuns.h"
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace clepsydra::identification
 {
@@ -16,120 +13,235 @@ namespace clepsydra::identification
 namespace
 {
 
+/// The first round goes to the null fit, the others to the fits of the explanations that lead.
+constexpr int rounds = 3;
+
+/// How many explanations get runs, beside no effect, and how much less likely than the best they may be (log odds).
+constexpr std::size_t mostContenders = 4;
+constexpr double hopeless = 8.0;
+
+/// Weight of no effect among the contenders: whether there is anything must be decided, too.
+constexpr double nullWeight = 0.3;
+
 class Tracing
 {
 public:
-    Tracing(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+    Tracing(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
         std::mt19937_64& random)
-        : study_(simulator.study()),
-          inputs_{simulator, study_, library, data, study_.conditionsOf(Role::training)},
+        : simulator_(simulator),
+          study_(simulator.study()),
+          data_(data),
+          features_(measuredFeatures(study_, data)),
+          runs_(library.runs),
           random_(random)
     {}
 
     Answer run()
     {
-        answer_.remarks = inputs_.library.remarks;
-        estimateNoise();
-        const NullFit null = fitNull(inputs_, answer_.noise);
-        test(null);
-        SingleEffects singles(inputs_, null, answer_.noise, answer_.significance);
-        if (answer_.significance.pValue < study_.settings.level)
+        learn();
+        Eigen::VectorXd around = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
+        for (int round = 0; round < rounds; ++round)
         {
-            singles.confirmBest();
-            explain(null, singles.explanations());
+            const Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            around = evidence.fitNull(answer_.measured).parameters;
+            const bool changed = round == 0 ? simulateNull(around) : simulateContenders(evidence, round);
+            if (changed)
+            {
+                learn();
+            }
         }
-        report(null, singles);
+        const Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+        decide(evidence);
         return std::move(answer_);
     }
 
 private:
-    void estimateNoise()
+    /// The emulator of all runs so far.
+    void learn()
     {
-        const auto [repeats, declared] = scatterOf(inputs_.data, inputs_.training);
-        measured_ = repeats;
-        const Scatter& simulated = inputs_.library.scatter;
-        answer_.spread = compareSpread(measured_, simulated, study_.settings.draws, random_);
-        const bool alike = answer_.spread.pValue > otherSpread;
-        answer_.noise = noiseModel(measured_, simulated, study_.modelError, alike, declared);
-        if (measured_.degreesOfFreedom() < 2.0 && answer_.noise.data.matrix.isZero())
-        {
-            answer_.remarks.emplace_back(
-                "Nothing has been measured more than once: the noise is what the study declares, "
-                "taken as independent from number to number.");
-        }
-        if (!alike)
-        {
-            answer_.remarks.push_back(
-                "Repeats of the measurement scatter " + textOf(answer_.spread.ratio)
-                + " times as much (in variance) as those of the simulation, p = " + textOf(answer_.spread.pValue)
-                + ": a signature of its own, as of cohesion or clogging. They are not pooled.");
-        }
+        answer_.emulator = std::make_shared<Emulator>(study_, simulator_, runs_, features_);
+        std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_);
     }
 
-    void test(const NullFit& null)
+    Setting settingOf(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
     {
-        answer_.significance =
-            significance(null.problem, answer_.noise, study_.bounds(), study_.settings.draws, random_);
-        answer_.otherLogOdds = otherEvidence(null.problem, answer_.noise) + std::log(study_.settings.otherWeight);
+        Setting setting = simulator_.plainSetting(physical(study_, parameters));
+        for (const auto& [effect, amplitude] : present)
+        {
+            setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+        }
+        return setting;
     }
 
-    void explain(const NullFit& null, std::vector<Explanation> explanations)
+    int runsPerRound() const
     {
-        const EffectPairs pairs = tryPairs(inputs_, null, answer_.noise, answer_.significance, explanations);
-        answer_.pairs = pairs.simulated;
-        explanations.insert(explanations.end(), pairs.simulated.begin(), pairs.simulated.end());
-        std::stable_sort(explanations.begin(), explanations.end(),
-            [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
-        if (explanations.empty())
-        {
-            answer_.decision = Decision::unknown;
-            return;
-        }
-        const Explanation& best = explanations.front();
-        auto pairsAlike = pairs.like(best, study_.settings.setWidth);
-        auto doubts = doubtsAbout(best, answer_, null.misfit, measured_, inputs_, random_);
-        Verdict verdict = decide(
-            explanations, answer_.otherLogOdds, !doubts.empty() || !pairsAlike.empty(), study_.settings.setWidth);
-        answer_.decision = verdict.decision;
-        answer_.set = std::move(verdict.set);
-        answer_.bestOfUnknown = std::move(verdict.bestOfUnknown);
-        if (!answer_.set.empty())
-        {
-            answer_.somethingElseBecause = std::move(doubts);
-            answer_.pairsAlike = std::move(pairsAlike);
-        }
+        const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
+        return all / rounds;
     }
 
-    void report(const NullFit& null, const SingleEffects& singles)
+    bool simulate(const std::vector<SimulationOrder>& orders)
     {
-        answer_.null.setting = null.setting;
-        answer_.null.misfit = null.misfit;
-        answer_.null.misfitLimit = answer_.significance.nullMisfitLimit;
-        answer_.null.logOdds = nullEvidence(null.problem, answer_.noise);
-        answer_.problem = null.problem;
-        answer_.parameterSd = null.parameterSd;
-        answer_.atFit = null.simulations;
-        answer_.effects = singles.findings();
-        answer_.remarks.insert(answer_.remarks.end(), singles.remarks().begin(), singles.remarks().end());
-        for (const auto& explanation : answer_.set)
+        auto simulations = simulator_.run(orders);
+        bool any = false;
+        for (std::size_t i = 0; i < orders.size(); ++i)
         {
-            if (explanation.effects.size() == 1)
+            any = any || !simulations[i].failed;
+            runs_.push_back({orders[i].setting, std::move(simulations[i])});
+        }
+        return any;
+    }
+
+    bool simulateNull(const Eigen::VectorXd& parameters)
+    {
+        const int repeats =
+            answer_.emulator->scatters() ? std::max(1, study_.settings.decidingRuns / rounds) : 1;
+        std::vector<SimulationOrder> orders;
+        for (const auto& block : answer_.layout.blocks)
+        {
+            for (int number = 0; number < repeats; ++number)
             {
-                answer_.effects[explanation.effects.front()].inSet = true;
+                orders.push_back({block.condition, settingOf({}, parameters), "null fit", number});
             }
         }
+        if (!simulate(orders))
+        {
+            throw std::runtime_error("all runs at the null fit have failed"
+                                     + (simulator_.failures().empty() ? "" : ": " + simulator_.failures().back().reason));
+        }
+        return true;
     }
 
+    bool simulateContenders(const Evidence& evidence, int round)
+    {
+        const Odds odds = oddsOf(study_, evidence(answer_.measured));
+        std::vector<std::pair<double, std::size_t>> order;
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
+        {
+            order.emplace_back(odds.effects(static_cast<Eigen::Index>(e)), e);
+        }
+        std::sort(order.rbegin(), order.rend());
+        std::vector<Contender> contenders = {{{}, evidence.fitNull(answer_.measured).parameters, nullWeight}};
+        for (std::size_t i = 0; i < std::min(mostContenders, order.size()); ++i)
+        {
+            const auto& [log, e] = order[i];
+            if (log < order.front().first - hopeless || !std::isfinite(log))
+            {
+                break;
+            }
+            const Fit fit = evidence.fit(e, answer_.measured);
+            // The root of the odds: what is behind by chance must get its runs, too.
+            contenders.push_back(
+                {{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
+        }
+        std::map<std::pair<std::size_t, std::size_t>, int> numbers;
+        std::vector<SimulationOrder> orders;
+        for (const auto& [contender, condition] :
+            chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound()))
+        {
+            const auto& [present, parameters, weight] = contenders[contender];
+            const std::string what = present.empty() ? "no effect" : study_.effects[present.front().effect].name;
+            orders.push_back({condition, settingOf(present, parameters),
+                "deciding, round " + std::to_string(round) + ": " + what, numbers[{contender, condition}]++});
+        }
+        return !orders.empty() && simulate(orders);
+    }
+
+    void decide(const Evidence& evidence)
+    {
+        const Measured& measured = answer_.measured;
+        answer_.calibration = Calibrator(study_, evidence, measured, random_).calibrate();
+        const Calibration& calibration = answer_.calibration;
+        const Evidences evidences = evidence(measured);
+        const Odds odds = oddsOf(study_, evidences);
+        answer_.logOdds = odds.statistic;
+        answer_.pValue = calibration.pValue(odds.statistic);
+        answer_.otherProbability = std::exp(odds.other);
+        answer_.otherThreshold = std::exp(calibration.otherMembership);
+        const Fit null = evidence.fitNull(measured);
+        answer_.null = explanation({}, null, 0.0);
+        answer_.nullCovariance = null.covariance;
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
+        {
+            const auto i = static_cast<Eigen::Index>(e);
+            EffectFinding finding;
+            finding.known = answer_.emulator->knows(e);
+            finding.fit = evidence.fit(e, measured);
+            finding.parameters = settingOf({}, finding.fit.parameters).parameters;
+            finding.probability = std::exp(odds.effects(i));
+            finding.logOdds = odds.effects(i) + odds.statistic;
+            finding.threshold = std::exp(calibration.membership(i));
+            answer_.effects.push_back(std::move(finding));
+        }
+        const auto& said = answer_.emulator->remarks();
+        answer_.remarks.insert(answer_.remarks.end(), said.begin(), said.end());
+        if (answer_.pValue >= study_.settings.level)
+        {
+            return;
+        }
+        for (const auto e : membersOf(calibration, odds))
+        {
+            EffectFinding& finding = answer_.effects[e];
+            finding.inSet = true;
+            answer_.set.push_back(explanation({{e, finding.fit.amplitude}}, finding.fit, finding.logOdds));
+        }
+        answer_.somethingElseInSet = odds.other >= calibration.otherMembership;
+        const auto sole = soleMember(study_, calibration, odds);
+        if (answer_.set.empty())
+        {
+            answer_.decision = Decision::unknown;
+            answer_.somethingElseInSet = true;
+        }
+        else if (sole && marginOf(odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)))
+        {
+            answer_.decision = Decision::named;
+            answer_.family = answer_.set.size() > 1 ? study_.effects[*sole].family : "";
+        }
+        else
+        {
+            answer_.decision = Decision::set;
+            // One member that is no name: others cannot be ruled out.
+            answer_.somethingElseInSet = answer_.somethingElseInSet || sole.has_value();
+        }
+    }
+
+    Explanation explanation(const std::vector<Present>& present, const Fit& fit, double logOdds) const
+    {
+        Explanation found;
+        for (const auto& one : present)
+        {
+            found.effects.push_back(one.effect);
+        }
+        found.setting = settingOf(present, fit.parameters);
+        found.logOdds = logOdds;
+        found.misfit = fit.misfit;
+        for (const auto& run : runs_)
+        {
+            const auto on = (run.setting.amplitudes.array() != 0.0).count();
+            const bool same = on == static_cast<Eigen::Index>(present.size())
+                              && std::all_of(present.begin(), present.end(), [&](const Present& one) {
+                                     return run.setting.amplitudes(static_cast<Eigen::Index>(one.effect)) != 0.0;
+                                 });
+            if (same && !run.simulation.failed && &run >= runs_.data() + librarySize_)
+            {
+                found.simulations.push_back(run.simulation);
+            }
+        }
+        return found;
+    }
+
+    Simulator& simulator_;
     const Study& study_;
-    const TraceInputs inputs_;
+    const std::vector<MeasuredCondition>& data_;
+    const std::vector<std::vector<Eigen::Index>> features_;
+    std::vector<Run> runs_;
+    const std::size_t librarySize_ = runs_.size();
     std::mt19937_64& random_;
-    Scatter measured_;
     Answer answer_;
 };
 
 } // namespace
 
-Answer trace(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random)
 {
     return Tracing(simulator, library, data, random).run();

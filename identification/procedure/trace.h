@@ -1,6 +1,6 @@
 #pragma once
 
-#include "design/effectLibrary.h"
+#include "emulator/library.h"
 #include "procedure/answer.h"
 #include "study/measurements.h"
 
@@ -10,9 +10,9 @@
 namespace clepsydra::identification
 {
 
-/// From training data to an answer: null fit, re-simulation, test, scores, confirmation, decision.
+/// From training data to an answer: emulator, evidence, runs where they decide, calibration, decision.
 /// \param data  by condition; only training conditions are looked at
-Answer trace(Simulator& simulator, const EffectLibrary& library, const std::vector<MeasuredCondition>& data,
+Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random);
 
 } // namespace clepsydra::identification

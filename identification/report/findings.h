@@ -1,7 +1,7 @@
 #pragma once
 
 #include "heldOut/heldOut.h"
-#include "nextExperiment/nextExperiment.h"
+#include "nextRuns/nextExperiment.h"
 #include "procedure/answer.h"
 
 #include <vector>
@@ -13,7 +13,6 @@ namespace clepsydra::identification
 struct Findings
 {
     const Study* study = nullptr;
-    const EffectLibrary* library = nullptr;
     const Answer* answer = nullptr;
     const HeldOutResult* heldOut = nullptr; // not there before the answer is written
     const std::vector<NextExperiment>* next = nullptr;

@@ -1,6 +1,5 @@
 #include "report/html.h"
 
-#include "inference/significance.h"
 #include "report/words.h"
 #include "report/svg.h"
 
@@ -123,7 +122,7 @@ std::string curvePlots(const Findings& findings)
     for (const auto c : study.conditionsOf(Role::training))
     {
         Plot plot(study.conditions[c].name, "time [s]", study.valueColumn);
-        draw(plot, bundleOf(findings.answer->atFit, c), beforeStyle, beforeBand, "without effect");
+        draw(plot, bundleOf(findings.answer->null.simulations, c), beforeStyle, beforeBand, "without effect");
         if (!findings.answer->set.empty())
         {
             draw(plot, bundleOf(findings.answer->set.front().simulations, c), afterStyle, afterBand, "with the best");
@@ -162,9 +161,9 @@ std::string residualTable(const Json& report)
     return html.str();
 }
 
-std::string detectable(const Json& effect)
+std::string inRange(const Json& effect, const char* key)
 {
-    const Json& smallest = effect["smallestDetectable"];
+    const Json& smallest = effect[key];
     const Bounds range{effect["range"][0].get<double>(), effect["range"][1].get<double>()};
     return smallest.is_null() || smallest > range.reach() ? "not in range" : shown(smallest, 2);
 }
@@ -172,10 +171,9 @@ std::string detectable(const Json& effect)
 std::string effectTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>effect</th><th>meaning</th><th class=\"n\">amplitude (95 %)</th><th class=\"n\">misfit (99 "
-            "% "
-            "limit)</th><th class=\"n\">log odds</th><th class=\"n\">probability</th><th class=\"n\">smallest "
-            "detectable</th><th>simulated</th></tr>\n";
+    html << "<table><tr><th>effect</th><th>meaning</th><th class=\"n\">amplitude (95 %)</th><th class=\"n\">probability "
+            "(needed)</th><th class=\"n\">misfit</th><th class=\"n\">smallest detectable</th><th class=\"n\">smallest "
+            "named</th></tr>\n";
     for (const auto& effect : report["effects"])
     {
         html << (effect["inSet"].get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(shown(effect["name"]))
@@ -183,28 +181,27 @@ std::string effectTable(const Json& report)
              << cell(shown(effect["amplitude"], 2) + " (" + shown(effect["interval95"][0], 2) + " to "
                          + shown(effect["interval95"][1], 2) + ")",
                     true)
-             << cell(shown(effect["misfit"]) + " (" + shown(effect["misfitLimit"]) + ")", true)
-             << cell(shown(effect["logOdds"]), true) << cell(shown(effect["probability"], 2), true)
-             << cell(detectable(effect), true) << cell(effect["confirmed"].get<bool>() ? "yes" : "no") << "</tr>\n";
+             << cell(shown(effect["probability"], 2) + " (" + shown(effect["probabilityNeeded"], 2) + ")", true)
+             << cell(shown(effect["misfit"]), true) << cell(inRange(effect, "smallestDetectable"), true)
+             << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
     html << "</table>\n<p class=\"small\">Amplitude 1 is the end of the effect's plausible range. Highlighted: the set "
-            "that the data cannot tell apart. Log odds of no effect: "
-         << shown(report["null"]["logOdds"])
-         << ", of something outside the library: " << shown(report["somethingElse"]["logOdds"]) << ".</p>\n";
+            "that the data cannot tell apart. Probability that it is something outside the library: "
+         << shown(report["somethingElse"]["probability"], 2) << " (needed: "
+         << shown(report["somethingElse"]["probabilityNeeded"], 2) << ").</p>\n";
     return html.str();
 }
 
 std::string evidenceBars(const Json& report)
 {
     std::vector<Bar> bars;
-    const double none = report["null"]["logOdds"].get<double>();
     for (const auto& effect : report["effects"])
     {
-        bars.push_back({effect["name"], effect["logOdds"].get<double>() - none, 0.0,
+        bars.push_back({effect["name"], 100.0 * effect["probability"].get<double>(), 0.0,
             effect["inSet"].get<bool>() ? "fill:#e0a100" : "fill:#9bb"});
     }
-    bars.push_back({"something else", report["somethingElse"]["logOdds"].get<double>() - none, 0.0, "fill:#bbb"});
-    return barChart("Log odds against no effect", bars, "");
+    bars.push_back({"something else", 100.0 * report["somethingElse"]["probability"].get<double>(), 0.0, "fill:#bbb"});
+    return barChart("Probability, given that there is something", bars, "%");
 }
 
 std::string heldOutBars(const Json& heldOut)
@@ -321,12 +318,12 @@ std::string listOf(const Json& sentences)
 
 std::string lookAlikesOf(const Json& report)
 {
-    const Json& pairs = report["identifiability"]["lookAlikes"];
+    const Json& pairs = report["calibration"]["lookAlikes"];
     if (pairs.empty())
     {
         return "<p>All effects that show in these conditions could be told apart at full size.</p>\n";
     }
-    std::string html = "<p>These pairs differ by less than two standard deviations even at full size:</p><ul>";
+    std::string html = "<p>Even at full size, sets for the first mostly hold the second:</p><ul>";
     for (const auto& pair : pairs)
     {
         html += "<li>" + shown(pair[0]) + " and " + shown(pair[1]) + "</li>\n";

@@ -1,6 +1,6 @@
 #include "report/json.h"
 
-#include "identifiability/identifiability.h"
+#include "emulator/settings.h"
 #include "report/words.h"
 
 #include <clepsydra/version.h>
@@ -62,7 +62,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"misfit", explanation.misfit}, {"misfitLimit", explanation.misfitLimit}, {"confirmed", explanation.confirmed}};
+        {"misfit", explanation.misfit}, {"simulated", !explanation.simulations.empty()}};
 }
 
 /// What the effect sets at its amplitude, in words that a user can check.
@@ -88,62 +88,52 @@ Json effectsJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const Identifiability table =
-        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
-    // Probabilities among single effects and "something else", given that there is a residual.
-    double largest = answer.otherLogOdds;
-    for (const auto& finding : answer.effects)
-    {
-        largest = std::max(largest, finding.logOdds);
-    }
-    double sum = std::exp(answer.otherLogOdds - largest);
-    for (const auto& finding : answer.effects)
-    {
-        sum += std::exp(finding.logOdds - largest);
-    }
     Json list = Json::array();
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         const Effect& effect = study.effects[e];
         const EffectFinding& finding = answer.effects[e];
-        const Score& score = finding.score();
         const auto i = static_cast<Eigen::Index>(e);
-        const double reach = intervalSds(answer.noise) * score.sd;
-        const auto [lower, upper] = effect.bounds;
-        list.push_back({{"name", effect.name}, {"meaning", effect.meaning},
+        list.push_back({{"name", effect.name}, {"meaning", effect.meaning}, {"family", effect.family},
             {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
-            {"amplitude", number(score.amplitude)}, {"standardError", number(score.sd)},
-            {"interval95",
-                {number(std::max(lower, score.amplitude - reach)), number(std::min(upper, score.amplitude + reach))}},
-            {"range", {lower, upper}}, {"sets", entriesAt(effect, score.amplitude)}, {"misfit", number(score.misfit)},
-            {"misfitLimit", finding.misfitLimit}, {"logEvidence", number(score.logEvidence)},
-            {"logOdds", number(finding.logOdds)}, {"probability", number(std::exp(finding.logOdds - largest) / sum)},
-            {"confirmed", finding.confirmed.has_value()}, {"parameters", parametersOf(study, finding.parameters)},
-            {"maskedByParameters", number(table.masked(i))},
-            {"smallestDetectable", number(table.smallestDetectable(i))}, {"howToMeasure", effect.hint}});
+            {"amplitude", number(finding.fit.amplitude)}, {"standardError", number(finding.fit.sd)},
+            {"interval95", {number(finding.fit.lower), number(finding.fit.upper)}},
+            {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
+            {"misfit", number(finding.fit.misfit)}, {"logOdds", number(finding.logOdds)},
+            {"probability", number(finding.probability)}, {"probabilityNeeded", number(finding.threshold)},
+            {"judged", finding.known}, {"parameters", parametersOf(study, finding.parameters)},
+            {"smallestDetectable", number(answer.visibility.detected(i))},
+            {"smallestNamed", number(answer.visibility.named(i))}, {"howToMeasure", effect.hint}});
     }
     std::stable_sort(list.begin(), list.end(),
-        [](const Json& a, const Json& b) { return a["logOdds"].get<double>() > b["logOdds"].get<double>(); });
+        [](const Json& a, const Json& b) { return a["probability"].get<double>() > b["probability"].get<double>(); });
     return list;
 }
 
+/// Measured minus what the emulator says at the null fit.
 Json residualJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
+    const Eigen::VectorXd parameters = inSds(study, answer.null.setting.parameters);
     Json list = Json::array();
-    for (std::size_t block = 0; block < answer.problem.blocks.size(); ++block)
+    for (const auto& block : answer.layout.blocks)
     {
-        const auto& b = answer.problem.blocks[block];
-        const Eigen::VectorXd sd = answer.problem.covariance(block, answer.noise).diagonal().cwiseSqrt();
+        const ConditionEmulator& emulator = *(*answer.emulator)[block.condition];
+        const Eigen::VectorXd expected = (emulator.mean({}) * parameterTermsAt(parameters))(block.places);
+        const Eigen::MatrixXd single =
+            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noise(block.places, block.places));
+        const Eigen::MatrixXd unknown = emulator.uncertainty(parameters, {})(block.places, block.places);
+        const Eigen::VectorXd variance = (single.cwiseProduct(block.meanShare) + block.common + unknown).diagonal();
         Json features = Json::object();
-        for (std::size_t k = 0; k < b.features.size(); ++k)
+        for (Eigen::Index k = 0; k < block.size(); ++k)
         {
-            const auto row = b.firstRow + static_cast<Eigen::Index>(k);
-            features[study.features[static_cast<std::size_t>(b.features[k])].name] = {
-                {"value", answer.problem.residual(row)}, {"standardError", sd(static_cast<Eigen::Index>(k))}};
+            const auto f = emulator.features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])];
+            features[study.features[static_cast<std::size_t>(f)].name] = {
+                {"value", answer.measured.mean(block.first + k) - expected(k)},
+                {"standardError", std::sqrt(variance(k))}};
         }
-        list.push_back({{"condition", study.conditions[b.condition].name}, {"measuredMinusSimulated", features}});
+        list.push_back({{"condition", study.conditions[block.condition].name}, {"measuredMinusSimulated", features}});
     }
     return list;
 }
@@ -176,18 +166,12 @@ Json heldOutJson(const Findings& findings)
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
-    Json bestOfUnknown = nullptr;
-    if (result.bestOfUnknown)
-    {
-        bestOfUnknown = heldOutScore(*result.bestOfUnknown);
-        bestOfUnknown["explanation"] = explanationJson(study, *findings.answer->bestOfUnknown);
-    }
     return {{"conditions", names}, {"before", heldOutScore(result.before)},
         {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
         {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
         {"overOneMoreParameter", estimate(result.overOneMore)}, {"noiseFloor", result.noiseFloor},
         {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
-        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members}, {"bestOfUnknown", bestOfUnknown}};
+        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members}};
 }
 
 Json runsJson(const Simulator& simulator)
@@ -235,31 +219,42 @@ Json nextJson(const Findings& findings)
     return list;
 }
 
-Json noiseJson(const Findings& findings)
+Json emulatorJson(const Findings& findings)
 {
-    const Noise& noise = findings.answer->noise;
-    return {{"pooled", noise.pooled}, {"dataSd", numbers(noise.data.matrix.diagonal().cwiseSqrt())},
-        {"dataDegreesOfFreedom", noise.data.nu}, {"dataShrinkage", noise.data.shrinkage},
-        {"simulationSd", numbers(noise.simulation.matrix.diagonal().cwiseSqrt())},
-        {"simulationDegreesOfFreedom", noise.simulation.nu}, {"simulationShrinkage", noise.simulation.shrinkage},
-        {"modelError", numbers(noise.modelError)}, {"seedCorrelation", findings.library->seedCorrelation},
-        {"seedCorrelationError", findings.library->seedCorrelationError},
-        {"commonSeeds", findings.library->commonSeeds}, {"spreadRatio", number(findings.answer->spread.ratio)},
-        {"spreadPValue", findings.answer->spread.pValue}};
+    const Answer& answer = *findings.answer;
+    const Emulator& emulator = *answer.emulator;
+    Json scatter = Json::object();
+    for (std::size_t c = 0; c < findings.study->conditions.size(); ++c)
+    {
+        if (emulator[c])
+        {
+            for (const auto& [e, logs] : emulator[c]->logScatter)
+            {
+                scatter[findings.study->effects[e].name][findings.study->conditions[c].name] =
+                    numbers(logs.array().exp().matrix());
+            }
+        }
+    }
+    return {{"noiseOfARun", numbers(emulator.noise().diagonal().cwiseSqrt())},
+        {"noiseOfAMeasurement", numbers(answer.layout.noise.diagonal().cwiseSqrt())},
+        {"degreesOfFreedom", answer.layout.noiseFreedom}, {"lackOfFit", emulator.lackOfFit()},
+        {"scatterTimes", scatter}};
 }
 
-Json identifiabilityJson(const Findings& findings)
+Json calibrationJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const Identifiability table =
-        identifiability(answer.problem, answer.noise, study.bounds(), answer.significance.bestGainCritical);
     Json pairs = Json::array();
-    for (const auto& [i, j] : lookAlikes(table, 2.0))
+    for (const auto& [i, j] : answer.visibility.alike)
     {
         pairs.push_back({study.effects[i].name, study.effects[j].name});
     }
-    return {{"lookAlikes", pairs}, {"collinearityOfAll", table.collinearityOfAll}};
+    return {{"critical", number(answer.calibration.critical)}, {"level", study.settings.level},
+        {"draws", study.settings.draws}, {"coverage", study.settings.coverage},
+        {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfFoils", answer.calibration.wrongNames},
+        {"foils", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"},
+        {"lookAlikes", pairs}};
 }
 
 } // namespace
@@ -280,27 +275,22 @@ Json jsonOf(const Findings& findings)
     json["study"] = study.name;
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
-    json["name"] = answer.decision == Decision::named ? Json(nameOf(study, answer.set.front())) : Json(nullptr);
+    json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
     json["summary"] = inWords(findings);
     json["set"] = listed(answer.set);
-    json["pairsAlike"] = listed(answer.pairsAlike);
-    json["somethingElseInSet"] = !answer.somethingElseBecause.empty();
-    json["somethingElseBecause"] = answer.somethingElseBecause;
-    json["pValue"] = answer.significance.pValue;
-    json["test"] = {{"omnibus", answer.significance.omnibus}, {"omnibusPValue", answer.significance.omnibusPValue},
-        {"bestGain", answer.significance.bestGain}, {"bestGainPValue", answer.significance.bestGainPValue},
-        {"noticedShape", answer.significance.noticed}, {"level", study.settings.level},
-        {"draws", study.settings.draws}};
+    json["family"] = answer.family;
+    json["somethingElseInSet"] = answer.somethingElseInSet;
+    json["somethingElse"] = {{"probability", answer.otherProbability}, {"probabilityNeeded", answer.otherThreshold}};
+    json["pValue"] = answer.pValue;
+    json["logOdds"] = number(answer.logOdds);
     json["null"] = explanationJson(study, answer.null);
-    json["null"]["parameterSds"] = numbers(answer.parameterSd);
-    json["somethingElse"] = {{"logOdds", answer.otherLogOdds}};
+    json["null"]["parameterSds"] = numbers(answer.nullCovariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
-    json["pairs"] = listed(answer.pairs);
     json["residual"] = residualJson(findings);
     json["heldOut"] = heldOutJson(findings);
-    json["identifiability"] = identifiabilityJson(findings);
+    json["calibration"] = calibrationJson(findings);
     json["nextExperiment"] = nextJson(findings);
-    json["noise"] = noiseJson(findings);
+    json["emulator"] = emulatorJson(findings);
     json["runs"] = runsJson(*findings.simulator);
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.simulator->seedsByPurpose()}};
     json["assumptions"] = assumptionsOf(findings);

@@ -1,6 +1,5 @@
 #include "report/planReport.h"
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <sstream>
@@ -11,72 +10,56 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr double apart = 2.0; // standard deviations below which two effects look alike
-
-std::string percent(double share)
-{
-    std::ostringstream text;
-    text << std::setprecision(2) << 100.0 * share << " %";
-    return text.str();
-}
-
-std::string fixed(double value)
+std::string amplitude(double value, const Effect& effect)
 {
     std::ostringstream text;
     text << std::fixed << std::setprecision(2) << value;
-    return std::isfinite(value) ? text.str() : "never";
+    return std::isfinite(value) && value <= effect.bounds.reach() ? text.str() : "not in range";
 }
 
 } // namespace
 
-void writePlan(const Study& study, const EffectLibrary& library, const Noise& noise, const Identifiability& table,
-    std::ostream& out)
+void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Calibration& calibration,
+    const Visibility& visibility, std::ostream& out)
 {
-    out << "\nnoise of one run:";
+    out << "\nnoise of one measurement:";
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
     {
         out << ' ' << study.features[static_cast<std::size_t>(f)].name << ' '
-            << textOf(std::round(1e4 * std::sqrt(noise.simulation.matrix(f, f))) / 1e4);
+            << textOf(std::round(1e4 * std::sqrt(layout.noise(f, f))) / 1e4);
     }
-    out << " (" << noise.simulation.nu << " degrees of freedom)\n"
-        << "runs with the same seed go together by " << fixed(library.seedCorrelation) << " +- "
-        << fixed(library.seedCorrelationError) << ": " << (library.commonSeeds ? "common" : "fresh")
-        << " seeds in the design\n\n"
-        << std::left << std::setw(24) << "effect" << std::right << std::setw(10) << "signal" << std::setw(12)
-        << "hidden by" << std::setw(14) << "smallest\n"
-        << std::left << std::setw(24) << "" << std::right << std::setw(10) << "[sd]" << std::setw(12) << "parameters"
-        << std::setw(14) << "detectable\n";
-    const auto shows = [&](std::size_t e) {
-        return table.smallestDetectable(static_cast<Eigen::Index>(e)) <= study.effects[e].bounds.reach();
-    };
+    out << " (" << layout.noiseFreedom << " degrees of freedom)\n\n"
+        << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "seen from" << std::setw(14)
+        << "named from" << std::setw(22) << "named at full size\n";
     bool someShow = false;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         const auto i = static_cast<Eigen::Index>(e);
-        someShow = someShow || shows(e);
-        out << std::left << std::setw(24) << study.effects[e].name << std::right << std::setw(10)
-            << fixed(table.signal(i)) << std::setw(12) << percent(table.masked(i)) << std::setw(13)
-            << (shows(e) ? fixed(table.smallestDetectable(i)) : "not in range") << '\n';
+        const Effect& effect = study.effects[e];
+        someShow = someShow || std::isfinite(visibility.detected(i));
+        out << std::left << std::setw(24) << effect.name << std::right << std::setw(14)
+            << (emulator.knows(e) ? amplitude(visibility.detected(i), effect) : "its runs failed") << std::setw(14)
+            << amplitude(visibility.named(i), effect) << std::setw(19)
+            << std::lround(100.0 * visibility.atFullSize(i)) << " %\n";
     }
-    out << "(signal: what the parameters cannot imitate, at amplitude 1; smallest detectable: amplitude seen in 80 % "
-           "of "
-           "the cases)\n\n";
-    const auto pairs = lookAlikes(table, apart);
-    out << (!pairs.empty() ? "cannot be told apart by these conditions:\n"
-            : someShow     ? "all effects that show can be told apart\n"
-                           : "no effect shows at its full size\n");
-    for (const auto& [i, j] : pairs)
+    out << "(amplitudes at which 80 % of such data sets show that there is something, and get the right name; before the "
+           "runs at\nthe fits, which sharpen both)\n\n";
+    out << (!visibility.alike.empty() ? "not told apart by these conditions, even at full size:\n"
+            : someShow                ? "all effects that show can be told apart\n"
+                                      : "no effect shows at its full size\n");
+    for (const auto& [i, j] : visibility.alike)
     {
-        out << "  " << study.effects[i].name << " and " << study.effects[j].name << '\n';
+        out << "  " << study.effects[i].name << " from " << study.effects[j].name << '\n';
     }
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        if (!shows(e) && !study.effects[e].hint.empty())
+        if (!std::isfinite(visibility.named(static_cast<Eigen::Index>(e))) && !study.effects[e].hint.empty())
         {
             out << "  to be measured by itself: " << study.effects[e].name << ": " << study.effects[e].hint << '\n';
         }
     }
-    out << "collinearity index of all together: " << fixed(table.collinearityOfAll) << std::endl;
+    out << "something that is not in the library would get a wrong name in " << std::lround(1000.0 * calibration.wrongNames) / 10.0
+        << " % of the cases (each effect left out in turn, and patterns of any shape)" << std::endl;
 }
 
 } // namespace clepsydra::identification

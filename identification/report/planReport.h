@@ -1,7 +1,6 @@
 #pragma once
 
-#include "design/effectLibrary.h"
-#include "identifiability/identifiability.h"
+#include "decision/visibility.h"
 
 #include <ostream>
 
@@ -9,7 +8,7 @@ namespace clepsydra::identification
 {
 
 /// What a plan tells, as text.
-void writePlan(const Study& study, const EffectLibrary& library, const Noise& noise, const Identifiability& table,
-    std::ostream& out);
+void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Calibration& calibration,
+    const Visibility& visibility, std::ostream& out);
 
 } // namespace clepsydra::identification

@@ -29,6 +29,17 @@ std::string joined(const std::vector<std::string>& clauses)
     return all;
 }
 
+/// What it does, in the library's own words.
+std::string meaningOf(const Study& study, const Explanation& explanation)
+{
+    std::string text = nameOf(study, explanation);
+    if (explanation.effects.size() == 1 && !study.effects[explanation.effects.front()].meaning.empty())
+    {
+        text += " (" + study.effects[explanation.effects.front()].meaning + ')';
+    }
+    return text;
+}
+
 /// All that explain it, one after the other.
 std::string setInWords(const Study& study, const Answer& answer)
 {
@@ -36,30 +47,9 @@ std::string setInWords(const Study& study, const Answer& answer)
                                               : " These explain it, and the data cannot tell them apart: ";
     for (std::size_t i = 0; i < answer.set.size(); ++i)
     {
-        text += (i == 0 ? "" : "; or ") + nameOf(study, answer.set[i]);
+        text += (i == 0 ? "" : "; or ") + meaningOf(study, answer.set[i]);
     }
-    if (!answer.pairsAlike.empty())
-    {
-        text += "; or one of " + std::to_string(answer.pairsAlike.size())
-                + " other pairs that were not simulated, for instance " + nameOf(study, answer.pairsAlike.front());
-    }
-    if (!answer.somethingElseBecause.empty())
-    {
-        text += "; or something that is not in the library (" + joined(answer.somethingElseBecause) + ')';
-    }
-    return text + '.';
-}
-
-/// What comes nearest, for people to see; it is no answer.
-std::string nearestInWords(const Study& study, const Answer& answer, const HeldOutResult& heldOut)
-{
-    const Explanation& nearest = *answer.bestOfUnknown;
-    return " The nearest, which "
-           + (nearest.misfit > nearest.misfitLimit
-                   ? "still misfits (" + textOf(nearest.misfit) + ", limit " + textOf(nearest.misfitLimit) + ')'
-                   : std::string("is less likely than something else"))
-           + ", is " + nameOf(study, nearest) + "; with it the error on the held-out conditions goes from "
-           + withError(heldOut.before.rmsLogError) + " to " + withError(heldOut.bestOfUnknown->rmsLogError) + '.';
+    return text + (answer.somethingElseInSet ? "; or something that is not in the library." : ".");
 }
 
 std::string heldOutInWords(const HeldOutResult& heldOut)
@@ -72,12 +62,17 @@ std::string heldOutInWords(const HeldOutResult& heldOut)
 
 } // namespace
 
+std::string namedBy(const Study& study, const Answer& answer)
+{
+    return answer.family.empty() ? nameOf(study, answer.set.front()) : answer.family;
+}
+
 std::string inWords(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
     const HeldOutResult* heldOut = findings.heldOut;
-    const std::string pValue = " beyond noise (p = " + textOf(answer.significance.pValue) + ')';
+    const std::string pValue = " beyond noise (p = " + textOf(answer.pValue) + ')';
     if (answer.decision == Decision::noResidual)
     {
         return "No residual" + pValue
@@ -86,13 +81,13 @@ std::string inWords(const Findings& findings)
     std::string text = "There is a residual" + pValue;
     if (answer.decision == Decision::unknown)
     {
-        text += ", and none of the effects in the library explains it: unknown.";
-        return heldOut != nullptr && heldOut->bestOfUnknown ? text + nearestInWords(study, answer, *heldOut) : text;
+        return text + ", and none of the effects in the library explains it: unknown.";
     }
     text += '.';
-    text += answer.decision == Decision::named
-                ? " One effect of the library is left: " + nameOf(study, answer.set.front()) + '.'
-                : setInWords(study, answer);
+    text += answer.decision != Decision::named ? setInWords(study, answer)
+            : answer.family.empty()
+                ? " One effect of the library is left: " + meaningOf(study, answer.set.front()) + '.'
+                : " One family of effects is left: " + answer.family + "; which of its variants stays open.";
     return heldOut != nullptr && heldOut->after ? text + heldOutInWords(*heldOut) : text;
 }
 
@@ -111,16 +106,13 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
                   + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
                     "a range are "
                     "equally likely beforehand.");
-    all.emplace_back(
-        answer.noise.pooled
-            ? "Measurements scatter as simulations do: their repeats alone are too few, so both are pooled."
-            : "The scatter of measurements is that of their own repeats.");
-    all.emplace_back("The scatter of a feature is the same in all conditions and close to normal.");
-    if (answer.noise.data.shrinkage > 0.0)
-    {
-        all.push_back("There are fewer than three repeats per feature: correlations between features were shrunk by "
-                      + textOf(std::round(100.0 * answer.noise.data.shrinkage)) + " %.");
-    }
+    all.emplace_back(answer.emulator->scatters()
+                         ? "Measurements scatter as simulations of the same setting do, up to a common factor near 1, and "
+                           "close to normal."
+                         : "The scatter of measurements is that of their own repeats, or what is declared.");
+    all.push_back("Thresholds hold for data as the emulator draws them; wrong names are held below "
+                  + textOf(100.0 * study.settings.wrongNames)
+                  + " % for foils of two kinds: effects of the library left out in turn, and patterns of any shape.");
     if (study.modelError.maxCoeff() > 0.0)
     {
         all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");

@@ -12,6 +12,9 @@ namespace clepsydra::identification
 /// The decision in sentences.
 std::string inWords(const Findings& findings);
 
+/// The effect, or the family, that was named.
+std::string namedBy(const Study& study, const Answer& answer);
+
 /// What the report takes for granted, in sentences.
 std::vector<std::string> assumptionsOf(const Findings& findings);
 

@@ -1,6 +1,6 @@
 #include "runner/simulator.h"
 
-#include "design/seeds.h"
+#include "runner/seeds.h"
 #include "effects/measuringChain.h"
 
 #include <algorithm>

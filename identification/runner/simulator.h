@@ -75,6 +75,10 @@ public:
     /// How many of the orders are not stored yet.
     int missing(const std::vector<SimulationOrder>& orders);
 
+    Rig& rig() const
+    {
+        return rig_;
+    }
     const Study& study() const
     {
         return study_;

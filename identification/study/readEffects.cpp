@@ -75,6 +75,7 @@ Effect readEffect(const YamlPlace& place)
     effect.hint = place.textOr("hint", "");
     effect.family = place.textOr("family", "");
     effect.isSwitch = place.flagOr("switch", false);
+    effect.raisesScatter = place.flagOr("scatter", false);
     effect.prior = place.has("prior") ? place.at("prior").positive() : 1.0;
     if (place.has("set") == place.has("chain"))
     {
@@ -90,7 +91,6 @@ Effect readEffect(const YamlPlace& place)
         effect.chainOperation = operation;
         effect.chainSize = size;
     }
-    effect.raisesScatter = place.flagOr("scatter", false);
     if (effect.raisesScatter && effect.isOfChain())
     {
         place.at("scatter").fail("the measuring chain is computed from each curve and does not scatter; allowed: an "

@@ -164,14 +164,6 @@ void readAllEffects(const YamlPlace& root, Study& study)
     study.effects = std::move(all);
 }
 
-DesignKind designKind(const YamlPlace& place)
-{
-    const std::string word = place.oneOf({"automatic", "plackettBurman", "oneAtATime"});
-    return word == "automatic"    ? DesignKind::automatic
-           : word == "oneAtATime" ? DesignKind::oneAtATime
-                                  : DesignKind::plackettBurman;
-}
-
 void readSettings(const YamlPlace& root, Settings& settings)
 {
     if (root.has("budget"))
@@ -183,10 +175,10 @@ void readSettings(const YamlPlace& root, Settings& settings)
     if (root.has("repeats"))
     {
         const auto place = root.at("repeats");
-        place.allow({"base", "atFit", "confirmation", "heldOut"});
+        place.allow({"base", "alone", "deciding", "heldOut"});
         settings.repeatsBase = place.countOr("base", settings.repeatsBase, 2);
-        settings.repeatsAtFit = place.countOr("atFit", settings.repeatsAtFit, 1);
-        settings.repeatsConfirmation = place.countOr("confirmation", settings.repeatsConfirmation, 1);
+        settings.repeatsAlone = place.countOr("alone", settings.repeatsAlone, 1);
+        settings.decidingRuns = place.countOr("deciding", settings.decidingRuns, 3);
         settings.repeatsHeldOut = place.countOr("heldOut", settings.repeatsHeldOut, 1);
     }
     if (root.has("failures"))
@@ -196,26 +188,22 @@ void readSettings(const YamlPlace& root, Settings& settings)
         settings.attempts = place.countOr("attempts", settings.attempts, 1);
         settings.onFailure = place.has("then") ? place.at("then").oneOf({"exclude", "stop"}) : settings.onFailure;
     }
-    if (root.has("design"))
-    {
-        settings.design = designKind(root.at("design"));
-    }
     if (root.has("inference"))
     {
         const auto place = root.at("inference");
-        place.allow({"level", "draws", "setWidth", "confirmations", "rounds", "pairs", "pairPenalty", "otherWeight",
-            "oneMoreParameter"});
-        settings.level = place.has("level") ? place.at("level").positive() : settings.level;
-        if (settings.level >= 1.0)
-        {
-            place.at("level").fail("must be below 1, not " + place.at("level").text() + ": .05 for 5 %");
-        }
+        place.allow({"level", "draws", "coverage", "wrongNames", "otherWeight", "oneMoreParameter"});
+        const auto share = [&](const std::string& key, double byDefault, const std::string& example) {
+            const double value = place.has(key) ? place.at(key).positive() : byDefault;
+            if (value >= 1.0)
+            {
+                place.at(key).fail("must be below 1, not " + place.at(key).text() + ": " + example);
+            }
+            return value;
+        };
+        settings.level = share("level", settings.level, ".05 for 5 %");
+        settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
+        settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
         settings.draws = place.countOr("draws", settings.draws, 100);
-        settings.setWidth = place.has("setWidth") ? place.at("setWidth").positive() : settings.setWidth;
-        settings.confirmations = place.countOr("confirmations", settings.confirmations, 1);
-        settings.rounds = place.countOr("rounds", settings.rounds, 1);
-        settings.pairs = place.flagOr("pairs", settings.pairs);
-        settings.pairPenalty = place.numberOr("pairPenalty", settings.pairPenalty);
         settings.otherWeight = place.has("otherWeight") ? place.at("otherWeight").positive() : settings.otherWeight;
         if (place.has("oneMoreParameter"))
         {
@@ -251,8 +239,8 @@ Study readStudy(const std::filesystem::path& file)
 {
     const YamlPlace root = YamlPlace::fileAt(file);
     root.allow({"study", "about", "rig", "observable", "measured", "conditions", "parameters", "effectsFrom", "effects",
-        "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures", "design", "inference",
-        "executor", "work", "assumptions", "magnitudeLimit"});
+        "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures", "inference",
+            "executor", "work", "assumptions", "magnitudeLimit"});
     Study study;
     study.file = file;
     study.name = root.at("study").text();

@@ -27,24 +27,4 @@ std::vector<std::size_t> Study::conditionsOf(Role role) const
     return found;
 }
 
-std::vector<Bounds> Study::bounds() const
-{
-    std::vector<Bounds> all;
-    for (const auto& effect : effects)
-    {
-        all.push_back(effect.isSwitch ? Bounds{1.0, 1.0} : effect.bounds);
-    }
-    return all;
-}
-
-std::vector<bool> Study::fixed() const
-{
-    std::vector<bool> all;
-    for (const auto& effect : effects)
-    {
-        all.push_back(effect.isSwitch);
-    }
-    return all;
-}
-
 } // namespace clepsydra::identification

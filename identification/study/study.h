@@ -2,10 +2,12 @@
 
 #include "curves/curve.h"
 #include "features/features.h"
-#include "inference/significance.h"
 #include "runner/entries.h"
 #include "study/expression.h"
 
+#include <Eigen/Core>
+
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -14,6 +16,19 @@
 
 namespace clepsydra::identification
 {
+
+/// Range of an effect's amplitude.
+struct Bounds
+{
+    double lower = 0.0;
+    double upper = 1.0;
+
+    /// The largest size, to either side.
+    double reach() const
+    {
+        return std::max(upper, -lower);
+    }
+};
 
 /// A case that can be run.
 struct RigSpecification
@@ -153,13 +168,6 @@ struct CommonError
     Eigen::VectorXd featureErrors; // by feature; 0: none
 };
 
-enum class DesignKind
-{
-    automatic,
-    plackettBurman,
-    oneAtATime
-};
-
 struct ExecutorSpecification
 {
     std::string kind = "pool";        // or slurm
@@ -171,21 +179,17 @@ struct Settings
 {
     int budget = 1000; // runs
     unsigned seed = 1;
-    int repeatsBase = 4;         // runs at the base setting of a condition
-    int repeatsAtFit = 3;        // and at the null fit
-    int repeatsConfirmation = 3; // and with an effect switched on
+    int repeatsBase = 6;  // runs at the base setting of a condition
+    int repeatsAlone = 5; // and of an effect that runs alone
+    int decidingRuns = 9; // in each training condition on average, for one data set
     int repeatsHeldOut = 3;
     int attempts = 3; // of a run that fails, each with another seed
-    DesignKind design = DesignKind::automatic;
     double level = 0.05;
-    int draws = 2000;
-    double setWidth = 3.0; // log evidence within which effects cannot be told apart
-    int confirmations = 3; // effects that are switched on, at most
-    int rounds = 2;        // simulations of each, where the first is not near enough to its fit
-    bool pairs = true;
-    double pairPenalty = 3.0; // log prior odds of any two effects at once against any one
-    double otherWeight = 1.0; // prior weight of an effect outside the library, beside 1 for a usual one
-    std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve, or an effect's name
+    int draws = 1000;         // of the test's null distribution
+    double coverage = 0.9;    // of sets, for each effect
+    double wrongNames = 0.05; // of what is detected and not in the library
+    double otherWeight = 1.0; // prior weight of something outside the library, beside 1 for a usual effect
+    std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve
     std::string onFailure = "exclude";           // or stop
 };
 
@@ -210,8 +214,6 @@ struct Study
     std::vector<std::string> leftOut;     // effects of a library that the case has no entries for
 
     std::vector<std::size_t> conditionsOf(Role role) const;
-    std::vector<Bounds> bounds() const;
-    std::vector<bool> fixed() const;
     Eigen::Index featureCount() const
     {
         return static_cast<Eigen::Index>(features.size());

@@ -1,6 +1,6 @@
-#include "design/effectLibrary.h"
-#include "design/plackettBurman.h"
-#include "design/seeds.h"
+#include "emulator/library.h"
+#include "emulator/plackettBurman.h"
+#include "runner/seeds.h"
 #include "runner/entries.h"
 #include "study/expression.h"
 #include "study/entriesOfRuns.h"
@@ -109,6 +109,26 @@ TEST(Seeds, ArePrimesAndDiffer)
     }
     EXPECT_EQ(seeds.size(), 150U);
     EXPECT_EQ(seedOf(1, "repeats", "dry", 7), seedOf(1, "repeats", "dry", 7));
+}
+
+/// In a design and its mirror image no product of two columns goes with any column: interactions do not look like effects.
+TEST(PlackettBurman, FoldoverKeepsInteractionsApart)
+{
+    for (const Eigen::Index factors : {6, 11, 14})
+    {
+        const Eigen::MatrixXd design = foldover(plackettBurman(factors));
+        for (Eigen::Index i = 0; i < factors; ++i)
+        {
+            for (Eigen::Index j = 0; j < i; ++j)
+            {
+                const Eigen::VectorXd product = design.col(i).cwiseProduct(design.col(j));
+                EXPECT_TRUE((design.transpose() * product).isZero()) << i << ' ' << j;
+            }
+        }
+    }
+    const Eigen::MatrixXd plain = plackettBurman(11);
+    const Eigen::VectorXd product = plain.col(0).cwiseProduct(plain.col(1));
+    EXPECT_FALSE((plain.transpose() * product).isZero()) << "a design without its mirror image must fail this";
 }
 
 /// Orthogonal columns, each with as many + as -: then effects do not mix and have variance sigma^2 4/N.
@@ -355,58 +375,7 @@ TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
     EXPECT_NE(study.leftOut.front().find("roll"), std::string::npos);
 }
 
-//--- The effect library ------------------------------------------------------------------------------------------------
-
-TEST(EffectLibrary, FindsLinearEffectsExactly)
-{
-    for (const std::string seed : {"seed", "none"})
-    {
-        const TemporaryFolder folder;
-        const Study study = linearStudy(folder, seed);
-        LinearRig rig;
-        Simulator simulator(study, rig);
-        const EffectLibrary library = makeLibrary(simulator);
-        const Sensitivity& both = library.conditions[0];
-        EXPECT_NEAR(both.base(0), std::log(.1), 1e-9);
-        EXPECT_NEAR(both.parameterColumns(0, 0), .04, 1e-9);
-        EXPECT_NEAR(both.effectColumns(0, 0), .06, 1e-9);
-        EXPECT_NEAR(both.effectColumns(0, 1), .2, 1e-9);
-        EXPECT_NEAR(both.effectColumns(0, 2), -std::log(1.01), 1e-9);
-        EXPECT_EQ(library.conditions[1].effectColumns(0, 1), 0) << "y acts in water only";
-        EXPECT_EQ(library.design, seed == "none" ? DesignKind::oneAtATime : DesignKind::plackettBurman);
-    }
-}
-
-/// Where one thing is changed at a time, an effect that bends strongly leaves the others as they are: a least-squares
-/// plane through all runs would give y some of what x does.
-TEST(EffectLibrary, CurvatureOfOneEffectIsNoOtherEffect)
-{
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "none");
-    LinearRig rig;
-    rig.curvature = 200;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    EXPECT_NEAR(library.conditions[0].effectColumns(0, 0), .06, 1e-9);
-    EXPECT_NEAR(library.conditions[0].effectColumns(0, 1), .2, 1e-9);
-}
-
-/// A run that fails is tried again with other seeds, then excluded, and both is told.
-TEST(EffectLibrary, FailedRunsAreToldAndExcluded)
-{
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "none");
-    LinearRig rig;
-    rig.failsWithY = true;
-    Simulator simulator(study, rig);
-    const EffectLibrary library = makeLibrary(simulator);
-    EXPECT_EQ(library.conditions[0].effectColumns(0, 1), 0);
-    EXPECT_NEAR(library.conditions[0].effectColumns(0, 0), .06, 1e-9);
-    ASSERT_EQ(library.remarks.size(), 1U);
-    EXPECT_NE(library.remarks.front().find('y'), std::string::npos);
-    ASSERT_EQ(simulator.failures().size(), 1U);
-    EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
-}
+//--- The budget ------------------------------------------------------------------------------------------------------
 
 /// The simulated curve in the measurement's scale and zero, which are those of the run's own entries: an effect on what the
 /// formula holds moves the zero, too.

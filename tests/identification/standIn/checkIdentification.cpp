@@ -1,8 +1,7 @@
-/// The statistics of the whole procedure, on the stand-in: many studies, each with its own library, its own data and a
-/// truth that the procedure does not see. Prints and writes what came out.
+/// The statistics of the whole procedure, on the stand-in: libraries, and many data sets for each, with a truth that the
+/// procedure does not see. Prints and writes what came out.
 #include "standIn/standIn.h"
 
-#include "heldOut/heldOut.h"
 #include "procedure/trace.h"
 #include "study/readStudy.h"
 
@@ -28,10 +27,13 @@ struct Options
 {
     std::string study;
     std::string output;
-    int nulls = 300;
-    int effects = 300;
-    int unknowns = 100;
+    int libraries = 10;
+    int nulls = 20;   // of each library, as all that follow
+    int effects = 14; // data sets with one effect, each effect in turn
+    int foils = 0;    // the same, with that effect not in the library
+    int unknowns = 0; // with an effect that no library has, for each of three sizes
     int pairs = 0;
+    int again = 0; // of the data sets with one effect: the same once more, with other seeds of the program's runs
     unsigned seed = 1;
     int draws = 1000;
     bool check = false;
@@ -74,98 +76,15 @@ struct Truth
 
 struct Outcome
 {
-    Decision decision;
-    double pValue;
-    bool topOne;
-    bool inSet;
-    std::size_t setSize;
-    double error; // of the true effect's amplitude, in standard errors that the interval reaches
-    bool covered;
-    double before;
-    double after;
-    double oneMore;
-    double gaussian;
-    bool accepted;
-};
-
-/// One study from beginning to end.
-class Trial
-{
-public:
-    Trial(Study study, const Study& world, const Entries& defaults, unsigned seed)
-        : study_(std::move(study)),
-          world_(world),
-          rig_(defaults),
-          random_(seed)
-    {
-        study_.settings.seed = 2 * seed;
-        world_.settings.seed = 2 * seed + 1;
-    }
-
-    Outcome run(const Truth& truth)
-    {
-        Simulator simulator(study_, rig_);
-        const EffectLibrary library = makeLibrary(simulator);
-        const auto measured = measure(truth);
-        const Answer answer = trace(simulator, library, measured, random_);
-        const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, measured, measured, random_);
-
-        Outcome outcome{answer.decision, answer.significance.pValue, false, false,
-            answer.set.size() + answer.pairsAlike.size(), 0.0, false, heldOut.before.rmsLogError.value,
-            heldOut.after ? heldOut.after->rmsLogError.value : heldOut.before.rmsLogError.value,
-            heldOut.oneMoreParameter.rmsLogError.value, heldOut.gaussianProcess.rmsLogError.value, heldOut.accepted()};
-        const bool inLibrary = !truth.effects.empty() && truth.effects.front() < study_.effects.size();
-        if (inLibrary)
-        {
-            for (std::size_t member = 0; member < answer.set.size(); ++member)
-            {
-                if (answer.set[member].effects == truth.effects)
-                {
-                    outcome.inSet = true;
-                    outcome.topOne = member == 0;
-                }
-            }
-            outcome.inSet = outcome.inSet
-                            || std::any_of(answer.pairsAlike.begin(), answer.pairsAlike.end(),
-                                [&](const Explanation& pair) { return pair.effects == truth.effects; });
-            const Score& score = answer.effects[truth.effects.front()].score();
-            const double reach = intervalSds(answer.noise) * score.sd;
-            outcome.covered = std::abs(score.amplitude - truth.amplitudes.front()) <= reach;
-            outcome.error = (score.amplitude - truth.amplitudes.front()) / score.sd;
-        }
-        return outcome;
-    }
-
-private:
-    /// Three repeats of every condition, with the true friction drawn from its prior.
-    std::vector<MeasuredCondition> measure(const Truth& truth)
-    {
-        Simulator world(world_, rig_);
-        std::normal_distribution<double> normal;
-        Setting setting = world.plainSetting();
-        setting.parameters(0) += 0.6 * study_.parameters.front().sd * normal(random_);
-        for (std::size_t k = 0; k < truth.effects.size(); ++k)
-        {
-            setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
-        }
-        std::vector<MeasuredCondition> all(world_.conditions.size());
-        for (std::size_t c = 0; c < all.size(); ++c)
-        {
-            const auto simulations = world.repeats({c}, setting, "measured", 3);
-            all[c].features.resize(3, world_.featureCount());
-            for (Eigen::Index row = 0; row < 3; ++row)
-            {
-                all[c].features.row(row) = simulations[static_cast<std::size_t>(row)].features.transpose();
-            }
-            all[c].declaredError = Eigen::VectorXd::Zero(world_.featureCount());
-        }
-        return all;
-    }
-
-    Study study_;
-    Study world_;
-    StandInRig rig_;
-    std::mt19937_64 random_;
+    Decision decision = Decision::noResidual;
+    double pValue = 1.0;
+    bool topOne = false;
+    bool inSet = false;
+    std::size_t setSize = 0;
+    bool somethingElse = false;
+    bool covered = false;
+    double rank = 0.0; // in which the truth lies: 0 below the interval's middle half, ...
+    std::vector<std::vector<std::size_t>> set;
 };
 
 struct Tally
@@ -175,56 +94,132 @@ struct Tally
     double topOne = 0;
     double inSet = 0;
     double setSize = 0;
-    double sets = 0;
     double named = 0;
-    double namedWrong = 0;
+    double namedRight = 0;
     double unknown = 0;
+    double open = 0; // unknown, or a set with something else
     double covered = 0;
-    double before = 0;
-    double after = 0;
-    double oneMore = 0;
-    double gaussian = 0;
-    double accepted = 0;
 
     void add(const Outcome& outcome)
     {
-        const bool seen = outcome.decision != Decision::noResidual;
         trials += 1;
-        detected += seen ? 1 : 0;
-        topOne += seen && outcome.topOne ? 1 : 0;
-        inSet += seen && outcome.inSet ? 1 : 0;
+        if (outcome.decision == Decision::noResidual)
+        {
+            return;
+        }
+        detected += 1;
+        topOne += outcome.topOne ? 1 : 0;
+        inSet += outcome.inSet ? 1 : 0;
+        setSize += static_cast<double>(outcome.setSize);
+        const bool isName = outcome.decision == Decision::named;
+        named += isName ? 1 : 0;
+        namedRight += isName && outcome.inSet ? 1 : 0;
         unknown += outcome.decision == Decision::unknown ? 1 : 0;
-        named += outcome.decision == Decision::named ? 1 : 0;
-        namedWrong += outcome.decision == Decision::named && !outcome.inSet ? 1 : 0;
-        covered += seen && outcome.covered ? 1 : 0;
-        if (outcome.setSize > 0)
-        {
-            sets += 1;
-            setSize += static_cast<double>(outcome.setSize);
-        }
-        if (seen)
-        {
-            before += outcome.before;
-            after += outcome.after;
-            oneMore += outcome.oneMore;
-            gaussian += outcome.gaussian;
-            accepted += outcome.accepted ? 1 : 0;
-        }
+        open += outcome.decision == Decision::unknown || outcome.somethingElse ? 1 : 0;
+        covered += outcome.covered ? 1 : 0;
     }
 
     Json json() const
     {
-        const auto mean = [](double sum, double of) { return of > 0 ? Json(sum / of) : Json(nullptr); };
-        return {{"trials", trials}, {"detected", share(detected, trials)},
-            {"topOneWhenDetected", share(topOne, detected)}, {"truthInSetWhenDetected", share(inSet, detected)},
-            {"meanSetSize", mean(setSize, sets)}, {"unknownWhenDetected", share(unknown, detected)},
-            {"namedWhenDetected", share(named, detected)}, {"wrongNameWhenDetected", share(namedWrong, detected)},
-            {"intervalCoversWhenDetected", share(covered, detected)},
-            {"heldOutRms",
-                {{"before", mean(before, detected)}, {"after", mean(after, detected)},
-                    {"oneMoreParameter", mean(oneMore, detected)}, {"gaussianProcess", mean(gaussian, detected)}}},
-            {"acceptedWhenDetected", share(accepted, detected)}};
+        return {{"detected", share(detected, trials)}, {"topOneWhenDetected", share(topOne, detected)},
+            {"truthInSetWhenDetected", share(inSet, detected)},
+            {"meanSetSize", detected > 0 ? Json(setSize / detected) : Json(nullptr)},
+            {"namedWhenDetected", share(named, detected)}, {"namedRightly", share(namedRight, named)},
+            {"wrongNameWhenDetected", share(named - namedRight, detected)},
+            {"unknownWhenDetected", share(unknown, detected)}, {"somethingElseWhenDetected", share(open, detected)},
+            {"intervalCoversWhenDetected", share(covered, detected)}};
     }
+};
+
+/// One library, and data sets made for it.
+class Rigged
+{
+public:
+    Rigged(const Study& study, const Study& world, const Entries& defaults, unsigned seed)
+        : study_(study),
+          world_(world),
+          rig_(defaults),
+          seed_(seed)
+    {
+        study_.settings.seed = seed;
+        Simulator simulator(study_, rig_);
+        library_ = makeLibrary(simulator);
+    }
+
+    std::vector<MeasuredCondition> measure(const Truth& truth, unsigned number)
+    {
+        world_.settings.seed = seed_ * 4099U + number;
+        Simulator world(world_, rig_);
+        std::mt19937_64 random(world_.settings.seed);
+        std::normal_distribution<double> normal;
+        Setting setting = world.plainSetting();
+        setting.parameters(0) += study_.parameters.front().sd * normal(random);
+        for (std::size_t k = 0; k < truth.effects.size(); ++k)
+        {
+            setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
+        }
+        std::vector<MeasuredCondition> all(world_.conditions.size());
+        for (std::size_t c = 0; c < all.size(); ++c)
+        {
+            const auto simulations = world.repeats({c}, setting, "measured", repeats);
+            all[c].features.resize(repeats, world_.featureCount());
+            for (Eigen::Index row = 0; row < repeats; ++row)
+            {
+                all[c].features.row(row) = simulations[static_cast<std::size_t>(row)].features.transpose();
+            }
+            all[c].declaredError = Eigen::VectorXd::Zero(world_.featureCount());
+        }
+        return all;
+    }
+
+    /// \param without  effect that the library is to lack, or none
+    Outcome answer(const std::vector<MeasuredCondition>& data, const Truth& truth, unsigned runSeed,
+        std::size_t without = static_cast<std::size_t>(-1))
+    {
+        Study study = study_;
+        study.settings.seed = seed_ * 4099U + runSeed;
+        Library library = library_;
+        if (without < study.effects.size())
+        {
+            // The library that would have been made without it: its runs with the effect on are of no use.
+            study.effects[without].prior = 1e-300;
+        }
+        Simulator simulator(study, rig_);
+        std::mt19937_64 random(study.settings.seed);
+        const Answer answer = trace(simulator, library, data, random);
+        Outcome outcome;
+        outcome.decision = answer.decision;
+        outcome.pValue = answer.pValue;
+        outcome.setSize = answer.set.size();
+        outcome.somethingElse = answer.somethingElseInSet;
+        for (std::size_t member = 0; member < answer.set.size(); ++member)
+        {
+            outcome.set.push_back(answer.set[member].effects);
+            if (answer.set[member].effects == truth.effects)
+            {
+                outcome.inSet = true;
+                outcome.topOne = member == 0;
+            }
+        }
+        if (truth.effects.size() == 1 && truth.effects.front() < answer.effects.size())
+        {
+            const EffectFinding& finding = answer.effects[truth.effects.front()];
+            outcome.covered = finding.fit.lower <= truth.amplitudes.front() && truth.amplitudes.front() <= finding.fit.upper;
+            // The best one, whatever the set holds.
+            outcome.topOne = std::all_of(answer.effects.begin(), answer.effects.end(),
+                [&](const EffectFinding& other) { return other.probability <= finding.probability; });
+        }
+        return outcome;
+    }
+
+private:
+    static constexpr int repeats = 3;
+
+    Study study_;
+    Study world_;
+    StandInRig rig_;
+    unsigned seed_;
+    Library library_;
 };
 
 Json check(const Options& options)
@@ -238,78 +233,98 @@ Json check(const Options& options)
     }
     const Entries defaults = readEntries(study.rig.caseFolder / study.rig.entriesFile);
     std::mt19937_64 random(options.seed);
-    unsigned next = options.seed * 100000;
-    const auto trial = [&](const Truth& truth) { return Trial(study, world, defaults, next++).run(truth); };
     const auto anyOf = [&](std::size_t count) {
         return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
     };
     const auto signedAmplitude = [&](std::size_t e, double size) {
         return world.effects[e].bounds.lower < 0.0 && anyOf(2) == 0 ? -size : size;
     };
+    const auto size = [&] { return std::uniform_real_distribution<double>(0.25, 1.0)(random); };
+    constexpr unsigned perKind = 500; // more than data sets of one kind for one library
 
     Tally nulls;
-    std::vector<double> pValues;
-    for (int i = 0; i < options.nulls; ++i)
-    {
-        const Outcome outcome = trial({});
-        nulls.add(outcome);
-        pValues.push_back(outcome.pValue);
-    }
-    std::cerr << "nulls done" << std::endl;
-
     Tally effects;
+    Tally foils;
+    Tally pairs;
     std::map<std::string, Tally> byEffect;
     std::map<std::string, Tally> bySize;
-    for (int i = 0; i < options.effects; ++i)
-    {
-        const auto e = static_cast<std::size_t>(i) % study.effects.size();
-        const double size = std::uniform_real_distribution<double>(0.25, 1.0)(random);
-        const Outcome outcome = trial({{e}, {signedAmplitude(e, size)}});
-        effects.add(outcome);
-        byEffect[study.effects[e].name].add(outcome);
-        bySize[size < 0.5 ? "0.25-0.5" : size < 0.75 ? "0.5-0.75" : "0.75-1"].add(outcome);
-    }
-    std::cerr << "effects done" << std::endl;
-
-    Json outside = Json::object();
-    for (const double size : {0.25, 0.5, 1.0})
-    {
-        Tally tally;
-        for (int i = 0; i < options.unknowns; ++i)
-        {
-            const std::size_t e =
-                study.effects.size() + static_cast<std::size_t>(i) % (world.effects.size() - study.effects.size());
-            tally.add(trial({{e}, {size}}));
-        }
-        outside[std::to_string(size).substr(0, 4)] = tally.json();
-    }
-    Tally pairs;
-    for (int i = 0; i < options.pairs; ++i)
-    {
-        const auto a = anyOf(study.effects.size() - 1);
-        const auto b = a + 1 + anyOf(study.effects.size() - a - 1);
-        pairs.add(trial({{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}}));
-    }
-
-    Json perEffect = Json::object();
-    for (const auto& [name, tally] : byEffect)
-    {
-        perEffect[name] = tally.json();
-    }
-    Json perSize = Json::object();
-    for (const auto& [name, tally] : bySize)
-    {
-        perSize[name] = tally.json();
-    }
+    std::map<std::string, Tally> outside;
+    double sameAnswer = 0;
+    double askedAgain = 0;
     double below = 0;
-    for (const double p : pValues)
+    std::size_t turn = 0;
+    for (int l = 0; l < options.libraries; ++l)
     {
-        below += p < 0.5 ? 1 : 0;
+        Rigged rigged(study, world, defaults, options.seed * 1000U + static_cast<unsigned>(l));
+        unsigned number = 1;
+        for (int i = 0; i < options.nulls; ++i, ++number)
+        {
+            const Outcome outcome = rigged.answer(rigged.measure({}, number), {}, number);
+            nulls.add(outcome);
+            below += outcome.pValue < 0.5 ? 1 : 0;
+        }
+        number = perKind;
+        for (int i = 0; i < options.effects; ++i, ++number)
+        {
+            const std::size_t e = turn++ % study.effects.size();
+            const double large = size();
+            const Truth truth{{e}, {signedAmplitude(e, large)}};
+            const auto data = rigged.measure(truth, number);
+            const Outcome outcome = rigged.answer(data, truth, number);
+            effects.add(outcome);
+            byEffect[study.effects[e].name].add(outcome);
+            bySize[large < 0.5 ? "0.25-0.5" : large < 0.75 ? "0.5-0.75" : "0.75-1"].add(outcome);
+            if (i < options.again)
+            {
+                const Outcome second = rigged.answer(data, truth, number + 3 * perKind);
+                askedAgain += 1;
+                sameAnswer += second.decision == outcome.decision
+                                      && (outcome.decision != Decision::named || second.set == outcome.set)
+                                  ? 1
+                                  : 0;
+            }
+            if (i < options.foils)
+            {
+                foils.add(rigged.answer(data, truth, number, e));
+            }
+        }
+        number = 2 * perKind;
+        for (const double part : {0.25, 0.5, 1.0})
+        {
+            for (int i = 0; i < options.unknowns; ++i, ++number)
+            {
+                const std::size_t e =
+                    study.effects.size() + number % (world.effects.size() - study.effects.size());
+                const Truth truth{{e}, {part}};
+                outside[std::to_string(part).substr(0, 4)].add(rigged.answer(rigged.measure(truth, number), truth, number));
+            }
+        }
+        for (int i = 0; i < options.pairs; ++i, ++number)
+        {
+            const auto a = anyOf(study.effects.size() - 1);
+            const auto b = a + 1 + anyOf(study.effects.size() - a - 1);
+            const Truth truth{{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}};
+            pairs.add(rigged.answer(rigged.measure(truth, number), truth, number));
+        }
+        std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials << ", detected "
+                  << effects.detected << " of " << effects.trials << ", best is the truth " << effects.topOne << ", in the set "
+                  << effects.inSet << ", named " << effects.named << ", rightly " << effects.namedRight << ", sizes "
+                  << effects.setSize << ", amplitude covered " << effects.covered << ", same " << sameAnswer << " of "
+                  << askedAgain << std::endl;
     }
-    return {{"study", study.name}, {"seed", options.seed}, {"draws", options.draws},
+    const auto all = [](const std::map<std::string, Tally>& tallies) {
+        Json json = Json::object();
+        for (const auto& [name, tally] : tallies)
+        {
+            json[name] = tally.json();
+        }
+        return json;
+    };
+    return {{"study", study.name}, {"seed", options.seed}, {"libraries", options.libraries}, {"draws", options.draws},
         {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
-        {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", perSize}, {"byEffect", perEffect},
-        {"outsideLibrary", outside}, {"pairs", pairs.json()}};
+        {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
+        {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", foils.json()},
+        {"outsideLibrary", all(outside)}, {"pairs", pairs.json()}};
 }
 
 /// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
@@ -327,11 +342,9 @@ bool asPromised(const Json& result, double level)
     const Json& alarms = result["falseAlarms"]["wilson95"];
     require(alarms[0].get<double>() <= level && level <= alarms[1].get<double>(), "false alarms at the nominal level");
     const Json& effects = result["effects"];
-    require(effects["detected"]["share"].get<double>() > 0.5, "more than half of the effects are detected");
-    require(effects["truthInSetWhenDetected"]["share"].get<double>() > 0.7, "the truth is in the set in 70 %");
-    require(effects["meanSetSize"].get<double>() < 4.0, "sets have fewer than 4 members");
-    require(effects["heldOutRms"]["after"].get<double>() < effects["heldOutRms"]["before"].get<double>(),
-        "the held-out error falls");
+    require(effects["detected"]["share"].get<double>() > 0.7, "more than 70 % of the effects are detected");
+    require(effects["truthInSetWhenDetected"]["share"].get<double>() > 0.8, "the truth is in the set in 80 %");
+    require(effects["meanSetSize"].get<double>() < 2.0, "sets have fewer than 2 members");
     return good;
 }
 
@@ -345,12 +358,15 @@ int main(int argc, char** argv)
     CLI::App app("Checks the statistics of traceResidual from end to end on a stand-in for the solver");
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("study", options.study, "study file of the stand-in")->required();
-    app.add_option("--nulls", options.nulls, "studies without any effect");
-    app.add_option("--effects", options.effects, "studies with one effect of the library");
-    app.add_option("--unknowns", options.unknowns, "studies with an effect outside it, for each of three sizes");
-    app.add_option("--pairs", options.pairs, "studies with two effects");
+    app.add_option("--libraries", options.libraries, "libraries; all other numbers are for each of them");
+    app.add_option("--nulls", options.nulls, "data sets without any effect");
+    app.add_option("--effects", options.effects, "data sets with one effect of the library");
+    app.add_option("--foils", options.foils, "of these, answered with that effect not in the library, too");
+    app.add_option("--again", options.again, "of these, answered with other seeds of the program's runs, too");
+    app.add_option("--unknowns", options.unknowns, "data sets with an effect that no library has, for each of three sizes");
+    app.add_option("--pairs", options.pairs, "data sets with two effects");
     app.add_option("--seed", options.seed, "of everything");
-    app.add_option("--draws", options.draws, "of each Monte Carlo test");
+    app.add_option("--draws", options.draws, "of the test's null distribution");
     app.add_option("--output", options.output, "JSON file to write");
     app.add_flag("--check", options.check, "fail where the result is worse than the procedure promises");
     CLI11_PARSE(app, argc, argv);

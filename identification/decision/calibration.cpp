@@ -1,0 +1,291 @@
+#include "decision/calibration.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Detected draws of each effect that are wanted, and draws that are made for them at most.
+constexpr int wantedDraws = 100;
+constexpr int mostDraws = 200;
+
+/// What a wrong name may cost in right ones.
+constexpr double smallestPrice = 0.1;
+constexpr double largestPrice = 1e4;
+constexpr double priceStep = 1.3;
+
+Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    if (fit.parameters.size() == 0)
+    {
+        return fit.parameters;
+    }
+    const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(fit.parameters.size(), [&] { return normal(random); });
+    return fit.parameters + fit.covariance.llt().matrixL() * z;
+}
+
+/// Weight of an effect: variants of one thing share it.
+double logPrior(const Study& study, std::size_t e)
+{
+    const Effect& effect = study.effects[e];
+    const auto variants = effect.family.empty()
+                              ? 1
+                              : std::count_if(study.effects.begin(), study.effects.end(),
+                                  [&](const Effect& other) { return other.family == effect.family; });
+    return std::log(effect.prior / static_cast<double>(variants));
+}
+
+} // namespace
+
+Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
+{
+    const Eigen::Index count = evidences.effects.size();
+    Eigen::VectorXd all(count + 1);
+    for (Eigen::Index e = 0; e < count; ++e)
+    {
+        all(e) = static_cast<std::size_t>(e) == without
+                     ? -std::numeric_limits<double>::infinity()
+                     : evidences.effects(e) + logPrior(study, static_cast<std::size_t>(e));
+    }
+    all(count) = evidences.other + std::log(study.settings.otherWeight);
+    const double sum = logSumExp(all);
+    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum};
+}
+
+bool areVariants(const Study& study, std::size_t one, std::size_t other)
+{
+    return one < study.effects.size() && other < study.effects.size() && !study.effects[one].family.empty()
+           && study.effects[one].family == study.effects[other].family;
+}
+
+double marginOf(const Odds& odds, std::size_t effect)
+{
+    const double log = odds.effects(static_cast<Eigen::Index>(effect));
+    return log - std::log(std::max(-std::expm1(log), std::numeric_limits<double>::min()));
+}
+
+std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds)
+{
+    std::vector<std::size_t> members;
+    for (Eigen::Index e = 0; e < odds.effects.size(); ++e)
+    {
+        if (odds.effects(e) >= calibration.membership(e) && std::isfinite(odds.effects(e)))
+        {
+            members.push_back(static_cast<std::size_t>(e));
+        }
+    }
+    std::sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
+        return odds.effects(static_cast<Eigen::Index>(a)) > odds.effects(static_cast<Eigen::Index>(b));
+    });
+    return members;
+}
+
+std::optional<std::size_t> soleMember(const Study& study, const Calibration& calibration, const Odds& odds)
+{
+    const auto members = membersOf(calibration, odds);
+    const bool one = !members.empty() && std::all_of(members.begin(), members.end(), [&](std::size_t other) {
+        return other == members.front() || areVariants(study, members.front(), other);
+    });
+    return one && odds.other < calibration.otherMembership ? std::optional(members.front()) : std::nullopt;
+}
+
+double Calibration::pValue(double statistic) const
+{
+    const auto above = nullStatistics.end() - std::lower_bound(nullStatistics.begin(), nullStatistics.end(), statistic);
+    return (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
+}
+
+Calibrator::Calibrator(const Study& study, const Evidence& evidence, const Measured& measured, std::mt19937_64& random)
+    : study_(study),
+      evidence_(evidence),
+      measured_(measured),
+      random_(random)
+{}
+
+Calibration Calibrator::calibrate()
+{
+    drawNull();
+    drawEffects();
+    drawOther();
+    setMembership();
+    setNaming();
+    return std::move(calibration_);
+}
+
+void Calibrator::drawNull()
+{
+    const Fit fit = evidence_.fitNull(measured_);
+    auto& all = calibration_.nullStatistics;
+    for (int i = 0; i < study_.settings.draws; ++i)
+    {
+        const Measured drawn = evidence_.draw(evidence_.nullNode(), around(fit, random_), random_);
+        all.push_back(oddsOf(study_, evidence_(drawn)).statistic);
+    }
+    std::sort(all.begin(), all.end());
+    const auto index = static_cast<std::size_t>((1.0 - study_.settings.level) * static_cast<double>(all.size()));
+    calibration_.critical = all[std::min(index, all.size() - 1)];
+}
+
+void Calibrator::drawEffects()
+{
+    for (std::size_t e = 0; e < study_.effects.size(); ++e)
+    {
+        std::vector<const Node*> nodes;
+        for (const auto& node : evidence_.nodes(e))
+        {
+            if (node.present.front().amplitude != 0.0)
+            {
+                nodes.push_back(&node);
+            }
+        }
+        if (nodes.empty())
+        {
+            continue;
+        }
+        const Fit fit = evidence_.fit(e, measured_);
+        int found = 0;
+        for (int i = 0; i < mostDraws && found < wantedDraws; ++i)
+        {
+            const Node& node = *nodes[static_cast<std::size_t>(i) % nodes.size()];
+            const Evidences evidences = evidence_(evidence_.draw(node, around(fit, random_), random_));
+            const Odds odds = oddsOf(study_, evidences);
+            if (odds.statistic > calibration_.critical)
+            {
+                detected_.push_back({e, odds, oddsOf(study_, evidences, e)});
+                ++found;
+            }
+        }
+    }
+}
+
+void Calibrator::drawOther()
+{
+    const Fit fit = evidence_.fitNull(measured_);
+    for (int i = 0; i < mostDraws; ++i)
+    {
+        const auto& sizes = Evidence::sizes();
+        const double size = sizes[static_cast<std::size_t>(i) % sizes.size()];
+        const Odds odds = oddsOf(study_, evidence_(evidence_.drawOther(size, around(fit, random_), random_)));
+        if (odds.statistic > calibration_.critical)
+        {
+            detected_.push_back({study_.effects.size(), odds, odds});
+        }
+    }
+}
+
+/// Sets of least mean size for a coverage of each class: Sadinle, Lei & Wasserman, J. Am. Stat. Assoc. 114, 223 (2019).
+void Calibrator::setMembership()
+{
+    const auto quantileOf = [&](std::size_t truth) {
+        std::vector<double> own;
+        for (const auto& draw : detected_)
+        {
+            if (draw.truth == truth)
+            {
+                own.push_back(truth < study_.effects.size() ? draw.odds.effects(static_cast<Eigen::Index>(truth))
+                                                            : draw.odds.other);
+            }
+        }
+        if (own.empty())
+        {
+            return -std::numeric_limits<double>::infinity();
+        }
+        std::sort(own.begin(), own.end());
+        // The observed set counts as one more draw.
+        const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
+        return place < 1.0 ? -std::numeric_limits<double>::infinity() : own[static_cast<std::size_t>(place) - 1];
+    };
+    calibration_.membership.resize(static_cast<Eigen::Index>(study_.effects.size()));
+    for (std::size_t e = 0; e < study_.effects.size(); ++e)
+    {
+        calibration_.membership(static_cast<Eigen::Index>(e)) = quantileOf(e);
+    }
+    calibration_.otherMembership = quantileOf(study_.effects.size());
+}
+
+/// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected foils
+/// that is allowed. Each name has a threshold of its own, all at the same price of a wrong name.
+void Calibrator::setNaming()
+{
+    struct Candidate
+    {
+        double margin;
+        double right; // weight among the library's draws, or
+        double wrong; // among the foils
+    };
+    const std::size_t count = study_.effects.size();
+    std::vector<std::vector<Candidate>> candidates(count);
+    std::vector<double> draws(count + 1, 0.0);
+    for (const auto& draw : detected_)
+    {
+        draws[draw.truth] += 1.0;
+    }
+    const auto classes = static_cast<double>(
+        std::count_if(draws.begin(), draws.end(), [](double number) { return number > 0.0; }));
+    for (const auto& draw : detected_)
+    {
+        const double weight = 1.0 / (draws[draw.truth] * classes);
+        const auto add = [&](const Odds& odds, bool isFoil) {
+            const auto sole = soleMember(study_, calibration_, odds);
+            if (!sole)
+            {
+                return;
+            }
+            const bool isRight = !isFoil && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
+            candidates[*sole].push_back({marginOf(odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
+        };
+        if (draw.truth < count)
+        {
+            add(draw.odds, false);
+        }
+        add(draw.without, true);
+    }
+    for (auto& own : candidates)
+    {
+        std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
+    }
+    // At a price of a wrong name, in right ones: the threshold of each name that pays best.
+    const auto wrongAt = [&](double price) {
+        double wrong = 0.0;
+        for (std::size_t e = 0; e < count; ++e)
+        {
+            double best = 0.0;
+            double gain = 0.0;
+            double own = 0.0;
+            double ownAtBest = 0.0;
+            double threshold = std::numeric_limits<double>::infinity();
+            for (const auto& one : candidates[e])
+            {
+                gain += one.right - price * one.wrong;
+                own += one.wrong;
+                if (gain >= best)
+                {
+                    best = gain;
+                    ownAtBest = own;
+                    threshold = one.margin;
+                }
+            }
+            calibration_.naming(static_cast<Eigen::Index>(e)) = threshold;
+            wrong += ownAtBest;
+        }
+        return wrong;
+    };
+    calibration_.naming.resize(static_cast<Eigen::Index>(count));
+    double price = smallestPrice;
+    calibration_.wrongNames = wrongAt(price);
+    while (calibration_.wrongNames > study_.settings.wrongNames && price < largestPrice)
+    {
+        price *= priceStep;
+        calibration_.wrongNames = wrongAt(price);
+    }
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,78 @@
+#pragma once
+
+#include "decision/evidence.h"
+
+#include <optional>
+#include <random>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// What evidences amount to, before any threshold.
+struct Odds
+{
+    double statistic = 0.0;  // log odds of anything against no effect
+    Eigen::VectorXd effects; // log probability of each, given that there is something
+    double other = 0.0;      // the same of something else
+};
+
+/// Thresholds of the decision, from data drawn of the emulator with this data set's own numbers of repeats: no runs.
+struct Calibration
+{
+    std::vector<double> nullStatistics; // of draws without any effect, ascending
+    double critical = 0.0;              // of the statistic, at the study's level
+    Eigen::VectorXd membership; // by effect: this log probability or more has the share `coverage` of its detected draws
+    double otherMembership = 0.0; // the same for what is not in the library
+    Eigen::VectorXd naming;       // by effect: log probability above which it may be a name
+    double wrongNames = 0.0;      // of detected foils, at these thresholds
+
+    double pValue(double statistic) const;
+};
+
+class Calibrator
+{
+public:
+    /// \param odds  prior weights of effects and of something else
+    Calibrator(const Study& study, const Evidence& evidence, const Measured& measured, std::mt19937_64& random);
+
+    Calibration calibrate();
+
+private:
+    struct Draw
+    {
+        std::size_t truth; // effect; their number: something else
+        Odds odds;
+        Odds without; // the same, with the truth not in the library
+    };
+
+    void drawNull();
+    void drawEffects();
+    void drawOther();
+    void setMembership();
+    void setNaming();
+
+    const Study& study_;
+    const Evidence& evidence_;
+    const Measured& measured_;
+    std::mt19937_64& random_;
+    std::vector<Draw> detected_;
+    Calibration calibration_;
+};
+
+/// Whether two effects are variants of one thing.
+bool areVariants(const Study& study, std::size_t one, std::size_t other);
+
+/// Log odds of an effect against all else.
+double marginOf(const Odds& odds, std::size_t effect);
+
+/// Effects that a set holds, most likely first.
+std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds);
+
+/// The only member, or the most likely one of a family that all members belong to; none where something else may be it.
+std::optional<std::size_t> soleMember(const Study& study, const Calibration& calibration, const Odds& odds);
+
+/// \param without  an effect that the library is to lack
+Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without = static_cast<std::size_t>(-1));
+
+} // namespace clepsydra::identification

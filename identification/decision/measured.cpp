@@ -1,0 +1,150 @@
+#include "decision/measured.h"
+
+#include "emulator/covariance.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Noise that is declared counts as known.
+constexpr double asGoodAsKnown = 1e6;
+
+/// Repeats that have all features of a block.
+Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
+{
+    std::vector<Eigen::Index> complete;
+    for (Eigen::Index row = 0; row < features.rows(); ++row)
+    {
+        if (features.row(row).array().isFinite().all())
+        {
+            complete.push_back(row);
+        }
+    }
+    return features(complete, Eigen::all);
+}
+
+/// Of measurements where the simulator has no noise: from their own repeats, or what was declared.
+Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data, const Emulator& emulator)
+{
+    Scatter repeats;
+    bool declared = true;
+    for (std::size_t c = 0; c < data.size(); ++c)
+    {
+        if (emulator[c])
+        {
+            repeats.add(data[c].features);
+            declared = declared && hasDeclaredErrors(data[c]);
+        }
+    }
+    if (repeats.degreesOfFreedom() >= 2.0)
+    {
+        return pooledCovariance(repeats.deviations(), repeats.degreesOfFreedom());
+    }
+    if (!declared)
+    {
+        throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
+                                 "(at least two more measurements than conditions are needed, or a relativeError or "
+                                 "standardError of every number measured)");
+    }
+    return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
+}
+
+} // namespace
+
+std::vector<std::vector<Eigen::Index>> measuredFeatures(
+    const Study& study, const std::vector<MeasuredCondition>& data)
+{
+    std::vector<std::vector<Eigen::Index>> features(study.conditions.size());
+    for (const auto c : study.conditionsOf(Role::training))
+    {
+        const Eigen::VectorXd mean = meanFeatures(data[c].features);
+        for (Eigen::Index f = 0; f < mean.size(); ++f)
+        {
+            if (std::isfinite(mean(f)))
+            {
+                features[c].push_back(f);
+            }
+        }
+    }
+    return features;
+}
+
+std::pair<Layout, Measured> arrange(
+    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data)
+{
+    Layout layout;
+    Measured measured;
+    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, emulator);
+    layout.noiseFreedom = emulator.scatters() ? emulator.degreesOfFreedom() : own.nu;
+    layout.noise = emulator.scatters() ? emulator.noise() : own.matrix;
+    std::vector<Eigen::VectorXd> means;
+    for (std::size_t c = 0; c < data.size(); ++c)
+    {
+        if (!emulator[c])
+        {
+            continue;
+        }
+        const auto& known = emulator[c]->features;
+        const Eigen::VectorXd all = meanFeatures(data[c].features);
+        Layout::Block block;
+        block.condition = c;
+        block.first = layout.rows;
+        std::vector<Eigen::Index> kept;
+        for (std::size_t k = 0; k < known.size(); ++k)
+        {
+            if (std::isfinite(all(known[k])))
+            {
+                block.places.push_back(static_cast<Eigen::Index>(k));
+                kept.push_back(known[k]);
+            }
+        }
+        if (kept.empty())
+        {
+            continue;
+        }
+        block.meanShare = shareOfMean(data[c].features)(kept, kept);
+        const Eigen::VectorXd variance =
+            data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
+        block.common = variance.asDiagonal();
+        Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(block.size(), block.size());
+        if (emulator.scatters())
+        {
+            const Eigen::MatrixXd rows = completeRows(data[c].features(Eigen::all, kept));
+            if (rows.rows() > 1)
+            {
+                const Eigen::MatrixXd deviations = rows.rowwise() - Eigen::RowVectorXd(rows.colwise().mean());
+                squares = deviations.transpose() * deviations;
+                block.freedom = static_cast<double>(rows.rows()) - 1.0;
+            }
+        }
+        else
+        {
+            block.noise = own.matrix(kept, kept);
+        }
+        layout.rows += block.size();
+        layout.blocks.push_back(std::move(block));
+        measured.scatter.push_back(std::move(squares));
+        means.emplace_back(all(kept));
+    }
+    measured.mean.resize(layout.rows);
+    for (std::size_t b = 0; b < layout.blocks.size(); ++b)
+    {
+        measured.mean.segment(layout.blocks[b].first, means[b].size()) = means[b];
+    }
+    if (layout.rows <= static_cast<Eigen::Index>(study.parameters.size()))
+    {
+        throw std::runtime_error(study.file.string() + ": measurements and the library's runs have "
+                                 + std::to_string(layout.rows)
+                                 + " features in common in the training conditions; allowed: more than there are "
+                                   "parameters, "
+                                 + std::to_string(study.parameters.size()));
+    }
+    return {layout, measured};
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,55 @@
+#pragma once
+
+#include "emulator/emulator.h"
+#include "study/measurements.h"
+
+#include <Eigen/Core>
+
+#include <random>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// What a data set is made of: conditions, features, how often each was measured, and what repeats do not show.
+struct Layout
+{
+    struct Block
+    {
+        std::size_t condition = 0; // of the study
+        Eigen::Index first = 0;    // row among those of all blocks
+        std::vector<Eigen::Index> places; // of its features among those of the condition's emulator
+        Eigen::MatrixXd meanShare;  // covariance of the mean over that of one measurement, by element
+        Eigen::MatrixXd common;     // covariance of the mean that repeats do not show: declared errors, the simulation's own
+        Eigen::MatrixXd noise;      // of one measurement, where the simulator's noise does not stand for it; else empty
+        double freedom = 0.0;       // repeats - 1, where their spread can be compared with the simulator's
+
+        Eigen::Index size() const
+        {
+            return static_cast<Eigen::Index>(places.size());
+        }
+    };
+
+    std::vector<Block> blocks;
+    Eigen::Index rows = 0;
+    double noiseFreedom = 0.0; // degrees of freedom behind the noise
+    Eigen::MatrixXd noise;     // of one measurement, over all features of the study, as it is on average
+};
+
+/// The numbers that go with a layout.
+struct Measured
+{
+    Eigen::VectorXd mean;                // of the repeats
+    std::vector<Eigen::MatrixXd> scatter; // by block: sum of squares and products of deviations from the mean
+};
+
+/// \param data  by condition of the study; only those that the emulator has are looked at
+/// \throws std::runtime_error where there is no noise to be had, or fewer features than parameters
+std::pair<Layout, Measured> arrange(
+    const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data);
+
+/// Features of the training conditions that measurements have, by condition of the study.
+std::vector<std::vector<Eigen::Index>> measuredFeatures(
+    const Study& study, const std::vector<MeasuredCondition>& data);
+
+} // namespace clepsydra::identification

@@ -1,0 +1,92 @@
+#include "decision/visibility.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+constexpr int draws = 40; // at each amplitude
+constexpr double usual = 0.8;
+constexpr double mostly = 0.5;
+
+/// The smallest amplitude at which a share is reached, between neighbours linearly. \param shares  by amplitude
+double reached(const std::vector<std::pair<double, double>>& shares)
+{
+    double before = 0.0;
+    double shareBefore = 0.0;
+    for (const auto& [amplitude, share] : shares)
+    {
+        if (share >= usual)
+        {
+            return before + (amplitude - before) * (usual - shareBefore) / (share - shareBefore);
+        }
+        before = amplitude;
+        shareBefore = share;
+    }
+    return std::numeric_limits<double>::infinity();
+}
+
+} // namespace
+
+Visibility visibility(const Study& study, const Evidence& evidence, const Calibration& calibration,
+    const Measured& measured, std::mt19937_64& random)
+{
+    const auto count = static_cast<Eigen::Index>(study.effects.size());
+    Visibility found{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count), {}};
+    const Fit null = evidence.fitNull(measured);
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        const auto i = static_cast<Eigen::Index>(e);
+        std::vector<std::pair<double, double>> detected;
+        std::vector<std::pair<double, double>> named;
+        for (const auto& node : evidence.nodes(e))
+        {
+            const double amplitude = node.present.front().amplitude;
+            if (amplitude <= 0.0)
+            {
+                continue;
+            }
+            double seen = 0.0;
+            double right = 0.0;
+            std::vector<double> beside(study.effects.size(), 0.0);
+            for (int draw = 0; draw < draws; ++draw)
+            {
+                const Odds odds = oddsOf(study, evidence(evidence.draw(node, null.parameters, random)));
+                if (odds.statistic <= calibration.critical)
+                {
+                    continue;
+                }
+                seen += 1.0;
+                const auto sole = soleMember(study, calibration, odds);
+                right += sole && (*sole == e || areVariants(study, *sole, e)) && marginOf(odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)) ? 1.0 : 0.0;
+                for (const auto member : membersOf(calibration, odds))
+                {
+                    beside[member] += 1.0;
+                }
+            }
+            detected.emplace_back(amplitude, seen / draws);
+            named.emplace_back(amplitude, right / draws);
+            found.atFullSize(i) = right / draws;
+            if (&node == &evidence.nodes(e).back())
+            {
+                for (std::size_t other = 0; other < beside.size(); ++other)
+                {
+                    if (other != e && beside[other] > mostly * seen)
+                    {
+                        found.alike.emplace_back(e, other);
+                    }
+                }
+            }
+        }
+        found.detected(i) = reached(detected);
+        found.named(i) = reached(named);
+    }
+    return found;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,719 @@
+#include "emulator/emulator.h"
+
+#include "emulator/covariance.h"
+#include "emulator/settings.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/special_functions/digamma.hpp>
+#include <boost/math/tools/minima.hpp>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// A feature is left out where more than this share of the runs lacks it; else the runs that lack it are.
+constexpr double mostGaps = 0.2;
+
+/// Without scatter a run is as good as exact: noise of this share of what a feature varies over the runs.
+constexpr double exactShare = 1e-3;
+
+/// Repeats of an effect that is not declared to raise the scatter do so all the same where chance alone would in fewer
+/// cases than this.
+constexpr double otherScatter = 1e-3;
+
+/// The variance, between conditions, of the log of a feature's scatter is at least this: 10 %.
+constexpr double leastBetween = 0.01;
+
+/// Scatter of an effect in one condition counts against that of all conditions as much as this many degrees of freedom.
+constexpr double sharedScatter = 8.0;
+
+/// Powers of the amplitude for effects of the measuring chain, and amplitudes at which they are computed.
+constexpr Eigen::Index chainPowers = 4;
+constexpr int chainSteps = 4;
+
+/// The largest scale of a prior, in units of one run's noise, and the smallest.
+constexpr double largestScale = 1e5;
+constexpr double smallestScale = 1e-2;
+
+bool sameSetting(const Setting& a, const Setting& b)
+{
+    return a.parameters == b.parameters && a.amplitudes == b.amplitudes;
+}
+
+/// Repeats of one setting, as lists of row numbers.
+std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& settings)
+{
+    std::vector<std::vector<Eigen::Index>> groups;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+    {
+        const auto group = std::find_if(groups.begin(), groups.end(),
+            [&](const auto& one) { return sameSetting(settings[static_cast<std::size_t>(one.front())], settings[i]); });
+        if (group == groups.end())
+        {
+            groups.push_back({static_cast<Eigen::Index>(i)});
+        }
+        else
+        {
+            group->push_back(static_cast<Eigen::Index>(i));
+        }
+    }
+    return groups;
+}
+
+} // namespace
+
+//--- One condition --------------------------------------------------------------------------------------------------
+
+Eigen::VectorXd ConditionEmulator::terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const
+{
+    Eigen::VectorXd amplitudes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.effects.size()));
+    for (const auto& [effect, amplitude] : present)
+    {
+        const std::size_t place = basis.placeOf(effect);
+        if (place < basis.effects.size())
+        {
+            amplitudes(static_cast<Eigen::Index>(place)) = amplitude;
+        }
+    }
+    return basis.at(parameters, amplitudes);
+}
+
+Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) const
+{
+    const Eigen::Index q = basis.parameters;
+    Eigen::MatrixXd whitened = coefficients.topRows(parameterTerms(q)).transpose();
+    for (std::size_t k = 0; k < present.size(); ++k)
+    {
+        const std::size_t place = basis.placeOf(present[k].effect);
+        if (place == basis.effects.size())
+        {
+            continue;
+        }
+        const double a = present[k].amplitude;
+        const Eigen::Index first = basis.effectTerm(place);
+        whitened.col(0) += (a * coefficients.row(first) + a * a * coefficients.row(first + 1)).transpose();
+        whitened.middleCols(1, q) += a * coefficients.middleRows(first + 2, q).transpose();
+        for (std::size_t other = 0; other < k; ++other)
+        {
+            const std::size_t second = basis.placeOf(present[other].effect);
+            if (second < basis.effects.size())
+            {
+                whitened.col(0) += a * present[other].amplitude * coefficients.row(basis.pairTerm(place, second)).transpose();
+            }
+        }
+    }
+    Eigen::MatrixXd polynomial = root * whitened;
+    for (const auto& [effect, a] : present)
+    {
+        const auto found = chain.find(effect);
+        if (found != chain.end())
+        {
+            double power = 1.0;
+            for (const auto& column : found->second.powers.colwise())
+            {
+                power *= a;
+                polynomial.col(0) += power * column;
+            }
+            for (Eigen::Index i = 0; i < q; ++i)
+            {
+                const Eigen::MatrixXd& slope = found->second.slopes[static_cast<std::size_t>(i)];
+                polynomial.col(1 + i) += a * slope.col(0) + a * a * slope.col(1);
+            }
+        }
+    }
+    return polynomial;
+}
+
+Eigen::MatrixXd ConditionEmulator::uncertainty(
+    const Eigen::VectorXd& parameters, const std::vector<Present>& present) const
+{
+    // Only the terms that are not zero here.
+    const Eigen::VectorXd all = terms(parameters, present);
+    std::vector<Eigen::Index> used;
+    for (Eigen::Index i = 0; i < all.size(); ++i)
+    {
+        if (all(i) != 0.0)
+        {
+            used.push_back(i);
+        }
+    }
+    const Eigen::VectorXd x = all(used);
+    Eigen::VectorXd variances(static_cast<Eigen::Index>(covariances.size()));
+    for (Eigen::Index f = 0; f < variances.size(); ++f)
+    {
+        const Eigen::MatrixXd& covariance = covariances[static_cast<std::size_t>(f)];
+        variances(f) = x.dot(covariance(used, used) * x);
+    }
+    return root * variances.cwiseMax(0.0).asDiagonal() * root.transpose();
+}
+
+Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) const
+{
+    Eigen::VectorXd factor = Eigen::VectorXd::Zero(noise.rows());
+    for (const auto& [effect, amplitude] : present)
+    {
+        const auto found = logScatter.find(effect);
+        if (found != logScatter.end())
+        {
+            factor += std::abs(amplitude) * found->second;
+        }
+    }
+    factor = factor.array().exp();
+    return factor.asDiagonal() * noise * factor.asDiagonal();
+}
+
+//--- All conditions -------------------------------------------------------------------------------------------------
+
+Emulator::Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,
+    const std::vector<std::vector<Eigen::Index>>& features)
+    : study_(&study),
+      rows_(study.conditions.size()),
+      conditions_(study.conditions.size()),
+      known_(study.effects.size(), true),
+      scatters_(!study.rig.seedEntry.empty())
+{
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!features[c].empty())
+        {
+            choose(c, runs, features[c]);
+            append(c, runs);
+        }
+    }
+    learnNoise();
+    learnChain(simulator, runs);
+    if (scatters_)
+    {
+        // Effects that raise the scatter without being declared to are found by the noise of the others, and leave it.
+        learnScatter();
+        learnNoise();
+    }
+    chooseScales();
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        solve(c);
+    }
+}
+
+/// Features and effects of a condition, from what its runs have.
+void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted)
+{
+    std::vector<const Run*> good;
+    for (const auto& run : runs)
+    {
+        if (run.simulation.condition == c && !run.simulation.failed)
+        {
+            good.push_back(&run);
+        }
+    }
+    ConditionEmulator emulator;
+    for (const auto f : wanted)
+    {
+        const auto has = std::count_if(
+            good.begin(), good.end(), [&](const Run* run) { return std::isfinite(run->simulation.features(f)); });
+        if (static_cast<double>(has) >= (1.0 - mostGaps) * static_cast<double>(good.size()) && has > 0)
+        {
+            emulator.features.push_back(f);
+        }
+        else
+        {
+            remarks_.push_back("feature " + study_->features[static_cast<std::size_t>(f)].name + " is left out in condition "
+                               + study_->conditions[c].name + ": too many runs do not have it");
+        }
+    }
+    if (emulator.features.empty())
+    {
+        return;
+    }
+    emulator.basis.parameters = static_cast<Eigen::Index>(study_->parameters.size());
+    for (const auto e : simulatedEffects(*study_, c))
+    {
+        const auto isOn = [&](const Run* run) {
+            return run->setting.amplitudes(static_cast<Eigen::Index>(e)) != 0.0
+                   && run->simulation.features(emulator.features).array().isFinite().all();
+        };
+        if (std::any_of(good.begin(), good.end(), isOn))
+        {
+            emulator.basis.effects.push_back(e);
+        }
+        else
+        {
+            known_[e] = false;
+            remarks_.push_back("effect " + study_->effects[e].name + " is not judged: in condition "
+                               + study_->conditions[c].name + " all its runs have failed");
+        }
+        if (study_->effects[e].raisesScatter)
+        {
+            emulator.logScatter[e] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(emulator.features.size()));
+        }
+    }
+    conditions_[c] = std::move(emulator);
+}
+
+void Emulator::append(std::size_t c, const std::vector<Run>& runs)
+{
+    if (!conditions_[c])
+    {
+        return;
+    }
+    const ConditionEmulator& emulator = *conditions_[c];
+    Rows& rows = rows_[c];
+    for (const auto& run : runs)
+    {
+        if (run.simulation.condition != c || run.simulation.failed)
+        {
+            continue;
+        }
+        const Eigen::VectorXd values = run.simulation.features(emulator.features);
+        if (!values.array().isFinite().all())
+        {
+            continue;
+        }
+        std::vector<Present> present;
+        for (const auto e : emulator.basis.effects)
+        {
+            present.push_back({e, run.setting.amplitudes(static_cast<Eigen::Index>(e))});
+        }
+        const bool several = std::count_if(present.begin(), present.end(), [](const Present& one) {
+            return one.amplitude != 0.0;
+        }) > 1;
+        const Eigen::Index row = rows.values.rows();
+        rows.values.conservativeResize(row + 1, values.size());
+        rows.values.row(row) = values.transpose();
+        rows.terms.conservativeResize(row + 1, emulator.basis.size());
+        rows.terms.row(row) = emulator.terms(inSds(*study_, run.setting.parameters), present).transpose();
+        rows.settings.push_back(run.setting);
+        rows.terms(row, emulator.basis.designTerm()) = several ? 1.0 : 0.0;
+        rows.severalOn.push_back(several);
+        std::vector<Present> scattering;
+        std::copy_if(present.begin(), present.end(), std::back_inserter(scattering), [&](const Present& one) {
+            return one.amplitude != 0.0 && emulator.logScatter.count(one.effect) > 0;
+        });
+        rows.scattering.push_back(std::move(scattering));
+    }
+    conditions_[c]->runs = static_cast<int>(rows.settings.size());
+}
+
+void Emulator::setNoise(std::size_t c, const Eigen::MatrixXd& noise)
+{
+    conditions_[c]->noise = noise;
+    conditions_[c]->root = noise.llt().matrixL();
+}
+
+/// Noise from repeats at equal settings, and from nothing else: what a regression leaves is too small by what it has taken
+/// up. Correlations are those of all conditions together; the variances of a condition are drawn towards those of all by as
+/// much as chance explains.
+void Emulator::learnNoise()
+{
+    const Eigen::Index features = study_->featureCount();
+    Scatter all;
+    std::vector<Eigen::VectorXd> logSds(conditions_.size());
+    std::vector<Eigen::VectorXd> smallest(conditions_.size());
+    std::vector<double> freedom(conditions_.size(), 0.0);
+    std::vector<Eigen::MatrixXd> deviations(conditions_.size());
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(features);
+    Eigen::VectorXd weight = squares;
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!conditions_[c])
+        {
+            continue;
+        }
+        const auto& kept = conditions_[c]->features;
+        const Rows& rows = rows_[c];
+        Scatter own;
+        for (const auto& group : repeatsOf(rows.settings))
+        {
+            if (scatters_ && rows.scattering[static_cast<std::size_t>(group.front())].empty())
+            {
+                own.add(rows.values(group, Eigen::all));
+            }
+        }
+        const Eigen::RowVectorXd mean = rows.values.colwise().mean();
+        smallest[c] = exactShare
+                      * ((rows.values.rowwise() - mean).colwise().squaredNorm().transpose()
+                          / static_cast<double>(rows.values.rows()))
+                            .cwiseSqrt()
+                            .cwiseMax(1e-9);
+        freedom[c] = own.degreesOfFreedom();
+        logSds[c] = smallest[c].array().log();
+        if (freedom[c] > 0.0)
+        {
+            deviations[c] = own.deviations();
+            const Eigen::VectorXd meanSquare = deviations[c].cwiseAbs2().colwise().mean();
+            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log();
+            squares(kept) += freedom[c] * meanSquare;
+            weight(kept).array() += freedom[c];
+        }
+    }
+    const Eigen::VectorXd pooled =
+        0.5 * squares.cwiseQuotient(weight.cwiseMax(1e-9)).cwiseMax(1e-30).array().log().matrix();
+    // Variance between conditions beyond that of chance, 1/(2 nu) for the log of a standard deviation.
+    double between = 0.0;
+    double count = 0.0;
+    degreesOfFreedom_ = 0.0;
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (conditions_[c] && freedom[c] > 0.0)
+        {
+            between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom[c]).sum();
+            count += static_cast<double>(logSds[c].size());
+            degreesOfFreedom_ += freedom[c];
+        }
+    }
+    between = std::max(leastBetween, between / std::max(count, 1.0));
+    Eigen::MatrixXd standardised(0, features);
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!conditions_[c] || degreesOfFreedom_ == 0.0)
+        {
+            continue;
+        }
+        const auto& kept = conditions_[c]->features;
+        const Eigen::VectorXd common = pooled(kept).cwiseMax(smallest[c].array().log().matrix());
+        if (freedom[c] == 0.0)
+        {
+            logSds[c] = common;
+            continue;
+        }
+        logSds[c] = common + (logSds[c] - common) * (between / (between + 0.5 / freedom[c]));
+        const Eigen::Index first = standardised.rows();
+        standardised.conservativeResize(first + deviations[c].rows(), Eigen::NoChange);
+        standardised.bottomRows(deviations[c].rows()).setConstant(std::nan(""));
+        for (std::size_t k = 0; k < kept.size(); ++k)
+        {
+            const auto place = static_cast<Eigen::Index>(k);
+            standardised.col(kept[k]).tail(deviations[c].rows()) = deviations[c].col(place) * std::exp(-logSds[c](place));
+        }
+    }
+    Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(features, features);
+    if (standardised.rows() > 0)
+    {
+        correlation = pooledCovariance(standardised, degreesOfFreedom_).matrix;
+        const Eigen::VectorXd scale = correlation.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+        correlation = scale.asDiagonal() * correlation * scale.asDiagonal();
+        correlation.diagonal().setOnes();
+    }
+    const Eigen::VectorXd typical =
+        (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
+    noise_ = typical.asDiagonal() * correlation * typical.asDiagonal();
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (conditions_[c])
+        {
+            const auto& kept = conditions_[c]->features;
+            const Eigen::VectorXd sds = logSds[c].array().exp();
+            setNoise(c, sds.asDiagonal() * Eigen::MatrixXd(correlation(kept, kept)) * sds.asDiagonal());
+        }
+    }
+}
+
+/// Variances of the runs in units of the noise, runs x features.
+Eigen::ArrayXXd Emulator::variances(std::size_t c) const
+{
+    const ConditionEmulator& emulator = *conditions_[c];
+    const Rows& rows = rows_[c];
+    Eigen::ArrayXXd all = Eigen::ArrayXXd::Ones(rows.values.rows(), rows.values.cols());
+    const auto lower = emulator.root.triangularView<Eigen::Lower>();
+    for (Eigen::Index row = 0; row < all.rows(); ++row)
+    {
+        const auto& scattering = rows.scattering[static_cast<std::size_t>(row)];
+        if (!scattering.empty())
+        {
+            const Eigen::MatrixXd wide = emulator.noiseOf(scattering).llt().matrixL();
+            all.row(row) = lower.solve(wide).rowwise().squaredNorm().transpose().array();
+        }
+        if (rows.severalOn[static_cast<std::size_t>(row)])
+        {
+            all.row(row) += lackOfFit_ * lackOfFit_;
+        }
+    }
+    return all;
+}
+
+/// Log marginal likelihood of all runs, without constants.
+double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
+{
+    double sum = 0.0;
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!conditions_[c])
+        {
+            continue;
+        }
+        const ConditionEmulator& emulator = *conditions_[c];
+        const Rows& rows = rows_[c];
+        Eigen::VectorXd prior(emulator.basis.size());
+        for (Eigen::Index i = 0; i < prior.size(); ++i)
+        {
+            prior(i) = scales[emulator.basis.kind(i)];
+        }
+        const Eigen::MatrixXd scaled = rows.terms * prior.asDiagonal();
+        Eigen::MatrixXd covariance = scaled * scaled.transpose();
+        covariance.diagonal() += variances(c).rowwise().mean().matrix();
+        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+        const Eigen::MatrixXd whitened =
+            emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
+        const Eigen::MatrixXd left = factor.matrixL().solve(whitened);
+        sum -= 0.5 * left.squaredNorm()
+               + static_cast<double>(whitened.cols())
+                     * factor.matrixLLT().diagonal().array().abs().log().sum();
+    }
+    return sum;
+}
+
+/// Scales of largest evidence, one after the other, twice round.
+void Emulator::chooseScales()
+{
+    if (scales_[Basis::linear] == 0.0)
+    {
+        scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0};
+    }
+    constexpr int bits = 8;
+    constexpr int sweeps = 2;
+    constexpr std::uintmax_t mostEvaluations = 16;
+    for (int sweep = 0; sweep < sweeps; ++sweep)
+    {
+        for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction})
+        {
+            const auto misfit = [&](double logScale) {
+                auto scales = scales_;
+                scales[kind] = std::exp(logScale);
+                return -logEvidence(scales);
+            };
+            std::uintmax_t most = mostEvaluations;
+            scales_[kind] = std::exp(boost::math::tools::brent_find_minima(
+                misfit, std::log(smallestScale), std::log(largestScale / 10.0), bits, most).first);
+        }
+        if (scatters_)
+        {
+            const auto misfit = [&](double logSize) {
+                lackOfFit_ = std::exp(logSize);
+                return -logEvidence(scales_);
+            };
+            std::uintmax_t most = mostEvaluations;
+            lackOfFit_ = std::exp(
+                boost::math::tools::brent_find_minima(misfit, std::log(smallestScale), std::log(10.0), bits, most).first);
+        }
+    }
+}
+
+/// Coefficients and their covariance.
+void Emulator::solve(std::size_t c)
+{
+    if (!conditions_[c])
+    {
+        return;
+    }
+    ConditionEmulator& emulator = *conditions_[c];
+    const Rows& rows = rows_[c];
+    const Eigen::Index features = rows.values.cols();
+    Eigen::VectorXd prior(emulator.basis.size());
+    for (Eigen::Index i = 0; i < prior.size(); ++i)
+    {
+        prior(i) = scales_[emulator.basis.kind(i)] * scales_[emulator.basis.kind(i)];
+    }
+    const Eigen::MatrixXd spread = prior.asDiagonal() * rows.terms.transpose();
+    const Eigen::MatrixXd kernel = rows.terms * spread;
+    const Eigen::MatrixXd whitened =
+        emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
+    const Eigen::ArrayXXd variance = variances(c);
+    emulator.coefficients.resize(prior.size(), features);
+    emulator.covariances.assign(static_cast<std::size_t>(features), {});
+    for (Eigen::Index f = 0; f < features; ++f)
+    {
+        const bool asBefore = f > 0 && (variance.col(f) == variance.col(f - 1)).all();
+        Eigen::MatrixXd covariance = kernel;
+        covariance.diagonal() += variance.col(f).matrix();
+        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+        emulator.coefficients.col(f) = spread * factor.solve(whitened.col(f));
+        Eigen::MatrixXd& posterior = emulator.covariances[static_cast<std::size_t>(f)];
+        if (asBefore)
+        {
+            posterior = emulator.covariances[static_cast<std::size_t>(f - 1)];
+            continue;
+        }
+        const Eigen::MatrixXd half = factor.matrixL().solve(spread.transpose());
+        posterior = -half.transpose() * half;
+        posterior.diagonal() += prior;
+    }
+}
+
+/// How much effects raise the scatter: from repeats of runs with one effect alone.
+void Emulator::learnScatter()
+{
+    for (std::size_t e = 0; e < study_->effects.size(); ++e)
+    {
+        const auto place = static_cast<Eigen::Index>(e);
+        Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // over the usual variance
+        Eigen::VectorXd freedom = squares;
+        std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // by condition: the same, degrees of freedom
+        double statistic = 0.0;
+        double statisticFreedom = 0.0;
+        for (std::size_t c = 0; c < conditions_.size(); ++c)
+        {
+            if (!conditions_[c])
+            {
+                continue;
+            }
+            const auto& kept = conditions_[c]->features;
+            for (const auto& group : repeatsOf(rows_[c].settings))
+            {
+                const Setting& setting = rows_[c].settings[static_cast<std::size_t>(group.front())];
+                Eigen::VectorXd others = setting.amplitudes;
+                others(place) = 0.0;
+                if (group.size() < 2 || setting.amplitudes(place) == 0.0 || !others.isZero())
+                {
+                    continue;
+                }
+                const Eigen::MatrixXd values = rows_[c].values(group, Eigen::all);
+                const Eigen::MatrixXd deviations = values.rowwise() - Eigen::RowVectorXd(values.colwise().mean());
+                const double nu = static_cast<double>(group.size()) - 1.0;
+                const Eigen::VectorXd ratio = deviations.colwise().squaredNorm().transpose().cwiseQuotient(
+                    conditions_[c]->noise.diagonal());
+                squares(kept) += ratio;
+                freedom(kept).array() += nu;
+                own[c] = {ratio, nu};
+                statistic += conditions_[c]->root.triangularView<Eigen::Lower>().solve(deviations.transpose()).squaredNorm();
+                statisticFreedom += nu * static_cast<double>(kept.size());
+            }
+        }
+        if (own.empty())
+        {
+            continue;
+        }
+        const boost::math::chi_squared chance(statisticFreedom);
+        if (!study_->effects[e].raisesScatter
+            && boost::math::cdf(boost::math::complement(chance, statistic)) > otherScatter)
+        {
+            continue;
+        }
+        // The log of a mean square of few deviations is too small by this.
+        const auto bias = [](double nu) { return boost::math::digamma(nu / 2.0) - std::log(nu / 2.0); };
+        for (const auto& [c, ratioAndFreedom] : own)
+        {
+            const auto& [ratio, nu] = ratioAndFreedom;
+            const auto& kept = conditions_[c]->features;
+            Eigen::VectorXd logs(ratio.size());
+            for (Eigen::Index k = 0; k < ratio.size(); ++k)
+            {
+                const auto f = kept[static_cast<std::size_t>(k)];
+                const double all = 0.5 * (std::log(squares(f) / freedom(f)) - bias(freedom(f)));
+                const double here = 0.5 * (std::log(ratio(k) / nu) - bias(nu));
+                logs(k) = all + (here - all) * nu / (nu + sharedScatter);
+            }
+            conditions_[c]->logScatter[e] = logs;
+        }
+    }
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!conditions_[c])
+        {
+            continue;
+        }
+        for (std::size_t row = 0; row < rows_[c].settings.size(); ++row)
+        {
+            rows_[c].scattering[row].clear();
+            for (const auto& [e, logs] : conditions_[c]->logScatter)
+            {
+                const double amplitude = rows_[c].settings[row].amplitudes(static_cast<Eigen::Index>(e));
+                if (amplitude != 0.0)
+                {
+                    rows_[c].scattering[row].push_back({e, amplitude});
+                }
+            }
+        }
+    }
+}
+
+/// The curves of runs without effects, once more through the chain.
+void Emulator::learnChain(const Simulator& simulator, const std::vector<Run>& runs)
+{
+    const Eigen::Index q = static_cast<Eigen::Index>(study_->parameters.size());
+    for (std::size_t e = 0; e < study_->effects.size(); ++e)
+    {
+        const Effect& effect = study_->effects[e];
+        const auto [lower, upper] = effect.bounds;
+        for (std::size_t c = 0; c < conditions_.size() && effect.isOfChain(); ++c)
+        {
+            if (!conditions_[c] || !acts(effect, study_->conditions[c]))
+            {
+                continue;
+            }
+            const auto& kept = conditions_[c]->features;
+            std::vector<Eigen::VectorXd> terms;
+            std::vector<Eigen::VectorXd> changes;
+            for (const auto& run : runs)
+            {
+                const bool isPlain = run.setting.amplitudes.isZero() && !run.simulation.failed;
+                if (run.simulation.condition != c || !isPlain)
+                {
+                    continue;
+                }
+                const Eigen::VectorXd before = run.simulation.features(kept);
+                const Eigen::VectorXd t = inSds(*study_, run.setting.parameters);
+                for (int step = effect.isSwitch ? chainSteps : 1; step <= chainSteps; ++step)
+                {
+                    for (const double end : {lower, upper})
+                    {
+                        const double a = end * step / chainSteps;
+                        if (a == 0.0)
+                        {
+                            continue;
+                        }
+                        Eigen::VectorXd amplitudes = Eigen::VectorXd::Zero(run.setting.amplitudes.size());
+                        amplitudes(static_cast<Eigen::Index>(e)) = a;
+                        const Eigen::VectorXd after = simulator.featuresOf(
+                            simulator.throughChain(run.simulation.plain, c, amplitudes))(kept);
+                        Eigen::VectorXd x(chainPowers + 2 * q);
+                        for (Eigen::Index power = 0; power < chainPowers; ++power)
+                        {
+                            x(power) = std::pow(a, static_cast<double>(power + 1));
+                        }
+                        x.segment(chainPowers, q) = a * t;
+                        x.tail(q) = a * a * t;
+                        if ((after - before).array().isFinite().all())
+                        {
+                            terms.push_back(x);
+                            changes.emplace_back(after - before);
+                        }
+                    }
+                }
+            }
+            if (terms.empty())
+            {
+                known_[e] = false;
+                remarks_.push_back("effect " + effect.name + " is not judged: with it no curve has the features of condition "
+                                   + study_->conditions[c].name);
+                continue;
+            }
+            Eigen::MatrixXd x(static_cast<Eigen::Index>(terms.size()), terms.front().size());
+            Eigen::MatrixXd y(x.rows(), changes.front().size());
+            for (Eigen::Index row = 0; row < x.rows(); ++row)
+            {
+                x.row(row) = terms[static_cast<std::size_t>(row)].transpose();
+                y.row(row) = changes[static_cast<std::size_t>(row)].transpose();
+            }
+            const Eigen::MatrixXd solution = x.completeOrthogonalDecomposition().solve(y);
+            ConditionEmulator::Chain column;
+            column.powers = solution.topRows(chainPowers).transpose();
+            for (Eigen::Index i = 0; i < q; ++i)
+            {
+                Eigen::MatrixXd slope(y.cols(), 2);
+                slope << solution.row(chainPowers + i).transpose(), solution.row(chainPowers + q + i).transpose();
+                column.slopes.push_back(slope);
+            }
+            conditions_[c]->chain[e] = std::move(column);
+        }
+    }
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,148 @@
+#pragma once
+
+#include "emulator/basis.h"
+#include "emulator/library.h"
+
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace clepsydra::identification
+{
+
+/// Effects that are on, with their amplitudes.
+struct Present
+{
+    std::size_t effect;
+    double amplitude;
+};
+
+/// What the simulator would give in one condition, at any parameters and amplitudes, learnt from runs: Bayesian
+/// regression on the terms of `Basis`, all features at once. In units of one run's noise the features are independent
+/// and all coefficients of a kind have one normal prior. Parameters are counted in sd of their prior, from its mean.
+class ConditionEmulator
+{
+public:
+    /// Effects of the measuring chain: change of each feature, as a polynomial in amplitude and parameters.
+    struct Chain
+    {
+        Eigen::MatrixXd powers;              // features x powers of the amplitude, from the first
+        std::vector<Eigen::MatrixXd> slopes; // by parameter: features x two powers of the amplitude
+    };
+
+    Basis basis;
+    std::vector<Eigen::Index> features; // of the study
+    Eigen::MatrixXd noise;              // covariance of one run without effects that raise the scatter
+    Eigen::MatrixXd root;               // lower triangular; root root' = noise
+    Eigen::MatrixXd coefficients;       // terms x features, in units of `root`
+    std::vector<Eigen::MatrixXd> covariances;           // of these, by feature
+    std::map<std::size_t, Chain> chain;                 // by effect
+    std::map<std::size_t, Eigen::VectorXd> logScatter;  // by effect: log sd that amplitude 1 adds, by feature
+    int runs = 0;
+
+    /// Mean of the features as a polynomial in the parameters: features x parameterTerms.
+    Eigen::MatrixXd mean(const std::vector<Present>& present) const;
+
+    /// Covariance of what the emulator does not know of that mean, at some parameters.
+    Eigen::MatrixXd uncertainty(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+
+    /// Covariance of one run.
+    Eigen::MatrixXd noiseOf(const std::vector<Present>& present) const;
+
+    /// The terms at a setting. Effects that are not simulated here count as absent.
+    Eigen::VectorXd terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+};
+
+/// Emulators of all training conditions, with scales of the priors and noise that they share.
+class Emulator
+{
+public:
+    /// \param features  by condition of the study, those that are wanted; of these, what too many runs lack is left out
+    /// \param plain  runs whose curves show what the measuring chain does
+    Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,
+        const std::vector<std::vector<Eigen::Index>>& features);
+
+    /// By condition of the study; none where nothing is wanted or left.
+    const std::optional<ConditionEmulator>& operator[](std::size_t condition) const
+    {
+        return conditions_[condition];
+    }
+
+    /// Whether anything is known of an effect: of one whose runs have all failed nothing is.
+    bool knows(std::size_t effect) const
+    {
+        return known_[effect];
+    }
+
+    bool scatters() const
+    {
+        return scatters_;
+    }
+
+    /// Covariance of one run over all features of the study, as it is in the conditions on average; zero without scatter.
+    const Eigen::MatrixXd& noise() const
+    {
+        return noise_;
+    }
+
+    /// Degrees of freedom behind the noise.
+    double degreesOfFreedom() const
+    {
+        return degreesOfFreedom_;
+    }
+
+    /// Sd of the coefficients' priors by kind of term, in units of one run's noise.
+    const std::array<double, Basis::kinds>& scales() const
+    {
+        return scales_;
+    }
+
+    double lackOfFit() const
+    {
+        return lackOfFit_;
+    }
+
+    const std::vector<std::string>& remarks() const
+    {
+        return remarks_;
+    }
+
+private:
+    /// The runs of one condition, a row each.
+    struct Rows
+    {
+        std::vector<Setting> settings;
+        Eigen::MatrixXd values; // of the features that the emulator has
+        Eigen::MatrixXd terms;
+        std::vector<std::vector<Present>> scattering; // effects of each run that raise its scatter
+        std::vector<bool> severalOn;                  // whether it has several effects at once
+    };
+
+    void choose(std::size_t condition, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted);
+    void append(std::size_t condition, const std::vector<Run>& runs);
+    double logEvidence(const std::array<double, Basis::kinds>& scales) const;
+    void chooseScales();
+    void solve(std::size_t condition);
+    void learnNoise();
+    void learnScatter();
+    void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
+    void learnChain(const Simulator& simulator, const std::vector<Run>& runs);
+    Eigen::ArrayXXd variances(std::size_t condition) const;
+
+    const Study* study_;
+    std::vector<Rows> rows_;
+    std::vector<std::optional<ConditionEmulator>> conditions_;
+    std::vector<bool> known_;
+    std::array<double, Basis::kinds> scales_{};
+    /// Sd of what terms of second order miss where several effects are on, in units of noise: without it the design's
+    /// runs, which are many, would carry the base setting with them.
+    double lackOfFit_ = 0.0;
+    bool scatters_ = false;
+    Eigen::MatrixXd noise_;
+    double degreesOfFreedom_ = 0.0;
+    std::vector<std::string> remarks_;
+};
+
+} // namespace clepsydra::identification

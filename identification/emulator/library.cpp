@@ -1,0 +1,205 @@
+#include "emulator/library.h"
+
+#include "emulator/plackettBurman.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// The design moves a parameter by this many prior sd to either side: far enough for its fits, which lie within two.
+constexpr double parameterStep = 1.5;
+
+double moved(const Parameter& parameter, double sds)
+{
+    return std::clamp(parameter.mean + sds * parameter.sd, parameter.lower, parameter.upper);
+}
+
+/// Whether an effect runs by itself: what is on or off has no half, and scatter in half of a design's runs hides all else.
+bool runsAlone(const Effect& effect)
+{
+    return effect.isSwitch || effect.raisesScatter;
+}
+
+class Orders
+{
+public:
+    Orders(const Simulator& simulator, std::size_t condition)
+        : simulator_(simulator),
+          study_(simulator.study()),
+          condition_(condition)
+    {}
+
+    std::vector<SimulationOrder> scattering()
+    {
+        add(simulator_.plainSetting(), "base", study_.settings.repeatsBase);
+        std::vector<std::size_t> designed;
+        for (const auto e : simulatedEffects(study_, condition_))
+        {
+            const Effect& effect = study_.effects[e];
+            if (runsAlone(effect))
+            {
+                add(with(e, effect.bounds.upper), effect.name + " alone", study_.settings.repeatsAlone);
+            }
+            else
+            {
+                designed.push_back(e);
+            }
+        }
+        addDesign(designed);
+        return std::move(orders_);
+    }
+
+    std::vector<SimulationOrder> exact()
+    {
+        add(simulator_.plainSetting(), "base", 1);
+        for (std::size_t p = 0; p < study_.parameters.size(); ++p)
+        {
+            for (const double side : {-1.0, 1.0})
+            {
+                Setting setting = simulator_.plainSetting();
+                setting.parameters(static_cast<Eigen::Index>(p)) =
+                    moved(study_.parameters[p], side * parameterStep);
+                add(setting, "design", 1);
+            }
+        }
+        for (const auto e : simulatedEffects(study_, condition_))
+        {
+            const auto [lower, upper] = study_.effects[e].bounds;
+            for (const double amplitude : {lower, upper})
+            {
+                if (amplitude != 0.0)
+                {
+                    add(with(e, amplitude), "design", 1);
+                }
+            }
+        }
+        return std::move(orders_);
+    }
+
+private:
+    Setting with(std::size_t effect, double amplitude) const
+    {
+        Setting setting = simulator_.plainSetting();
+        setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+        return setting;
+    }
+
+    /// Numbers go on from order to order of one purpose, so that each has a seed of its own.
+    void add(const Setting& setting, const std::string& purpose, int count)
+    {
+        const auto before = std::count_if(
+            orders_.begin(), orders_.end(), [&](const SimulationOrder& order) { return order.purpose == purpose; });
+        for (int i = 0; i < count; ++i)
+        {
+            orders_.push_back({condition_, setting, purpose, static_cast<int>(before) + i});
+        }
+    }
+
+    void addDesign(const std::vector<std::size_t>& effects)
+    {
+        const auto parameters = static_cast<Eigen::Index>(study_.parameters.size());
+        const auto factors = parameters + static_cast<Eigen::Index>(effects.size());
+        if (factors == 0)
+        {
+            return;
+        }
+        const Eigen::MatrixXd design = foldover(plackettBurman(factors));
+        for (const auto& row : design.rowwise())
+        {
+            Setting setting = simulator_.plainSetting();
+            for (Eigen::Index p = 0; p < parameters; ++p)
+            {
+                setting.parameters(p) = moved(study_.parameters[static_cast<std::size_t>(p)], parameterStep * row(p));
+            }
+            for (std::size_t k = 0; k < effects.size(); ++k)
+            {
+                const Bounds& bounds = study_.effects[effects[k]].bounds;
+                const bool high = row(parameters + static_cast<Eigen::Index>(k)) > 0.0;
+                setting.amplitudes(static_cast<Eigen::Index>(effects[k])) = high ? bounds.upper : bounds.lower;
+            }
+            add(setting, "design", 1);
+        }
+    }
+
+    const Simulator& simulator_;
+    const Study& study_;
+    std::size_t condition_;
+    std::vector<SimulationOrder> orders_;
+};
+
+} // namespace
+
+Eigen::MatrixXd foldover(const Eigen::MatrixXd& design)
+{
+    Eigen::MatrixXd both(2 * design.rows(), design.cols());
+    both << design, -design;
+    return both;
+}
+
+std::vector<std::size_t> simulatedEffects(const Study& study, std::size_t condition)
+{
+    std::vector<std::size_t> found;
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        if (!study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[condition]))
+        {
+            found.push_back(e);
+        }
+    }
+    return found;
+}
+
+std::vector<SimulationOrder> libraryOrders(const Simulator& simulator)
+{
+    const Study& study = simulator.study();
+    std::vector<SimulationOrder> all;
+    for (const auto condition : study.conditionsOf(Role::training))
+    {
+        Orders orders(simulator, condition);
+        const auto more = study.rig.seedEntry.empty() ? orders.exact() : orders.scattering();
+        all.insert(all.end(), more.begin(), more.end());
+    }
+    return all;
+}
+
+Library makeLibrary(Simulator& simulator)
+{
+    const Study& study = simulator.study();
+    const auto orders = libraryOrders(simulator);
+    // The base runs first: where these fail, the many others would be in vain.
+    std::vector<SimulationOrder> first;
+    std::vector<SimulationOrder> rest;
+    for (const auto& order : orders)
+    {
+        (order.purpose == "base" ? first : rest).push_back(order);
+    }
+    Library library;
+    const auto run = [&](const std::vector<SimulationOrder>& some) {
+        auto simulations = simulator.run(some);
+        for (std::size_t i = 0; i < some.size(); ++i)
+        {
+            library.runs.push_back({some[i].setting, std::move(simulations[i])});
+        }
+    };
+    run(first);
+    for (const auto condition : study.conditionsOf(Role::training))
+    {
+        if (std::none_of(library.runs.begin(), library.runs.end(), [&](const Run& one) {
+                return one.simulation.condition == condition && !one.simulation.failed;
+            }))
+        {
+            throw std::runtime_error("condition '" + study.conditions[condition].name
+                                     + "': all runs at the base setting have failed"
+                                     + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
+        }
+    }
+    run(rest);
+    return library;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,120 @@
+#include "nextRuns/chooseRuns.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// What is expected of the contenders in one condition.
+class Expectation
+{
+public:
+    Expectation(const Emulator& emulator, const Layout::Block& block, const std::vector<Contender>& contenders)
+        : contenders_(contenders)
+    {
+        const ConditionEmulator& here = *emulator[block.condition];
+        const auto& places = block.places;
+        for (const auto& contender : contenders)
+        {
+            const Eigen::MatrixXd run = here.noiseOf(contender.present)(places, places);
+            const Eigen::MatrixXd single = block.noise.size() > 0 ? block.noise : run;
+            means_.emplace_back((here.mean(contender.present) * parameterTermsAt(contender.parameters))(places));
+            unknown_.emplace_back(here.uncertainty(contender.parameters, contender.present)(places, places));
+            runs_.push_back(run);
+            data_.emplace_back(single.cwiseProduct(block.meanShare) + block.common);
+        }
+        differences_ = unknown_;
+    }
+
+    /// How much the divergences from the others rise by a run of this contender.
+    double gain(std::size_t i) const
+    {
+        const Eigen::MatrixXd after = afterRun(i);
+        double sum = 0.0;
+        for (std::size_t j = 0; j < contenders_.size(); ++j)
+        {
+            if (j != i)
+            {
+                sum += contenders_[i].weight * contenders_[j].weight
+                       * (divergence(i, j, after) - divergence(i, j, unknown_[i]));
+            }
+        }
+        return sum;
+    }
+
+    void run(std::size_t i)
+    {
+        unknown_[i] = afterRun(i);
+    }
+
+private:
+    Eigen::MatrixXd afterRun(std::size_t i) const
+    {
+        return unknown_[i] - unknown_[i] * (unknown_[i] + runs_[i]).llt().solve(unknown_[i]);
+    }
+
+    /// Of data of i against j; the difference of their means is uncertain by what was not known at first.
+    double divergence(std::size_t i, std::size_t j, const Eigen::MatrixXd& unknown) const
+    {
+        const Eigen::VectorXd difference = means_[i] - means_[j];
+        const Eigen::MatrixXd moment = difference * difference.transpose() + differences_[i] + differences_[j];
+        return (data_[i] + unknown + unknown_[j]).llt().solve(moment).trace();
+    }
+
+    const std::vector<Contender>& contenders_;
+    std::vector<Eigen::VectorXd> means_;
+    std::vector<Eigen::MatrixXd> unknown_;     // covariance that the emulator has now
+    std::vector<Eigen::MatrixXd> differences_; // and had at first
+    std::vector<Eigen::MatrixXd> runs_;        // noise of a run
+    std::vector<Eigen::MatrixXd> data_;        // of the mean of the measurements
+};
+
+} // namespace
+
+std::vector<WantedRun> chooseRuns(
+    const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders, int count)
+{
+    std::vector<Expectation> conditions;
+    conditions.reserve(layout.blocks.size());
+    std::vector<std::vector<double>> gains;
+    for (const auto& block : layout.blocks)
+    {
+        conditions.emplace_back(emulator, block, contenders);
+        gains.emplace_back(contenders.size());
+        for (std::size_t i = 0; i < contenders.size(); ++i)
+        {
+            gains.back()[i] = conditions.back().gain(i);
+        }
+    }
+    std::vector<WantedRun> chosen;
+    for (int k = 0; k < count; ++k)
+    {
+        WantedRun best{0, 0};
+        std::size_t where = 0;
+        double most = -1.0;
+        for (std::size_t b = 0; b < conditions.size(); ++b)
+        {
+            const auto top = std::max_element(gains[b].begin(), gains[b].end());
+            if (*top > most)
+            {
+                most = *top;
+                where = b;
+                best = {static_cast<std::size_t>(top - gains[b].begin()), layout.blocks[b].condition};
+            }
+        }
+        chosen.push_back(best);
+        conditions[where].run(best.contender);
+        for (std::size_t i = 0; i < contenders.size(); ++i)
+        {
+            gains[where][i] = conditions[where].gain(i);
+        }
+    }
+    return chosen;
+}
+
+} // namespace clepsydra::identification

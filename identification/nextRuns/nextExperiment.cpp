@@ -1,0 +1,124 @@
+#include "nextRuns/nextExperiment.h"
+
+#include "emulator/settings.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Runs of one explanation in one condition, each at another draw of what it leaves open.
+constexpr int draws = 4;
+
+/// A setting that the data allow for an explanation.
+Setting drawn(const Study& study, const Answer& answer, const Explanation& explanation, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    Setting setting = explanation.setting;
+    const bool single = explanation.effects.size() == 1;
+    const Eigen::MatrixXd covariance =
+        single ? answer.effects[explanation.effects.front()].fit.covariance : answer.nullCovariance;
+    if (covariance.size() > 0)
+    {
+        const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(covariance.rows(), [&] { return normal(random); });
+        setting.parameters = physical(study, inSds(study, setting.parameters) + covariance.llt().matrixL() * z);
+    }
+    if (single && !study.effects[explanation.effects.front()].isSwitch)
+    {
+        const auto [lower, upper] = study.effects[explanation.effects.front()].bounds;
+        const Fit& fit = answer.effects[explanation.effects.front()].fit;
+        setting.amplitudes(static_cast<Eigen::Index>(explanation.effects.front())) =
+            std::clamp(fit.amplitude + fit.sd * normal(random), lower, upper);
+    }
+    return setting;
+}
+
+} // namespace
+
+double divergence(const PredictedOutcome& a, const PredictedOutcome& b)
+{
+    double sum = 0.0;
+    for (Eigen::Index f = 0; f < a.features.size(); ++f)
+    {
+        const double va = a.sd(f) * a.sd(f);
+        const double vb = b.sd(f) * b.sd(f);
+        const double difference = a.features(f) - b.features(f);
+        const double both =
+            0.25 * (va / vb + vb / va - 2.0 + difference * difference * (1.0 / va + 1.0 / vb));
+        sum += std::isfinite(both) ? both : 0.0;
+    }
+    return sum;
+}
+
+std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer, std::mt19937_64& random)
+{
+    const Study& study = simulator.study();
+    std::vector<Explanation> left = answer.set;
+    if (left.size() < 2)
+    {
+        left.push_back(answer.null);
+    }
+    if (left.size() < 2)
+    {
+        return {};
+    }
+    double sum = 0.0;
+    for (const auto& explanation : left)
+    {
+        sum += std::exp(explanation.logOdds - left.front().logOdds);
+    }
+    Eigen::ArrayXd common = Eigen::ArrayXd::Zero(study.featureCount()); // what repeats do not show, at most
+    for (const auto& block : answer.layout.blocks)
+    {
+        const auto& features = (*answer.emulator)[block.condition]->features;
+        for (Eigen::Index k = 0; k < block.size(); ++k)
+        {
+            double& largest = common(features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])]);
+            largest = std::max(largest, block.common(k, k));
+        }
+    }
+    std::vector<NextExperiment> all;
+    for (const auto condition : study.conditionsOf(Role::candidate))
+    {
+        NextExperiment next;
+        next.condition = condition;
+        for (const auto& explanation : left)
+        {
+            const std::string name = nameOf(study, explanation);
+            std::vector<SimulationOrder> orders;
+            for (int number = 0; number < draws; ++number)
+            {
+                orders.push_back(
+                    {condition, drawn(study, answer, explanation, random), "next experiment, " + name, number});
+            }
+            const auto rows = featureRows(simulator.run(orders), condition, study.featureCount());
+            const Eigen::VectorXd mean = meanFeatures(rows);
+            // The runs differ by their own noise and by what the explanation leaves open; the larger counts.
+            const Eigen::ArrayXd spread =
+                (rows.rowwise() - mean.transpose()).array().square().colwise().sum().transpose() / (draws - 1);
+            const Eigen::ArrayXd noise = answer.layout.noise.diagonal().array();
+            next.outcomes.push_back({name, std::exp(explanation.logOdds - left.front().logOdds) / sum, mean,
+                (noise + spread.max(answer.emulator->noise().diagonal().array()) + common).sqrt().matrix()});
+        }
+        for (std::size_t i = 0; i < next.outcomes.size(); ++i)
+        {
+            for (std::size_t j = 0; j < i; ++j)
+            {
+                next.separation += next.outcomes[i].probability * next.outcomes[j].probability
+                                   * divergence(next.outcomes[i], next.outcomes[j]);
+            }
+        }
+        next.perCost = next.separation / study.conditions[condition].cost;
+        all.push_back(std::move(next));
+    }
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.perCost > b.perCost; });
+    return all;
+}
+
+} // namespace clepsydra::identification

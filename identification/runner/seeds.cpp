@@ -1,0 +1,62 @@
+#include "runner/seeds.h"
+
+#include <cstdint>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+constexpr long smallest = 10007;
+constexpr long range = 99000000; // primes below 1e8: nine digits fit into any integer
+
+std::uint64_t hashed(std::uint64_t state, const std::string& text)
+{
+    // FNV-1a; it need not be secure, only spread out and the same everywhere.
+    for (const char c : text)
+    {
+        state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+    }
+    return (state ^ 0xffULL) * 0x100000001b3ULL;
+}
+
+/// SplitMix64's finaliser: all bits count.
+std::uint64_t mixed(std::uint64_t x)
+{
+    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
+    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
+    return x ^ (x >> 31U);
+}
+
+bool isPrime(long number)
+{
+    if (number % 2 == 0)
+    {
+        return number == 2;
+    }
+    for (long divisor = 3; divisor * divisor <= number; divisor += 2)
+    {
+        if (number % divisor == 0)
+        {
+            return false;
+        }
+    }
+    return number > 1;
+}
+
+} // namespace
+
+long seedOf(unsigned studySeed, const std::string& purpose, const std::string& condition, int number)
+{
+    std::uint64_t state = hashed(0xcbf29ce484222325ULL, std::to_string(studySeed));
+    state = hashed(hashed(hashed(state, purpose), condition), std::to_string(number));
+    long seed = smallest + static_cast<long>(mixed(state) % static_cast<std::uint64_t>(range));
+    while (!isPrime(seed))
+    {
+        ++seed;
+    }
+    return seed;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,192 @@
+/// What a decision promises, held against data that the emulator draws: fresh draws, not those that set the thresholds.
+#include "decision/visibility.h"
+#include "emulator/settings.h"
+#include "nextRuns/chooseRuns.h"
+#include "standIn/standIn.h"
+#include "study/readStudy.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <random>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+/// The stand-in with its library, and three repeats measured without any effect.
+struct Bench
+{
+    Study study = readStudy(std::filesystem::path(STAND_IN) / "study.yaml");
+    StandInRig rig{readEntries(study.rig.caseFolder / study.rig.entriesFile)};
+    Simulator simulator{study, rig};
+    Library library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> data;
+    std::unique_ptr<Emulator> emulator;
+    Layout layout;
+    Measured measured;
+    std::mt19937_64 random{1};
+
+    Bench()
+    {
+        study.settings.draws = 400;
+        data.resize(study.conditions.size());
+        for (const auto c : study.conditionsOf(Role::training))
+        {
+            data[c].features = featureRows(
+                simulator.repeats({c}, simulator.plainSetting(), "measured", 3), c, study.featureCount());
+            data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+        }
+        emulator = std::make_unique<Emulator>(study, simulator, library.runs, measuredFeatures(study, data));
+        std::tie(layout, measured) = arrange(study, *emulator, data);
+    }
+
+    std::size_t effect(const std::string& name) const
+    {
+        const auto found = std::find_if(
+            study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == name; });
+        return static_cast<std::size_t>(found - study.effects.begin());
+    }
+};
+
+const Eigen::VectorXd atPrior = Eigen::VectorXd::Zero(1);
+
+/// Thresholds without a calibration would miss one of these: p-values are uniform without any effect, sets hold the truth
+/// as often as they say for each effect, and what has been left out of the library seldom gets a name.
+TEST(Decision, KeepsWhatItPromises)
+{
+    Bench bench;
+    const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
+    const Calibration calibration = Calibrator(bench.study, evidence, bench.measured, bench.random).calibrate();
+    constexpr int draws = 150;
+    int alarms = 0;
+    for (int i = 0; i < 4 * draws; ++i)
+    {
+        const Odds odds = oddsOf(bench.study, evidence(evidence.draw(evidence.nullNode(), atPrior, bench.random)));
+        alarms += calibration.pValue(odds.statistic) < .05 ? 1 : 0;
+    }
+    EXPECT_NEAR(alarms / (4. * draws), .05, .035);
+    double wrong = 0;
+    double foils = 0;
+    for (const std::string name : {"addedMass", "cohesion", "rollingFriction", "viscosity", "scaleLag"})
+    {
+        const std::size_t e = bench.effect(name);
+        double held = 0;
+        double detected = 0;
+        for (int i = 0; i < draws; ++i)
+        {
+            const auto& nodes = evidence.nodes(e);
+            const Node& node = nodes[static_cast<std::size_t>(i) % nodes.size()];
+            if (node.present.front().amplitude == 0)
+            {
+                continue;
+            }
+            const Evidences evidences = evidence(evidence.draw(node, atPrior, bench.random));
+            const Odds odds = oddsOf(bench.study, evidences);
+            if (odds.statistic <= calibration.critical)
+            {
+                continue;
+            }
+            detected += 1;
+            const auto members = membersOf(calibration, odds);
+            held += std::count(members.begin(), members.end(), e) > 0 ? 1 : 0;
+            const Odds without = oddsOf(bench.study, evidences, e);
+            const auto sole = soleMember(bench.study, calibration, without);
+            foils += 1;
+            wrong += sole && marginOf(without, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)) ? 1 : 0;
+        }
+        EXPECT_GT(held / detected, .8) << name << ": " << held << " of " << detected;
+    }
+    EXPECT_LT(wrong / foils, .15) << wrong << " of " << foils;
+}
+
+/// Cohesion changes the spread between repeats much and the means little: it is told by the former. With the spread of the
+/// base, the same means say nothing.
+TEST(Decision, SpreadIsADatum)
+{
+    Bench bench;
+    const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
+    const std::size_t cohesion = bench.effect("cohesion");
+    const Node null = evidence.nodeAt({});
+    Measured drawn = bench.measured;
+    const auto logOdds = [&] {
+        const Evidences evidences = evidence(drawn);
+        return evidences.effects(static_cast<Eigen::Index>(cohesion)) - evidences.null;
+    };
+    const double before = logOdds();
+    for (std::size_t b = 0; b < bench.layout.blocks.size(); ++b)
+    {
+        if (bench.study.conditions[bench.layout.blocks[b].condition].tags.at("medium") == "air")
+        {
+            drawn.scatter[b] *= 9;
+        }
+    }
+    EXPECT_LT(before, 2);
+    EXPECT_GT(logOdds(), before + 4);
+}
+
+/// A pattern that no effect makes, many times its noise, is something else.
+TEST(Decision, SomethingElseIsSeen)
+{
+    Bench bench;
+    const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
+    int ahead = 0;
+    for (int i = 0; i < 20; ++i)
+    {
+        const Odds odds = oddsOf(bench.study, evidence(evidence.drawOther(1., atPrior, bench.random)));
+        ahead += odds.other > odds.effects.maxCoeff() ? 1 : 0;
+    }
+    EXPECT_GE(ahead, 18);
+    const Odds own = oddsOf(bench.study,
+        evidence(evidence.draw(evidence.nodeAt({{bench.effect("addedMass"), 1.}}), atPrior, bench.random)));
+    EXPECT_LT(own.other, own.effects(static_cast<Eigen::Index>(bench.effect("addedMass"))));
+}
+
+/// Variants of one thing share its weight: three times the same effect is as likely, all together, as once.
+TEST(Decision, VariantsShareTheirWeight)
+{
+    Study study;
+    study.effects.resize(4);
+    study.effects[0].name = "wall";
+    for (const std::size_t e : {1, 2, 3})
+    {
+        study.effects[e].name = "history" + std::to_string(e);
+        study.effects[e].family = "history";
+    }
+    const Odds odds = oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100});
+    EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
+    EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
+    Calibration calibration;
+    calibration.membership = Eigen::Vector4d(0, -9, -9, 0);
+    EXPECT_EQ(soleMember(study, calibration, odds), 1U) << "two variants are one name";
+    calibration.membership(0) = -9;
+    EXPECT_FALSE(soleMember(study, calibration, odds));
+}
+
+/// Two explanations that differ in wet conditions only: runs go there, and to both of them.
+TEST(NextRuns, GoWhereTheyDecide)
+{
+    Bench bench;
+    const std::vector<Contender> contenders = {{{}, atPrior, .5}, {{{bench.effect("addedMass"), .5}}, atPrior, .5}};
+    int wet = 0;
+    int null = 0;
+    const auto chosen = chooseRuns(*bench.emulator, bench.layout, contenders, 18);
+    ASSERT_EQ(chosen.size(), 18U);
+    for (const auto& [contender, condition] : chosen)
+    {
+        wet += bench.study.conditions[condition].tags.at("medium") == "water" ? 1 : 0;
+        null += contender == 0 ? 1 : 0;
+    }
+    EXPECT_GE(wet, 15);
+    EXPECT_GT(null, 2);
+    EXPECT_LT(null, 16);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests

@@ -1,0 +1,233 @@
+/// What the emulator learns from runs: coefficients with intervals that cover, noise, and which effects raise it.
+#include "emulator/covariance.h"
+#include "emulator/emulator.h"
+#include "linearRig.h"
+#include "study/measurements.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
+}
+
+std::vector<std::vector<Eigen::Index>> allFeatures(const Study& study)
+{
+    std::vector<std::vector<Eigen::Index>> features(study.conditions.size());
+    for (const auto c : study.conditionsOf(Role::training))
+    {
+        for (Eigen::Index f = 0; f < study.featureCount(); ++f)
+        {
+            features[c].push_back(f);
+        }
+    }
+    return features;
+}
+
+/// Two groups with very different means: only the spread within them counts, with n - 1 in each.
+TEST(Noise, PoolsSpreadWithinSettings)
+{
+    Scatter scatter;
+    scatter.add((Eigen::MatrixXd(3, 1) << 1, 2, 3).finished());
+    scatter.add((Eigen::MatrixXd(2, 1) << 100, 104).finished());
+    EXPECT_EQ(scatter.degreesOfFreedom(), 3);
+    // sums of squares: 2 and 8; per group s^2 = 1 and 8, averaged over 3 + 2 scaled rows: (3*1 + 2*8)/5
+    EXPECT_NEAR(pooledCovariance(scatter.deviations(), 3).matrix(0, 0), 19. / 5, 1e-12);
+}
+
+/// With ample repeats nothing is shrunk; with few, true correlations are kept in part and false ones fall.
+TEST(Noise, ShrinksCorrelationsOnlyWhereRepeatsAreFew)
+{
+    std::mt19937_64 random(1);
+    const Covariance many = pooledCovariance(normals(400, 5, random), 400);
+    EXPECT_EQ(many.shrinkage, 0);
+    double before = 0;
+    double after = 0;
+    for (int trial = 0; trial < 50; ++trial)
+    {
+        const Eigen::MatrixXd rows = normals(8, 5, random);
+        const Eigen::MatrixXd plain = rows.transpose() * rows / 8;
+        const Covariance shrunk = pooledCovariance(rows, 8);
+        EXPECT_GT(shrunk.shrinkage, 0);
+        EXPECT_TRUE(shrunk.matrix.diagonal().isApprox(plain.diagonal()));
+        before += (plain - Eigen::MatrixXd(plain.diagonal().asDiagonal())).squaredNorm();
+        after += (shrunk.matrix - Eigen::MatrixXd(shrunk.matrix.diagonal().asDiagonal())).squaredNorm();
+    }
+    EXPECT_LT(after, 0.5 * before) << "the true correlations are zero";
+}
+
+/// Three repeats, one lacks the second feature: variances over 1/3 and 1/2, covariance over 2/(3*2).
+TEST(Noise, MeansWithGaps)
+{
+    const Eigen::MatrixXd repeats = (Eigen::MatrixXd(3, 2) << 1, 10, 2, nan, 3, 14).finished();
+    EXPECT_TRUE(meanFeatures(repeats).isApprox(Eigen::Vector2d(2, 12)));
+    const Eigen::MatrixXd share = shareOfMean(repeats);
+    EXPECT_NEAR(share(0, 0), 1. / 3, 1e-12);
+    EXPECT_NEAR(share(1, 1), 1. / 2, 1e-12);
+    EXPECT_NEAR(share(0, 1), 1. / 3, 1e-12);
+}
+
+/// Products of parameters and of effects each have a place of their own.
+TEST(Basis, TermsAreEachThere)
+{
+    const Basis basis{2, {3, 5, 8}};
+    const Eigen::Vector2d t(2, 3);
+    const Eigen::Vector3d a(5, 7, 11);
+    const Eigen::VectorXd terms = basis.at(t, a);
+    EXPECT_EQ(terms.size(), basis.size());
+    EXPECT_EQ((terms.array() == 0).count(), 1);
+    EXPECT_EQ(terms(basis.designTerm()), 0);
+    EXPECT_EQ(terms(parameterTerm(2, 0, 1)), 6);
+    EXPECT_EQ(terms(basis.effectTerm(1)), 7);
+    EXPECT_EQ(terms(basis.effectTerm(1) + 1), 49);
+    EXPECT_EQ(terms(basis.effectTerm(2) + 3), 33);
+    EXPECT_EQ(terms(basis.pairTerm(2, 0)), 55);
+    EXPECT_EQ(terms(basis.pairTerm(1, 2)), 77);
+    EXPECT_EQ(basis.kind(basis.pairTerm(0, 1)), Basis::interaction);
+    EXPECT_EQ(basis.kind(basis.effectTerm(2) + 2), Basis::mixed);
+    EXPECT_EQ(basis.placeOf(5), 1U);
+    EXPECT_EQ(basis.placeOf(4), 3U);
+}
+
+TEST(Emulator, FindsLinearEffects)
+{
+    for (const std::string seed : {"seed", "none"})
+    {
+        const TemporaryFolder folder;
+        const Study study = linearStudy(folder, seed);
+        LinearRig rig;
+        Simulator simulator(study, rig);
+        const Library library = makeLibrary(simulator);
+        const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+        const ConditionEmulator& both = *emulator[0];
+        const Eigen::MatrixXd base = both.mean({});
+        EXPECT_NEAR(base(0, 0), std::log(.1), 1e-3);
+        EXPECT_NEAR(base(0, 1), .04, 1e-3);
+        EXPECT_NEAR(both.mean({{0, 1.}})(0, 0) - base(0, 0), .06, 1e-3);
+        EXPECT_NEAR(both.mean({{0, -.5}})(0, 0) - base(0, 0), -.03, 1e-3);
+        EXPECT_NEAR(both.mean({{1, 1.}})(0, 0) - base(0, 0), .2, 1e-3);
+        EXPECT_NEAR(both.mean({{2, 1.}})(0, 0) - base(0, 0), -std::log(1.01), 1e-3);
+        EXPECT_NEAR(emulator[1]->mean({{1, 1.}})(0, 0), emulator[1]->mean({})(0, 0), 1e-12) << "y acts in water only";
+        EXPECT_FALSE(emulator[2]) << "held out";
+    }
+}
+
+/// An effect that bends strongly leaves the others as they are.
+TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "none");
+    LinearRig rig;
+    rig.curvature = 200;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+    const double base = emulator[0]->mean({})(0, 0);
+    EXPECT_NEAR(emulator[0]->mean({{0, 1.}})(0, 0) - base, .06 + .08, 2e-3);
+    EXPECT_NEAR(emulator[0]->mean({{0, -1.}})(0, 0) - base, -.06 + .08, 2e-3);
+    EXPECT_NEAR(emulator[0]->mean({{1, 1.}})(0, 0) - base, .2, 2e-3);
+}
+
+/// A run that fails is tried again with other seeds, then excluded, and both is told. An effect of which nothing is left is
+/// not judged: as one without any influence, or with any, it would lead sets.
+TEST(Emulator, FailedRunsAreToldAndExcluded)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "none");
+    LinearRig rig;
+    rig.failsWithY = true;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+    EXPECT_FALSE(emulator.knows(1));
+    EXPECT_TRUE(emulator.knows(0));
+    EXPECT_NEAR(emulator[0]->mean({{0, 1.}})(0, 0) - emulator[0]->mean({})(0, 0), .06, 1e-3);
+    ASSERT_EQ(emulator.remarks().size(), 1U);
+    EXPECT_NE(emulator.remarks().front().find('y'), std::string::npos);
+    ASSERT_EQ(simulator.failures().size(), 1U);
+    EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
+}
+
+/// Runs with known coefficients and noise: what the emulator says of its own errors holds.
+TEST(Emulator, IntervalsCover)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    const Simulator simulator(study, rig);
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> normal;
+    double squares = 0;
+    double count = 0;
+    for (int trial = 0; trial < 60; ++trial)
+    {
+        std::vector<identification::Run> runs;
+        for (const auto& order : libraryOrders(simulator))
+        {
+            const double t = (order.setting.parameters(0) - .15) / .02;
+            const Eigen::VectorXd& a = order.setting.amplitudes;
+            identification::Run run{order.setting, {}};
+            run.simulation.condition = order.condition;
+            run.simulation.features = Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
+            run.simulation.plain.time = {0, 1};
+            run.simulation.plain.value = {1, 0};
+            runs.push_back(run);
+        }
+        const Emulator emulator(study, simulator, runs, allFeatures(study));
+        const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, .5);
+        const std::vector<Present> present = {{0, .7}};
+        const double error = (emulator[0]->mean(present) * parameterTermsAt(at))(0) - .15 - .35;
+        squares += error * error / emulator[0]->uncertainty(at, present)(0, 0);
+        count += 1;
+    }
+    EXPECT_GT(squares / count, .4);
+    EXPECT_LT(squares / count, 2.);
+}
+
+/// Repeats with y on scatter four times as much: seen without being declared, and the noise of all others stays as it is.
+TEST(Emulator, FindsEffectsThatRaiseTheScatter)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "seed");
+    study.effects[1].isSwitch = true;
+    study.settings.repeatsAlone = 8;
+    LinearRig rig;
+    const Simulator simulator(study, rig);
+    std::mt19937_64 random(4);
+    std::normal_distribution<double> normal;
+    std::vector<identification::Run> runs;
+    for (const auto& order : libraryOrders(simulator))
+    {
+        const double y = order.setting.amplitudes(1);
+        identification::Run run{order.setting, {}};
+        run.simulation.condition = order.condition;
+        run.simulation.features = Eigen::VectorXd::Constant(1, y + .1 * (1 + 3 * y) * normal(random));
+        run.simulation.plain.time = {0, 1};
+        run.simulation.plain.value = {1, 0};
+        runs.push_back(run);
+    }
+    const Emulator emulator(study, simulator, runs, allFeatures(study));
+    ASSERT_EQ(emulator[0]->logScatter.count(1), 1U);
+    EXPECT_GT(emulator[0]->logScatter.at(1)(0), .7);
+    EXPECT_LT(std::sqrt(emulator[0]->noise(0, 0)), .2);
+    EXPECT_EQ(emulator[0]->logScatter.count(0), 0U);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests

@@ -1,0 +1,90 @@
+#include "heldOut/gaussianProcess.h"
+#include "heldOut/scores.h"
+#include "nextRuns/nextExperiment.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Against the definition: integral of (F(x) - [x > y])^2.
+TEST(HeldOut, CrpsOfANormalPrediction)
+{
+    for (const double observed : {-1., .3, 2.5})
+    {
+        double integral = 0;
+        for (double x = -12; x < 12; x += 1e-3)
+        {
+            const double f = .5 * std::erfc(-(x - .5) / (.8 * std::sqrt(2.))) - (x > observed ? 1 : 0);
+            integral += f * f * 1e-3;
+        }
+        EXPECT_NEAR(crpsOfNormal(.5, .8, observed), integral, 1e-3);
+    }
+    EXPECT_EQ(crpsOfNormal(1, 0, 3), 2);
+}
+
+/// A declared error counts beside what repeats show: sqrt(.0004/4 + .0003 + .0012) = .04.
+TEST(HeldOut, DeclaredErrorsWidenTheStandardError)
+{
+    std::mt19937_64 random(6);
+    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
+        Eigen::VectorXd::Constant(1, .0012)};
+    const Prediction prediction{
+        Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
+    const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);
+    EXPECT_NEAR(heldOutScore({data}, {prediction}, {0}, noise, random).rmsLogError.standardError, .04, .002);
+}
+
+TEST(HeldOut, RmsErrorOfMeansAndItsStandardError)
+{
+    std::mt19937_64 random(6);
+    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
+        Eigen::VectorXd::Zero(1)};
+    const Prediction prediction{
+        Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
+    const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);
+    const auto found = heldOutScore({data}, {prediction}, {0}, noise, random);
+    EXPECT_NEAR(found.rmsLogError.value, .5, 1e-12);
+    // Far from zero the error's own standard error: sqrt(.0004/4 + .0003) = .02
+    EXPECT_NEAR(found.rmsLogError.standardError, .02, .001);
+}
+
+/// On a smooth function it predicts between the points; on noise it stays at zero.
+TEST(HeldOut, GaussianProcess)
+{
+    Eigen::MatrixXd at(7, 1);
+    at << 0, 1, 2, 3, 4, 5, 6;
+    const Eigen::VectorXd values = (at.array() / 2).sin();
+    const GaussianProcess process(at, values, Eigen::VectorXd::Constant(7, 1e-6));
+    EXPECT_NEAR(process(Eigen::VectorXd::Constant(1, 2.5)).mean, std::sin(1.25), .02);
+    const GaussianProcess silent(at, .01 * values.reverse(), Eigen::VectorXd::Constant(7, 1.));
+    EXPECT_NEAR(silent(Eigen::VectorXd::Constant(1, 2.5)).mean, 0, .005);
+}
+
+/// Two normals, the mean of both divergences: half the squared distance where they have one variance. A feature that one of
+/// them lacks does not count, and what an explanation leaves open makes it decide less.
+TEST(NextExperiment, DivergenceOfOutcomes)
+{
+    const PredictedOutcome a{"a", .6, Eigen::Vector2d(2, nan), Eigen::Vector2d(2, 1)};
+    const PredictedOutcome b{"b", .4, Eigen::Vector2d(0, 5), Eigen::Vector2d(2, 1)};
+    EXPECT_NEAR(divergence(a, b), .5, 1e-12);
+    PredictedOutcome open = b;
+    open.sd(0) = 4;
+    EXPECT_LT(divergence(a, open), 2 * .5) << "its own width counts, too";
+    EXPECT_NEAR(divergence(a, open), .25 * (.25 + 4 - 2 + 4 * (.25 + .0625)), 1e-12);
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests
