@@ -39,6 +39,12 @@ constexpr double sharedScatter = 8.0;
 constexpr Eigen::Index chainPowers = 4;
 constexpr int chainSteps = 4;
 
+/// Large effects bend, and go on to act otherwise beside others, in proportion to their size (heredity: Chipman, Can. J.
+/// Stat. 24, 17 (1996)). Priors of one scale for all effects would call both impossible. Sd of the squared term, and of what an
+/// effect does in the design's runs beyond what it does alone, as shares of its main effect.
+constexpr double curvatureShare = 0.2;
+constexpr double designShare = 0.1;
+
 /// The largest scale of a prior, in units of one run's noise, and the smallest.
 constexpr double largestScale = 1e5;
 constexpr double smallestScale = 1e-2;
@@ -521,29 +527,40 @@ void Emulator::solve(std::size_t c)
     {
         prior(i) = scales_[emulator.basis.kind(i)] * scales_[emulator.basis.kind(i)];
     }
-    const Eigen::MatrixXd spread = prior.asDiagonal() * rows.terms.transpose();
-    const Eigen::MatrixXd kernel = rows.terms * spread;
     const Eigen::MatrixXd whitened =
         emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
     const Eigen::ArrayXXd variance = variances(c);
     emulator.coefficients.resize(prior.size(), features);
-    emulator.covariances.assign(static_cast<std::size_t>(features), {});
+    emulator.covariances.resize(static_cast<std::size_t>(features));
     for (Eigen::Index f = 0; f < features; ++f)
     {
-        const bool asBefore = f > 0 && (variance.col(f) == variance.col(f - 1)).all();
-        Eigen::MatrixXd covariance = kernel;
-        covariance.diagonal() += variance.col(f).matrix();
-        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-        emulator.coefficients.col(f) = spread * factor.solve(whitened.col(f));
-        Eigen::MatrixXd& posterior = emulator.covariances[static_cast<std::size_t>(f)];
-        if (asBefore)
+        Eigen::VectorXd own = prior;
+        Eigen::MatrixXd inDesign = Eigen::MatrixXd::Zero(rows.terms.rows(), rows.terms.rows());
+        // First without, then with what effects of this size may do beside their main effect.
+        for (const bool heredity : {false, true})
         {
-            posterior = emulator.covariances[static_cast<std::size_t>(f - 1)];
-            continue;
+            for (std::size_t k = 0; heredity && k < emulator.basis.effects.size(); ++k)
+            {
+                const Eigen::Index term = emulator.basis.effectTerm(k);
+                const double main = emulator.coefficients(term, f);
+                own(term + 1) += std::pow(curvatureShare * main, 2);
+                Eigen::VectorXd design = rows.terms.col(term);
+                design.array() *= rows.terms.col(emulator.basis.designTerm()).array() * designShare * main;
+                inDesign += design * design.transpose();
+            }
+            const Eigen::MatrixXd spread = own.asDiagonal() * rows.terms.transpose();
+            Eigen::MatrixXd covariance = rows.terms * spread + inDesign;
+            covariance.diagonal() += variance.col(f).matrix();
+            const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+            emulator.coefficients.col(f) = spread * factor.solve(whitened.col(f));
+            if (heredity)
+            {
+                const Eigen::MatrixXd half = factor.matrixL().solve(spread.transpose());
+                Eigen::MatrixXd& posterior = emulator.covariances[static_cast<std::size_t>(f)];
+                posterior = -half.transpose() * half;
+                posterior.diagonal() += own;
+            }
         }
-        const Eigen::MatrixXd half = factor.matrixL().solve(spread.transpose());
-        posterior = -half.transpose() * half;
-        posterior.diagonal() += prior;
     }
 }
 
