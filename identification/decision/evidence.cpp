@@ -549,24 +549,32 @@ Measured Evidence::draw(const Node& node, const Eigen::VectorXd& parameters, std
             bartlett(i, j) = normal(random) / std::sqrt(nu);
         }
     }
+    const auto scaled = [&](const Eigen::MatrixXd& z) {
+        return Eigen::MatrixXd(
+            bartlett.topLeftCorner(z.rows(), z.rows()).triangularView<Eigen::Lower>().transpose().solve(z));
+    };
     const auto noise = [&](Eigen::Index size, Eigen::Index columns) {
         Eigen::MatrixXd z(size, columns);
         std::generate(z.reshaped().begin(), z.reshaped().end(), [&] { return normal(random); });
-        return Eigen::MatrixXd(
-            bartlett.topLeftCorner(size, size).triangularView<Eigen::Lower>().transpose().solve(z));
+        return scaled(z);
     };
-    Eigen::VectorXd y = node.terms * parameterTermsAt(parameters);
-    for (Eigen::Index i = 0; i < y.size(); ++i)
-    {
-        y(i) += std::sqrt(node.extra(i)) * normal(random);
-    }
+    const Eigen::VectorXd y = node.terms * parameterTermsAt(parameters);
     Measured drawn;
     drawn.mean.resize(layout_.rows);
     for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
     {
         const Layout::Block& block = layout_.blocks[b];
+        // The emulator has learnt from runs with the same noise: what it does not know scales with it.
+        Eigen::VectorXd unknown = node.extra.segment(block.first, block.size()).cwiseSqrt();
+        for (double& one : unknown)
+        {
+            one *= normal(random);
+        }
+        const auto root = node.root[b].triangularView<Eigen::Lower>();
+        const Eigen::VectorXd white = root.solve(node.inverse[b] * unknown);
         drawn.mean.segment(block.first, block.size()) =
-            node.inverse[b] * y.segment(block.first, block.size()) + node.root[b] * noise(block.size(), 1);
+            node.inverse[b] * y.segment(block.first, block.size())
+            + node.root[b] * (noise(block.size(), 1) + scaled(white));
         Eigen::MatrixXd deviations = noise(block.size(), static_cast<Eigen::Index>(std::lround(block.freedom)));
         if (block.freedom > 0.0)
         {
