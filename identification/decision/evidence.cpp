@@ -97,12 +97,12 @@ const std::vector<double>& Evidence::sizes()
     return all;
 }
 
-Evidence::Evidence(
-    const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around)
+Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around)
     : study_(study),
       emulator_(emulator),
       layout_(layout),
       around_(around),
+      aroundEffects_(study.effects.size(), around),
       workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
           Eigen::MatrixXd(layout.rows, static_cast<Eigen::Index>(study.parameters.size()))},
       null_(nodeAt({})),
@@ -123,8 +123,21 @@ Evidence::Evidence(
     prepareOther();
 }
 
+void Evidence::refine(const Measured& measured)
+{
+    for (std::size_t e = 0; e < effects_.size(); ++e)
+    {
+        if (!effects_[e].nodes.empty())
+        {
+            aroundEffects_[e] = fit(e, measured).parameters;
+            effects_[e] = explanationOf(e);
+        }
+    }
+}
+
 Node Evidence::nodeAt(const std::vector<Present>& present) const
 {
+    const Eigen::VectorXd& here = present.size() == 1 ? aroundEffects_[present.front().effect] : around_;
     Node node;
     node.present = present;
     node.extra.resize(layout_.rows);
@@ -136,7 +149,8 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         const Eigen::MatrixXd single =
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noiseOf(present)(places, places));
         Eigen::MatrixXd noise = single.cwiseProduct(block.meanShare);
-        const Eigen::MatrixXd extra = Eigen::MatrixXd(emulator.uncertainty(around_, present)(places, places)) + block.common;
+        const Eigen::MatrixXd extra =
+            Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
         // What is exact to the last digit could not be inverted.
         noise.diagonal() += 1e-9 * (noise + extra).diagonal() + Eigen::VectorXd::Constant(noise.rows(), 1e-18);
         const Eigen::LLT<Eigen::MatrixXd> factor(noise);
@@ -378,8 +392,10 @@ void Evidence::prepareOther()
             {
                 for (Eigen::Index j = 0; j < other.size(); ++j)
                 {
-                    const auto f = emulator_[one.condition]->features[static_cast<std::size_t>(one.places[static_cast<std::size_t>(i)])];
-                    const auto g = emulator_[other.condition]->features[static_cast<std::size_t>(other.places[static_cast<std::size_t>(j)])];
+                    const auto f = emulator_[one.condition]
+                                       ->features[static_cast<std::size_t>(one.places[static_cast<std::size_t>(i)])];
+                    const auto g = emulator_[other.condition]
+                                       ->features[static_cast<std::size_t>(other.places[static_cast<std::size_t>(j)])];
                     pattern(one.first + i, other.first + j) =
                         typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
                         * (one.condition == other.condition ? 1.0 : alikeConditions);
@@ -393,8 +409,8 @@ void Evidence::prepareOther()
     if (q > 0)
     {
         const Eigen::MatrixXd weighted = usual.cwiseInverse().asDiagonal() * slope;
-        const Eigen::MatrixXd projection = Eigen::MatrixXd::Identity(n, n)
-                                           - slope * (slope.transpose() * weighted).ldlt().solve(weighted.transpose());
+        const Eigen::MatrixXd projection =
+            Eigen::MatrixXd::Identity(n, n) - slope * (slope.transpose() * weighted).ldlt().solve(weighted.transpose());
         pattern = projection * pattern * projection.transpose();
     }
     const double rounding = 1e-9 * std::max(pattern.diagonal().maxCoeff(), 1e-12);
@@ -432,8 +448,8 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
                   - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
     }
     const double pattern = logSumExp(logs) - std::log(static_cast<double>(other_.size()));
-    const Eigen::Vector2d spread(std::log(1.0 - otherSpreadShare) + usual.logLikelihood,
-        std::log(otherSpreadShare) + otherSpread(measured));
+    const Eigen::Vector2d spread(
+        std::log(1.0 - otherSpreadShare) + usual.logLikelihood, std::log(otherSpreadShare) + otherSpread(measured));
     return pattern + logSumExp(spread);
 }
 
@@ -458,8 +474,8 @@ Fit Evidence::fit(std::size_t effect, const Measured& measured) const
         return fit;
     }
     const Spread usual = spreadOf(null_, measured);
-    Eigen::VectorXd logs = explanation.interpolation * logLikelihoods(explanation, measured, usual)
-                           + explanation.logWeights;
+    Eigen::VectorXd logs =
+        explanation.interpolation * logLikelihoods(explanation, measured, usual) + explanation.logWeights;
     const Eigen::ArrayXd share = (logs.array() - logSumExp(logs)).exp();
     const Eigen::ArrayXd a = explanation.amplitudes.array();
     fit.amplitude = (share * a).sum();
@@ -572,9 +588,8 @@ Measured Evidence::draw(const Node& node, const Eigen::VectorXd& parameters, std
         }
         const auto root = node.root[b].triangularView<Eigen::Lower>();
         const Eigen::VectorXd white = root.solve(node.inverse[b] * unknown);
-        drawn.mean.segment(block.first, block.size()) =
-            node.inverse[b] * y.segment(block.first, block.size())
-            + node.root[b] * (noise(block.size(), 1) + scaled(white));
+        drawn.mean.segment(block.first, block.size()) = node.inverse[b] * y.segment(block.first, block.size())
+                                                        + node.root[b] * (noise(block.size(), 1) + scaled(white));
         Eigen::MatrixXd deviations = noise(block.size(), static_cast<Eigen::Index>(std::lround(block.freedom)));
         if (block.freedom > 0.0)
         {

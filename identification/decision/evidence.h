@@ -27,9 +27,9 @@ struct Fit
     double sd = 0.0;
     double lower = 0.0; // 95 % of the posterior
     double upper = 0.0;
-    Eigen::VectorXd parameters;   // in prior sd, from the prior's mean
-    Eigen::MatrixXd covariance;   // of these
-    double misfit = 0.0;          // sum of squares in units of noise, the parameters' priors included
+    Eigen::VectorXd parameters; // in prior sd, from the prior's mean
+    Eigen::MatrixXd covariance; // of these
+    double misfit = 0.0;        // sum of squares in units of noise, the parameters' priors included
 };
 
 /// One explanation at one amplitude, with all that does not depend on the measured numbers computed beforehand: in
@@ -61,6 +61,10 @@ class Evidence
 public:
     /// \param around  parameters [prior sd] where the emulator's uncertainty is taken
     Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around);
+
+    /// Takes the emulator's uncertainty of each effect at the parameters that go with it, which may be far from those
+    /// without any effect.
+    void refine(const Measured& measured);
 
     Evidences operator()(const Measured& measured) const;
 
@@ -101,9 +105,9 @@ private:
     struct Explanation
     {
         std::vector<Node> nodes;
-        Eigen::VectorXd amplitudes;      // of a fine grid
-        Eigen::MatrixXd interpolation;   // from nodes to these
-        Eigen::VectorXd logWeights;      // of the amplitude's prior
+        Eigen::VectorXd amplitudes;    // of a fine grid
+        Eigen::MatrixXd interpolation; // from nodes to these
+        Eigen::VectorXd logWeights;    // of the amplitude's prior
     };
 
     struct Spread
@@ -143,14 +147,14 @@ private:
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
-    Eigen::VectorXd logLikelihoods(
-        const Explanation& explanation, const Measured& measured, const Spread& usual) const;
+    Eigen::VectorXd logLikelihoods(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
     const Study& study_;
     const Emulator& emulator_;
     const Layout& layout_;
     Eigen::VectorXd around_;
+    std::vector<Eigen::VectorXd> aroundEffects_;
     mutable Workspace workspace_;
     Node null_;
     std::vector<Explanation> effects_;

@@ -14,6 +14,9 @@ namespace
 /// The design moves a parameter by this many prior sd to either side: far enough for its fits, which lie within two.
 constexpr double parameterStep = 1.5;
 
+/// Runs at either end of a parameter, without effects.
+constexpr int axialRepeats = 3;
+
 double moved(const Parameter& parameter, double sds)
 {
     return std::clamp(parameter.mean + sds * parameter.sd, parameter.lower, parameter.upper);
@@ -37,6 +40,16 @@ public:
     std::vector<SimulationOrder> scattering()
     {
         add(simulator_.plainSetting(), "base", study_.settings.repeatsBase);
+        // In the design all parameters are at their ends, as are the effects: how a parameter bends is seen without them.
+        for (std::size_t p = 0; p < study_.parameters.size(); ++p)
+        {
+            for (const double side : {-1.0, 1.0})
+            {
+                Setting setting = simulator_.plainSetting();
+                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * parameterStep);
+                add(setting, study_.parameters[p].name + " alone", axialRepeats);
+            }
+        }
         std::vector<std::size_t> designed;
         for (const auto e : simulatedEffects(study_, condition_))
         {
@@ -62,8 +75,7 @@ public:
             for (const double side : {-1.0, 1.0})
             {
                 Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) =
-                    moved(study_.parameters[p], side * parameterStep);
+                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * parameterStep);
                 add(setting, "design", 1);
             }
         }
@@ -189,9 +201,8 @@ Library makeLibrary(Simulator& simulator)
     run(first);
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        if (std::none_of(library.runs.begin(), library.runs.end(), [&](const Run& one) {
-                return one.simulation.condition == condition && !one.simulation.failed;
-            }))
+        if (std::none_of(library.runs.begin(), library.runs.end(),
+                [&](const Run& one) { return one.simulation.condition == condition && !one.simulation.failed; }))
         {
             throw std::runtime_error("condition '" + study.conditions[condition].name
                                      + "': all runs at the base setting have failed"

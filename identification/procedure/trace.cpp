@@ -42,7 +42,8 @@ public:
         Eigen::VectorXd around = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
         for (int round = 0; round < rounds; ++round)
         {
-            const Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            evidence.refine(answer_.measured);
             around = evidence.fitNull(answer_.measured).parameters;
             const bool changed = round == 0 ? simulateNull(around) : simulateContenders(evidence, round);
             if (changed)
@@ -50,7 +51,8 @@ public:
                 learn();
             }
         }
-        const Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+        Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+        evidence.refine(answer_.measured);
         decide(evidence);
         return std::move(answer_);
     }
@@ -93,8 +95,7 @@ private:
 
     bool simulateNull(const Eigen::VectorXd& parameters)
     {
-        const int repeats =
-            answer_.emulator->scatters() ? std::max(1, study_.settings.decidingRuns / rounds) : 1;
+        const int repeats = answer_.emulator->scatters() ? std::max(1, study_.settings.decidingRuns / rounds) : 1;
         std::vector<SimulationOrder> orders;
         for (const auto& block : answer_.layout.blocks)
         {
@@ -105,8 +106,9 @@ private:
         }
         if (!simulate(orders))
         {
-            throw std::runtime_error("all runs at the null fit have failed"
-                                     + (simulator_.failures().empty() ? "" : ": " + simulator_.failures().back().reason));
+            throw std::runtime_error(
+                "all runs at the null fit have failed"
+                + (simulator_.failures().empty() ? "" : ": " + simulator_.failures().back().reason));
         }
         return true;
     }
@@ -130,8 +132,7 @@ private:
             }
             const Fit fit = evidence.fit(e, answer_.measured);
             // The root of the odds: what is behind by chance must get its runs, too.
-            contenders.push_back(
-                {{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
+            contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
         }
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
@@ -241,8 +242,8 @@ private:
 
 } // namespace
 
-Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
-    std::mt19937_64& random)
+Answer trace(
+    Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data, std::mt19937_64& random)
 {
     return Tracing(simulator, library, data, random).run();
 }
