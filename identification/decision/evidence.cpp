@@ -23,8 +23,8 @@ constexpr double otherSpreadFreedom = 3.0;
 constexpr double otherSpreadShare = 0.3;
 
 /// Steps between the amplitudes 0 and 1 at which an explanation is computed, and of the grid that is integrated over.
-constexpr int coarseSteps = 4;
-constexpr int fineSteps = 32;
+constexpr int coarseSteps = 8;
+constexpr int fineSteps = 256;
 
 /// Of amplitudes of pairs, from end to end.
 constexpr int pairSteps = 8;
