@@ -22,9 +22,8 @@ constexpr double spreadFreedom = 30.0;
 constexpr double otherSpreadFreedom = 3.0;
 constexpr double otherSpreadShare = 0.3;
 
-/// Steps between the amplitudes 0 and 1 at which an explanation is computed, and of the grid that is integrated over.
-constexpr int coarseSteps = 8;
-constexpr int fineSteps = 256;
+/// Amplitudes that are integrated over.
+constexpr Eigen::Index fineSteps = 512;
 
 /// Of amplitudes of pairs, from end to end.
 constexpr int pairSteps = 8;
@@ -35,27 +34,6 @@ constexpr int parameterSteps = 2;
 /// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
 constexpr double alikeFeatures = 0.5;
 constexpr double alikeConditions = 0.3;
-
-/// Weights of the cubic through four neighbouring nodes. \param x  in units of their distance, from the first node
-Eigen::RowVectorXd cubicWeights(double x, Eigen::Index nodes)
-{
-    const Eigen::Index count = std::min<Eigen::Index>(4, nodes);
-    const Eigen::Index first = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(x)) - 1, 0, nodes - count);
-    Eigen::RowVectorXd weights = Eigen::RowVectorXd::Zero(nodes);
-    for (Eigen::Index i = first; i < first + count; ++i)
-    {
-        double weight = 1.0;
-        for (Eigen::Index j = first; j < first + count; ++j)
-        {
-            if (j != i)
-            {
-                weight *= (x - static_cast<double>(j)) / static_cast<double>(i - j);
-            }
-        }
-        weights(i) = weight;
-    }
-    return weights;
-}
 
 /// Log density of sums of squares about a common factor of the variance with an inverse gamma prior; what all
 /// explanations share is left out.
@@ -175,7 +153,7 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         }
         for (const auto& [effect, amplitude] : present)
         {
-            node.scatters = node.scatters || (amplitude != 0.0 && emulator.logScatter.count(effect) > 0);
+            node.scatters = node.scatters || (amplitude != 0.0 && emulator.scatters(effect));
         }
     }
     return node;
@@ -193,25 +171,19 @@ Evidence::Explanation Evidence::explanationOf(std::size_t e) const
         explanation.logWeights = Eigen::VectorXd::Zero(1);
         return explanation;
     }
-    const auto [lower, upper] = effect.bounds;
-    const double step = std::max(upper, -lower) / coarseSteps;
-    const int below = static_cast<int>(std::ceil(-lower / step - 1e-9));
-    const int above = static_cast<int>(std::ceil(upper / step - 1e-9));
-    for (int i = -below; i <= above; ++i)
+    const Grid grid(effect);
+    for (const double amplitude : grid.amplitudes())
     {
-        explanation.nodes.push_back(nodeAt({{e, i * step}}));
+        explanation.nodes.push_back(nodeAt({{e, amplitude}}));
     }
-    const int per = fineSteps / coarseSteps;
-    const int count = (below + above) * per;
-    const auto nodes = static_cast<Eigen::Index>(explanation.nodes.size());
-    explanation.amplitudes.resize(count);
-    explanation.interpolation.resize(count, nodes);
-    explanation.logWeights = Eigen::VectorXd::Constant(count, -std::log(static_cast<double>(count)));
-    for (int i = 0; i < count; ++i)
+    const auto [lower, upper] = effect.bounds;
+    explanation.amplitudes.resize(fineSteps);
+    explanation.interpolation.resize(fineSteps, grid.amplitudes().size());
+    explanation.logWeights = Eigen::VectorXd::Constant(fineSteps, -std::log(static_cast<double>(fineSteps)));
+    for (Eigen::Index i = 0; i < fineSteps; ++i)
     {
-        const double x = (i + 0.5) / per;
-        explanation.amplitudes(i) = std::clamp((x - below) * step, lower, upper);
-        explanation.interpolation.row(i) = cubicWeights(x, nodes);
+        explanation.amplitudes(i) = lower + (upper - lower) * (static_cast<double>(i) + 0.5) / fineSteps;
+        explanation.interpolation.row(i) = grid.weightsAt(explanation.amplitudes(i));
     }
     return explanation;
 }
@@ -251,7 +223,6 @@ double Evidence::otherSpread(const Measured& measured) const
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
 {
     const auto q = static_cast<Eigen::Index>(study_.parameters.size());
-    const Eigen::Index n = layout_.rows;
     // This runs a million times for one data set: no memory is asked for.
     Eigen::VectorXd& y = workspace_.data;
     Eigen::VectorXd& r = workspace_.residual;
@@ -307,29 +278,41 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
         residual();
     }
     solution.misfit = (weight * r.array().square()).sum() + t.squaredNorm();
-    // The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
-    const double nu = layout_.noiseFreedom;
-    solution.logLikelihood = -0.5 * (nu + static_cast<double>(n)) * std::log1p(solution.misfit / nu)
-                             - 0.5 * (node.logDeterminant - logProduct(weight));
+    solution.logVolume = -0.5 * (node.logDeterminant - logProduct(weight));
     for (Eigen::Index i = 0; i < q; ++i)
     {
-        solution.logLikelihood -= std::log(factored(i, i));
+        solution.logVolume -= std::log(factored(i, i));
     }
     return solution;
 }
 
-Eigen::VectorXd Evidence::logLikelihoods(
+/// The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
+double Evidence::logLikelihood(double misfit, double logVolume) const
+{
+    const double nu = layout_.noiseFreedom;
+    return logVolume - 0.5 * (nu + static_cast<double>(layout_.rows)) * std::log1p(misfit / nu);
+}
+
+Eigen::VectorXd Evidence::logPosterior(
     const Explanation& explanation, const Measured& measured, const Spread& usual) const
 {
-    Eigen::VectorXd all(static_cast<Eigen::Index>(explanation.nodes.size()));
-    for (Eigen::Index i = 0; i < all.size(); ++i)
+    // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
+    // likelihood is; the likelihood itself it would not.
+    Eigen::MatrixXd nodes(static_cast<Eigen::Index>(explanation.nodes.size()), 2);
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
     {
         const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
         const Spread spread = node.scatters ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
-        all(i) = solution.logLikelihood + spread.logLikelihood;
+        nodes.row(i) << solution.misfit, solution.logVolume + spread.logLikelihood;
     }
-    return all;
+    const Eigen::MatrixXd fine = explanation.interpolation * nodes;
+    Eigen::VectorXd logs = explanation.logWeights;
+    for (Eigen::Index i = 0; i < logs.size(); ++i)
+    {
+        logs(i) += logLikelihood(std::max(0.0, fine(i, 0)), fine(i, 1));
+    }
+    return logs;
 }
 
 Evidences Evidence::operator()(const Measured& measured) const
@@ -337,7 +320,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     Evidences evidences;
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
-    evidences.null = null.logLikelihood + usual.logLikelihood;
+    evidences.null = logLikelihood(null.misfit, null.logVolume) + usual.logLikelihood;
     evidences.effects.resize(static_cast<Eigen::Index>(effects_.size()));
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
@@ -345,8 +328,7 @@ Evidences Evidence::operator()(const Measured& measured) const
         double& evidence = evidences.effects(static_cast<Eigen::Index>(e));
         evidence = explanation.nodes.empty()
                        ? -std::numeric_limits<double>::infinity()
-                       : logSumExp(explanation.interpolation * logLikelihoods(explanation, measured, usual)
-                                   + explanation.logWeights);
+                       : logSumExp(logPosterior(explanation, measured, usual));
     }
     evidences.other = otherEvidence(measured, usual, null);
     return evidences;
@@ -474,8 +456,7 @@ Fit Evidence::fit(std::size_t effect, const Measured& measured) const
         return fit;
     }
     const Spread usual = spreadOf(null_, measured);
-    Eigen::VectorXd logs =
-        explanation.interpolation * logLikelihoods(explanation, measured, usual) + explanation.logWeights;
+    const Eigen::VectorXd logs = logPosterior(explanation, measured, usual);
     const Eigen::ArrayXd share = (logs.array() - logSumExp(logs)).exp();
     const Eigen::ArrayXd a = explanation.amplitudes.array();
     fit.amplitude = (share * a).sum();
@@ -528,7 +509,7 @@ Evidence::Pair Evidence::pair(std::size_t one, std::size_t other, const Measured
             const Node node = nodeAt({{one, a}, {other, b}});
             const Spread spread = spreadOf(node, measured);
             const Solution solution = solve(node, spread.factor, measured);
-            logs.push_back(solution.logLikelihood + spread.logLikelihood);
+            logs.push_back(logLikelihood(solution.misfit, solution.logVolume) + spread.logLikelihood);
             if (logs.back() > largest)
             {
                 largest = logs.back();

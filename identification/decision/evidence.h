@@ -130,10 +130,10 @@ private:
 
     struct Solution
     {
-        double logLikelihood = 0.0;
         FewNumbers parameters;
         FewSquare precision;
         double misfit = 0.0;
+        double logVolume = 0.0; // of the log likelihood, what is no misfit
     };
 
     struct Discrepancy
@@ -147,7 +147,9 @@ private:
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
-    Eigen::VectorXd logLikelihoods(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
+    double logLikelihood(double misfit, double logVolume) const;
+    /// Of the explanation's amplitudes, with their prior.
+    Eigen::VectorXd logPosterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
     const Study& study_;

@@ -35,14 +35,12 @@ constexpr double leastBetween = 0.01;
 /// Scatter of an effect in one condition counts against that of all conditions as much as this many degrees of freedom.
 constexpr double sharedScatter = 8.0;
 
-/// Powers of the amplitude for effects of the measuring chain, and amplitudes at which they are computed.
-constexpr Eigen::Index chainPowers = 4;
-constexpr int chainSteps = 4;
-
 /// Large effects bend, and go on to act otherwise beside others, in proportion to their size (heredity: Chipman, Can. J.
 /// Stat. 24, 17 (1996)). Priors of one scale for all effects would call both impossible. Sd of the squared term, and of what an
 /// effect does in the design's runs beyond what it does alone, as shares of its main effect.
-constexpr double curvatureShare = 0.2;
+constexpr double mainShare = 3.0;
+constexpr double curvatureShare = 0.4;
+constexpr double curvatureOfCorrections = 0.05;
 constexpr double designShare = 0.1;
 
 /// The largest scale of a prior, in units of one run's noise, and the smallest.
@@ -122,16 +120,12 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) con
         const auto found = chain.find(effect);
         if (found != chain.end())
         {
-            double power = 1.0;
-            for (const auto& column : found->second.powers.colwise())
-            {
-                power *= a;
-                polynomial.col(0) += power * column;
-            }
+            const Chain& one = found->second;
+            const Eigen::VectorXd weights = one.amplitudes.weightsAt(a).transpose();
+            polynomial.col(0) += one.changes * weights;
             for (Eigen::Index i = 0; i < q; ++i)
             {
-                const Eigen::MatrixXd& slope = found->second.slopes[static_cast<std::size_t>(i)];
-                polynomial.col(1 + i) += a * slope.col(0) + a * a * slope.col(1);
+                polynomial.col(1 + i) += one.slopes[static_cast<std::size_t>(i)] * weights;
             }
         }
     }
@@ -170,6 +164,11 @@ Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) 
         if (found != logScatter.end())
         {
             factor += std::abs(amplitude) * found->second;
+        }
+        const auto recorded = chain.find(effect);
+        if (recorded != chain.end())
+        {
+            factor += recorded->second.logScatter * recorded->second.amplitudes.weightsAt(amplitude).transpose();
         }
     }
     factor = factor.array().exp();
@@ -543,7 +542,9 @@ void Emulator::solve(std::size_t c)
             {
                 const Eigen::Index term = emulator.basis.effectTerm(k);
                 const double main = emulator.coefficients(term, f);
-                own(term + 1) += std::pow(curvatureShare * main, 2);
+                own(term) += std::pow(mainShare * main, 2);
+                const bool isCorrection = study_->effects[emulator.basis.effects[k]].bounds.lower < 0.0;
+                own(term + 1) += std::pow((isCorrection ? curvatureOfCorrections : curvatureShare) * main, 2);
                 Eigen::VectorXd design = rows.terms.col(term);
                 design.array() *= rows.terms.col(emulator.basis.designTerm()).array() * designShare * main;
                 inDesign += design * design.transpose();
@@ -651,86 +652,108 @@ void Emulator::learnScatter()
     }
 }
 
-/// The curves of runs without effects, once more through the chain.
 void Emulator::learnChain(const Simulator& simulator, const std::vector<Run>& runs)
 {
-    const Eigen::Index q = static_cast<Eigen::Index>(study_->parameters.size());
     for (std::size_t e = 0; e < study_->effects.size(); ++e)
     {
-        const Effect& effect = study_->effects[e];
-        const auto [lower, upper] = effect.bounds;
-        for (std::size_t c = 0; c < conditions_.size() && effect.isOfChain(); ++c)
+        for (std::size_t c = 0; c < conditions_.size() && study_->effects[e].isOfChain(); ++c)
         {
-            if (!conditions_[c] || !acts(effect, study_->conditions[c]))
+            if (!conditions_[c] || !acts(study_->effects[e], study_->conditions[c]))
             {
                 continue;
             }
-            const auto& kept = conditions_[c]->features;
-            std::vector<Eigen::VectorXd> terms;
-            std::vector<Eigen::VectorXd> changes;
+            std::vector<const Run*> plain;
             for (const auto& run : runs)
             {
-                const bool isPlain = run.setting.amplitudes.isZero() && !run.simulation.failed;
-                if (run.simulation.condition != c || !isPlain)
+                if (run.simulation.condition == c && run.setting.amplitudes.isZero() && !run.simulation.failed
+                    && run.simulation.features(conditions_[c]->features).array().isFinite().all())
                 {
-                    continue;
-                }
-                const Eigen::VectorXd before = run.simulation.features(kept);
-                const Eigen::VectorXd t = inSds(*study_, run.setting.parameters);
-                for (int step = effect.isSwitch ? chainSteps : 1; step <= chainSteps; ++step)
-                {
-                    for (const double end : {lower, upper})
-                    {
-                        const double a = end * step / chainSteps;
-                        if (a == 0.0)
-                        {
-                            continue;
-                        }
-                        Eigen::VectorXd amplitudes = Eigen::VectorXd::Zero(run.setting.amplitudes.size());
-                        amplitudes(static_cast<Eigen::Index>(e)) = a;
-                        const Eigen::VectorXd after = simulator.featuresOf(
-                            simulator.throughChain(run.simulation.plain, c, amplitudes))(kept);
-                        Eigen::VectorXd x(chainPowers + 2 * q);
-                        for (Eigen::Index power = 0; power < chainPowers; ++power)
-                        {
-                            x(power) = std::pow(a, static_cast<double>(power + 1));
-                        }
-                        x.segment(chainPowers, q) = a * t;
-                        x.tail(q) = a * a * t;
-                        if ((after - before).array().isFinite().all())
-                        {
-                            terms.push_back(x);
-                            changes.emplace_back(after - before);
-                        }
-                    }
+                    plain.push_back(&run);
                 }
             }
-            if (terms.empty())
-            {
-                known_[e] = false;
-                remarks_.push_back("effect " + effect.name + " is not judged: with it no curve has the features of condition "
-                                   + study_->conditions[c].name);
-                continue;
-            }
-            Eigen::MatrixXd x(static_cast<Eigen::Index>(terms.size()), terms.front().size());
-            Eigen::MatrixXd y(x.rows(), changes.front().size());
-            for (Eigen::Index row = 0; row < x.rows(); ++row)
-            {
-                x.row(row) = terms[static_cast<std::size_t>(row)].transpose();
-                y.row(row) = changes[static_cast<std::size_t>(row)].transpose();
-            }
-            const Eigen::MatrixXd solution = x.completeOrthogonalDecomposition().solve(y);
-            ConditionEmulator::Chain column;
-            column.powers = solution.topRows(chainPowers).transpose();
-            for (Eigen::Index i = 0; i < q; ++i)
-            {
-                Eigen::MatrixXd slope(y.cols(), 2);
-                slope << solution.row(chainPowers + i).transpose(), solution.row(chainPowers + q + i).transpose();
-                column.slopes.push_back(slope);
-            }
-            conditions_[c]->chain[e] = std::move(column);
+            learnChain(e, c, simulator, plain);
         }
     }
+}
+
+/// The curves of runs without effects, once more through the chain.
+void Emulator::learnChain(
+    std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<const Run*>& plain)
+{
+    const Effect& effect = study_->effects[e];
+    const auto& kept = conditions_[c]->features;
+    const auto rows = static_cast<Eigen::Index>(plain.size());
+    const auto q = static_cast<Eigen::Index>(study_->parameters.size());
+    Eigen::MatrixXd before(rows, static_cast<Eigen::Index>(kept.size()));
+    Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, 1 + q);
+    std::vector<Setting> settings;
+    for (Eigen::Index row = 0; row < rows; ++row)
+    {
+        const Run& run = *plain[static_cast<std::size_t>(row)];
+        before.row(row) = run.simulation.features(kept).transpose();
+        terms.row(row).tail(q) = inSds(*study_, run.setting.parameters).transpose();
+        settings.push_back(run.setting);
+    }
+    const auto groups = repeatsOf(settings);
+    const auto squares = [&](const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& some) {
+        Eigen::VectorXd sum = Eigen::VectorXd::Zero(values.cols());
+        for (const auto& group : groups)
+        {
+            std::vector<Eigen::Index> own;
+            std::set_intersection(group.begin(), group.end(), some.begin(), some.end(), std::back_inserter(own));
+            if (own.size() > 1)
+            {
+                const Eigen::MatrixXd chosen = values(own, Eigen::all);
+                sum += (chosen.rowwise() - Eigen::RowVectorXd(chosen.colwise().mean())).colwise().squaredNorm().transpose();
+            }
+        }
+        return sum;
+    };
+
+    ConditionEmulator::Chain chain;
+    chain.amplitudes = Grid(effect);
+    const Eigen::VectorXd& amplitudes = chain.amplitudes.amplitudes();
+    chain.changes = Eigen::MatrixXd::Zero(before.cols(), amplitudes.size());
+    chain.logScatter = chain.changes;
+    chain.slopes.assign(static_cast<std::size_t>(q), chain.changes);
+    for (Eigen::Index node = 0; node < amplitudes.size(); ++node)
+    {
+        Setting setting = simulator.plainSetting();
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = amplitudes(node);
+        Eigen::MatrixXd after(rows, before.cols());
+        std::vector<Eigen::Index> good;
+        for (Eigen::Index row = 0; row < rows; ++row)
+        {
+            const Curve& curve = plain[static_cast<std::size_t>(row)]->simulation.plain;
+            after.row(row) =
+                simulator.featuresOf(simulator.throughChain(curve, c, setting.amplitudes))(kept).transpose();
+            if (after.row(row).array().isFinite().all())
+            {
+                good.push_back(row);
+            }
+        }
+        if (good.empty())
+        {
+            known_[e] = false;
+            remarks_.push_back("effect " + effect.name + " is not judged: with it no curve has the features of condition "
+                               + study_->conditions[c].name);
+            return;
+        }
+        const Eigen::MatrixXd solution = Eigen::MatrixXd(terms(good, Eigen::all))
+                                             .completeOrthogonalDecomposition()
+                                             .solve(Eigen::MatrixXd((after - before)(good, Eigen::all)));
+        chain.changes.col(node) = solution.row(0).transpose();
+        for (Eigen::Index i = 0; i < q; ++i)
+        {
+            chain.slopes[static_cast<std::size_t>(i)].col(node) = solution.row(1 + i).transpose();
+        }
+        if (scatters_)
+        {
+            const Eigen::ArrayXd ratio = squares(after, good).array() / squares(before, good).array();
+            chain.logScatter.col(node) = (ratio.isFinite() && ratio > 0.0).select(0.5 * ratio.log(), 0.0);
+        }
+    }
+    conditions_[c]->chain[e] = std::move(chain);
 }
 
 } // namespace clepsydra::identification

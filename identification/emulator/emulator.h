@@ -1,6 +1,7 @@
 #pragma once
 
 #include "emulator/basis.h"
+#include "emulator/grid.h"
 #include "emulator/library.h"
 
 #include <array>
@@ -25,11 +26,14 @@ struct Present
 class ConditionEmulator
 {
 public:
-    /// Effects of the measuring chain: change of each feature, as a polynomial in amplitude and parameters.
+    /// What an effect of the measuring chain does to each feature, at amplitudes from end to end: no polynomial follows what
+    /// a late trigger does to a short start. A run's noise goes through the chain, too.
     struct Chain
     {
-        Eigen::MatrixXd powers;              // features x powers of the amplitude, from the first
-        std::vector<Eigen::MatrixXd> slopes; // by parameter: features x two powers of the amplitude
+        Grid amplitudes;
+        Eigen::MatrixXd changes;             // features x amplitudes
+        std::vector<Eigen::MatrixXd> slopes; // of these in each parameter
+        Eigen::MatrixXd logScatter;          // log of the factor on a run's sd
     };
 
     Basis basis;
@@ -39,7 +43,7 @@ public:
     Eigen::MatrixXd coefficients;       // terms x features, in units of `root`
     std::vector<Eigen::MatrixXd> covariances;           // of these, by feature
     std::map<std::size_t, Chain> chain;                 // by effect
-    std::map<std::size_t, Eigen::VectorXd> logScatter;  // by effect: log sd that amplitude 1 adds, by feature
+    std::map<std::size_t, Eigen::VectorXd> logScatter;  // by simulated effect: log sd that amplitude 1 adds, by feature
     int runs = 0;
 
     /// Mean of the features as a polynomial in the parameters: features x parameterTerms.
@@ -47,6 +51,12 @@ public:
 
     /// Covariance of what the emulator does not know of that mean, at some parameters.
     Eigen::MatrixXd uncertainty(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+
+    /// Whether an effect changes the scatter of runs.
+    bool scatters(std::size_t effect) const
+    {
+        return chain.count(effect) > 0 || logScatter.count(effect) > 0;
+    }
 
     /// Covariance of one run.
     Eigen::MatrixXd noiseOf(const std::vector<Present>& present) const;
@@ -129,6 +139,7 @@ private:
     void learnScatter();
     void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
     void learnChain(const Simulator& simulator, const std::vector<Run>& runs);
+    void learnChain(std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& plain);
     Eigen::ArrayXXd variances(std::size_t condition) const;
 
     const Study* study_;

@@ -61,6 +61,9 @@ public:
             else
             {
                 designed.push_back(e);
+                // The design has no middle: whether an effect grows as its amplitude is seen where it acts alone.
+                const auto [lower, upper] = effect.bounds;
+                if(lower>=0.0) add(with(e, upper / 2.0), effect.name + " alone", 1);
             }
         }
         addDesign(designed);
