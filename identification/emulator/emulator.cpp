@@ -72,6 +72,34 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     return groups;
 }
 
+/// The log of a mean square is too small by this on average.
+double biasOfLog(double degreesOfFreedom)
+{
+    return boost::math::digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
+}
+
+/// What was simulated, before the measuring chain.
+struct BeforeChain
+{
+    Setting setting;
+    Eigen::VectorXd features;
+};
+
+BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Run& run)
+{
+    BeforeChain before{run.setting, run.simulation.features};
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        double& amplitude = before.setting.amplitudes(static_cast<Eigen::Index>(e));
+        if (study.effects[e].isOfChain() && amplitude != 0.0)
+        {
+            amplitude = 0.0;
+            before.features = simulator.featuresOf(run.simulation.plain);
+        }
+    }
+    return before;
+}
+
 } // namespace
 
 //--- One condition --------------------------------------------------------------------------------------------------
@@ -190,7 +218,7 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
         if (!features[c].empty())
         {
             choose(c, runs, features[c]);
-            append(c, runs);
+            append(c, simulator, runs);
         }
     }
     learnNoise();
@@ -263,7 +291,7 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
     conditions_[c] = std::move(emulator);
 }
 
-void Emulator::append(std::size_t c, const std::vector<Run>& runs)
+void Emulator::append(std::size_t c, const Simulator& simulator, const std::vector<Run>& runs)
 {
     if (!conditions_[c])
     {
@@ -277,7 +305,8 @@ void Emulator::append(std::size_t c, const std::vector<Run>& runs)
         {
             continue;
         }
-        const Eigen::VectorXd values = run.simulation.features(emulator.features);
+        const auto [setting, all] = beforeChain(*study_, simulator, run);
+        const Eigen::VectorXd values = all(emulator.features);
         if (!values.array().isFinite().all())
         {
             continue;
@@ -285,7 +314,7 @@ void Emulator::append(std::size_t c, const std::vector<Run>& runs)
         std::vector<Present> present;
         for (const auto e : emulator.basis.effects)
         {
-            present.push_back({e, run.setting.amplitudes(static_cast<Eigen::Index>(e))});
+            present.push_back({e, setting.amplitudes(static_cast<Eigen::Index>(e))});
         }
         const bool several = std::count_if(present.begin(), present.end(), [](const Present& one) {
             return one.amplitude != 0.0;
@@ -294,8 +323,8 @@ void Emulator::append(std::size_t c, const std::vector<Run>& runs)
         rows.values.conservativeResize(row + 1, values.size());
         rows.values.row(row) = values.transpose();
         rows.terms.conservativeResize(row + 1, emulator.basis.size());
-        rows.terms.row(row) = emulator.terms(inSds(*study_, run.setting.parameters), present).transpose();
-        rows.settings.push_back(run.setting);
+        rows.terms.row(row) = emulator.terms(inSds(*study_, setting.parameters), present).transpose();
+        rows.settings.push_back(setting);
         rows.terms(row, emulator.basis.designTerm()) = several ? 1.0 : 0.0;
         rows.severalOn.push_back(several);
         std::vector<Present> scattering;
@@ -354,7 +383,7 @@ void Emulator::learnNoise()
         {
             deviations[c] = own.deviations();
             const Eigen::VectorXd meanSquare = deviations[c].cwiseAbs2().colwise().mean();
-            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log();
+            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log() - 0.5 * biasOfLog(freedom[c]);
             squares(kept) += freedom[c] * meanSquare;
             weight(kept).array() += freedom[c];
         }
@@ -538,6 +567,11 @@ void Emulator::solve(std::size_t c)
         // First without, then with what effects of this size may do beside their main effect.
         for (const bool heredity : {false, true})
         {
+            for (Eigen::Index p = 0; heredity && p < emulator.basis.parameters; ++p)
+            {
+                own(parameterTerm(emulator.basis.parameters, p, p)) +=
+                    std::pow(curvatureShare * emulator.coefficients(1 + p, f), 2);
+            }
             for (std::size_t k = 0; heredity && k < emulator.basis.effects.size(); ++k)
             {
                 const Eigen::Index term = emulator.basis.effectTerm(k);
@@ -614,8 +648,6 @@ void Emulator::learnScatter()
         {
             continue;
         }
-        // The log of a mean square of few deviations is too small by this.
-        const auto bias = [](double nu) { return boost::math::digamma(nu / 2.0) - std::log(nu / 2.0); };
         for (const auto& [c, ratioAndFreedom] : own)
         {
             const auto& [ratio, nu] = ratioAndFreedom;
@@ -624,8 +656,8 @@ void Emulator::learnScatter()
             for (Eigen::Index k = 0; k < ratio.size(); ++k)
             {
                 const auto f = kept[static_cast<std::size_t>(k)];
-                const double all = 0.5 * (std::log(squares(f) / freedom(f)) - bias(freedom(f)));
-                const double here = 0.5 * (std::log(ratio(k) / nu) - bias(nu));
+                const double all = 0.5 * (std::log(squares(f) / freedom(f)) - biasOfLog(freedom(f)));
+                const double here = 0.5 * (std::log(ratio(k) / nu) - biasOfLog(nu));
                 logs(k) = all + (here - all) * nu / (nu + sharedScatter);
             }
             conditions_[c]->logScatter[e] = logs;
@@ -662,37 +694,41 @@ void Emulator::learnChain(const Simulator& simulator, const std::vector<Run>& ru
             {
                 continue;
             }
-            std::vector<const Run*> plain;
-            for (const auto& run : runs)
-            {
-                if (run.simulation.condition == c && run.setting.amplitudes.isZero() && !run.simulation.failed
-                    && run.simulation.features(conditions_[c]->features).array().isFinite().all())
-                {
-                    plain.push_back(&run);
-                }
-            }
-            learnChain(e, c, simulator, plain);
+            learnChain(e, c, simulator, runs);
         }
     }
 }
 
 /// The curves of runs without effects, once more through the chain.
-void Emulator::learnChain(
-    std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<const Run*>& plain)
+void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<Run>& runs)
 {
     const Effect& effect = study_->effects[e];
     const auto& kept = conditions_[c]->features;
-    const auto rows = static_cast<Eigen::Index>(plain.size());
     const auto q = static_cast<Eigen::Index>(study_->parameters.size());
+    std::vector<const Curve*> curves;
+    std::vector<Setting> settings;
+    std::vector<Eigen::VectorXd> features;
+    for (const auto& run : runs)
+    {
+        if (run.simulation.condition != c || run.simulation.failed)
+        {
+            continue;
+        }
+        const auto [setting, all] = beforeChain(*study_, simulator, run);
+        if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())
+        {
+            curves.push_back(&run.simulation.plain);
+            settings.push_back(setting);
+            features.emplace_back(all(kept));
+        }
+    }
+    const auto rows = static_cast<Eigen::Index>(curves.size());
     Eigen::MatrixXd before(rows, static_cast<Eigen::Index>(kept.size()));
     Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, 1 + q);
-    std::vector<Setting> settings;
     for (Eigen::Index row = 0; row < rows; ++row)
     {
-        const Run& run = *plain[static_cast<std::size_t>(row)];
-        before.row(row) = run.simulation.features(kept).transpose();
-        terms.row(row).tail(q) = inSds(*study_, run.setting.parameters).transpose();
-        settings.push_back(run.setting);
+        before.row(row) = features[static_cast<std::size_t>(row)].transpose();
+        terms.row(row).tail(q) = inSds(*study_, settings[static_cast<std::size_t>(row)].parameters).transpose();
     }
     const auto groups = repeatsOf(settings);
     const auto squares = [&](const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& some) {
@@ -724,7 +760,7 @@ void Emulator::learnChain(
         std::vector<Eigen::Index> good;
         for (Eigen::Index row = 0; row < rows; ++row)
         {
-            const Curve& curve = plain[static_cast<std::size_t>(row)]->simulation.plain;
+            const Curve& curve = *curves[static_cast<std::size_t>(row)];
             after.row(row) =
                 simulator.featuresOf(simulator.throughChain(curve, c, setting.amplitudes))(kept).transpose();
             if (after.row(row).array().isFinite().all())

@@ -131,7 +131,7 @@ private:
     };
 
     void choose(std::size_t condition, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted);
-    void append(std::size_t condition, const std::vector<Run>& runs);
+    void append(std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();
     void solve(std::size_t condition);
@@ -139,7 +139,7 @@ private:
     void learnScatter();
     void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
     void learnChain(const Simulator& simulator, const std::vector<Run>& runs);
-    void learnChain(std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& plain);
+    void learnChain(std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
 
     const Study* study_;

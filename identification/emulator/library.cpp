@@ -14,7 +14,8 @@ namespace
 /// The design moves a parameter by this many prior sd to either side: far enough for its fits, which lie within two.
 constexpr double parameterStep = 1.5;
 
-/// Runs at either end of a parameter, without effects.
+/// Runs without effects at either end of a parameter's prior.
+constexpr double axialStep = 2.5;
 constexpr int axialRepeats = 3;
 
 double moved(const Parameter& parameter, double sds)
@@ -46,7 +47,7 @@ public:
             for (const double side : {-1.0, 1.0})
             {
                 Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * parameterStep);
+                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * axialStep);
                 add(setting, study_.parameters[p].name + " alone", axialRepeats);
             }
         }
