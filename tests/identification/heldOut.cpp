@@ -34,30 +34,30 @@ TEST(HeldOut, CrpsOfANormalPrediction)
     EXPECT_EQ(crpsOfNormal(1, 0, 3), 2);
 }
 
-/// A declared error counts beside what repeats show: sqrt(.0004/4 + .0003 + .0012) = .04.
-TEST(HeldOut, DeclaredErrorsWidenTheStandardError)
+/// One held-out condition with one feature, measured .2 +- .02 four times and predicted as -.3. \param declared  variance
+/// beyond repeats
+HeldOutScore scoreWith(double declared)
 {
     std::mt19937_64 random(6);
-    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
-        Eigen::VectorXd::Constant(1, .0012)};
-    const Prediction prediction{
-        Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
-    const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);
-    EXPECT_NEAR(heldOutScore({data}, {prediction}, {0}, noise, random).rmsLogError.standardError, .04, .002);
+    std::vector<HeldOutData> data(1);
+    data[0].features = (Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished();
+    data[0].meanShare = Eigen::MatrixXd::Constant(1, 1, .25);
+    data[0].declaredVariance = Eigen::VectorXd::Constant(1, declared);
+    std::vector<Prediction> predictions(1);
+    predictions[0].mean = Eigen::VectorXd::Constant(1, -.3);
+    predictions[0].variance = Eigen::VectorXd::Constant(1, .0003);
+    predictions[0].dataCovariance = Eigen::MatrixXd::Constant(1, 1, .0004);
+    const DataNoise noise = drawDataNoise(data, predictions, 4000, random);
+    return heldOutScore(data, predictions, {0}, noise, random);
 }
 
+/// Far from zero the error's own standard error: sqrt(.0004/4 + .0003) = .02, and with a declared one beside what repeats
+/// show sqrt(.0004/4 + .0003 + .0012) = .04.
 TEST(HeldOut, RmsErrorOfMeansAndItsStandardError)
 {
-    std::mt19937_64 random(6);
-    const HeldOutData data{(Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished(), Eigen::MatrixXd::Constant(1, 1, .25),
-        Eigen::VectorXd::Zero(1)};
-    const Prediction prediction{
-        Eigen::VectorXd::Constant(1, -.3), Eigen::VectorXd::Constant(1, .0003), Eigen::MatrixXd::Constant(1, 1, .0004)};
-    const DataNoise noise = drawDataNoise({data}, {prediction}, 4000, random);
-    const auto found = heldOutScore({data}, {prediction}, {0}, noise, random);
-    EXPECT_NEAR(found.rmsLogError.value, .5, 1e-12);
-    // Far from zero the error's own standard error: sqrt(.0004/4 + .0003) = .02
-    EXPECT_NEAR(found.rmsLogError.standardError, .02, .001);
+    EXPECT_NEAR(scoreWith(0).rmsLogError.value, .5, 1e-12);
+    EXPECT_NEAR(scoreWith(0).rmsLogError.standardError, .02, .001);
+    EXPECT_NEAR(scoreWith(.0012).rmsLogError.standardError, .04, .002);
 }
 
 /// On a smooth function it predicts between the points; on noise it stays at zero.
