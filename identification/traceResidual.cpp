@@ -1,6 +1,7 @@
 /// From a measured residual to a named effect. See README.md beside this file.
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
+#include "report/text.h"
 #include "study/draft/draftStudy.h"
 
 #include <CLI/CLI.hpp>
@@ -32,8 +33,22 @@ fs::path reportFolder(const Arguments& arguments)
     return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
 }
 
-/// The report again, in words; its files anew where the runs are still stored.
-void showReport(const fs::path& study, const fs::path& folder)
+/// What report.json says, for people.
+void showReport(const fs::path& folder)
+{
+    std::ifstream file(folder / "report.json");
+    const auto report = nlohmann::ordered_json::parse(file, nullptr, false);
+    if (!report.is_object() || !report.contains("summary"))
+    {
+        throw std::runtime_error((folder / "report.json").string() + (file.is_open() ? ": damaged" : ": not there")
+                                 + "; 'traceResidual run' makes it");
+    }
+    writeText(report, std::cout);
+    std::cout << "Curves and tables: " << (folder / "report.html").string() << '\n';
+}
+
+/// Files of a report anew, where the runs are still stored.
+void renewReport(const fs::path& study, const fs::path& folder)
 {
     try
     {
@@ -45,18 +60,9 @@ void showReport(const fs::path& study, const fs::path& folder)
     }
     catch (const std::exception& error)
     {
-        std::cout << "report.json and report.html stay as they are, for they cannot be made from stored runs: "
+        std::cerr << "report.json and report.html stay as they are, for they cannot be made from stored runs: "
                   << error.what() << "\n\n";
     }
-    std::ifstream file(folder / "report.json");
-    const auto report = nlohmann::json::parse(file, nullptr, false);
-    if (!report.is_object() || !report.contains("summary"))
-    {
-        throw std::runtime_error((folder / "report.json").string() + (file.is_open() ? ": damaged" : ": not there")
-                                 + "; 'traceResidual run' makes it");
-    }
-    std::cout << report.at("summary").get<std::string>() << '\n'
-              << "for people: " << (folder / "report.html").string() << '\n';
 }
 
 } // namespace
@@ -98,11 +104,13 @@ int main(int argc, char** argv)
         }
         else if (*running)
         {
-            runStudy(arguments.study, reportFolder(arguments), std::cout);
+            runStudy(arguments.study, reportFolder(arguments), std::cerr);
+            showReport(reportFolder(arguments));
         }
         else
         {
-            showReport(arguments.study, reportFolder(arguments));
+            renewReport(arguments.study, reportFolder(arguments));
+            showReport(reportFolder(arguments));
         }
         return 0;
     }

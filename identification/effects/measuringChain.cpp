@@ -102,13 +102,13 @@ Curve stretched(Curve curve, double factor)
 const std::map<std::string, ChainOperation>& chainOperations()
 {
     static const std::map<std::string, ChainOperation> operations = {
-        {"lag", {"first-order filter [s]", lagged}},
-        {"lead", {"momentum of what leaves, as a time [s]", led}},
-        {"shift", {"the record begins late [s]", shifted}},
-        {"gain", {"relative error of the scale", gained}},
-        {"offset", {"error of the zero, SI units", offsetBy}},
-        {"drift", {"error of the zero per second", drifting}},
-        {"timeFactor", {"relative error of the clock", stretched}},
+        {"lag", {"s", lagged}},
+        {"lead", {"s", led}},
+        {"shift", {"s", shifted}},
+        {"gain", {"", gained}},
+        {"offset", {"", offsetBy}},
+        {"drift", {"", drifting}},
+        {"timeFactor", {"", stretched}},
     };
     return operations;
 }

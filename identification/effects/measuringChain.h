@@ -11,7 +11,7 @@ namespace clepsydra::identification
 /// What the way from the apparatus to the file may do to a curve.
 struct ChainOperation
 {
-    std::string meaning;
+    std::string unit; // of its size; empty: a share, or the curve's own
     Curve (*apply)(Curve curve, double size);
 };
 

@@ -3,11 +3,12 @@
 #include "files/wholeFile.h"
 #include "emulator/settings.h"
 #include "nextRuns/nextExperiment.h"
+#include "heldOut/heldOut.h"
 #include "procedure/magnitudes.h"
+#include "procedure/trace.h"
 #include "report/html.h"
 #include "report/json.h"
 #include "report/planReport.h"
-#include "report/words.h"
 #include "runner/caseRig.h"
 #include "runner/runProgress.h"
 #include "study/readStudy.h"
@@ -123,20 +124,21 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
     const Evidence evidence(
         study, emulator, layout, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.parameters.size())));
     const Calibration calibration = Calibrator(study, evidence, numbers, random).calibrate();
-    writePlan(study, emulator, layout, calibration, visibility(study, evidence, calibration, numbers, random), out);
+    writePlan(study, emulator, layout, numbers, evidence, calibration,
+        visibility(study, evidence, calibration, numbers, random), out);
 }
 
 namespace
 {
 
-void run(const Study& study, const std::filesystem::path& folder, std::ostream& out)
+void run(const Study& study, const std::filesystem::path& folder, std::ostream& progress)
 {
     requireMeasurements(study);
-    checkMeasurements(study, out);
+    checkMeasurements(study, progress);
     const auto training = measurementsOf(study, Role::training);
-    CaseRig rig(study, out);
+    CaseRig rig(study, progress);
     Simulator simulator(study, rig);
-    sayCost(study, rig, simulator, out);
+    sayCost(study, rig, simulator, progress);
     std::filesystem::create_directories(folder);
     checkMagnitudes(simulator, training, true);
     std::mt19937_64 random(study.settings.seed);
@@ -144,29 +146,28 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     const Library library = makeLibrary(simulator);
     Answer answer = trace(simulator, library, training, random);
     answer.visibility = visibility(study,
-        Evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters)), answer.calibration,
-        answer.measured, random);
+        Evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters)),
+        answer.calibration, answer.measured, random);
     const auto next = nextExperiments(simulator, answer, random);
-    Findings findings{&study, &answer, nullptr, &next, &simulator, &training};
+    Findings findings{&study, &answer, nullptr, &next, &simulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
-    out << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
-        << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
+    progress << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
+             << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);
     const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, training, heldOutData, random);
     findings.heldOut = &heldOut;
+    findings.heldOutData = &heldOutData;
     const auto report = jsonOf(findings);
     writeWhole(folder / "report.json", report.dump(1) + '\n');
     writeWhole(folder / "report.html", htmlOf(findings, report));
-    writeSummary(findings, out);
-    out << "reports: " << (folder / "report.json").string() << ", " << (folder / "report.html").string() << std::endl;
 }
 
 } // namespace
 
-void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out)
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress)
 {
-    run(readStudy(studyFile), folder, out);
+    run(readStudy(studyFile), folder, progress);
 }
 
 void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder)

@@ -1,8 +1,5 @@
 #pragma once
 
-#include "procedure/trace.h"
-#include "heldOut/heldOut.h"
-
 #include <filesystem>
 #include <ostream>
 
@@ -16,7 +13,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
 
 /// From a study file to report.json and report.html in `folder`. The order of the steps is what keeps it honest: the
 /// answer is on disk before the held-out measurements are opened.
-void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& out);
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress);
 
 /// The same from the stored runs alone. \throws std::runtime_error where one is missing; the report is as before then
 void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder);

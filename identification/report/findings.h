@@ -17,7 +17,8 @@ struct Findings
     const HeldOutResult* heldOut = nullptr; // not there before the answer is written
     const std::vector<NextExperiment>* next = nullptr;
     const Simulator* simulator = nullptr;
-    const std::vector<MeasuredCondition>* data = nullptr;
+    const std::vector<MeasuredCondition>* data = nullptr;        // of training conditions
+    const std::vector<MeasuredCondition>* heldOutData = nullptr; // as heldOut
 };
 
 } // namespace clepsydra::identification

@@ -1,9 +1,11 @@
 #include "report/html.h"
 
-#include "report/words.h"
+#include "report/numbers.h"
 #include "report/svg.h"
+#include "report/text.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iomanip>
 #include <limits>
@@ -20,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* style = R"(<style>
 body{font:15px/1.5 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}
 h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #ccc}
-.answer{background:#eef4fa;border-left:4px solid #2a6fa8;padding:.8em 1em;font-size:1.1em}
+.answer{background:#eef4fa;border-left:4px solid #2a6fa8;padding:.8em 1em;font-size:1.25em}
 table{border-collapse:collapse;width:100%;font-size:.9em}th,td{text-align:left;padding:.25em .6em;border-bottom:1px solid #ddd}
 td.n,th.n{text-align:right}tr.in{background:#fff4d6}
 .plots{display:flex;flex-wrap:wrap;gap:8px}.plot{width:460px;max-width:100%}.bars{width:100%;max-width:760px}
@@ -46,6 +48,11 @@ std::string shown(double value, int digits = 3)
 std::string shown(const Json& value, int digits = 3)
 {
     return value.is_number() ? shown(value.get<double>(), digits) : value.is_string() ? escaped(value) : "-";
+}
+
+std::string share(const Json& value)
+{
+    return value.is_number() ? escaped(percent(value.get<double>())) : "-";
 }
 
 std::string cell(const std::string& text, bool isNumber = false)
@@ -115,25 +122,46 @@ void draw(Plot& plot, const Bundle& bundle, const char* line, const char* band, 
     }
 }
 
-std::string curvePlots(const Findings& findings)
+/// Curves of one condition: measured, without any effect, with the best explanation. Empty where there are none.
+std::string curvePlot(const Study& study, std::size_t condition, const std::vector<Simulation>& before,
+    const std::vector<Simulation>& after, const std::vector<Curve>& measured)
 {
-    const Study& study = *findings.study;
-    std::string html = "<div class=\"plots\">";
-    for (const auto c : study.conditionsOf(Role::training))
+    const Bundle without = bundleOf(before, condition);
+    const Bundle with = bundleOf(after, condition);
+    if (without.time.empty() && measured.empty())
     {
-        Plot plot(study.conditions[c].name, "time [s]", study.valueColumn);
-        draw(plot, bundleOf(findings.answer->null.simulations, c), beforeStyle, beforeBand, "without effect");
-        if (!findings.answer->set.empty())
-        {
-            draw(plot, bundleOf(findings.answer->set.front().simulations, c), afterStyle, afterBand, "with the best");
-        }
-        bool first = true;
-        for (const auto& curve : (*findings.data)[c].curves)
-        {
-            plot.line(curve.time, curve.value, measuredStyle, first ? "measured" : "");
-            first = false;
-        }
-        html += plot.svg();
+        return "";
+    }
+    Plot plot(study.conditions[condition].name, "time [s]", study.valueColumn);
+    draw(plot, without, beforeStyle, beforeBand, "without effect");
+    draw(plot, with, afterStyle, afterBand, "with it");
+    for (std::size_t i = 0; i < measured.size(); ++i)
+    {
+        plot.line(measured[i].time, measured[i].value, measuredStyle, i == 0 ? "measured" : "");
+    }
+    return plot.svg();
+}
+
+std::string trainingCurves(const Findings& findings)
+{
+    const auto& set = findings.answer->set;
+    std::string html = "<div class=\"plots\">";
+    for (const auto c : findings.study->conditionsOf(Role::training))
+    {
+        html += curvePlot(*findings.study, c, findings.answer->null.simulations,
+            set.empty() ? std::vector<Simulation>{} : set.front().simulations, (*findings.data)[c].curves);
+    }
+    return html + "</div>\n";
+}
+
+std::string heldOutCurves(const Findings& findings)
+{
+    const HeldOutResult& heldOut = *findings.heldOut;
+    std::string html = "<div class=\"plots\">";
+    for (const auto c : heldOut.conditions)
+    {
+        html += curvePlot(*findings.study, c, heldOut.simulations.front(),
+            heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, (*findings.heldOutData)[c].curves);
     }
     return html + "</div>\n";
 }
@@ -143,7 +171,8 @@ std::string curvePlots(const Findings& findings)
 std::string residualTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured - simulated</th><th "
+    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured - simulated, without any "
+            "effect</th><th "
             "class=\"n\">standard "
             "error</th><th class=\"n\">in standard errors</th></tr>\n";
     for (const auto& condition : report["residual"])
@@ -168,102 +197,147 @@ std::string inRange(const Json& effect, const char* key)
     return smallest.is_null() || smallest > range.reach() ? "not in range" : shown(smallest, 2);
 }
 
+std::string meaningOf(const Json& effect)
+{
+    const std::string meaning = shown(effect["meaning"]);
+    return (meaning.empty() ? shown(effect["name"])
+                            : meaning + " <span class=\"small\">" + shown(effect["name"]) + "</span>");
+}
+
 std::string effectTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>effect</th><th>meaning</th><th class=\"n\">amplitude (95 %)</th><th class=\"n\">probability "
-            "(needed)</th><th class=\"n\">misfit</th><th class=\"n\">smallest detectable</th><th class=\"n\">smallest "
-            "named</th></tr>\n";
+    html << "<table><tr><th>effect</th><th class=\"n\">size (95 %)</th><th class=\"n\">probability</th><th "
+            "class=\"n\">needed for the set</th><th class=\"n\">seen from size</th><th class=\"n\">named from "
+            "size</th></tr>\n";
     for (const auto& effect : report["effects"])
     {
-        html << (effect["inSet"].get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(shown(effect["name"]))
-             << cell(shown(effect["meaning"]))
-             << cell(shown(effect["amplitude"], 2) + " (" + shown(effect["interval95"][0], 2) + " to "
-                         + shown(effect["interval95"][1], 2) + ")",
+        const bool judged = effect["judged"].get<bool>();
+        html << (effect["inSet"].get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(meaningOf(effect))
+             << cell(judged ? shown(effect["amplitude"], 2) + " (" + shown(effect["interval95"][0], 2) + " to "
+                                  + shown(effect["interval95"][1], 2) + ")"
+                            : "its runs have failed",
                     true)
-             << cell(shown(effect["probability"], 2) + " (" + shown(effect["probabilityNeeded"], 2) + ")", true)
-             << cell(shown(effect["misfit"]), true) << cell(inRange(effect, "smallestDetectable"), true)
+             << cell(judged ? share(effect["probability"]) : "-", true)
+             << cell(share(effect["probabilityNeeded"]), true) << cell(inRange(effect, "smallestDetectable"), true)
              << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
-    html << "</table>\n<p class=\"small\">Amplitude 1 is the end of the effect's plausible range. Highlighted: the set "
-            "that the data cannot tell apart. Probability that it is something outside the library: "
-         << shown(report["somethingElse"]["probability"], 2) << " (needed: "
-         << shown(report["somethingElse"]["probabilityNeeded"], 2) << ").</p>\n";
+    html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Highlighted: what the data "
+            "cannot tell apart. Probability, given that anything is missing, of something that the library does not "
+            "hold: "
+         << share(report["somethingElse"]["probability"])
+         << " (needed: " << share(report["somethingElse"]["probabilityNeeded"]) << ").</p>\n";
     return html.str();
 }
 
-std::string evidenceBars(const Json& report)
-{
-    std::vector<Bar> bars;
-    for (const auto& effect : report["effects"])
-    {
-        bars.push_back({effect["name"], 100.0 * effect["probability"].get<double>(), 0.0,
-            effect["inSet"].get<bool>() ? "fill:#e0a100" : "fill:#9bb"});
-    }
-    bars.push_back({"something else", 100.0 * report["somethingElse"]["probability"].get<double>(), 0.0, "fill:#bbb"});
-    return barChart("Probability, given that there is something", bars, "%");
-}
+/// What is compared on held-out conditions: key of the report, words, colour.
+constexpr std::array<std::array<const char*, 3>, 4> predictions = {{{"before", "without any effect", "#c0392b"},
+    {"after", "with the effect", "#2a6fa8"}, {"oneMoreParameter", "with one more free parameter instead", "#999"},
+    {"gaussianProcess", "with a smooth correction without a name", "#bbb"}}};
 
 std::string heldOutBars(const Json& heldOut)
 {
     std::vector<Bar> bars;
-    const auto add = [&](const std::string& label, const Json& score, const std::string& color) {
-        if (score.is_object() && score["rmsLogError"].is_number())
-        {
-            bars.push_back({label, 100.0 * score["rmsLogError"].get<double>(),
-                196.0 * score["standardError"].get<double>(), "fill:" + color});
-        }
-    };
-    add("before: no effect", heldOut["before"], "#c0392b");
-    add("after: the best", heldOut["after"], "#2a6fa8");
-    add("one more free parameter", heldOut["oneMoreParameter"], "#999");
-    add("Gaussian process", heldOut["gaussianProcess"], "#bbb");
-    return barChart("Root mean square log error on held-out conditions, 95 % intervals", bars, "%");
-}
-
-std::string heldOutSection(const Json& report)
-{
-    const Json& heldOut = report["heldOut"];
-    if (!heldOut.is_object() || !heldOut["before"].is_object())
-    {
-        return "<p>No condition was held out: nothing shows that the answer predicts.</p>\n";
-    }
-    std::string html = heldOutBars(heldOut);
-    html += "<table><tr><th>prediction</th><th class=\"n\">rms log error</th><th class=\"n\">CRPS</th></tr>\n";
-    for (const auto* key : {"before", "after", "oneMoreParameter", "gaussianProcess"})
+    for (const auto& [key, words, colour] : predictions)
     {
         const Json& score = heldOut[key];
-        if (score.is_object())
+        if (score.is_object() && score["rmsLogError"].is_number())
         {
-            html +=
-                "<tr>" + cell(key)
-                + cell(shown(score["rmsLogError"]) + " &plusmn; " + shown(score["standardError"], 2), true)
-                + cell(shown(score["crps"]["value"]) + " &plusmn; " + shown(score["crps"]["standardError"], 2), true)
-                + "</tr>\n";
+            bars.push_back({words, 100.0 * score["rmsLogError"].get<double>(),
+                196.0 * score["standardError"].get<double>(), std::string("fill:") + colour});
         }
     }
-    html += "</table>\n<p class=\"small\">Noise alone would give " + shown(heldOut["noiseFloor"], 2)
-            + ", and rarely more than " + shown(heldOut["noiseLimit"], 2) + ". Conditions: ";
-    for (const auto& name : heldOut["conditions"])
+    return barChart("Error (root mean square) on held-out conditions, 95 % intervals", bars, "%");
+}
+
+/// Rows of a table. \param columns  keys of numbers with errors, and their titles; those that no row has are left out
+std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& names,
+    const std::vector<std::pair<std::string, std::string>>& columns)
+{
+    std::string head = "<table><tr>";
+    std::string body;
+    std::vector<std::string> kept;
+    for (const auto& [key, title] : names)
     {
-        html += shown(name) + ' ';
+        head += "<th>" + title + "</th>";
     }
-    return html + "</p>\n";
+    for (const auto& column : columns)
+    {
+        const auto& key = column.first;
+        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return row[key].is_object(); }))
+        {
+            kept.push_back(key);
+            head += "<th class=\"n\">" + column.second + "</th>";
+        }
+    }
+    for (const auto& row : rows)
+    {
+        body += "<tr>";
+        for (const auto& name : names)
+        {
+            body += cell(shown(row[name.first]));
+        }
+        for (const auto& key : kept)
+        {
+            body += cell(estimateText(row[key]), true);
+        }
+        body += "</tr>\n";
+    }
+    return head + "</tr>\n" + body + "</table>\n";
+}
+
+/// What was measured there, and what was predicted.
+std::string heldOutTable(const Json& heldOut)
+{
+    return numberTable(heldOut["numbers"], {{"condition", "condition"}, {"feature", "feature"}},
+               {{"measured", "measured"}, {"before", "without any effect"}, {"after", "with the effect"}})
+           + "<p class=\"small\">Logarithms are shown as what they are the logarithms of; SI units. Noise "
+             "alone would give an error of "
+           + rounded(100.0 * heldOut["noiseFloor"].get<double>()) + " %, and rarely more than "
+           + rounded(100.0 * heldOut["noiseLimit"].get<double>()) + " %.</p>\n";
+}
+
+std::string heldOutSection(const Findings& findings, const Json& report)
+{
+    const Json& heldOut = report["heldOut"];
+    return heldOut["before"].is_object()
+               ? heldOutCurves(findings) + heldOutBars(heldOut) + heldOutTable(heldOut)
+               : "<p>No condition was held out: nothing shows that the answer predicts.</p>\n";
+}
+
+std::string fittedTable(const Json& report)
+{
+    if (report["fitted"].empty())
+    {
+        return "<p>Nothing was fitted.</p>\n";
+    }
+    return numberTable(report["fitted"], {{"name", "number"}, {"unit", "unit"}},
+               {{"withEffect", "with the effect"}, {"withoutEffect", "without any effect"},
+                   {"independent", "measured by itself"}})
+           + "<p class=\"small\">Where no unit is given: that of the case's own entries.</p>\n";
+}
+
+std::string listOf(const Json& sentences)
+{
+    std::string html = "<ul>";
+    for (const auto& sentence : sentences)
+    {
+        html += "<li>" + shown(sentence) + "</li>\n";
+    }
+    return html + "</ul>\n";
 }
 
 std::string nextSection(const Json& report)
 {
-    if (report["nextExperiment"].empty())
-    {
-        return "<p>The study names no candidate conditions, or nothing is left to be told apart.</p>\n";
-    }
-    std::string html;
+    std::string html = report["measureNext"].empty()
+                           ? "<p>Nothing is left to be told apart, or the study names no candidate conditions.</p>\n"
+                           : listOf(report["measureNext"]);
     for (const auto& next : report["nextExperiment"])
     {
-        html += "<h3>" + shown(next["condition"]) + "</h3><p>Expected decision per measurement: "
-                + shown(next["separation"]) + " (per cost " + shown(next["perCost"])
-                + ").</p><table><tr><th>if</th><th "
-                  "class=\"n\">probability</th><th>then</th></tr>\n";
+        html +=
+            "<h3>" + shown(next["condition"]) + "</h3><p class=\"small\">One measurement decides by "
+            + rounded(next["separation"].get<double>()) + ", for its cost " + rounded(next["perCost"].get<double>())
+            + " (expected divergence).</p><table><tr><th>if</th><th class=\"n\">probability</th><th>then</th></tr>\n";
         for (const auto& outcome : next["predicted"])
         {
             std::string features;
@@ -272,7 +346,7 @@ std::string nextSection(const Json& report)
                 features +=
                     escaped(name) + " " + shown(value["value"], 4) + " &plusmn; " + shown(value["sd"], 2) + "; ";
             }
-            html += "<tr>" + cell(shown(outcome["if"])) + cell(shown(outcome["probability"], 2), true) + cell(features)
+            html += "<tr>" + cell(shown(outcome["if"])) + cell(share(outcome["probability"]), true) + cell(features)
                     + "</tr>\n";
         }
         html += "</table>\n";
@@ -306,16 +380,6 @@ std::string runsSection(const Json& report)
     return html;
 }
 
-std::string listOf(const Json& sentences)
-{
-    std::string html = "<ul>";
-    for (const auto& sentence : sentences)
-    {
-        html += "<li>" + shown(sentence) + "</li>\n";
-    }
-    return html + "</ul>\n";
-}
-
 std::string lookAlikesOf(const Json& report)
 {
     const Json& pairs = report["calibration"]["lookAlikes"];
@@ -335,23 +399,29 @@ std::string lookAlikesOf(const Json& report)
 
 std::string htmlOf(const Findings& findings, const Json& report)
 {
-    std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>"
-                       + escaped(findings.study->name) + "</title>\n" + style + "</head><body>\n<h1>"
-                       + escaped(findings.study->name) + "</h1>\n<p class=\"answer\">" + escaped(inWords(findings))
-                       + "</p>\n";
-    html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(report);
-    html += "<h2>Evidence</h2>\n" + evidenceBars(report) + effectTable(report);
-    html += "<h2>Measured and simulated</h2>\n" + curvePlots(findings);
-    html += "<h2>Residual at the refitted null</h2>\n" + residualTable(report);
+    const std::string title = escaped(findings.study->name);
+    std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title>\n"
+                       + style + "</head><body>\n<h1>" + title + "</h1>\n<p class=\"answer\">"
+                       + shown(report["summary"]) + "</p>\n" + listOf(report["details"]);
+    html += "<h2>Fitted</h2>\n" + fittedTable(report);
+    html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(findings, report);
+    html += "<h2>What to measure next</h2>\n" + nextSection(report);
+    html += "<h2>Evidence</h2>\n" + effectTable(report);
     html += "<h2>What could not be told apart</h2>\n" + lookAlikesOf(report);
-    html += "<h2>Next experiment</h2>\n" + nextSection(report);
+    html += "<h2>Measured and simulated, on conditions that were fitted</h2>\n" + trainingCurves(findings)
+            + residualTable(report);
     html += "<h2>Runs</h2>\n" + runsSection(report);
     html += "<h2>Assumed</h2>\n" + listOf(report["assumptions"]);
     if (!report["remarks"].empty())
     {
         html += "<h2>Remarks</h2>\n" + listOf(report["remarks"]);
     }
-    return html + "<p class=\"small\">" + shown(report["program"]) + "</p>\n</body></html>\n";
+    html += "<p class=\"small\">" + shown(report["program"]) + "</p>\n</body></html>\n";
+    for (auto at = html.find("+-"); at != std::string::npos; at = html.find("+-", at))
+    {
+        html.replace(at, 2, "&plusmn;");
+    }
+    return html;
 }
 
 } // namespace clepsydra::identification

@@ -1,6 +1,7 @@
 #include "report/json.h"
 
-#include "emulator/settings.h"
+#include "report/fitted.h"
+#include "report/residual.h"
 #include "report/words.h"
 
 #include <clepsydra/version.h>
@@ -110,30 +111,65 @@ Json effectsJson(const Findings& findings)
     return list;
 }
 
-/// Measured minus what the emulator says at the null fit.
 Json residualJson(const Findings& findings)
 {
     const Study& study = *findings.study;
-    const Answer& answer = *findings.answer;
-    const Eigen::VectorXd parameters = inSds(study, answer.null.setting.parameters);
     Json list = Json::array();
-    for (const auto& block : answer.layout.blocks)
+    for (const auto& residual : residualsOf(findings))
     {
-        const ConditionEmulator& emulator = *(*answer.emulator)[block.condition];
-        const Eigen::VectorXd expected = (emulator.mean({}) * parameterTermsAt(parameters))(block.places);
-        const Eigen::MatrixXd single =
-            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noise(block.places, block.places));
-        const Eigen::MatrixXd unknown = emulator.uncertainty(parameters, {})(block.places, block.places);
-        const Eigen::VectorXd variance = (single.cwiseProduct(block.meanShare) + block.common + unknown).diagonal();
-        Json features = Json::object();
-        for (Eigen::Index k = 0; k < block.size(); ++k)
+        const std::string& condition = study.conditions[residual.condition].name;
+        if (list.empty() || list.back()["condition"] != condition)
         {
-            const auto f = emulator.features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])];
-            features[study.features[static_cast<std::size_t>(f)].name] = {
-                {"value", answer.measured.mean(block.first + k) - expected(k)},
-                {"standardError", std::sqrt(variance(k))}};
+            list.push_back({{"condition", condition}, {"measuredMinusSimulated", Json::object()}});
         }
-        list.push_back({{"condition", study.conditions[block.condition].name}, {"measuredMinusSimulated", features}});
+        list.back()["measuredMinusSimulated"][study.features[residual.feature].name] = estimate(residual.estimate);
+    }
+    return list;
+}
+
+Json fittedJson(const Findings& findings)
+{
+    Json list = Json::array();
+    for (const auto& number : fittedNumbers(findings))
+    {
+        list.push_back({{"name", number.name}, {"unit", number.unit},
+            {"independent", number.independent ? estimate(*number.independent) : Json(nullptr)},
+            {"withoutEffect", estimate(number.before)},
+            {"withEffect", number.after ? estimate(*number.after) : Json(nullptr)}});
+    }
+    return list;
+}
+
+/// What was measured on the held-out conditions, and what was predicted: logarithms as what they are of.
+Json heldOutNumbers(const Study& study, const HeldOutResult& result)
+{
+    Json list = Json::array();
+    for (std::size_t i = 0; i < result.conditions.size(); ++i)
+    {
+        const HeldOutData& data = result.data[i];
+        const Eigen::VectorXd measured = meanFeatures(data.features);
+        const Eigen::VectorXd error =
+            (result.predictedBefore[i].dataCovariance.cwiseProduct(data.meanShare).diagonal() + data.declaredVariance)
+                .cwiseSqrt();
+        for (std::size_t f = 0; f < study.features.size(); ++f)
+        {
+            const auto k = static_cast<Eigen::Index>(f);
+            if (!std::isfinite(measured(k)))
+            {
+                continue;
+            }
+            const bool isLog = study.features[f].kind->isLog();
+            const auto plain = [&](double value, double sd) {
+                return isLog ? estimate({std::exp(value), std::exp(value) * sd}) : estimate({value, sd});
+            };
+            const auto predicted = [&](const Prediction& prediction) {
+                return plain(prediction.mean(k), std::sqrt(prediction.variance(k)));
+            };
+            list.push_back(
+                {{"condition", study.conditions[result.conditions[i]].name}, {"feature", study.features[f].name},
+                    {"measured", plain(measured(k), error(k))}, {"before", predicted(result.predictedBefore[i])},
+                    {"after", result.after ? predicted(result.predictedAfter[i]) : Json(nullptr)}});
+        }
     }
     return list;
 }
@@ -171,7 +207,8 @@ Json heldOutJson(const Findings& findings)
         {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
         {"overOneMoreParameter", estimate(result.overOneMore)}, {"noiseFloor", result.noiseFloor},
         {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
-        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members}};
+        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
+        {"numbers", heldOutNumbers(study, result)}};
 }
 
 Json runsJson(const Simulator& simulator)
@@ -276,7 +313,10 @@ Json jsonOf(const Findings& findings)
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
-    json["summary"] = inWords(findings);
+    json["summary"] = sentenceOf(findings);
+    json["details"] = detailsOf(findings);
+    json["fitted"] = fittedJson(findings);
+    json["measureNext"] = nextOf(findings);
     json["set"] = listed(answer.set);
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.somethingElseInSet;

@@ -1,8 +1,13 @@
 #include "report/planReport.h"
 
+#include "report/numbers.h"
+
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 #include <sstream>
+#include <vector>
 
 namespace clepsydra::identification
 {
@@ -17,35 +22,119 @@ std::string amplitude(double value, const Effect& effect)
     return std::isfinite(value) && value <= effect.bounds.reach() ? text.str() : "not in range";
 }
 
+/// What an effect leaves of itself when the parameters are fitted without it: the root mean square over conditions, of the
+/// features that are logarithms.
+class ResidualSize
+{
+public:
+    ResidualSize(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
+        const Evidence& evidence)
+        : study_(study),
+          emulator_(emulator),
+          layout_(layout),
+          planned_(planned),
+          evidence_(evidence)
+    {}
+
+    double operator()(std::size_t effect, double amplitude) const
+    {
+        const auto parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
+        Measured exact = planned_;
+        exact.mean = meanAt({{effect, amplitude}}, parameters);
+        const Eigen::VectorXd left = exact.mean - meanAt({}, evidence_.fitNull(exact).parameters);
+        double squares = 0.0;
+        double count = 0.0;
+        for (const auto& block : layout_.blocks)
+        {
+            const auto& features = emulator_[block.condition]->features;
+            for (Eigen::Index k = 0; k < block.size(); ++k)
+            {
+                const auto f = features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])];
+                if (study_.features[static_cast<std::size_t>(f)].kind->isLog())
+                {
+                    squares += left(block.first + k) * left(block.first + k);
+                    count += 1.0;
+                }
+            }
+        }
+        return std::sqrt(squares / count);
+    }
+
+private:
+    Eigen::VectorXd meanAt(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
+    {
+        Eigen::VectorXd mean(layout_.rows);
+        for (const auto& block : layout_.blocks)
+        {
+            mean.segment(block.first, block.size()) =
+                (emulator_[block.condition]->mean(present) * parameterTermsAt(parameters))(block.places);
+        }
+        return mean;
+    }
+
+    const Study& study_;
+    const Emulator& emulator_;
+    const Layout& layout_;
+    const Measured& planned_;
+    const Evidence& evidence_;
+};
+
+std::string percentOf(double share)
+{
+    return std::isfinite(share) ? rounded(100.0 * share) + " %" : "-";
+}
+
 } // namespace
 
-void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Calibration& calibration,
-    const Visibility& visibility, std::ostream& out)
+void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
+    const Evidence& evidence, const Calibration& calibration, const Visibility& visibility, std::ostream& out)
 {
-    out << "\nnoise of one measurement:";
-    for (Eigen::Index f = 0; f < study.featureCount(); ++f)
-    {
-        out << ' ' << study.features[static_cast<std::size_t>(f)].name << ' '
-            << textOf(std::round(1e4 * std::sqrt(layout.noise(f, f))) / 1e4);
-    }
-    out << " (" << layout.noiseFreedom << " degrees of freedom)\n\n"
-        << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "seen from" << std::setw(14)
-        << "named from" << std::setw(22) << "named at full size\n";
+    const ResidualSize residualSize(study, emulator, layout, planned, evidence);
+    std::vector<double> sizes; // of residuals that get a name
+    std::ostringstream table;
     bool someShow = false;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         const auto i = static_cast<Eigen::Index>(e);
         const Effect& effect = study.effects[e];
+        const double named = visibility.named(i);
+        const double size = std::isfinite(named) ? residualSize(e, named) : std::numeric_limits<double>::quiet_NaN();
+        if (std::isfinite(size))
+        {
+            sizes.push_back(size);
+        }
         someShow = someShow || std::isfinite(visibility.detected(i));
-        out << std::left << std::setw(24) << effect.name << std::right << std::setw(14)
-            << (emulator.knows(e) ? amplitude(visibility.detected(i), effect) : "its runs failed") << std::setw(14)
-            << amplitude(visibility.named(i), effect) << std::setw(19)
-            << std::lround(100.0 * visibility.atFullSize(i)) << " %\n";
+        table << std::left << std::setw(24) << effect.name << std::right << std::setw(14)
+              << (emulator.knows(e) ? amplitude(visibility.detected(i), effect) : "its runs failed") << std::setw(14)
+              << amplitude(named, effect) << std::setw(16) << percentOf(size) << std::setw(17)
+              << std::lround(100.0 * visibility.atFullSize(i)) << " %\n";
     }
-    out << "(amplitudes at which 80 % of such data sets show that there is something, and get the right name; before the "
-           "runs at\nthe fits, which sharpen both)\n\n";
-    out << (!visibility.alike.empty() ? "not told apart by these conditions, even at full size:\n"
-            : someShow                ? "all effects that show can be told apart\n"
+    std::sort(sizes.begin(), sizes.end());
+    out << '\n';
+    if (sizes.empty())
+    {
+        out << "no effect, alone and within its range, gets its name from such data\n";
+    }
+    else
+    {
+        out << "a name needs a residual of " << percentOf(sizes.front())
+            << (sizes.size() > 1 ? " to " + percentOf(sizes.back()) + ", depending on the effect" : "")
+            << ": root mean square over conditions, after\nthe parameters have been fitted without it\n";
+    }
+    out << "noise of one measurement:";
+    for (Eigen::Index f = 0; f < study.featureCount(); ++f)
+    {
+        out << ' ' << study.features[static_cast<std::size_t>(f)].name << ' ' << rounded(std::sqrt(layout.noise(f, f)));
+    }
+    out << " (" << layout.noiseFreedom << " degrees of freedom)\n\n"
+        << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "seen from" << std::setw(14)
+        << "named from" << std::setw(16) << "its residual" << std::setw(20) << "named at full size\n"
+        << table.str()
+        << "(sizes, 1 is the end of the range, at which 80 % of such data sets show that there is something, and get "
+           "the "
+           "right name;\nbefore the runs at the fits, which sharpen both)\n\n"
+        << (!visibility.alike.empty() ? "not told apart by these conditions, even at full size:\n"
+               : someShow             ? "all effects that show can be told apart\n"
                                       : "no effect shows at its full size\n");
     for (const auto& [i, j] : visibility.alike)
     {
@@ -58,7 +147,7 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
             out << "  to be measured by itself: " << study.effects[e].name << ": " << study.effects[e].hint << '\n';
         }
     }
-    out << "something that is not in the library would get a wrong name in " << std::lround(1000.0 * calibration.wrongNames) / 10.0
+    out << "something that is not in the library would get a wrong name in " << rounded(100.0 * calibration.wrongNames)
         << " % of the cases (each effect left out in turn, and patterns of any shape)" << std::endl;
 }
 

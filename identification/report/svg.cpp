@@ -167,7 +167,7 @@ std::string Plot::svg() const
 std::string barChart(const std::string& title, const std::vector<Bar>& bars, const std::string& unit)
 {
     constexpr double row = 22;
-    constexpr double labels = 190;
+    constexpr double labels = 250;
     constexpr double all = 640;
     Range range;
     range.take(0.0);

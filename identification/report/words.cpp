@@ -1,8 +1,11 @@
 #include "report/words.h"
 
+#include "report/fitted.h"
+#include "report/numbers.h"
+#include "report/residual.h"
+
+#include <algorithm>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
 namespace clepsydra::identification
 {
@@ -10,54 +13,151 @@ namespace clepsydra::identification
 namespace
 {
 
-std::string withError(const Estimate& estimate)
-{
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(2) << 100.0 * estimate.value << " +- " << 100.0 * estimate.standardError
-         << " %";
-    return text.str();
-}
+constexpr const char* notInLibrary = "something that the library does not hold";
+constexpr const char* unseen = "the error on measurements that no fit has seen";
 
-/// "this, and that"
-std::string joined(const std::vector<std::string>& clauses)
+/// "this, that and those"
+std::string joined(const std::vector<std::string>& parts, const std::string& last)
 {
     std::string all;
-    for (const auto& clause : clauses)
+    for (std::size_t i = 0; i < parts.size(); ++i)
     {
-        all += (all.empty() ? "" : ", and ") + clause;
+        all += (i == 0 ? "" : i + 1 < parts.size() ? ", " : last) + parts[i];
     }
     return all;
 }
 
-/// What it does, in the library's own words.
-std::string meaningOf(const Study& study, const Explanation& explanation)
+/// What it does, in the library's own words, and how much of it there is.
+std::string meaningOf(const Findings& findings, const Explanation& explanation)
 {
-    std::string text = nameOf(study, explanation);
-    if (explanation.effects.size() == 1 && !study.effects[explanation.effects.front()].meaning.empty())
+    std::vector<std::string> meanings;
+    for (const auto e : explanation.effects)
     {
-        text += " (" + study.effects[explanation.effects.front()].meaning + ')';
+        const Effect& effect = findings.study->effects[e];
+        meanings.push_back(effect.meaning.empty() ? effect.name : effect.meaning);
+        meanings.back().erase(meanings.back().find_last_not_of(" \n.") + 1);
     }
-    return text;
+    const std::string meaning = joined(meanings, ", together with ");
+    const std::string size = sizeInWords(findings, explanation);
+    return size.empty() ? meaning : size.rfind(meaning + ' ', 0) == 0 ? size : meaning + " (" + size + ')';
 }
 
-/// All that explain it, one after the other.
-std::string setInWords(const Study& study, const Answer& answer)
+std::vector<std::string> membersOf(const Findings& findings)
 {
-    std::string text = answer.set.size() == 1 ? " This explains it, but it need not be the cause: "
-                                              : " These explain it, and the data cannot tell them apart: ";
-    for (std::size_t i = 0; i < answer.set.size(); ++i)
+    std::vector<std::string> members;
+    for (const auto& explanation : findings.answer->set)
     {
-        text += (i == 0 ? "" : "; or ") + meaningOf(study, answer.set[i]);
+        members.push_back(meaningOf(findings, explanation));
     }
-    return text + (answer.somethingElseInSet ? "; or something that is not in the library." : ".");
+    return members;
 }
 
-std::string heldOutInWords(const HeldOutResult& heldOut)
+/// Errors of logarithms are shares.
+bool areShares(const Study& study)
 {
-    return " On the held-out conditions the error went from " + withError(heldOut.before.rmsLogError) + " to "
-           + withError(heldOut.after->rmsLogError)
-           + (heldOut.accepted() ? ": the effect may enter the model."
-                                 : ": it does not enter the model, for " + joined(heldOut.notAcceptedBecause) + '.');
+    return std::any_of(
+        study.features.begin(), study.features.end(), [](const Feature& feature) { return feature.kind->isLog(); });
+}
+
+std::string errorOf(const Study& study, const HeldOutScore& score)
+{
+    const auto& [value, error] = score.rmsLogError;
+    return areShares(study) ? withError({100.0 * value, 100.0 * error}) + " %" : withError(score.rmsLogError);
+}
+
+/// "falls from 35 to 2.1 %"
+std::string changeOf(const Study& study, const HeldOutResult& heldOut)
+{
+    const double unit = areShares(study) ? 100.0 : 1.0;
+    const double sure = 2.0 * heldOut.improvement.standardError;
+    return std::string(heldOut.improvement.value > sure    ? "falls from "
+                       : heldOut.improvement.value < -sure ? "rises from "
+                                                           : "stays about the same: ")
+           + rounded(unit * heldOut.before.rmsLogError.value) + " to "
+           + rounded(unit * heldOut.after->rmsLogError.value) + (areShares(study) ? " %" : "");
+}
+
+bool isHeldOut(const HeldOutResult* heldOut)
+{
+    return heldOut != nullptr && !heldOut->conditions.empty();
+}
+
+/// What the model without any effect makes of the held-out conditions.
+std::string errorWithout(const Findings& findings)
+{
+    return isHeldOut(findings.heldOut)
+               ? std::string("; ") + unseen + " is " + errorOf(*findings.study, findings.heldOut->before)
+               : "";
+}
+
+std::string errorWith(const Findings& findings)
+{
+    return isHeldOut(findings.heldOut) && findings.heldOut->after
+               ? std::string("; with it ") + unseen + ' ' + changeOf(*findings.study, *findings.heldOut)
+               : "";
+}
+
+const Condition* bestCandidate(const Findings& findings)
+{
+    return findings.next == nullptr || findings.next->empty()
+               ? nullptr
+               : &findings.study->conditions[findings.next->front().condition];
+}
+
+/// "; to tell them apart, measure wetWide"
+std::string toTellApart(const Findings& findings)
+{
+    if (const Condition* candidate = bestCandidate(findings))
+    {
+        return "; to tell them apart, measure " + candidate->name;
+    }
+    for (const auto& explanation : findings.answer->set)
+    {
+        const Effect& effect = findings.study->effects[explanation.effects.front()];
+        if (!effect.hint.empty())
+        {
+            return "; to tell them apart: " + effect.hint;
+        }
+    }
+    return "; these measurements do not tell which";
+}
+
+std::string chanceInWords(const Answer& answer)
+{
+    return "Chance alone gives a difference as large as this in " + percent(answer.pValue)
+           + " of such data (p = " + rounded(answer.pValue, answer.pValue < 0.1 ? 1 : 2) + ").";
+}
+
+std::string probabilitiesInWords(const Findings& findings)
+{
+    const Answer& answer = *findings.answer;
+    std::vector<std::string> shares;
+    for (const auto& explanation : answer.set)
+    {
+        double probability = 0.0;
+        if (explanation.effects.size() == 1)
+        {
+            probability = answer.effects[explanation.effects.front()].probability;
+        }
+        shares.push_back(nameOf(*findings.study, explanation) + ' ' + percent(probability));
+    }
+    shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherProbability));
+    return "How likely: " + joined(shares, ", ") + '.';
+}
+
+std::string heldOutInWords(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const HeldOutResult& heldOut = *findings.heldOut;
+    std::string text =
+        "On the held-out conditions the error is " + errorOf(study, heldOut.before) + " without any effect, ";
+    if (heldOut.after)
+    {
+        text += errorOf(study, *heldOut.after) + " with " + nameOf(study, findings.answer->set.front()) + ", ";
+    }
+    return text + errorOf(study, heldOut.oneMoreParameter)
+           + " with one more free parameter in its place; noise alone gives "
+           + rounded((areShares(study) ? 100.0 : 1.0) * heldOut.noiseFloor) + (areShares(study) ? " %." : ".");
 }
 
 } // namespace
@@ -67,28 +167,111 @@ std::string namedBy(const Study& study, const Answer& answer)
     return answer.family.empty() ? nameOf(study, answer.set.front()) : answer.family;
 }
 
-std::string inWords(const Findings& findings)
+std::string sentenceOf(const Findings& findings)
 {
-    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    switch (answer.decision)
+    {
+        case Decision::noResidual:
+            return "Nothing is missing that these measurements could show" + errorWithout(findings) + '.';
+        case Decision::unknown:
+            return "There is " + std::string(notInLibrary) + ": none of its "
+                   + std::to_string(findings.study->effects.size()) + " effects makes what was measured"
+                   + errorWithout(findings) + '.';
+        case Decision::named:
+            return "Found: " + joined(membersOf(findings), ", or ")
+                   + (answer.family.empty() ? "" : ", variants of one thing") + errorWith(findings) + '.';
+        case Decision::set:
+            break;
+    }
+    std::vector<std::string> members = membersOf(findings);
+    if (members.size() == 1)
+    {
+        return "Perhaps " + members.front() + ", perhaps " + notInLibrary + errorWith(findings) + '.';
+    }
+    if (answer.somethingElseInSet)
+    {
+        members.emplace_back(notInLibrary);
+    }
+    return "Either " + joined(members, ", or ") + toTellApart(findings) + '.';
+}
+
+std::vector<std::string> detailsOf(const Findings& findings)
+{
     const Answer& answer = *findings.answer;
     const HeldOutResult* heldOut = findings.heldOut;
-    const std::string pValue = " beyond noise (p = " + textOf(answer.pValue) + ')';
+    std::vector<std::string> all = {chanceInWords(answer)};
     if (answer.decision == Decision::noResidual)
     {
-        return "No residual" + pValue
-               + ". This does not show that nothing is missing: see the smallest detectable amplitudes.";
+        all.emplace_back("This does not show that nothing is missing: report.html says from which size on each effect "
+                         "would have been seen.");
     }
-    std::string text = "There is a residual" + pValue;
-    if (answer.decision == Decision::unknown)
+    else
     {
-        return text + ", and none of the effects in the library explains it: unknown.";
+        all.push_back(probabilitiesInWords(findings));
     }
-    text += '.';
-    text += answer.decision != Decision::named ? setInWords(study, answer)
-            : answer.family.empty()
-                ? " One effect of the library is left: " + meaningOf(study, answer.set.front()) + '.'
-                : " One family of effects is left: " + answer.family + "; which of its variants stays open.";
-    return heldOut != nullptr && heldOut->after ? text + heldOutInWords(*heldOut) : text;
+    if (!isHeldOut(heldOut))
+    {
+        all.emplace_back("No condition was held out: nothing shows that the answer predicts.");
+        return all;
+    }
+    all.push_back(heldOutInWords(findings));
+    if (heldOut->after)
+    {
+        all.push_back(heldOut->accepted()
+                          ? "The effect may enter the model."
+                          : "It does not enter the model: " + joined(heldOut->notAcceptedBecause, ", and ") + '.');
+    }
+    return all;
+}
+
+std::vector<std::string> nextOf(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    std::vector<std::string> all;
+    if (const Condition* candidate = bestCandidate(findings))
+    {
+        const auto& outcomes = findings.next->front().outcomes;
+        // The feature by which the two that are most likely differ most.
+        Eigen::Index best = 0;
+        const Eigen::ArrayXd apart = (outcomes[0].features - outcomes[1].features).array()
+                                     / (outcomes[0].sd.array().square() + outcomes[1].sd.array().square()).sqrt();
+        apart.isFinite().select(apart.abs(), 0.0).maxCoeff(&best);
+        const Feature& feature = study.features[static_cast<std::size_t>(best)];
+        const double difference = outcomes[0].features(best) - outcomes[1].features(best);
+        const double unit = feature.kind->isLog() ? 100.0 : 1.0;
+        const std::string percentSign = feature.kind->isLog() ? " %" : "";
+        all.push_back("Measure " + candidate->name + ": '" + feature.name + "' there is "
+                      + rounded(unit * std::abs(difference)) + percentSign + (difference > 0.0 ? " larger" : " smaller")
+                      + " with " + outcomes[0].name + " than with " + outcomes[1].name + "; one measurement is good to "
+                      + rounded(unit * std::max(outcomes[0].sd(best), outcomes[1].sd(best))) + percentSign + '.');
+    }
+    if (findings.answer->decision == Decision::unknown)
+    {
+        const auto residuals = residualsOf(findings);
+        const auto largest =
+            std::max_element(residuals.begin(), residuals.end(), [](const Residual& a, const Residual& b) {
+                return std::abs(a.estimate.value) / a.estimate.standardError
+                       < std::abs(b.estimate.value) / b.estimate.standardError;
+            });
+        const Feature& feature = study.features[largest->feature];
+        const double unit = feature.kind->isLog() ? 100.0 : 1.0;
+        all.push_back("It shows most in " + study.conditions[largest->condition].name + ", '" + feature.name
+                      + "': measured minus simulated is "
+                      + withError({unit * largest->estimate.value, unit * largest->estimate.standardError})
+                      + (feature.kind->isLog() ? " %." : "."));
+    }
+    for (const auto& explanation : findings.answer->set)
+    {
+        for (const auto e : explanation.effects)
+        {
+            if (!study.effects[e].hint.empty())
+            {
+                all.push_back("To measure " + study.effects[e].name + " by itself: " + study.effects[e].hint + '.');
+            }
+        }
+    }
+    return all;
 }
 
 std::vector<std::string> assumptionsOf(const Findings& findings)
@@ -106,10 +289,11 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
                   + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
                     "a range are "
                     "equally likely beforehand.");
-    all.emplace_back(answer.emulator->scatters()
-                         ? "Measurements scatter as simulations of the same setting do, up to a common factor near 1, and "
-                           "close to normal."
-                         : "The scatter of measurements is that of their own repeats, or what is declared.");
+    all.emplace_back(
+        answer.emulator->scatters()
+            ? "Measurements scatter as simulations of the same setting do, up to a common factor near 1, and "
+              "close to normal."
+            : "The scatter of measurements is that of their own repeats, or what is declared.");
     all.push_back("Thresholds hold for data as the emulator draws them; wrong names are held below "
                   + textOf(100.0 * study.settings.wrongNames)
                   + " % for foils of two kinds: effects of the library left out in turn, and patterns of any shape.");
@@ -126,27 +310,6 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
         all.emplace_back("Runs of the simulator do not scatter.");
     }
     return all;
-}
-
-void writeSummary(const Findings& findings, std::ostream& out)
-{
-    out << '\n' << inWords(findings) << '\n';
-    const HeldOutResult* heldOut = findings.heldOut;
-    if (heldOut != nullptr && !heldOut->conditions.empty())
-    {
-        out << "held-out rms error: before " << withError(heldOut->before.rmsLogError);
-        if (heldOut->after)
-        {
-            out << ", after " << withError(heldOut->after->rmsLogError);
-        }
-        out << ", one more parameter " << withError(heldOut->oneMoreParameter.rmsLogError) << ", Gaussian process "
-            << withError(heldOut->gaussianProcess.rmsLogError) << '\n';
-    }
-    for (const auto& failure : findings.simulator->failures())
-    {
-        out << "run failed: " << failure.purpose << ", " << failure.condition << ", seed " << failure.seed
-            << (failure.repeated ? " (repeated with another seed)" : " (excluded)") << '\n';
-    }
 }
 
 } // namespace clepsydra::identification

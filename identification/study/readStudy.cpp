@@ -58,9 +58,10 @@ RigSpecification readRig(const YamlPlace& place)
 
 Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
 {
-    place.allow({"name", "set", "prior", "range"});
+    place.allow({"name", "unit", "set", "prior", "range"});
     Parameter parameter;
     parameter.name = place.at("name").text();
+    parameter.unit = place.textOr("unit", "");
     for (const auto& [entry, value] : place.at("set").map())
     {
         requireEntry(value, entry, rig);

@@ -49,6 +49,7 @@ struct RigSpecification
 struct Parameter
 {
     std::string name;
+    std::string unit;                          // for people
     std::map<std::string, Expression> entries; // formulas in the parameter's name
     double mean = 0.0;                         // of its prior, an independent measurement
     double sd = 0.0;

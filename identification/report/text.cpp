@@ -1,0 +1,58 @@
+#include "report/text.h"
+
+#include "report/numbers.h"
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+void writeList(const Json& report, const std::string& key, std::ostream& out)
+{
+    for (const auto& sentence : report.value(key, Json::array()))
+    {
+        out << sentence.get<std::string>() << '\n';
+    }
+}
+
+} // namespace
+
+std::string estimateText(const Json& estimate)
+{
+    return estimate.is_object() && estimate["value"].is_number() ? withError({estimate["value"].get<double>(),
+               estimate["standardError"].is_number() ? estimate["standardError"].get<double>() : 0.0})
+                                                                 : "-";
+}
+
+void writeText(const Json& report, std::ostream& out)
+{
+    out << report.at("summary").get<std::string>() << "\n\n";
+    writeList(report, "details", out);
+    for (const auto& number : report.value("fitted", Json::array()))
+    {
+        const std::string unit = number["unit"].get<std::string>();
+        const auto with = [&](const std::string& key) {
+            return estimateText(number[key]) + (unit.empty() ? "" : ' ' + unit);
+        };
+        out << "Fitted: " << number["name"].get<std::string>() << ' '
+            << (number["withEffect"].is_null() ? with("withoutEffect")
+                                               : with("withEffect") + "; without any effect " + with("withoutEffect"))
+            << (number["independent"].is_null() ? "" : "; measured by itself " + with("independent")) << '\n';
+    }
+    writeList(report, "measureNext", out);
+    if (report.contains("runs"))
+    {
+        for (const auto& failure : report["runs"]["failures"])
+        {
+            out << "run failed: " << failure["purpose"].get<std::string>() << ", "
+                << failure["condition"].get<std::string>() << ", seed " << failure["seed"]
+                << (failure["repeatedWithAnotherSeed"].get<bool>() ? " (repeated with another seed)" : " (excluded)")
+                << '\n';
+        }
+    }
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <ostream>
+
+namespace clepsydra::identification
+{
+
+/// What a report says first: the answer in a sentence, how sure it is, what was fitted, what to measure next.
+void writeText(const nlohmann::ordered_json& report, std::ostream& out);
+
+/// A number of the report: "0.17 +- 0.01", or "-" where there is none.
+std::string estimateText(const nlohmann::ordered_json& estimate);
+
+} // namespace clepsydra::identification
