@@ -16,6 +16,26 @@ int powerOfTen(double value)
     return static_cast<int>(std::floor(std::log10(std::abs(value))));
 }
 
+/// Whether a number of this size is written without a power of ten.
+bool isPlain(int power)
+{
+    return power >= -4 && power <= 6;
+}
+
+std::string withDecimals(double value, int decimals)
+{
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(std::max(0, decimals)) << value;
+    return text.str();
+}
+
+std::string scientific(double value, int digits)
+{
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(digits - 1) << value;
+    return text.str();
+}
+
 } // namespace
 
 std::string rounded(double value, int digits)
@@ -27,11 +47,7 @@ std::string rounded(double value, int digits)
     const double unit = std::pow(10.0, powerOfTen(value) + 1 - digits);
     const double near = std::round(value / unit) * unit;
     const int power = powerOfTen(near * (1.0 + 1e-9)); // .0999 has become .1
-    std::ostringstream text;
-    const bool isPlain = power >= -4 && power <= 6;
-    text << (isPlain ? std::fixed : std::scientific)
-         << std::setprecision(isPlain ? std::max(0, digits - 1 - power) : digits - 1) << near;
-    return text.str();
+    return isPlain(power) ? withDecimals(near, digits - 1 - power) : scientific(near, digits);
 }
 
 std::string percent(double share)
@@ -48,8 +64,13 @@ std::string withError(const Estimate& estimate)
     {
         return rounded(value, exact);
     }
-    const int digits = value == 0.0 ? 2 : std::clamp(powerOfTen(value) - powerOfTen(error) + 2, 1, 9);
-    return rounded(value, digits) + " +- " + rounded(error);
+    const int decimals = 1 - powerOfTen(error);
+    if (isPlain(powerOfTen(error)) || (value != 0.0 && isPlain(powerOfTen(value))))
+    {
+        return withDecimals(value, decimals) + " +- " + withDecimals(error, decimals);
+    }
+    const int digits = value == 0.0 ? 2 : std::max(1, powerOfTen(value) + decimals + 1);
+    return scientific(value, digits) + " +- " + scientific(error, 2);
 }
 
 } // namespace clepsydra::identification

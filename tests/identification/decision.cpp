@@ -183,8 +183,9 @@ TEST(NextRuns, GoWhereTheyDecide)
         null += contender == 0 ? 1 : 0;
     }
     EXPECT_GE(wet, 15);
-    EXPECT_GT(null, 2);
-    EXPECT_LT(null, 16);
+    // Without effects the library has runs of its own; with the effect at this amplitude it has none.
+    EXPECT_GT(null, 0);
+    EXPECT_LT(null, 9);
 }
 
 } // namespace

@@ -14,11 +14,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 #include <thread>
@@ -153,14 +155,24 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     const std::string page = contentOf(workshop.path() / "results/report.html");
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_THAT(page, testing::Not(HasSubstr("src=\"http")));
+    const auto summary = report["summary"].get<std::string>();
+    EXPECT_THAT(summary, HasSubstr("falls from"));
+    EXPECT_LT(page.find(summary), page.find("<svg")) << "the sentence comes first";
+    EXPECT_THAT(page, HasSubstr("aria-label=\"wetBeyond\"")) << "curves of the held-out conditions, too";
+    const auto fitted = std::find_if(
+        report["fitted"].begin(), report["fitted"].end(), [](const auto& one) { return one["name"] == "addedMass"; });
+    ASSERT_NE(fitted, report["fitted"].end());
+    const auto& size = (*fitted)["withEffect"];
+    EXPECT_NEAR(size["value"].get<double>(), .7, 4 * size["standardError"].get<double>());
 
     ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
     const auto again = workshop.json("report.json");
     EXPECT_EQ(again["runs"]["executed"], 0);
     EXPECT_EQ(again["set"], report["set"]);
 
-    ASSERT_EQ(workshop.run("report"), 0);
-    EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
+    ASSERT_EQ(workshop.run("report", "exec 2>&-;"), 0);
+    EXPECT_EQ(workshop.output.substr(0, workshop.output.find('\n')), summary) << "the first line of what it prints";
+    EXPECT_THAT(workshop.output, HasSubstr("Fitted: friction"));
 }
 
 /// Beads so light that the wet flow is half as fast drive the null's friction far from where the library was made, and
@@ -262,9 +274,12 @@ TEST(Program, PlansBeforeItRuns)
     Workshop workshop;
     workshop.measure({});
     ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
-    EXPECT_THAT(workshop.output, HasSubstr("108 of them not made yet"));
+    EXPECT_TRUE(std::regex_search(workshop.output, std::regex("effect library: (\\d+) runs, \\1 of them not made yet")))
+        << workshop.output;
+    EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work/cache"));
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("named from"));
+    EXPECT_THAT(workshop.output, HasSubstr("a name needs a residual of "));
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
