@@ -26,7 +26,7 @@ std::vector<Eigen::Index> logFeatures(const Study& study)
     for (std::size_t f = 0; f < study.features.size(); ++f)
     {
         all.push_back(static_cast<Eigen::Index>(f));
-        if (study.features[f].kind->name.rfind("log", 0) == 0)
+        if (study.features[f].kind->isLog())
         {
             logs.push_back(all.back());
         }

@@ -18,7 +18,7 @@ struct Findings
     const std::vector<NextExperiment>* next = nullptr;
     const Simulator* simulator = nullptr;
     const std::vector<MeasuredCondition>* data = nullptr;        // of training conditions
-    const std::vector<MeasuredCondition>* heldOutData = nullptr; // as heldOut
+    const std::vector<MeasuredCondition>* heldOutData = nullptr; // not there before the answer is written
 };
 
 } // namespace clepsydra::identification

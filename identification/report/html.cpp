@@ -32,7 +32,7 @@ svg text{font-family:sans-serif}.title{font-size:13px;font-weight:bold}.tick{fon
 </style>
 )";
 
-constexpr const char* measuredStyle = "fill:none;stroke:#000;stroke-width:1.2";
+constexpr const char* measuredStyle = "fill:none;stroke:#999;stroke-width:3";
 constexpr const char* beforeStyle = "fill:none;stroke:#c0392b;stroke-width:1.3";
 constexpr const char* afterStyle = "fill:none;stroke:#2a6fa8;stroke-width:1.3";
 constexpr const char* beforeBand = "fill:#c0392b;fill-opacity:.18;stroke:none";
@@ -133,12 +133,13 @@ std::string curvePlot(const Study& study, std::size_t condition, const std::vect
         return "";
     }
     Plot plot(study.conditions[condition].name, "time [s]", study.valueColumn);
-    draw(plot, without, beforeStyle, beforeBand, "without effect");
-    draw(plot, with, afterStyle, afterBand, "with it");
+    // The measured curves first: what lies on them must be seen.
     for (std::size_t i = 0; i < measured.size(); ++i)
     {
         plot.line(measured[i].time, measured[i].value, measuredStyle, i == 0 ? "measured" : "");
     }
+    draw(plot, without, beforeStyle, beforeBand, "without effect");
+    draw(plot, with, afterStyle, afterBand, "with it");
     return plot.svg();
 }
 
@@ -250,47 +251,40 @@ std::string heldOutBars(const Json& heldOut)
     return barChart("Error (root mean square) on held-out conditions, 95 % intervals", bars, "%");
 }
 
-/// Rows of a table. \param columns  keys of numbers with errors, and their titles; those that no row has are left out
-std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& names,
-    const std::vector<std::pair<std::string, std::string>>& columns)
+/// Words, and numbers with their errors. \param columns  keys of the rows, and titles; what no row has is left out
+std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& columns)
 {
-    std::string head = "<table><tr>";
-    std::string body;
+    const auto isThere = [](const Json& value) { return value.is_object() || (value.is_string() && value != ""); };
     std::vector<std::string> kept;
-    for (const auto& [key, title] : names)
-    {
-        head += "<th>" + title + "</th>";
-    }
+    std::string html = "<table><tr>";
     for (const auto& column : columns)
     {
         const auto& key = column.first;
-        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return row[key].is_object(); }))
+        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(row[key]); }))
         {
             kept.push_back(key);
-            head += "<th class=\"n\">" + column.second + "</th>";
+            html += (rows.front()[key].is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
         }
     }
+    html += "</tr>\n";
     for (const auto& row : rows)
     {
-        body += "<tr>";
-        for (const auto& name : names)
-        {
-            body += cell(shown(row[name.first]));
-        }
+        html += "<tr>";
         for (const auto& key : kept)
         {
-            body += cell(estimateText(row[key]), true);
+            html += row[key].is_string() ? cell(shown(row[key])) : cell(estimateText(row[key]), true);
         }
-        body += "</tr>\n";
+        html += "</tr>\n";
     }
-    return head + "</tr>\n" + body + "</table>\n";
+    return html + "</table>\n";
 }
 
 /// What was measured there, and what was predicted.
 std::string heldOutTable(const Json& heldOut)
 {
-    return numberTable(heldOut["numbers"], {{"condition", "condition"}, {"feature", "feature"}},
-               {{"measured", "measured"}, {"before", "without any effect"}, {"after", "with the effect"}})
+    return numberTable(
+               heldOut["numbers"], {{"condition", "condition"}, {"feature", "feature"}, {"measured", "measured"},
+                                       {"before", "without any effect"}, {"after", "with the effect"}})
            + "<p class=\"small\">Logarithms are shown as what they are the logarithms of; SI units. Noise "
              "alone would give an error of "
            + rounded(100.0 * heldOut["noiseFloor"].get<double>()) + " %, and rarely more than "
@@ -311,9 +305,9 @@ std::string fittedTable(const Json& report)
     {
         return "<p>Nothing was fitted.</p>\n";
     }
-    return numberTable(report["fitted"], {{"name", "number"}, {"unit", "unit"}},
-               {{"withEffect", "with the effect"}, {"withoutEffect", "without any effect"},
-                   {"independent", "measured by itself"}})
+    return numberTable(
+               report["fitted"], {{"name", "number"}, {"unit", "unit"}, {"withEffect", "with the effect"},
+                                     {"withoutEffect", "without any effect"}, {"independent", "measured by itself"}})
            + "<p class=\"small\">Where no unit is given: that of the case's own entries.</p>\n";
 }
 

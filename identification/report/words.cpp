@@ -122,6 +122,25 @@ std::string toTellApart(const Findings& findings)
     return "; these measurements do not tell which";
 }
 
+/// Parameters that the fit without any effect takes far from what was measured by itself: "friction, 5.9 standard deviations".
+std::vector<std::string> strained(const Findings& findings)
+{
+    constexpr double far = 3.0; // standard deviations
+    const Study& study = *findings.study;
+    std::vector<std::string> names;
+    for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    {
+        const Parameter& parameter = study.parameters[p];
+        const double value = findings.answer->null.setting.parameters(static_cast<Eigen::Index>(p));
+        const double sds = std::abs(value - parameter.mean) / parameter.sd;
+        if (sds > far)
+        {
+            names.push_back(parameter.name + ' ' + rounded(sds) + " standard deviations");
+        }
+    }
+    return names;
+}
+
 std::string chanceInWords(const Answer& answer)
 {
     return "Chance alone gives a difference as large as this in " + percent(answer.pValue)
@@ -173,7 +192,11 @@ std::string sentenceOf(const Findings& findings)
     switch (answer.decision)
     {
         case Decision::noResidual:
-            return "Nothing is missing that these measurements could show" + errorWithout(findings) + '.';
+            return (strained(findings).empty()
+                           ? "Nothing is missing that these measurements could show"
+                           : "The model fits, but only with " + joined(strained(findings), " and ")
+                                 + " from its own measurement: that is wrong, or something is missing that it takes up")
+                   + errorWithout(findings) + '.';
         case Decision::unknown:
             return "There is " + std::string(notInLibrary) + ": none of its "
                    + std::to_string(findings.study->effects.size()) + " effects makes what was measured"
@@ -201,6 +224,11 @@ std::vector<std::string> detailsOf(const Findings& findings)
     const Answer& answer = *findings.answer;
     const HeldOutResult* heldOut = findings.heldOut;
     std::vector<std::string> all = {chanceInWords(answer)};
+    if (answer.decision != Decision::noResidual && !strained(findings).empty())
+    {
+        all.push_back(
+            "Without any effect the fit takes " + joined(strained(findings), " and ") + " from its own measurement.");
+    }
     if (answer.decision == Decision::noResidual)
     {
         all.emplace_back("This does not show that nothing is missing: report.html says from which size on each effect "

@@ -38,8 +38,8 @@ struct Bench
         data.resize(study.conditions.size());
         for (const auto c : study.conditionsOf(Role::training))
         {
-            data[c].features = featureRows(
-                simulator.repeats({c}, simulator.plainSetting(), "measured", 3), c, study.featureCount());
+            data[c].features =
+                featureRows(simulator.repeats({c}, simulator.plainSetting(), "measured", 3), c, study.featureCount());
             data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
         }
         emulator = std::make_unique<Emulator>(study, simulator, library.runs, measuredFeatures(study, data));

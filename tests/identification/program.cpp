@@ -159,6 +159,17 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_THAT(summary, HasSubstr("falls from"));
     EXPECT_LT(page.find(summary), page.find("<svg")) << "the sentence comes first";
     EXPECT_THAT(page, HasSubstr("aria-label=\"wetBeyond\"")) << "curves of the held-out conditions, too";
+    if (std::system("command -v chromium > /dev/null") == 0)
+    {
+        const std::string seen = (workshop.path() / "seen").string();
+        ASSERT_EQ(
+            std::system(("chromium --headless --no-sandbox --disable-gpu --enable-logging=stderr --dump-dom file://"
+                         + (workshop.path() / "results/report.html").string() + " > " + seen + " 2> " + seen + ".log")
+                            .c_str()),
+            0);
+        EXPECT_THAT(contentOf(seen), HasSubstr(summary));
+        EXPECT_THAT(contentOf(seen + ".log"), testing::Not(HasSubstr("CONSOLE")));
+    }
     const auto fitted = std::find_if(
         report["fitted"].begin(), report["fitted"].end(), [](const auto& one) { return one["name"] == "addedMass"; });
     ASSERT_NE(fitted, report["fitted"].end());

@@ -140,6 +140,17 @@ TEST(Sentence, OfASetTellsWhatToMeasure)
     EXPECT_THAT(sentences[1], HasSubstr("a plug gauge"));
 }
 
+/// A friction that no independent measurement allows hides what is missing: no praise for such a fit.
+TEST(Sentence, OfAFitThatStrainsAParameter)
+{
+    Bench bench;
+    bench.answer.null.setting.parameters(0) = .15 + 3.5 * .02;
+    EXPECT_THAT(sentenceOf(bench.findings),
+        StartsWith("The model fits, but only with friction 3.5 standard deviations from its own measurement"));
+    bench.found(Decision::named, {{1, .5}});
+    EXPECT_THAT(detailsOf(bench.findings), testing::Contains(HasSubstr("takes friction 3.5 standard deviations from")));
+}
+
 /// One that is left, but not far enough ahead, is no finding.
 TEST(Sentence, OfALoneMemberKeepsTheDoubt)
 {
