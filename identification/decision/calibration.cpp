@@ -16,6 +16,8 @@ namespace
 constexpr int wantedDraws = 100;
 constexpr int mostDraws = 200;
 
+constexpr double coverageOfIntervals = 0.95;
+
 /// What a wrong name may cost in right ones.
 constexpr double smallestPrice = 0.1;
 constexpr double largestPrice = 1e4;
@@ -30,6 +32,26 @@ Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
     }
     const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(fit.parameters.size(), [&] { return normal(random); });
     return fit.parameters + fit.covariance.llt().matrixL() * z;
+}
+
+/// How many times as wide an interval must be to hold an amplitude.
+double widthNeeded(const Fit& fit, double amplitude)
+{
+    const double distance = amplitude - fit.amplitude;
+    const double own = distance < 0.0 ? fit.amplitude - fit.lower : fit.upper - fit.amplitude;
+    return std::abs(distance) / std::max(own, 1e-12);
+}
+
+/// The observed set counts as one more draw.
+double upperQuantile(std::vector<double> values, double share)
+{
+    if (values.empty())
+    {
+        return 1.0;
+    }
+    std::sort(values.begin(), values.end());
+    const auto place = static_cast<std::size_t>(std::ceil(share * (static_cast<double>(values.size()) + 1.0)));
+    return values[std::min(place, values.size()) - 1];
 }
 
 /// Weight of an effect: variants of one thing share it.
@@ -103,9 +125,20 @@ double Calibration::pValue(double statistic) const
     return (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
 }
 
-Calibrator::Calibrator(const Study& study, const Evidence& evidence, const Measured& measured, std::mt19937_64& random)
+Fit Calibration::widened(std::size_t effect, Fit fit, const Bounds& bounds) const
+{
+    const double factor = widths(static_cast<Eigen::Index>(effect));
+    fit.sd *= factor;
+    fit.lower = std::max(bounds.lower, fit.amplitude - factor * (fit.amplitude - fit.lower));
+    fit.upper = std::min(bounds.upper, fit.amplitude + factor * (fit.upper - fit.amplitude));
+    return fit;
+}
+
+Calibrator::Calibrator(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
+    std::mt19937_64& random)
     : study_(study),
       evidence_(evidence),
+      replicas_(replicas),
       measured_(measured),
       random_(random)
 {}
@@ -126,8 +159,8 @@ void Calibrator::drawNull()
     auto& all = calibration_.nullStatistics;
     for (int i = 0; i < study_.settings.draws; ++i)
     {
-        const Measured drawn = evidence_.draw(evidence_.nullNode(), around(fit, random_), random_);
-        all.push_back(oddsOf(study_, evidence_(drawn)).statistic);
+        const auto [data, judge] = replicas_.draw({}, around(fit, random_), random_);
+        all.push_back(oddsOf(study_, judge(data)).statistic);
     }
     std::sort(all.begin(), all.end());
     const auto index = static_cast<std::size_t>((1.0 - study_.settings.level) * static_cast<double>(all.size()));
@@ -136,33 +169,32 @@ void Calibrator::drawNull()
 
 void Calibrator::drawEffects()
 {
+    calibration_.widths = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(study_.effects.size()));
     for (std::size_t e = 0; e < study_.effects.size(); ++e)
     {
-        std::vector<const Node*> nodes;
-        for (const auto& node : evidence_.nodes(e))
-        {
-            if (node.present.front().amplitude != 0.0)
-            {
-                nodes.push_back(&node);
-            }
-        }
-        if (nodes.empty())
+        std::vector<double> amplitudes = evidence_.amplitudes(e);
+        amplitudes.erase(std::remove(amplitudes.begin(), amplitudes.end(), 0.0), amplitudes.end());
+        if (amplitudes.empty())
         {
             continue;
         }
         const Fit fit = evidence_.fit(e, measured_);
+        std::vector<double> widths;
         int found = 0;
         for (int i = 0; i < mostDraws && found < wantedDraws; ++i)
         {
-            const Node& node = *nodes[static_cast<std::size_t>(i) % nodes.size()];
-            const Evidences evidences = evidence_(evidence_.draw(node, around(fit, random_), random_));
+            const double amplitude = amplitudes[static_cast<std::size_t>(i) % amplitudes.size()];
+            const auto [data, judge] = replicas_.draw({{e, amplitude}}, around(fit, random_), random_);
+            const Evidences evidences = judge(data);
             const Odds odds = oddsOf(study_, evidences);
             if (odds.statistic > calibration_.critical)
             {
                 detected_.push_back({e, odds, oddsOf(study_, evidences, e)});
+                widths.push_back(widthNeeded(judge.fit(e, data), amplitude));
                 ++found;
             }
         }
+        calibration_.widths(static_cast<Eigen::Index>(e)) = std::max(1.0, upperQuantile(widths, coverageOfIntervals));
     }
 }
 
@@ -173,7 +205,8 @@ void Calibrator::drawOther()
     {
         const auto& sizes = Evidence::sizes();
         const double size = sizes[static_cast<std::size_t>(i) % sizes.size()];
-        const Odds odds = oddsOf(study_, evidence_(evidence_.drawOther(size, around(fit, random_), random_)));
+        const auto [data, judge] = replicas_.drawOther(size, around(fit, random_), random_);
+        const Odds odds = oddsOf(study_, judge(data));
         if (odds.statistic > calibration_.critical)
         {
             detected_.push_back({study_.effects.size(), odds, odds});

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "decision/evidence.h"
+#include "decision/replicas.h"
 
 #include <optional>
 #include <random>
@@ -17,24 +17,29 @@ struct Odds
     double other = 0.0;      // the same of something else
 };
 
-/// Thresholds of the decision, from data drawn of the emulator with this data set's own numbers of repeats: no runs.
+/// Thresholds of the decision, from trials in known worlds with this data set's own numbers of repeats: no runs.
 struct Calibration
 {
     std::vector<double> nullStatistics; // of draws without any effect, ascending
     double critical = 0.0;              // of the statistic, at the study's level
     Eigen::VectorXd membership; // by effect: this log probability or more has the share `coverage` of its detected draws
     double otherMembership = 0.0; // the same for what is not in the library
+    Eigen::VectorXd widths;     // by effect: of intervals that hold the amplitude as often as they say, over those of the fit
     Eigen::VectorXd naming;       // by effect: log probability above which it may be a name
     double wrongNames = 0.0;      // of detected foils, at these thresholds
 
     double pValue(double statistic) const;
+
+    /// A fit of an effect with the interval that holds its amplitude as often as it says.
+    Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
 
 class Calibrator
 {
 public:
     /// \param odds  prior weights of effects and of something else
-    Calibrator(const Study& study, const Evidence& evidence, const Measured& measured, std::mt19937_64& random);
+    Calibrator(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
+        std::mt19937_64& random);
 
     Calibration calibrate();
 
@@ -54,6 +59,7 @@ private:
 
     const Study& study_;
     const Evidence& evidence_;
+    Replicas& replicas_;
     const Measured& measured_;
     std::mt19937_64& random_;
     std::vector<Draw> detected_;

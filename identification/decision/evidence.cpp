@@ -91,14 +91,32 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
         throw std::runtime_error(study.file.string() + ": there are " + std::to_string(study.parameters.size())
                                  + " parameters; allowed: " + std::to_string(FewNumbers::MaxRowsAtCompileTime));
     }
+    prepare();
+}
+
+void Evidence::prepare()
+{
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
-        if (emulator.knows(e))
+        if (emulator_.knows(e))
         {
             effects_[e] = explanationOf(e);
         }
     }
     prepareOther();
+}
+
+Evidence::Evidence(const Evidence& like, const Emulator& emulator)
+    : study_(like.study_),
+      emulator_(emulator),
+      layout_(like.layout_),
+      around_(like.around_),
+      aroundEffects_(like.aroundEffects_),
+      workspace_(like.workspace_),
+      null_(nodeAt({})),
+      effects_(like.effects_.size())
+{
+    prepare();
 }
 
 void Evidence::refine(const Measured& measured)
@@ -135,8 +153,6 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd::Identity(noise.rows(), noise.rows()));
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(half * extra * half.transpose());
         node.transform.emplace_back(eigen.eigenvectors().transpose() * half);
-        node.root.emplace_back(factor.matrixL());
-        node.inverse.emplace_back(node.root.back() * eigen.eigenvectors());
         node.extra.segment(block.first, block.size()) = eigen.eigenvalues().cwiseMax(0.0);
         node.logDeterminant += 2.0 * factor.matrixLLT().diagonal().array().log().sum();
         node.terms.middleRows(block.first, block.size()) =
@@ -437,6 +453,16 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
 
 //--- Fits -----------------------------------------------------------------------------------------------------------
 
+std::vector<double> Evidence::amplitudes(std::size_t effect) const
+{
+    std::vector<double> all;
+    for (const auto& node : effects_[effect].nodes)
+    {
+        all.push_back(node.present.front().amplitude);
+    }
+    return all;
+}
+
 Fit Evidence::fitNull(const Measured& measured) const
 {
     const Solution solution = solve(null_, spreadOf(null_, measured).factor, measured);
@@ -524,75 +550,17 @@ Evidence::Pair Evidence::pair(std::size_t one, std::size_t other, const Measured
     return best;
 }
 
-//--- Draws ----------------------------------------------------------------------------------------------------------
-
-Measured Evidence::draw(const Node& node, const Eigen::VectorXd& parameters, std::mt19937_64& random) const
+Eigen::VectorXd Evidence::drawOther(double size, std::mt19937_64& random) const
 {
     std::normal_distribution<double> normal;
-    // The noise is an estimate: the true one is an inverse Wishart draw about it (Bartlett's decomposition).
-    Eigen::Index most = 0;
-    for (const auto& block : layout_.blocks)
-    {
-        most = std::max(most, block.size());
-    }
-    const double nu = std::max(layout_.noiseFreedom, static_cast<double>(most) + 2.0);
-    Eigen::MatrixXd bartlett = Eigen::MatrixXd::Zero(most, most);
-    for (Eigen::Index i = 0; i < most; ++i)
-    {
-        std::gamma_distribution<double> chiSquared((nu - static_cast<double>(i)) / 2.0, 2.0);
-        bartlett(i, i) = std::sqrt(chiSquared(random) / nu);
-        for (Eigen::Index j = 0; j < i; ++j)
-        {
-            bartlett(i, j) = normal(random) / std::sqrt(nu);
-        }
-    }
-    const auto scaled = [&](const Eigen::MatrixXd& z) {
-        return Eigen::MatrixXd(
-            bartlett.topLeftCorner(z.rows(), z.rows()).triangularView<Eigen::Lower>().transpose().solve(z));
-    };
-    const auto noise = [&](Eigen::Index size, Eigen::Index columns) {
-        Eigen::MatrixXd z(size, columns);
-        std::generate(z.reshaped().begin(), z.reshaped().end(), [&] { return normal(random); });
-        return scaled(z);
-    };
-    const Eigen::VectorXd y = node.terms * parameterTermsAt(parameters);
-    Measured drawn;
-    drawn.mean.resize(layout_.rows);
-    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
-    {
-        const Layout::Block& block = layout_.blocks[b];
-        // The emulator has learnt from runs with the same noise: what it does not know scales with it.
-        Eigen::VectorXd unknown = node.extra.segment(block.first, block.size()).cwiseSqrt();
-        for (double& one : unknown)
-        {
-            one *= normal(random);
-        }
-        const auto root = node.root[b].triangularView<Eigen::Lower>();
-        const Eigen::VectorXd white = root.solve(node.inverse[b] * unknown);
-        drawn.mean.segment(block.first, block.size()) = node.inverse[b] * y.segment(block.first, block.size())
-                                                        + node.root[b] * (noise(block.size(), 1) + scaled(white));
-        Eigen::MatrixXd deviations = noise(block.size(), static_cast<Eigen::Index>(std::lround(block.freedom)));
-        if (block.freedom > 0.0)
-        {
-            deviations = node.whiten[b].triangularView<Eigen::Lower>().solve(deviations);
-        }
-        drawn.scatter.emplace_back(deviations * deviations.transpose());
-    }
-    return drawn;
-}
-
-Measured Evidence::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random) const
-{
-    std::normal_distribution<double> normal;
-    Measured drawn = draw(null_, parameters, random);
-    const Eigen::VectorXd pattern =
+    Eigen::VectorXd pattern =
         size * otherRoot_ * Eigen::VectorXd::NullaryExpr(layout_.rows, [&] { return normal(random); });
     for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
     {
-        const Layout::Block& block = layout_.blocks[b];
-        drawn.mean.segment(block.first, block.size()) += null_.inverse[b] * pattern.segment(block.first, block.size());
+        auto own = pattern.segment(layout_.blocks[b].first, layout_.blocks[b].size());
+        own = null_.transform[b].partialPivLu().solve(Eigen::VectorXd(own)).eval();
     }
-    return drawn;
+    return pattern;
 }
 
 } // namespace clepsydra::identification

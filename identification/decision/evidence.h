@@ -38,8 +38,6 @@ struct Node
 {
     std::vector<Present> present;
     std::vector<Eigen::MatrixXd> transform; // by block
-    std::vector<Eigen::MatrixXd> inverse;   // back
-    std::vector<Eigen::MatrixXd> root;      // by block: lower triangular, of the noise of the means
     std::vector<Eigen::MatrixXd> whiten;    // by block: of single measurements
     Eigen::VectorXd extra;                  // variances beside the noise
     Eigen::MatrixXd terms;                  // rows x parameterTerms
@@ -62,6 +60,9 @@ public:
     /// \param around  parameters [prior sd] where the emulator's uncertainty is taken
     Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around);
 
+    /// The same questions to another emulator.
+    Evidence(const Evidence& like, const Emulator& emulator);
+
     /// Takes the emulator's uncertainty of each effect at the parameters that go with it, which may be far from those
     /// without any effect.
     void refine(const Measured& measured);
@@ -82,21 +83,13 @@ public:
     };
     Pair pair(std::size_t one, std::size_t other, const Measured& measured) const;
 
-    //--- Data that an explanation would give ---
+    /// Amplitudes at which an effect is looked at; nothing for one that is not known.
+    std::vector<double> amplitudes(std::size_t effect) const;
 
-    /// Amplitudes at which an effect can be drawn.
-    const std::vector<Node>& nodes(std::size_t effect) const
-    {
-        return effects_[effect].nodes;
-    }
-    const Node& nullNode() const
-    {
-        return null_;
-    }
     Node nodeAt(const std::vector<Present>& present) const;
-    Measured draw(const Node& node, const Eigen::VectorXd& parameters, std::mt19937_64& random) const;
-    /// Something else: a discrepancy of a size, as a multiple of the library's effects.
-    Measured drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random) const;
+
+    /// Something else: a discrepancy of a size, as a multiple of the library's effects, to be added to the means.
+    Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 
     /// Sizes of "something else" that are looked at, as multiples of what the library's effects do.
     static const std::vector<double>& sizes();
@@ -143,6 +136,7 @@ private:
     };
 
     Explanation explanationOf(std::size_t effect) const;
+    void prepare();
     void prepareOther();
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;

@@ -2,6 +2,8 @@
 
 #include "emulator/covariance.h"
 
+#include <Eigen/Cholesky>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -72,6 +74,35 @@ std::vector<std::vector<Eigen::Index>> measuredFeatures(
         }
     }
     return features;
+}
+
+Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
+        return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); }).eval();
+    };
+    Measured drawn;
+    drawn.mean.resize(layout.rows);
+    for (const auto& block : layout.blocks)
+    {
+        const ConditionEmulator& here = *world[block.condition];
+        const auto& places = block.places;
+        const Eigen::MatrixXd single =
+            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(here.noiseOf(present)(places, places));
+        Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
+        ofMean.diagonal().array() += 1e-18;
+        drawn.mean.segment(block.first, block.size()) =
+            Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places)
+            + ofMean.llt().matrixL() * numbers(block.size(), 1);
+        const Eigen::MatrixXd deviations =
+            block.freedom > 0.0
+                ? Eigen::MatrixXd(single.llt().matrixL() * numbers(block.size(), std::lround(block.freedom)))
+                : Eigen::MatrixXd::Zero(block.size(), 0);
+        drawn.scatter.emplace_back(deviations * deviations.transpose());
+    }
+    return drawn;
 }
 
 std::pair<Layout, Measured> arrange(

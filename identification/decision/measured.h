@@ -48,6 +48,10 @@ struct Measured
 std::pair<Layout, Measured> arrange(
     const Study& study, const Emulator& emulator, const std::vector<MeasuredCondition>& data);
 
+/// Measurements in a world that is as an emulator says on average, at a setting.
+Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters, std::mt19937_64& random);
+
 /// Features of the training conditions that measurements have, by condition of the study.
 std::vector<std::vector<Eigen::Index>> measuredFeatures(
     const Study& study, const std::vector<MeasuredCondition>& data);

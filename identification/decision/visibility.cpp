@@ -33,7 +33,7 @@ double reached(const std::vector<std::pair<double, double>>& shares)
 
 } // namespace
 
-Visibility visibility(const Study& study, const Evidence& evidence, const Calibration& calibration,
+Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,
     const Measured& measured, std::mt19937_64& random)
 {
     const auto count = static_cast<Eigen::Index>(study.effects.size());
@@ -44,9 +44,9 @@ Visibility visibility(const Study& study, const Evidence& evidence, const Calibr
         const auto i = static_cast<Eigen::Index>(e);
         std::vector<std::pair<double, double>> detected;
         std::vector<std::pair<double, double>> named;
-        for (const auto& node : evidence.nodes(e))
+        const auto amplitudes = evidence.amplitudes(e);
+        for (const double amplitude : amplitudes)
         {
-            const double amplitude = node.present.front().amplitude;
             if (amplitude <= 0.0)
             {
                 continue;
@@ -56,7 +56,8 @@ Visibility visibility(const Study& study, const Evidence& evidence, const Calibr
             std::vector<double> beside(study.effects.size(), 0.0);
             for (int draw = 0; draw < draws; ++draw)
             {
-                const Odds odds = oddsOf(study, evidence(evidence.draw(node, null.parameters, random)));
+                const auto [data, judge] = replicas.draw({{e, amplitude}}, null.parameters, random);
+                const Odds odds = oddsOf(study, judge(data));
                 if (odds.statistic <= calibration.critical)
                 {
                     continue;
@@ -72,7 +73,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, const Calibr
             detected.emplace_back(amplitude, seen / draws);
             named.emplace_back(amplitude, right / draws);
             found.atFullSize(i) = right / draws;
-            if (&node == &evidence.nodes(e).back())
+            if (amplitude == amplitudes.back())
             {
                 for (std::size_t other = 0; other < beside.size(); ++other)
                 {

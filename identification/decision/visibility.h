@@ -20,7 +20,7 @@ struct Visibility
     std::vector<std::pair<std::size_t, std::size_t>> alike;  // the first's sets, at full size, mostly hold the second
 };
 
-Visibility visibility(const Study& study, const Evidence& evidence, const Calibration& calibration,
+Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,
     const Measured& measured, std::mt19937_64& random);
 
 } // namespace clepsydra::identification

@@ -12,7 +12,7 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr double enoughPerFeature = 20.0;
+constexpr double enoughPerFeature = 8.0;
 
 /// Correlations from pairs with gaps need not fit together; the nearest that do.
 void makePositiveDefinite(Eigen::MatrixXd& matrix)

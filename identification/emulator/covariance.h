@@ -39,7 +39,7 @@ struct Covariance
     double shrinkage = 0.0; // 0: as pooled; 1: no correlations left
 };
 
-/// Pooled covariance; with fewer than 20 degrees of freedom per feature its correlations are shrunk towards none.
+/// Pooled covariance; with fewer than 8 degrees of freedom per feature its correlations are shrunk towards none.
 /// Ledoit & Wolf, J. Multivar. Anal. 88, 365 (2004); target and intensity for standardised features as in Schaefer &
 /// Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 32 (2005).
 /// \param deviations  one per row, mean zero; NaN entries are left out pair by pair

@@ -203,6 +203,62 @@ Eigen::MatrixXd ConditionEmulator::noiseOf(const std::vector<Present>& present) 
     return factor.asDiagonal() * noise * factor.asDiagonal();
 }
 
+//--- Other worlds ---------------------------------------------------------------------------------------------------
+
+Emulator Emulator::possibleWorld(std::mt19937_64& random) const
+{
+    std::normal_distribution<double> normal;
+    Emulator world = *this;
+    for (auto& condition : world.conditions_)
+    {
+        for (Eigen::Index f = 0; condition && f < condition->coefficients.cols(); ++f)
+        {
+            const Eigen::LDLT<Eigen::MatrixXd> factor(condition->covariances[static_cast<std::size_t>(f)]);
+            Eigen::VectorXd z = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
+            z = z.unaryExpr([&](double sd) { return sd * normal(random); }).eval();
+            const Eigen::VectorXd error =
+                factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
+            condition->coefficients.col(f) += error;
+        }
+    }
+    return world;
+}
+
+Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) const
+{
+    std::normal_distribution<double> normal;
+    Emulator other = *this;
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        if (!conditions_[c])
+        {
+            continue;
+        }
+        const ConditionEmulator& here = *world.conditions_[c];
+        Rows& rows = other.rows_[c];
+        Eigen::MatrixXd whitened = rows.terms * here.coefficients;
+        for (Eigen::Index row = 0; row < whitened.rows(); ++row)
+        {
+            const double missed = rows.severalOn[static_cast<std::size_t>(row)] ? lackOfFit_ : 0.0;
+            whitened.row(row) = whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
+            const Eigen::MatrixXd root = here.noiseOf(rows.scattering[static_cast<std::size_t>(row)]).llt().matrixL();
+            const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(whitened.cols(), [&] { return normal(random); });
+            rows.values.row(row) = (here.root * whitened.row(row).transpose() + root * z).transpose();
+        }
+    }
+    other.learnNoise();
+    if (scatters_)
+    {
+        other.learnScatter();
+        other.learnNoise();
+    }
+    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    {
+        other.solve(c);
+    }
+    return other;
+}
+
 //--- All conditions -------------------------------------------------------------------------------------------------
 
 Emulator::Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,

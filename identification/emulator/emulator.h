@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -118,6 +119,12 @@ public:
     {
         return remarks_;
     }
+
+    /// A world that the runs leave possible: what they do not tell is drawn.
+    Emulator possibleWorld(std::mt19937_64& random) const;
+
+    /// What would have been learnt from runs at the same settings in such a world.
+    Emulator relearnt(const Emulator& world, std::mt19937_64& random) const;
 
 private:
     /// The runs of one condition, a row each.

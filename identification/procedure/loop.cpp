@@ -123,9 +123,10 @@ void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& ou
     const auto [layout, numbers] = arrange(study, emulator, planned);
     const Evidence evidence(
         study, emulator, layout, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.parameters.size())));
-    const Calibration calibration = Calibrator(study, evidence, numbers, random).calibrate();
+    Replicas replicas(emulator, layout, evidence, random);
+    const Calibration calibration = Calibrator(study, evidence, replicas, numbers, random).calibrate();
     writePlan(study, emulator, layout, numbers, evidence, calibration,
-        visibility(study, evidence, calibration, numbers, random), out);
+        visibility(study, evidence, replicas, calibration, numbers, random), out);
 }
 
 namespace
@@ -145,9 +146,9 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
 
     const Library library = makeLibrary(simulator);
     Answer answer = trace(simulator, library, training, random);
-    answer.visibility = visibility(study,
-        Evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters)),
-        answer.calibration, answer.measured, random);
+    const Evidence evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters));
+    Replicas replicas(*answer.emulator, answer.layout, evidence, random);
+    answer.visibility = visibility(study, evidence, replicas, answer.calibration, answer.measured, random);
     const auto next = nextExperiments(simulator, answer, random);
     Findings findings{&study, &answer, nullptr, &next, &simulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');

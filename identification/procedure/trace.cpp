@@ -150,7 +150,8 @@ private:
     void decide(const Evidence& evidence)
     {
         const Measured& measured = answer_.measured;
-        answer_.calibration = Calibrator(study_, evidence, measured, random_).calibrate();
+        Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
+        answer_.calibration = Calibrator(study_, evidence, replicas, measured, random_).calibrate();
         const Calibration& calibration = answer_.calibration;
         const Evidences evidences = evidence(measured);
         const Odds odds = oddsOf(study_, evidences);
@@ -167,6 +168,7 @@ private:
             EffectFinding finding;
             finding.known = answer_.emulator->knows(e);
             finding.fit = evidence.fit(e, measured);
+            finding.fit = calibration.widened(e, std::move(finding.fit), study_.effects[e].bounds);
             finding.parameters = settingOf({}, finding.fit.parameters).parameters;
             finding.probability = std::exp(odds.effects(i));
             finding.logOdds = odds.effects(i) + odds.statistic;

@@ -1,0 +1,41 @@
+#include "decision/replicas.h"
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+constexpr int worlds = 40;
+
+} // namespace
+
+Replicas::Replicas(
+    const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
+    : layout_(layout),
+      evidence_(evidence)
+{
+    for (int i = 0; i < worlds; ++i)
+    {
+        Emulator world = emulator.possibleWorld(random);
+        Emulator learnt = emulator.relearnt(world, random);
+        all_.push_back(std::make_unique<Replica>(Replica{std::move(world), std::move(learnt), nullptr}));
+        all_.back()->judge = std::make_unique<Evidence>(evidence, all_.back()->learnt);
+    }
+}
+
+Replicas::Trial Replicas::draw(
+    const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
+{
+    const Replica& one = *all_[turn_++ % all_.size()];
+    return {identification::draw(layout_, one.world, present, parameters, random), *one.judge};
+}
+
+Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)
+{
+    Trial trial = draw({}, parameters, random);
+    trial.data.mean += evidence_.drawOther(size, random);
+    return trial;
+}
+
+} // namespace clepsydra::identification
