@@ -116,7 +116,8 @@ std::optional<std::size_t> soleMember(const Study& study, const Calibration& cal
     const bool one = !members.empty() && std::all_of(members.begin(), members.end(), [&](std::size_t other) {
         return other == members.front() || areVariants(study, members.front(), other);
     });
-    return one && odds.other < calibration.otherMembership ? std::optional(members.front()) : std::nullopt;
+    const bool isLikeliest = one && odds.effects(static_cast<Eigen::Index>(members.front())) == odds.effects.maxCoeff();
+    return isLikeliest && odds.other < calibration.otherMembership ? std::optional(members.front()) : std::nullopt;
 }
 
 double Calibration::pValue(double statistic) const
@@ -227,14 +228,11 @@ void Calibrator::setMembership()
                                                             : draw.odds.other);
             }
         }
-        if (own.empty())
-        {
-            return -std::numeric_limits<double>::infinity();
-        }
         std::sort(own.begin(), own.end());
         // The observed set counts as one more draw.
         const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
-        return place < 1.0 ? -std::numeric_limits<double>::infinity() : own[static_cast<std::size_t>(place) - 1];
+        // What is likelier than all else belongs to the set; what its draws say too little of, where it is not unlikely.
+        return std::log(place < 1.0 ? 1.0 - study_.settings.coverage : std::min(0.5, std::exp(own[static_cast<std::size_t>(place) - 1])));
     };
     calibration_.membership.resize(static_cast<Eigen::Index>(study_.effects.size()));
     for (std::size_t e = 0; e < study_.effects.size(); ++e)

@@ -28,8 +28,11 @@ constexpr Eigen::Index fineSteps = 512;
 /// Of amplitudes of pairs, from end to end.
 constexpr int pairSteps = 8;
 
-/// Gauss-Newton steps for the parameters: the emulator is all but linear in them.
-constexpr int parameterSteps = 2;
+/// Gauss-Newton steps for the parameters at most, how often one is halved, and the fall of the misfit that is still
+/// worth one more: the emulator is all but linear in them.
+constexpr int parameterSteps = 8;
+constexpr int halvings = 6;
+constexpr double worthAStep = 1e-3;
 
 /// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
 constexpr double alikeFeatures = 0.5;
@@ -96,6 +99,15 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
 
 void Evidence::prepare()
 {
+    const auto q = static_cast<Eigen::Index>(study_.parameters.size());
+    lower_.resize(q);
+    upper_.resize(q);
+    for (Eigen::Index i = 0; i < q; ++i)
+    {
+        const Parameter& parameter = study_.parameters[static_cast<std::size_t>(i)];
+        lower_(i) = (parameter.lower - parameter.mean) / parameter.sd;
+        upper_(i) = (parameter.upper - parameter.mean) / parameter.sd;
+    }
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
         if (emulator_.knows(e))
@@ -265,9 +277,12 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
             }
         }
     };
+    const auto misfitHere = [&] { return (weight * r.array().square()).sum() + t.squaredNorm(); };
     residual();
+    solution.misfit = misfitHere();
     FewSquare factored;
-    for (int step = 0; q > 0 && step < parameterSteps; ++step)
+    double fall = std::numeric_limits<double>::infinity();
+    for (int step = 0; q > 0 && step < parameterSteps && fall > worthAStep; ++step)
     {
         FewNumbers direction(q);
         for (Eigen::Index i = 0; i < q; ++i)
@@ -289,11 +304,28 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
             }
         }
         const Eigen::LLT<FewSquare> cholesky(solution.precision);
-        t += cholesky.solve(direction);
         factored = cholesky.matrixLLT();
-        residual();
+        FewNumbers ahead = cholesky.solve(direction);
+        const FewNumbers from = t;
+        const double before = solution.misfit;
+        for (int halving = 0; halving < halvings; ++halving, ahead *= 0.5)
+        {
+            t = (from + ahead).cwiseMax(lower_).cwiseMin(upper_);
+            residual();
+            solution.misfit = misfitHere();
+            if (solution.misfit <= before)
+            {
+                break;
+            }
+        }
+        fall = before - solution.misfit;
+        if (fall < 0.0)
+        {
+            t = from;
+            residual();
+            solution.misfit = before;
+        }
     }
-    solution.misfit = (weight * r.array().square()).sum() + t.squaredNorm();
     solution.logVolume = -0.5 * (node.logDeterminant - logProduct(weight));
     for (Eigen::Index i = 0; i < q; ++i)
     {

@@ -151,6 +151,8 @@ private:
     const Layout& layout_;
     Eigen::VectorXd around_;
     std::vector<Eigen::VectorXd> aroundEffects_;
+    FewNumbers lower_; // ends of the parameters' ranges
+    FewNumbers upper_;
     mutable Workspace workspace_;
     Node null_;
     std::vector<Explanation> effects_;

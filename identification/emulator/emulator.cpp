@@ -3,7 +3,7 @@
 #include "emulator/covariance.h"
 #include "emulator/settings.h"
 
-#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/tools/minima.hpp>
 
@@ -246,12 +246,7 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
             rows.values.row(row) = (here.root * whitened.row(row).transpose() + root * z).transpose();
         }
     }
-    other.learnNoise();
-    if (scatters_)
-    {
-        other.learnScatter();
-        other.learnNoise();
-    }
+    other.learnNoiseAndScatter();
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
         other.solve(c);
@@ -277,14 +272,8 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
             append(c, simulator, runs);
         }
     }
-    learnNoise();
+    learnNoiseAndScatter();
     learnChain(simulator, runs);
-    if (scatters_)
-    {
-        // Effects that raise the scatter without being declared to are found by the noise of the others, and leave it.
-        learnScatter();
-        learnNoise();
-    }
     chooseScales();
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
@@ -398,10 +387,21 @@ void Emulator::setNoise(std::size_t c, const Eigen::MatrixXd& noise)
     conditions_[c]->root = noise.llt().matrixL();
 }
 
+/// Effects that raise the scatter without being declared to are found by the noise of runs without effects.
+void Emulator::learnNoiseAndScatter()
+{
+    if (scatters_)
+    {
+        learnNoise(true);
+        learnScatter();
+    }
+    learnNoise(false);
+}
+
 /// Noise from repeats at equal settings, and from nothing else: what a regression leaves is too small by what it has taken
 /// up. Correlations are those of all conditions together; the variances of a condition are drawn towards those of all by as
 /// much as chance explains.
-void Emulator::learnNoise()
+void Emulator::learnNoise(bool ofPlainRuns)
 {
     const Eigen::Index features = study_->featureCount();
     Scatter all;
@@ -422,7 +422,9 @@ void Emulator::learnNoise()
         Scatter own;
         for (const auto& group : repeatsOf(rows.settings))
         {
-            if (scatters_ && rows.scattering[static_cast<std::size_t>(group.front())].empty())
+            const auto first = static_cast<std::size_t>(group.front());
+            const bool isPlain = rows.settings[first].amplitudes.isZero() || !ofPlainRuns;
+            if (scatters_ && rows.scattering[first].empty() && isPlain)
             {
                 own.add(rows.values(group, Eigen::all));
             }
@@ -698,9 +700,11 @@ void Emulator::learnScatter()
         {
             continue;
         }
-        const boost::math::chi_squared chance(statisticFreedom);
+        // The noise is an estimate itself.
+        const boost::math::fisher_f chance(statisticFreedom,
+            std::max(1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));
         if (!study_->effects[e].raisesScatter
-            && boost::math::cdf(boost::math::complement(chance, statistic)) > otherScatter)
+            && boost::math::cdf(boost::math::complement(chance, statistic / statisticFreedom)) > otherScatter)
         {
             continue;
         }

@@ -142,7 +142,8 @@ private:
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();
     void solve(std::size_t condition);
-    void learnNoise();
+    void learnNoiseAndScatter();
+    void learnNoise(bool ofPlainRuns);
     void learnScatter();
     void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
     void learnChain(const Simulator& simulator, const std::vector<Run>& runs);

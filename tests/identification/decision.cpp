@@ -1,4 +1,4 @@
-/// What a decision promises, held against data that the emulator draws: fresh draws, not those that set the thresholds.
+/// What a decision promises, held against data of known worlds: fresh ones, not those that set the thresholds.
 #include "decision/visibility.h"
 #include "emulator/settings.h"
 #include "nextRuns/chooseRuns.h"
@@ -62,12 +62,16 @@ TEST(Decision, KeepsWhatItPromises)
 {
     Bench bench;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
-    const Calibration calibration = Calibrator(bench.study, evidence, bench.measured, bench.random).calibrate();
+    Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
+    const Calibration calibration =
+        Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
+    Replicas others(*bench.emulator, bench.layout, evidence, bench.random);
     constexpr int draws = 150;
     int alarms = 0;
     for (int i = 0; i < 4 * draws; ++i)
     {
-        const Odds odds = oddsOf(bench.study, evidence(evidence.draw(evidence.nullNode(), atPrior, bench.random)));
+        const auto [data, judge] = others.draw({}, atPrior, bench.random);
+        const Odds odds = oddsOf(bench.study, judge(data));
         alarms += calibration.pValue(odds.statistic) < .05 ? 1 : 0;
     }
     EXPECT_NEAR(alarms / (4. * draws), .05, .035);
@@ -80,13 +84,14 @@ TEST(Decision, KeepsWhatItPromises)
         double detected = 0;
         for (int i = 0; i < draws; ++i)
         {
-            const auto& nodes = evidence.nodes(e);
-            const Node& node = nodes[static_cast<std::size_t>(i) % nodes.size()];
-            if (node.present.front().amplitude == 0)
+            const auto amplitudes = evidence.amplitudes(e);
+            const double amplitude = amplitudes[static_cast<std::size_t>(i) % amplitudes.size()];
+            if (amplitude == 0)
             {
                 continue;
             }
-            const Evidences evidences = evidence(evidence.draw(node, atPrior, bench.random));
+            const auto [data, judge] = others.draw({{e, amplitude}}, atPrior, bench.random);
+            const Evidences evidences = judge(data);
             const Odds odds = oddsOf(bench.study, evidences);
             if (odds.statistic <= calibration.critical)
             {
@@ -135,15 +140,17 @@ TEST(Decision, SomethingElseIsSeen)
 {
     Bench bench;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
+    Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
     int ahead = 0;
     for (int i = 0; i < 20; ++i)
     {
-        const Odds odds = oddsOf(bench.study, evidence(evidence.drawOther(1., atPrior, bench.random)));
+        const auto [data, judge] = replicas.drawOther(1., atPrior, bench.random);
+        const Odds odds = oddsOf(bench.study, judge(data));
         ahead += odds.other > odds.effects.maxCoeff() ? 1 : 0;
     }
     EXPECT_GE(ahead, 18);
-    const Odds own = oddsOf(bench.study,
-        evidence(evidence.draw(evidence.nodeAt({{bench.effect("addedMass"), 1.}}), atPrior, bench.random)));
+    const auto [data, judge] = replicas.draw({{bench.effect("addedMass"), 1.}}, atPrior, bench.random);
+    const Odds own = oddsOf(bench.study, judge(data));
     EXPECT_LT(own.other, own.effects(static_cast<Eigen::Index>(bench.effect("addedMass"))));
 }
 
