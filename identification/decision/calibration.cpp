@@ -116,8 +116,27 @@ std::optional<std::size_t> soleMember(const Study& study, const Calibration& cal
     const bool one = !members.empty() && std::all_of(members.begin(), members.end(), [&](std::size_t other) {
         return other == members.front() || areVariants(study, members.front(), other);
     });
-    const bool isLikeliest = one && odds.effects(static_cast<Eigen::Index>(members.front())) == odds.effects.maxCoeff();
-    return isLikeliest && odds.other < calibration.otherMembership ? std::optional(members.front()) : std::nullopt;
+    if (!one || odds.other >= calibration.otherMembership)
+    {
+        return std::nullopt;
+    }
+    // A name is the likeliest thing, in all its variants together.
+    double inVariants = 0.0;
+    double best = 0.0;
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        const double probability = std::exp(odds.effects(static_cast<Eigen::Index>(e)));
+        if (e == members.front() || areVariants(study, members.front(), e))
+        {
+            inVariants += probability;
+        }
+        else
+        {
+            best = std::max(best, probability);
+        }
+    }
+    constexpr double rounding = 1e-9;
+    return best <= inVariants + rounding ? std::optional(members.front()) : std::nullopt;
 }
 
 double Calibration::pValue(double statistic) const

@@ -27,7 +27,7 @@ constexpr double exactShare = 1e-3;
 
 /// Repeats of an effect that is not declared to raise the scatter do so all the same where chance alone would in fewer
 /// cases than this.
-constexpr double otherScatter = 1e-3;
+constexpr double otherScatter = 1e-2;
 
 /// The variance, between conditions, of the log of a feature's scatter is at least this: 10 %.
 constexpr double leastBetween = 0.01;
