@@ -18,6 +18,9 @@ constexpr int mostDraws = 200;
 
 constexpr double coverageOfIntervals = 0.95;
 
+/// An effect explains data that fit it as well as this share of its own draws do.
+constexpr double stillFits = 0.98;
+
 /// What a wrong name may cost in right ones.
 constexpr double smallestPrice = 0.1;
 constexpr double largestPrice = 1e4;
@@ -79,7 +82,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     }
     all(count) = evidences.other + std::log(study.settings.otherWeight);
     const double sum = logSumExp(all);
-    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum};
+    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum, evidences.misfits};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)
@@ -99,7 +102,8 @@ std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& o
     std::vector<std::size_t> members;
     for (Eigen::Index e = 0; e < odds.effects.size(); ++e)
     {
-        if (odds.effects(e) >= calibration.membership(e) && std::isfinite(odds.effects(e)))
+        if (odds.effects(e) >= calibration.membership(e) && odds.misfits(e) <= calibration.misfits(e)
+            && std::isfinite(odds.effects(e)))
         {
             members.push_back(static_cast<std::size_t>(e));
         }
@@ -259,6 +263,20 @@ void Calibrator::setMembership()
         calibration_.membership(static_cast<Eigen::Index>(e)) = quantileOf(e);
     }
     calibration_.otherMembership = quantileOf(study_.effects.size());
+    calibration_.misfits.resize(calibration_.membership.size());
+    for (Eigen::Index e = 0; e < calibration_.misfits.size(); ++e)
+    {
+        std::vector<double> own;
+        for (const auto& draw : detected_)
+        {
+            if (draw.truth == static_cast<std::size_t>(e))
+            {
+                own.push_back(draw.odds.misfits(e));
+            }
+        }
+        calibration_.misfits(e) =
+            own.empty() ? std::numeric_limits<double>::infinity() : upperQuantile(own, stillFits);
+    }
 }
 
 /// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected foils

@@ -15,6 +15,7 @@ struct Odds
     double statistic = 0.0;  // log odds of anything against no effect
     Eigen::VectorXd effects; // log probability of each, given that there is something
     double other = 0.0;      // the same of something else
+    Eigen::VectorXd misfits; // of each effect where it is likeliest
 };
 
 /// Thresholds of the decision, from trials in known worlds with this data set's own numbers of repeats: no runs.
@@ -25,6 +26,7 @@ struct Calibration
     Eigen::VectorXd membership; // by effect: this log probability or more has the share `coverage` of its detected draws
     double otherMembership = 0.0; // the same for what is not in the library
     Eigen::VectorXd widths;     // by effect: of intervals that hold the amplitude as often as they say, over those of the fit
+    Eigen::VectorXd misfits;    // by effect: what fits worse than this is not explained by it
     Eigen::VectorXd naming;       // by effect: log probability above which it may be a name
     double wrongNames = 0.0;      // of detected foils, at these thresholds
 

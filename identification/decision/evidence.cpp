@@ -341,7 +341,7 @@ double Evidence::logLikelihood(double misfit, double logVolume) const
     return logVolume - 0.5 * (nu + static_cast<double>(layout_.rows)) * std::log1p(misfit / nu);
 }
 
-Eigen::VectorXd Evidence::logPosterior(
+Evidence::Posterior Evidence::posterior(
     const Explanation& explanation, const Measured& measured, const Spread& usual) const
 {
     // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
@@ -360,7 +360,9 @@ Eigen::VectorXd Evidence::logPosterior(
     {
         logs(i) += logLikelihood(std::max(0.0, fine(i, 0)), fine(i, 1));
     }
-    return logs;
+    Eigen::Index best = 0;
+    logs.maxCoeff(&best);
+    return {logs, fine(best, 0)};
 }
 
 Evidences Evidence::operator()(const Measured& measured) const
@@ -369,14 +371,17 @@ Evidences Evidence::operator()(const Measured& measured) const
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
     evidences.null = logLikelihood(null.misfit, null.logVolume) + usual.logLikelihood;
-    evidences.effects.resize(static_cast<Eigen::Index>(effects_.size()));
+    evidences.effects.setConstant(
+        static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
+    evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
-        const Explanation& explanation = effects_[e];
-        double& evidence = evidences.effects(static_cast<Eigen::Index>(e));
-        evidence = explanation.nodes.empty()
-                       ? -std::numeric_limits<double>::infinity()
-                       : logSumExp(logPosterior(explanation, measured, usual));
+        if (!effects_[e].nodes.empty())
+        {
+            const Posterior found = posterior(effects_[e], measured, usual);
+            evidences.effects(static_cast<Eigen::Index>(e)) = logSumExp(found.logs);
+            evidences.misfits(static_cast<Eigen::Index>(e)) = found.misfit;
+        }
     }
     evidences.other = otherEvidence(measured, usual, null);
     return evidences;
@@ -514,7 +519,7 @@ Fit Evidence::fit(std::size_t effect, const Measured& measured) const
         return fit;
     }
     const Spread usual = spreadOf(null_, measured);
-    const Eigen::VectorXd logs = logPosterior(explanation, measured, usual);
+    const Eigen::VectorXd logs = posterior(explanation, measured, usual).logs;
     const Eigen::ArrayXd share = (logs.array() - logSumExp(logs)).exp();
     const Eigen::ArrayXd a = explanation.amplitudes.array();
     fit.amplitude = (share * a).sum();

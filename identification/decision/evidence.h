@@ -18,6 +18,7 @@ struct Evidences
     double null = 0.0;
     Eigen::VectorXd effects; // by effect of the study; -infinity for those that are not known
     double other = 0.0;      // something that is not in the library
+    Eigen::VectorXd misfits; // of each effect at its likeliest amplitude, as in `Fit`
 };
 
 /// Where an explanation fits best, and how well that is known.
@@ -142,8 +143,13 @@ private:
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     double logLikelihood(double misfit, double logVolume) const;
-    /// Of the explanation's amplitudes, with their prior.
-    Eigen::VectorXd logPosterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
+    /// Of the explanation's amplitudes, with their prior, and the misfit of the likeliest.
+    struct Posterior
+    {
+        Eigen::VectorXd logs;
+        double misfit = 0.0;
+    };
+    Posterior posterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
     const Study& study_;

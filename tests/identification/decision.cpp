@@ -165,10 +165,11 @@ TEST(Decision, VariantsShareTheirWeight)
         study.effects[e].name = "history" + std::to_string(e);
         study.effects[e].family = "history";
     }
-    const Odds odds = oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100});
+    const Odds odds = oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100, Eigen::VectorXd::Ones(4)});
     EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
     EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
     Calibration calibration;
+    calibration.misfits = Eigen::Vector4d::Constant(2);
     calibration.membership = Eigen::Vector4d(0, -9, -9, 0);
     EXPECT_EQ(soleMember(study, calibration, odds), 1U) << "two variants are one name";
     calibration.membership(0) = -9;
