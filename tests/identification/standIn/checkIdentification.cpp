@@ -249,6 +249,7 @@ Json check(const Options& options)
     std::map<std::string, Tally> byEffect;
     std::map<std::string, Tally> bySize;
     std::map<std::string, Tally> outside;
+    std::map<std::string, int> wrongNames; // "truth at its size: name"
     double sameAnswer = 0;
     double askedAgain = 0;
     double below = 0;
@@ -296,7 +297,13 @@ Json check(const Options& options)
                 const std::size_t e =
                     study.effects.size() + number % (world.effects.size() - study.effects.size());
                 const Truth truth{{e}, {part}};
-                outside[std::to_string(part).substr(0, 4)].add(rigged.answer(rigged.measure(truth, number), truth, number));
+                const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+                const std::string label = std::to_string(part).substr(0, 4);
+                outside[label].add(outcome);
+                if (outcome.decision == Decision::named)
+                {
+                    ++wrongNames[world.effects[e].name + ' ' + label + ": " + study.effects[outcome.set.front().front()].name];
+                }
             }
         }
         for (int i = 0; i < options.pairs; ++i, ++number)
@@ -324,7 +331,8 @@ Json check(const Options& options)
         {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
         {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", foils.json()},
-        {"outsideLibrary", all(outside)}, {"pairs", pairs.json()}};
+        {"outsideLibrary", all(outside)},
+        {"wrongNames", wrongNames}, {"pairs", pairs.json()}};
 }
 
 /// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
