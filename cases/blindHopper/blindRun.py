@@ -18,7 +18,6 @@ CASE = ROOT / "cases/hopperQuick"
 NUMERICS = {"demStep": 2.5e-5, "smoothingLength": 5e-3}     # not those of the study
 SCALE_NOISE = 1e-5                                          # [kg], standard deviation of every reading
 SAMPLING = 5e-3                                             # [s] between readings
-REPEATS = 3
 
 
 class RunFailed(Exception):
@@ -26,12 +25,13 @@ class RunFailed(Exception):
 
 
 def conditions():
-    """The declared experiment, from study.yaml: {condition: (stage, entries)}."""
+    """The declared experiment, from study.yaml: {condition: (stage, entries, repeats)}."""
     study = yaml.safe_load((HERE / "study.yaml").read_text())
     found = {}
     for condition in study["conditions"]:
         stage = condition.get("command", study["rig"]["command"]).split()[-1]
-        found[condition["name"]] = (stage, {**study["rig"]["set"], **condition["set"]})
+        entries = {**study["rig"]["set"], **condition["set"]}
+        found[condition["name"]] = (stage, entries, len(condition["measured"]["files"]))
     return found
 
 
@@ -41,7 +41,7 @@ def acts(effect, stage):
 
 def measure(folder, condition, friction, effects, seed, random):
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
-    stage, entries = conditions()[condition]
+    stage, entries, _ = conditions()[condition]
     acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], stage)]
     makeCase(folder, {**entries, **NUMERICS, "friction": friction, "seed": seed}, acting)
     allrun(folder, "mesh")

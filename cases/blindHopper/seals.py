@@ -3,10 +3,11 @@
 import hashlib
 import json
 import os
+import subprocess
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "work/sealed"))     # SET.json of what has not been opened
+SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "sealed"))     # SET.json.enc of what has not been opened
 HASHES = HERE / "truth.sha256"      # lines "hash  truth/SET.json"; the first eight had one more, of a file of them all
 OPENED = HERE / "truth"
 
@@ -16,14 +17,25 @@ def content(part):
 
 
 def seal(truth):
-    """{set: what is in it} into sealed files, and their hashes to the committed ones. A set's part has 54 drawn seeds of
-    eight digits: nobody finds it by trying."""
+    """{set: what is in it} into sealed files, and their hashes to the committed ones. A set's part has many drawn seeds
+    of eight digits: nobody finds it by trying."""
     SEALED.mkdir(parents=True, exist_ok=True)
     for name, part in truth.items():
-        (SEALED / f"{name}.json").write_bytes(content(part))
-        (SEALED / f"{name}.json").chmod(0o400)
+        (SEALED / f"{name}.json.enc").write_bytes(cipher(name, content(part)))
     lines = "".join(f"{hashlib.sha256(content(part)).hexdigest()}  truth/{name}.json\n" for name, part in truth.items())
     HASHES.write_text((HASHES.read_text() if HASHES.exists() else "") + lines)
+
+
+def cipher(name, data, *direction):
+    """The key is the set's name: whoever wants to can read it, but nobody does by looking at the repository, in which it
+    stays from one day of measuring to the next."""
+    command = ["openssl", "enc", "-aes-256-cbc", "-pbkdf2", "-pass", f"pass:{name}", *direction]
+    return subprocess.run(command, input=data, stdout=subprocess.PIPE, check=True).stdout
+
+
+def unsealed(name):
+    """What a set holds, for the generator that measures it, and for who opens it."""
+    return cipher(name, (SEALED / f"{name}.json.enc").read_bytes(), "-d")
 
 
 def committed():
@@ -43,7 +55,7 @@ def isOpen(name):
 def open(name):
     """What is in a set, from truth/SET.json or else from its sealed file, which it is then copied from."""
     path = OPENED / f"{name}.json"
-    part = path.read_bytes() if isOpen(name) else (SEALED / f"{name}.json").read_bytes()
+    part = path.read_bytes() if isOpen(name) else unsealed(name)
     if hashlib.sha256(part).hexdigest() != committed()[f"truth/{name}.json"]:
         raise SystemExit(f"{path}: this is not what was sealed: its hash is not that of {HASHES}")
     if not isOpen(name):
