@@ -79,9 +79,11 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     Eigen::VectorXd all(count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
-        all(e) = static_cast<std::size_t>(e) == without
+        // With its variants: what they share would be its name.
+        const auto effect = static_cast<std::size_t>(e);
+        all(e) = effect == without || areVariants(study, effect, without)
                      ? -std::numeric_limits<double>::infinity()
-                     : evidences.effects(e) + logPrior(study, static_cast<std::size_t>(e));
+                     : evidences.effects(e) + logPrior(study, effect);
     }
     all(count) = evidences.other + std::log(study.settings.otherWeight);
     const double sum = logSumExp(all);
@@ -95,10 +97,17 @@ bool areVariants(const Study& study, std::size_t one, std::size_t other)
            && study.effects[one].family == study.effects[other].family;
 }
 
-double marginOf(const Odds& odds, std::size_t effect)
+double marginOf(const Study& study, const Odds& odds, std::size_t effect)
 {
-    const double log = odds.effects(static_cast<Eigen::Index>(effect));
-    return log - std::log(std::max(-std::expm1(log), std::numeric_limits<double>::min()));
+    double inVariants = 0.0;
+    double outside = std::exp(odds.other);
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        const double probability = std::exp(odds.effects(static_cast<Eigen::Index>(e)));
+        (e == effect || areVariants(study, effect, e) ? inVariants : outside) += probability;
+    }
+    constexpr double least = std::numeric_limits<double>::min();
+    return std::log(std::max(inVariants, least)) - std::log(std::max(outside, least));
 }
 
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds)
@@ -322,7 +331,7 @@ void Calibrator::setNaming()
                 return;
             }
             const bool isRight = !isFoil && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
-            candidates[*sole].push_back({marginOf(odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
+            candidates[*sole].push_back({marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
         };
         if (draw.truth < count)
         {

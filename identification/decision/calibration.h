@@ -90,8 +90,8 @@ private:
 /// Whether two effects are variants of one thing.
 bool areVariants(const Study& study, std::size_t one, std::size_t other);
 
-/// Log odds of an effect against all else.
-double marginOf(const Odds& odds, std::size_t effect);
+/// Log odds of an effect, in all its variants together, against all else.
+double marginOf(const Study& study, const Odds& odds, std::size_t effect);
 
 /// Effects that a set holds, most likely first.
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds);

@@ -65,7 +65,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
                 seen += 1.0;
                 const auto sole = soleMember(study, calibration, odds);
                 right += sole && (*sole == e || areVariants(study, *sole, e))
-                                 && marginOf(odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole))
+                                 && marginOf(study, odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole))
                              ? 1.0
                              : 0.0;
                 for (const auto member : membersOf(calibration, odds))

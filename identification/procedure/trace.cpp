@@ -280,7 +280,7 @@ private:
             answer_.decision = Decision::unknown;
             answer_.somethingElseInSet = true;
         }
-        else if (sole && marginOf(odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)))
+        else if (sole && marginOf(study_, odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)))
         {
             answer_.decision = Decision::named;
             answer_.family = answer_.set.size() > 1 ? study_.effects[*sole].family : "";
