@@ -142,31 +142,7 @@ private:
             // The root of the odds: what is behind by chance must get its runs, too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
         }
-        const bool beside = !answer_.emulator->scatters() && simulateParametersBeside(contenders, round);
-        return simulateAmong(contenders, "deciding, round " + std::to_string(round)) || beside;
-    }
-
-    /// A library that changes one thing at a time does not hold what a parameter does beside an effect, least of all one that
-    /// does nothing without it: one prior sd to either side of the fits, in turn.
-    bool simulateParametersBeside(const std::vector<Contender>& contenders, int round)
-    {
-        std::vector<SimulationOrder> orders;
-        for (const auto& [present, parameters, weight] : contenders)
-        {
-            for (Eigen::Index p = 0; p < parameters.size() && !present.empty(); ++p)
-            {
-                const Parameter& parameter = study_.parameters[static_cast<std::size_t>(p)];
-                Setting setting = settingOf(present, parameters);
-                double& value = setting.parameters(p);
-                value = std::clamp(value + (round % 2 == 1 ? parameter.sd : -parameter.sd), parameter.lower, parameter.upper);
-                for (const auto& block : answer_.layout.blocks)
-                {
-                    const std::string what = parameter.name + " beside " + study_.effects[present.front().effect].name;
-                    orders.push_back({block.condition, setting, what, round - 1});
-                }
-            }
-        }
-        return !orders.empty() && simulate(orders);
+        return simulateAmong(contenders, "deciding, round " + std::to_string(round));
     }
 
     /// Runs where they tell contenders apart.
