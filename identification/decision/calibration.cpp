@@ -331,7 +331,8 @@ void Calibrator::setNaming()
                 return;
             }
             const bool isRight = !isFoil && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
-            candidates[*sole].push_back({marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
+            candidates[*sole].push_back(
+                {marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
         };
         if (draw.truth < count)
         {

@@ -103,7 +103,10 @@ TEST(Decision, KeepsWhatItPromises)
             const Odds without = oddsOf(bench.study, evidences, e);
             const auto sole = soleMember(bench.study, calibration, without);
             foils += 1;
-            wrong += sole && marginOf(bench.study, without, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)) ? 1 : 0;
+            wrong +=
+                sole && marginOf(bench.study, without, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole))
+                    ? 1
+                    : 0;
         }
         EXPECT_GT(held / detected, .8) << name << ": " << held << " of " << detected;
     }

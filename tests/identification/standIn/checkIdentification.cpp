@@ -251,7 +251,7 @@ Json check(const Options& options)
     std::map<std::string, Tally> bySize;
     std::map<std::string, Tally> outside;
     std::map<std::string, int> wrongNames; // "truth at its size: name"
-    double oneOfTwo = 0; // pairs of which one is named by itself
+    double oneOfTwo = 0;                   // pairs of which one is named by itself
     double sameAnswer = 0;
     double askedAgain = 0;
     double below = 0;
