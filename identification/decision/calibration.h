@@ -24,15 +24,14 @@ struct Calibration
 {
     std::vector<double> nullStatistics; // of draws without any effect, ascending
     double critical = 0.0;              // of the statistic, at the study's level
-    Eigen::VectorXd
-        membership; // by effect: this log probability or more has the share `coverage` of its detected draws
-    double otherMembership = 0.0; // the same for what is not in the library
-    Eigen::VectorXd
-        widths; // by effect: of intervals that hold the amplitude as often as they say, over those of the fit
-    Eigen::VectorXd misfits; // by effect: what fits worse than this is not explained by it
+    // By effect:
+    Eigen::VectorXd membership; // the share `coverage` of its detected draws has this log probability or more
+    Eigen::VectorXd widths;     // of intervals that hold the amplitude as often as they say, over those of the fit
+    Eigen::VectorXd misfits;    // what fits worse than this is not explained by it
     Eigen::VectorXd scatterMisfits;
-    Eigen::VectorXd naming;  // by effect: log probability above which it may be a name
-    double wrongNames = 0.0; // of detected foils, at these thresholds
+    Eigen::VectorXd naming;       // log odds, as of marginOf, above which it may be a name
+    double otherMembership = 0.0; // as membership, for what is not in the library
+    double wrongNames = 0.0;      // of detected foils, at these thresholds
 
     double pValue(double statistic) const;
 

@@ -212,11 +212,6 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         allNoise.block(block.first, block.first, block.size(), block.size()) = single.cwiseProduct(block.meanShare);
         allExtra.block(block.first, block.first, block.size(), block.size()) =
             Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
-        for (const auto& other : layout_.blocks)
-        {
-            allExtra.block(block.first, other.first, block.size(), other.size()) +=
-                block.shared * other.shared.transpose();
-        }
         node.terms.middleRows(block.first, block.size()) = emulator.mean(present)(places, Eigen::all);
         if (block.freedom > 0.0)
         {
@@ -234,6 +229,17 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         };
         node.scatters.push_back(any([&](std::size_t effect) { return emulator.logScatter.count(effect) > 0; }));
         node.scattersAnywhere = node.scattersAnywhere || any([&](std::size_t e) { return emulator.scatters(e); });
+    }
+    if (layout_.sharesErrors)
+    {
+        for (const auto& one : layout_.blocks)
+        {
+            for (const auto& other : layout_.blocks)
+            {
+                allExtra.block(one.first, other.first, one.size(), other.size()) +=
+                    one.shared * other.shared.transpose();
+            }
+        }
     }
     for (const auto& [first, size] : parts_)
     {
@@ -406,87 +412,99 @@ double Evidence::logLikelihood(double misfit, double logVolume) const
     return logVolume - 0.5 * (nu + static_cast<double>(layout_.rows)) * std::log1p(misfit / nu);
 }
 
-Evidence::Posterior Evidence::posterior(
-    const Explanation& explanation, const Measured& measured, const Spread& usual) const
+Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const
 {
-    // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
-    // likelihood is; the likelihood itself it would not.
-    const Grid& first = explanation.grids.front();
     const auto rows = explanation.grids.size() > 1 ? explanation.grids.back().amplitudes().size() : 1;
-    const auto columns = first.amplitudes().size();
-    Eigen::MatrixXd misfits(rows, columns);
-    Eigen::MatrixXd volumes(rows, columns);
-    Eigen::MatrixXd scatterMisfits(rows, columns);
-    for (Eigen::Index i = 0; i < misfits.size(); ++i)
+    const auto columns = explanation.grids.front().amplitudes().size();
+    AtNodes found{Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns)};
+    for (Eigen::Index i = 0; i < found.misfits.size(); ++i)
     {
         const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
         const Spread spread = node.scattersAnywhere ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
-        misfits(i) = solution.misfit;
-        volumes(i) = solution.logVolume + spread.logLikelihood;
-        scatterMisfits(i) = spread.misfit;
+        found.misfits(i) = solution.misfit;
+        found.volumes(i) = solution.logVolume + spread.logLikelihood;
+        found.scatterMisfits(i) = spread.misfit;
     }
+    return found;
+}
+
+Evidence::Posterior Evidence::over(
+    const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const
+{
+    Posterior posterior;
+    std::vector<Eigen::MatrixXd> weights;
+    double logCell = 0.0;
+    for (std::size_t k = 0; k < looked.size(); ++k)
+    {
+        const Effect& effect = study_.effects[explanation.effects[k]];
+        const Eigen::Index steps = effect.isSwitch ? 1 : fineSteps;
+        const auto [lower, upper] = looked[k];
+        const double cell = (upper - lower) / static_cast<double>(steps);
+        posterior.amplitudes.emplace_back(Eigen::VectorXd::LinSpaced(
+            steps, effect.isSwitch ? 1.0 : lower + cell / 2.0, effect.isSwitch ? 1.0 : upper - cell / 2.0));
+        weights.emplace_back(steps, explanation.grids[k].amplitudes().size());
+        for (Eigen::Index i = 0; i < steps; ++i)
+        {
+            weights.back().row(i) = explanation.grids[k].weightsAt(posterior.amplitudes.back()(i));
+        }
+        logCell += effect.isSwitch ? 0.0 : std::log(cell / (effect.bounds.upper - effect.bounds.lower));
+    }
+    const auto interpolated = [&](const Eigen::MatrixXd& atNodes) -> Eigen::MatrixXd {
+        const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
+        return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
+    };
+    // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
+    // likelihood is; the likelihood itself it would not.
+    const Eigen::MatrixXd misfit = interpolated(nodes.misfits);
+    const Eigen::MatrixXd volume = interpolated(nodes.volumes);
+    posterior.logs.resize(misfit.rows(), misfit.cols());
+    for (Eigen::Index i = 0; i < misfit.size(); ++i)
+    {
+        posterior.logs(i) = logCell + logLikelihood(std::max(0.0, misfit(i)), volume(i));
+    }
+    Eigen::Index row = 0;
+    Eigen::Index column = 0;
+    posterior.logs.maxCoeff(&row, &column);
+    posterior.judgement = {
+        logSumExp(posterior.logs.reshaped()), misfit(row, column), interpolated(nodes.scatterMisfits)(row, column)};
+    return posterior;
+}
+
+std::vector<Bounds> Evidence::likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges)
+{
+    const double least = posterior.logs.maxCoeff() + unlikely;
+    std::vector<Bounds> part;
+    for (std::size_t k = 0; k < ranges.size(); ++k)
+    {
+        const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
+                                             : Eigen::VectorXd(posterior.logs.colwise().maxCoeff());
+        const Eigen::VectorXd& a = posterior.amplitudes[k];
+        const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // the step beside what is likely, too
+        const auto [lower, upper] = ranges[k];
+        part.push_back({upper, lower});
+        for (Eigen::Index i = 0; i < a.size(); ++i)
+        {
+            if (along(i) > least)
+            {
+                part.back().lower = std::max(lower, std::min(part.back().lower, a(i) - margin));
+                part.back().upper = std::min(upper, std::max(part.back().upper, a(i) + margin));
+            }
+        }
+    }
+    return part;
+}
+
+Evidence::Posterior Evidence::posterior(
+    const Explanation& explanation, const Measured& measured, const Spread& usual) const
+{
+    const AtNodes nodes = atNodes(explanation, measured, usual);
     std::vector<Bounds> ranges;
     for (const auto e : explanation.effects)
     {
         ranges.push_back(study_.effects[e].bounds);
     }
-    Posterior posterior;
-    std::vector<Bounds> looked = ranges;
-    for (const bool zooms : {true, false})
-    {
-        posterior.amplitudes.clear();
-        std::vector<Eigen::MatrixXd> weights;
-        double logCell = 0.0;
-        for (std::size_t k = 0; k < ranges.size(); ++k)
-        {
-            const bool isSwitch = study_.effects[explanation.effects[k]].isSwitch;
-            const Eigen::Index steps = isSwitch ? 1 : fineSteps;
-            const auto [lower, upper] = looked[k];
-            const double cell = (upper - lower) / static_cast<double>(steps);
-            posterior.amplitudes.emplace_back(Eigen::VectorXd::LinSpaced(
-                steps, isSwitch ? 1.0 : lower + cell / 2.0, isSwitch ? 1.0 : upper - cell / 2.0));
-            weights.emplace_back(steps, explanation.grids[k].amplitudes().size());
-            for (Eigen::Index i = 0; i < steps; ++i)
-            {
-                weights.back().row(i) = explanation.grids[k].weightsAt(posterior.amplitudes.back()(i));
-            }
-            logCell += isSwitch ? 0.0 : std::log(cell / (ranges[k].upper - ranges[k].lower));
-        }
-        const auto interpolated = [&](const Eigen::MatrixXd& atNodes) -> Eigen::MatrixXd {
-            const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
-            return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
-        };
-        const Eigen::MatrixXd misfit = interpolated(misfits);
-        const Eigen::MatrixXd volume = interpolated(volumes);
-        posterior.logs.resize(misfit.rows(), misfit.cols());
-        for (Eigen::Index i = 0; i < misfit.size(); ++i)
-        {
-            posterior.logs(i) = logCell + logLikelihood(std::max(0.0, misfit(i)), volume(i));
-        }
-        Eigen::Index row = 0;
-        Eigen::Index column = 0;
-        const double best = posterior.logs.maxCoeff(&row, &column);
-        posterior.judgement = {
-            logSumExp(posterior.logs.reshaped()), misfit(row, column), interpolated(scatterMisfits)(row, column)};
-        for (std::size_t k = 0; zooms && k < ranges.size(); ++k)
-        {
-            const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
-                                                 : Eigen::VectorXd(posterior.logs.colwise().maxCoeff());
-            const Eigen::VectorXd& a = posterior.amplitudes[k];
-            const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // the step beside what is likely, too
-            looked[k] = {ranges[k].upper, ranges[k].lower};
-            for (Eigen::Index i = 0; i < a.size(); ++i)
-            {
-                if (along(i) > best + unlikely)
-                {
-                    looked[k].lower = std::max(ranges[k].lower, std::min(looked[k].lower, a(i) - margin));
-                    looked[k].upper = std::min(ranges[k].upper, std::max(looked[k].upper, a(i) + margin));
-                }
-            }
-        }
-    }
-    return posterior;
+    return over(explanation, nodes, likelyPart(over(explanation, nodes, ranges), ranges));
 }
 
 Evidence::Judgement Evidence::judge(const Explanation& explanation, const Measured& measured) const

@@ -158,6 +158,19 @@ private:
         Judgement judgement;
     };
     Posterior posterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
+
+    /// What is interpolated between nodes: rows for the second effect's amplitudes, columns for the first's.
+    struct AtNodes
+    {
+        Eigen::MatrixXd misfits;
+        Eigen::MatrixXd volumes; // log likelihood, what is no misfit
+        Eigen::MatrixXd scatterMisfits;
+    };
+    AtNodes atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
+    /// \param looked  by effect: where
+    Posterior over(const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const;
+    static std::vector<Bounds> likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges);
+
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
     /// Rows that errors go across: those of a block, or all.

@@ -27,37 +27,6 @@ bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one
     return !areVariants(study, one, other) && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
 }
 
-/// Log weight of a pair a priori.
-class PairPrior
-{
-public:
-    PairPrior(const Study& study, const Evidence& evidence)
-        : study_(study)
-    {
-        for (std::size_t other = 0; other < study.effects.size(); ++other)
-        {
-            for (std::size_t one = 0; one < other; ++one)
-            {
-                sum_ += mayGoTogether(study, evidence, one, other) ? product(one, other) : 0.0;
-            }
-        }
-    }
-
-    double operator()(const std::vector<std::size_t>& effects) const
-    {
-        return std::log(product(effects.front(), effects.back()) / sum_);
-    }
-
-private:
-    double product(std::size_t one, std::size_t other) const
-    {
-        return study_.effects[one].prior * study_.effects[other].prior;
-    }
-
-    const Study& study_;
-    double sum_ = 0.0;
-};
-
 /// Pairs against each other and something else, by one judge.
 class PairJudge
 {
@@ -66,11 +35,10 @@ public:
         : study_(study),
           evidence_(evidence)
     {
-        const PairPrior prior(study, evidence);
         for (const auto& pair : pairs)
         {
             explanations_.push_back(evidence.explanationOf(pair.effects));
-            priors_.push_back(prior(pair.effects));
+            logPriors_.push_back(pair.logPrior);
         }
     }
 
@@ -87,7 +55,7 @@ public:
         for (std::size_t i = 0; i < explanations_.size(); ++i)
         {
             verdict.judgements.push_back(evidence_.judge(explanations_[i], data));
-            logs(static_cast<Eigen::Index>(i)) = verdict.judgements.back().logEvidence + priors_[i];
+            logs(static_cast<Eigen::Index>(i)) = verdict.judgements.back().logEvidence + logPriors_[i];
         }
         logs.tail<1>()(0) = evidence_.otherEvidence(data) + std::log(study_.settings.otherWeight);
         verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
@@ -98,7 +66,7 @@ private:
     const Study& study_;
     const Evidence& evidence_;
     std::vector<Evidence::Explanation> explanations_;
-    std::vector<double> priors_;
+    std::vector<double> logPriors_;
 };
 
 /// A pair's amplitudes as its fit leaves them possible, within their ranges.
@@ -120,22 +88,26 @@ std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt1
 
 std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured)
 {
-    const PairPrior prior(study, evidence);
-    const double null = evidence(measured).null;
     std::vector<PairFinding> pairs;
+    double weights = 0.0;
     for (std::size_t other = 0; other < study.effects.size(); ++other)
     {
         for (std::size_t one = 0; one < other; ++one)
         {
             if (mayGoTogether(study, evidence, one, other))
             {
-                PairFinding pair;
-                pair.effects = {one, other};
-                pair.logOdds = evidence.judge(evidence.explanationOf(pair.effects), measured).logEvidence - null
-                               + prior(pair.effects);
-                pairs.push_back(pair);
+                const double weight = study.effects[one].prior * study.effects[other].prior;
+                weights += weight;
+                pairs.push_back({{one, other}, {}, std::log(weight)});
             }
         }
+    }
+    const double null = evidence(measured).null;
+    for (auto& pair : pairs)
+    {
+        pair.logPrior -= std::log(weights);
+        pair.logOdds =
+            evidence.judge(evidence.explanationOf(pair.effects), measured).logEvidence - null + pair.logPrior;
     }
     std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
     pairs.resize(std::min(pairs.size(), mostPairs));

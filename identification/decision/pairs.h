@@ -12,7 +12,8 @@ namespace clepsydra::identification
 struct PairFinding
 {
     std::vector<std::size_t> effects;
-    std::vector<Fit> fits;    // by effect
+    std::vector<Fit> fits; // by effect
+    double logPrior = 0.0;
     double logOdds = 0.0;     // against no effect, prior weight included
     double probability = 0.0; // among pairs and something that is not in the library
     bool inSet = false;

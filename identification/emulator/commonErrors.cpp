@@ -82,7 +82,7 @@ Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, c
             simulations = plain;
             for (auto& simulation : simulations)
             {
-                if (!simulation.failed)
+                if (simulation.condition == condition && !simulation.failed)
                 {
                     simulation.features = simulator.featuresOf(
                         simulator.throughChain(simulation.plain, condition, moved(simulator, error, z)));

@@ -12,7 +12,7 @@ std::vector<SimulationOrder> commonErrorOrders(const Simulator& simulator, std::
 
 /// Change of each feature by one sd of each common error: features x errors, to first order; 0 where a curve lacks the
 /// feature.
-/// \param plain  runs of that condition without any effect: what the measuring chain's errors do is seen in their curves
+/// \param plain  runs without any effect; what the measuring chain's errors do is seen in the curves of that condition's
 Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, const std::vector<Simulation>& plain);
 
 } // namespace clepsydra::identification

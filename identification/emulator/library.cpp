@@ -221,17 +221,14 @@ Library makeLibrary(Simulator& simulator)
         }
     }
     run(rest);
+    std::vector<Simulation> base;
+    for (std::size_t i = 0; i < first.size(); ++i)
+    {
+        base.push_back(library.runs[i].simulation);
+    }
     library.errorSlopes.resize(study.conditions.size());
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        std::vector<Simulation> base;
-        for (std::size_t i = 0; i < first.size(); ++i)
-        {
-            if (first[i].condition == condition)
-            {
-                base.push_back(library.runs[i].simulation);
-            }
-        }
         library.errorSlopes[condition] = commonErrorSlopes(simulator, condition, base);
     }
     return library;

@@ -231,11 +231,7 @@ private:
         result_.simulations.push_back(simulated(answer_.null.setting, "before"));
         for (const auto c : result_.conditions)
         {
-            std::vector<Simulation> plain = result_.simulations.back();
-            plain.erase(std::remove_if(plain.begin(), plain.end(),
-                            [&](const Simulation& simulation) { return simulation.condition != c; }),
-                plain.end());
-            errorSlopes_.emplace(c, commonErrorSlopes(simulator_, c, plain));
+            errorSlopes_.emplace(c, commonErrorSlopes(simulator_, c, result_.simulations.back()));
         }
         result_.predictedBefore = predictionsOf(result_.simulations.back());
         noise_ = drawDataNoise(result_.data, result_.predictedBefore, draws, random_);

@@ -1,5 +1,6 @@
 /// What a decision promises, held against data of known worlds: fresh ones, not those that set the thresholds.
 #include "decision/visibility.h"
+#include "effectOf.h"
 #include "emulator/settings.h"
 #include "nextRuns/chooseRuns.h"
 #include "standIn/standIn.h"
@@ -48,9 +49,7 @@ struct Bench
 
     std::size_t effect(const std::string& name) const
     {
-        const auto found = std::find_if(
-            study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == name; });
-        return static_cast<std::size_t>(found - study.effects.begin());
+        return effectOf(study, name);
     }
 };
 

@@ -1,4 +1,5 @@
 /// From data to an answer, and from an answer to the held-out conditions.
+#include "effectOf.h"
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
 #include "linearRig.h"
@@ -39,13 +40,6 @@ struct Bench
     std::vector<MeasuredCondition> nothing{study.conditions.size()};
     std::mt19937_64 random{1};
 };
-
-std::size_t indexOf(const Study& study, const std::string& effect)
-{
-    const auto found =
-        std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& one) { return one.name == effect; });
-    return static_cast<std::size_t>(found - study.effects.begin());
-}
 
 /// Held-out measurements may be in memory, as in checkIdentification: whatever they are, the answer is the same.
 TEST(Trace, HeldOutDataTellNothing)
@@ -110,7 +104,7 @@ TEST(Trace, TwoEffectsAtOnce)
     StandInRig rig{readEntries(study.rig.caseFolder / study.rig.entriesFile)};
     Simulator simulator(study, rig);
     const Library library = makeLibrary(simulator);
-    const std::vector<std::size_t> truth = {indexOf(study, "addedMass"), indexOf(study, "drift")};
+    const std::vector<std::size_t> truth = {effectOf(study, "addedMass"), effectOf(study, "drift")};
     Setting setting = simulator.plainSetting();
     for (const auto e : truth)
     {
@@ -137,7 +131,7 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision)
 {
     Bench bench;
     Setting setting = bench.simulator.plainSetting();
-    const std::size_t index = indexOf(bench.study, truth);
+    const std::size_t index = effectOf(bench.study, truth);
     setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
 
     std::vector<MeasuredCondition> data(bench.study.conditions.size());

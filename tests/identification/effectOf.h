@@ -1,0 +1,18 @@
+#pragma once
+
+#include "study/namedItems.h"
+#include "study/study.h"
+
+#include <algorithm>
+
+namespace clepsydra::identification::tests
+{
+
+/// Its place in the study.
+inline std::size_t effectOf(const Study& study, const std::string& name)
+{
+    const auto names = namesOfItems(study.effects);
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+} // namespace clepsydra::identification::tests
