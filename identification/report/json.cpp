@@ -2,6 +2,7 @@
 
 #include "report/fitted.h"
 #include "report/residual.h"
+#include "report/text.h"
 #include "report/words.h"
 
 #include <clepsydra/version.h>
@@ -217,7 +218,7 @@ Json runsJson(const Simulator& simulator)
     for (const auto& failure : simulator.failures())
     {
         failures.push_back({{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
-            {"reason", failure.reason}, {"repeatedWithAnotherSeed", failure.repeated}});
+            {"reason", fromStudy(simulator.study(), failure.reason)}, {"repeatedWithAnotherSeed", failure.repeated}});
     }
     int all = 0;
     for (const auto& [purpose, count] : simulator.runsByPurpose())

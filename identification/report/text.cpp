@@ -2,6 +2,8 @@
 
 #include "report/numbers.h"
 
+#include <filesystem>
+
 namespace clepsydra::identification
 {
 
@@ -53,6 +55,16 @@ void writeText(const Json& report, std::ostream& out)
                 << '\n';
         }
     }
+}
+
+std::string fromStudy(const Study& study, std::string text)
+{
+    const std::string folder = (std::filesystem::absolute(study.file).lexically_normal().parent_path() / "").string();
+    for (auto at = text.find(folder); at != std::string::npos; at = text.find(folder, at))
+    {
+        text.erase(at, folder.size());
+    }
+    return text;
 }
 
 } // namespace clepsydra::identification

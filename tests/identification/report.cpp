@@ -2,6 +2,7 @@
 #include "linearRig.h"
 #include "report/fitted.h"
 #include "report/numbers.h"
+#include "report/text.h"
 #include "report/words.h"
 
 #include <gmock/gmock.h>
@@ -96,6 +97,16 @@ struct Bench
     HeldOutResult heldOut;
     Findings findings{&study, &answer, nullptr, nullptr, &simulator, nullptr, nullptr};
 };
+
+/// Reports are committed: why a run failed is told without the folders of the machine that made it.
+TEST(Text, PathsFromTheStudysFolder)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    const std::string here = folder.path().string();
+    EXPECT_EQ(fromStudy(study, "ended in " + here + "/work/case: see " + here + "/work/case/log, or /etc"),
+        "ended in work/case: see work/case/log, or /etc");
+}
 
 /// One sentence, from the library's own words, with the error before and after; names of the program's parts have no place
 /// in it.
