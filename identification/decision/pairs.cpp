@@ -22,9 +22,17 @@ constexpr int trials = 100;
 constexpr double fitsWell = 1.0;
 constexpr double roomForElse = 0.01;
 
+/// Whether an effect sets an entry to something that does not depend on what it was.
+bool replaces(const Effect& effect, const std::string& entry)
+{
+    const auto formula = effect.entries.find(entry);
+    return effect.words.count(entry) > 0 || (formula != effect.entries.end() && !formula->second.holds(entry));
+}
+
 bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one, std::size_t other)
 {
-    return !areVariants(study, one, other) && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
+    return !areVariants(study, one, other) && !undoEachOther(study.effects[one], study.effects[other])
+           && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
 }
 
 /// Pairs against each other and something else, by one judge.
@@ -85,6 +93,16 @@ std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt1
 }
 
 } // namespace
+
+bool undoEachOther(const Effect& one, const Effect& other)
+{
+    const auto clash = [&](const auto& set) {
+        return (one.words.count(set.first) > 0 || one.entries.count(set.first) > 0)
+               && (replaces(one, set.first) || replaces(other, set.first));
+    };
+    return std::any_of(other.words.begin(), other.words.end(), clash)
+           || std::any_of(other.entries.begin(), other.entries.end(), clash);
+}
 
 std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured)
 {

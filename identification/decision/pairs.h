@@ -20,6 +20,9 @@ struct PairFinding
     bool mayBeNamed = false;
 };
 
+/// Whether both set an entry of the case such that nothing is left of one: no run has these two on.
+bool undoEachOther(const Effect& one, const Effect& other);
+
 /// Pairs of effects, for data that no single effect explains: all pairs together weigh as much as one effect. The likeliest
 /// come first, down to those that are hopeless.
 std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured);

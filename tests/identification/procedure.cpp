@@ -1,4 +1,5 @@
 /// From data to an answer, and from an answer to the held-out conditions.
+#include "decision/pairs.h"
 #include "effectOf.h"
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
@@ -94,6 +95,26 @@ Explanation explanationBy(std::size_t effect, const Setting& setting)
     explanation.setting = setting;
     explanation.fits.resize(1);
     return explanation;
+}
+
+/// Two kernels of one force are no pair, for only one of them can be on; two factors on one entry are, for they multiply.
+TEST(Trace, NoPairOfWhatUndoesEachOther)
+{
+    const auto setting = [](const std::string& formula) {
+        Effect effect;
+        effect.entries.emplace("density", Expression(formula));
+        return effect;
+    };
+    const auto named = [](const std::string& kernel) {
+        Effect effect;
+        effect.words["historyForce"] = kernel;
+        return effect;
+    };
+    EXPECT_TRUE(undoEachOther(named("Basset"), named("MeiAdrian")));
+    EXPECT_TRUE(undoEachOther(setting("1000*a"), setting("density*(1 + 0.1*a)")));
+    EXPECT_TRUE(undoEachOther(setting("density*(1 + 0.1*a)"), setting("1000*a")));
+    EXPECT_FALSE(undoEachOther(setting("density*(1 + 0.2*a)"), setting("density*(1 + 0.1*a)")));
+    EXPECT_FALSE(undoEachOther(named("Basset"), setting("1000*a")));
 }
 
 /// The mean start is late and the scale drifts: neither alone explains both, and the two are found together.
