@@ -17,11 +17,11 @@ class Stops(HopperCase):
         """Stopped in the pour by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked, the status tells
         which, and the plain `Allrun` goes on: no row is lost or doubled and the pour is not done again. An Allrun that
         wipes first would start the pour three times; one that knows no SIGINT would end with another status and no word."""
-        status, said = self.interrupted(by=signal.SIGINT, stage="pour")
+        status, said = self.interrupted(by=signal.SIGINT, stages=["pour"])
         self.assertEqual(status, 130, said)
         self.assertIn("stopped; the same command goes on", said)
         self.assertIn("Asked to stop", (self.case / "stages/pour/log.pimpleDemFoam").read_text())
-        status, said = self.interrupted(by=signal.SIGTERM, stage="dry") if self.pourIsDone() else (None, "no pour")
+        status, said = self.interrupted(by=signal.SIGTERM, stages=["dry", "submerged"]) if self.pourIsDone() else (None, "no pour")
         self.assertEqual(status, 143, said)
         self.succeeds()
         self.assertEqual(sorted(self.starts()), ["dry", "dry", "pour", "pour", "submerged", "submerged"])
@@ -33,7 +33,7 @@ class Stops(HopperCase):
 
     def testAStoppedPourIsNotDrained(self):
         """All beads lie in the hopper, yet the pour was stopped: draining must be refused, with the command that goes on."""
-        self.interrupted("mesh", "pour", by=signal.SIGTERM, stage="pour")
+        self.interrupted("mesh", "pour", by=signal.SIGTERM, stages=["pour"])
         said = self.refuses("dry")
         self.assertIn("the pour has not come to its end: './Allrun pour' goes on with it", said)
         self.assertEqual(self.starts(), ["pour"])
@@ -43,10 +43,10 @@ class Stops(HopperCase):
     def testAPackingOfAnEarlierPourDoesNotCount(self):
         """A pour that goes on, for its time was raised, and is stopped leaves no packing, though one was there before."""
         self.succeeds("mesh", "pour")
-        table = self.case / "stages/pour/postProcessing/massInHopper/0/massInHopper.dat"
+        table = self.table("pour")
         table.write_text("".join(table.read_text().splitlines(keepends=True)[:5]))
         self.set(pourTime=2)
-        self.interrupted("pour", by=signal.SIGTERM, stage="pour")
+        self.interrupted("pour", by=signal.SIGTERM, stages=["pour"])
         self.assertIn("the pour has not come to its end", self.refuses("dry"))
 
     def testDoneIsNotDoneAgainUnlessAskedTo(self):
@@ -61,7 +61,7 @@ class Stops(HopperCase):
 
     def testChangedParametersAreNotMixedIntoAStoppedRun(self):
         """Named with both ways out, and nothing is touched; what only says how long or how often may change."""
-        self.interrupted(by=signal.SIGINT, stage="pour")
+        self.interrupted(by=signal.SIGINT, stages=["pour"])
         self.set(friction=0.3)
         for arguments in ([], ["pour"]):
             said = self.refuses(*arguments)
@@ -166,7 +166,7 @@ class Mistakes(HopperCase):
         """And not the end of the log that it left when it was there."""
         self.succeeds("mesh", "pour")
         log = self.case / "stages" / "dry" / "log.pimpleDemFoam"
-        self.interrupted("dry", by=signal.SIGTERM, stage="dry")
+        self.interrupted("dry", by=signal.SIGTERM, stages=["dry"])
         before = log.read_text()
         (self.folder / "bin" / "pimpleDemFoam").unlink()
         said = self.refuses("dry")

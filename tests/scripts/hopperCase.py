@@ -69,16 +69,17 @@ class HopperCase(unittest.TestCase):
         self.assertNotIn("Traceback", said)
         return said
 
-    def interrupted(self, *arguments, by, stage):
-        """Its exit status and words, after a signal, in the midst of a stage, to all that a terminal would send it to."""
+    def interrupted(self, *arguments, by, stages):
+        """Its exit status and words, after a signal, in the midst of stages, to all that a terminal would send it to."""
         (self.case / "hold").touch()
         process = subprocess.Popen([self.case / "Allrun", *arguments], env=self.environment, text=True, start_new_session=True,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
-        table = self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat"
-        end = time.time() + 30
-        while not (table.exists() and table.read_text().count("\n") >= 10):
-            self.assertLess(time.time(), end, f"stage {stage} did not come to its midst")
-            time.sleep(0.05)
+        end = time.time() + 60
+        for stage in stages:
+            table = self.table(stage)
+            while not (table.exists() and table.read_text().count("\n") >= 10):
+                self.assertLess(time.time(), end, f"stage {stage} did not come to its midst")
+                time.sleep(0.05)
         os.killpg(process.pid, by) if by == signal.SIGINT else process.send_signal(by)
         said, _ = process.communicate(timeout=30)
         (self.case / "hold").unlink()
@@ -91,4 +92,7 @@ class HopperCase(unittest.TestCase):
         return (self.case / "starts").read_text().split()
 
     def rows(self, stage):
-        return len((self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines())
+        return len(self.table(stage).read_text().splitlines())
+
+    def table(self, stage):
+        return self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat"
