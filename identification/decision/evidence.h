@@ -104,6 +104,12 @@ public:
 
     Node nodeAt(const std::vector<Present>& present) const;
 
+    /// Parameters within their ranges.
+    Eigen::VectorXd inRanges(const Eigen::VectorXd& parameters) const
+    {
+        return parameters.cwiseMax(lower_).cwiseMin(upper_);
+    }
+
     /// Something else: a discrepancy of a size, as a multiple of the library's effects, to be added to the means.
     Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 

@@ -27,7 +27,8 @@ Replicas::Trial Replicas::draw(
     const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
 {
     const Replica& one = *all_[turn_++ % all_.size()];
-    return {identification::draw(layout_, one.world, present, parameters, random), *one.judge};
+    const Eigen::VectorXd allowed = evidence_.inRanges(parameters);
+    return {identification::draw(layout_, one.world, present, allowed, random), *one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

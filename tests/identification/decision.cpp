@@ -205,6 +205,20 @@ TEST(Decision, VariantsShareTheirWeight)
     EXPECT_FALSE(soleMember(study, calibration, odds));
 }
 
+/// Where a parameter's range ends within its prior, a draw from beyond would be a residual in data without any effect.
+TEST(Decision, NothingIsDrawnFromBeyondARange)
+{
+    Bench bench;
+    Parameter& friction = bench.study.parameters.front();
+    friction.lower = friction.mean - 0.2 * friction.sd;
+    friction.upper = friction.mean + 0.2 * friction.sd;
+    const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
+    Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
+    const Calibration calibration =
+        Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
+    EXPECT_LT(calibration.critical, 10) << "36 with draws from beyond";
+}
+
 /// Two explanations that differ in wet conditions only: runs go there; and to both of them, once the one that the library
 /// knows less of has caught up.
 TEST(NextRuns, GoWhereTheyDecide)
