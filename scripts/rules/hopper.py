@@ -10,7 +10,7 @@ import environment
 from rules import Rule, length, number, oneOf, whole
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-MESHERS = ("hopperInTank", "hopperBySnappy")
+MESHERS = ("hopperInTank", "hopperBySnappy", "hopperFromSurface")
 SWITCH = oneOf("on", "off")
 GRAVITY = 9.81                          # m/s2
 RAYLEIGH_FRACTION = 0.4                 # of the DEM step, at most: as pimpleDemFoam has it

@@ -123,7 +123,8 @@ class Mistakes(HopperCase):
                 ("beadDiameter", "beadDiameter 25mm;", ["entry 'beadDiameter' is 25mm, which has a unit; allowed: a number", "[m]"]),
                 ("beadDiameter", "beadDiameter 2;", ["entry 'beadDiameter' is 2; allowed: a number from 1e-05 to 0.1 [m]"]),
                 ("beadDensity", "beadDensity 1e308;", ["entry 'beadDensity' is 1e+308; allowed"]),
-                ("mesher", "mesher ../../bin/sh;", ["entry 'mesher' is ../../bin/sh; allowed: hopperInTank, hopperBySnappy"]),
+                ("mesher", "mesher ../../bin/sh;", ["entry 'mesher' is ../../bin/sh; allowed: hopperInTank, hopperBySnappy, "
+                                                        "hopperFromSurface"]),
                 ("seed", "seed 100004;", ["entry 'seed' is 100004; allowed: a prime"])):
             with self.otherParameters(self.otherLine(name, line)):
                 self.expectRefused("parameters", *words)

@@ -1,0 +1,94 @@
+"""meshes/hopperFromSurface: a surface of the user's own becomes the walls of beads and water, or is refused in words."""
+
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from collections import Counter
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+MESHES = REPOSITORY / "meshes"
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(REPOSITORY / "scripts"), str(MESHES)]
+import hopperWalls
+import parameterFile
+
+
+def corners(file):
+    points = [tuple(map(float, line.split()[1:])) for line in file.read_text().splitlines() if line.split()[0] == "vertex"]
+    return list(zip(points[::3], points[1::3], points[2::3]))
+
+
+class Surface(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="clepsydra-surface-")
+        self.addCleanup(folder.cleanup)
+        self.case = Path(folder.name)
+        (self.case / "system").mkdir()
+        self.parameters = self.case / "parameters"
+        self.parameters.write_text((REPOSITORY / "cases/hopperQuick/parameters").read_text())
+        self.file = self.case / "hopper.stl"
+        self.file.write_text(self.cone())
+
+    def cone(self, angle="30"):
+        return subprocess.run([MESHES / "coneSurface", self.parameters, angle], check=True, capture_output=True, text=True).stdout
+
+    def made(self):
+        return subprocess.run([MESHES / "hopperFromSurface", self.parameters, self.case], capture_output=True, text=True)
+
+    def expectRefused(self, words):
+        done = self.made()
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn(words, done.stderr)
+        self.assertNotIn("Traceback", done.stderr)
+
+    def write(self, triangles):
+        self.file.write_text(hopperWalls.stl("hopper", triangles))
+
+    def testBeadsAndWaterHaveTheSameWalls(self):
+        """And those of the beads, plugged, are open at the rim only: an edge of one triangle elsewhere would be a leak."""
+        self.assertEqual(self.made().returncode, 0)
+        wall, plate, plug = (corners(self.case / f"DEM/meshes/{name}.stl") for name in ("hopperWall", "hopperPlate", "plug"))
+        self.assertEqual(sorted(corners(self.case / "constant/triSurface/hopper.stl")), sorted(wall + plate))
+        self.assertEqual(len(wall), 2 * hopperWalls.BEAD_CORNERS)
+        edges = Counter(frozenset((triangle[i - 1], triangle[i])) for triangle in wall + plate + plug for i in range(3))
+        height = parameterFile.parameters(self.parameters)["hopperHeight"]
+        alone = [edge for edge, count in edges.items() if count != 2]
+        self.assertEqual(len(alone), hopperWalls.BEAD_CORNERS)
+        self.assertEqual({point[2] for edge in alone for point in edge}, {height})
+
+    def testBinaryFilesAsOtherProgramsWriteThem(self):
+        """In single precision, with a header that begins like a text file's."""
+        triangles = corners(self.file)
+        self.made()
+        fromText = corners(self.case / "DEM/meshes/hopperPlate.stl")
+        self.file.write_bytes(b"solid".ljust(80) + struct.pack("<I", len(triangles)) + b"".join(
+            struct.pack("<12fH", 0, 0, 0, *sum(triangle, ()), 0) for triangle in triangles))
+        done = self.made()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        fromBinary = corners(self.case / "DEM/meshes/hopperPlate.stl")
+        self.assertEqual(len(fromBinary), len(fromText))
+        for one, other in zip(sum(sum(fromBinary, ()), ()), sum(sum(fromText, ()), ())):
+            self.assertAlmostEqual(one, other, delta=1e-8)
+
+    def testWhatIsRefused(self):
+        whole = corners(self.file)
+        self.write(whole[:40] + whole[41:])
+        self.expectRefused("hopper.stl has a hole at (")
+        self.write([tuple(tuple(1e3 * part for part in point) for point in triangle) for triangle in whole])
+        self.expectRefused("Are its lengths in metres?")
+        self.write(whole + [(whole[100][0], whole[100][1], (0, 0, 0.03))])
+        self.expectRefused("has an edge of 3 triangles")
+        self.file.write_text("a hopper")
+        self.expectRefused("is no STL file")
+        self.file.unlink()
+        self.expectRefused("hopper.stl: No such file")
+        self.file.write_text(self.cone())
+        self.parameters.write_text(parameterFile.withParameters(self.parameters.read_text(), {"orificeDiameter": "8e-3"}))
+        self.expectRefused("has an orifice of the area of a circle of 0.01 m; allowed: orificeDiameter 0.008 m")
+
+
+if __name__ == "__main__":
+    unittest.main()
