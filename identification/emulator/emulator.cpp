@@ -115,7 +115,23 @@ Eigen::VectorXd ConditionEmulator::terms(const Eigen::VectorXd& parameters, cons
             amplitudes(static_cast<Eigen::Index>(place)) = amplitude;
         }
     }
-    return basis.at(parameters, amplitudes);
+    return basis.at(parameters.cwiseProduct(reach(present)), amplitudes);
+}
+
+Eigen::VectorXd ConditionEmulator::reach(const std::vector<Present>& present) const
+{
+    Eigen::VectorXd factors = Eigen::VectorXd::Ones(basis.parameters);
+    for (std::size_t p = 0; p < owners.size(); ++p)
+    {
+        if (owners[p])
+        {
+            const auto on = std::find_if(present.begin(), present.end(), [&](const Present& one) {
+                return one.effect == *owners[p] && basis.placeOf(one.effect) < basis.effects.size();
+            });
+            factors(static_cast<Eigen::Index>(p)) = on == present.end() ? 0.0 : on->amplitude;
+        }
+    }
+    return factors;
 }
 
 Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) const
@@ -143,7 +159,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) con
             }
         }
     }
-    Eigen::MatrixXd polynomial = root * whitened;
+    Eigen::MatrixXd polynomial = root * whitened * parameterTermsAt(reach(present)).asDiagonal();
     for (const auto& [effect, a] : present)
     {
         const auto found = chain.find(effect);
@@ -314,6 +330,10 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         return;
     }
     emulator.basis.parameters = static_cast<Eigen::Index>(study_->parameters.size());
+    for (const auto& parameter : study_->parameters)
+    {
+        emulator.owners.push_back(parameter.effect);
+    }
     for (const auto e : simulatedEffects(*study_, c))
     {
         const auto isOn = [&](const Run* run) {

@@ -38,6 +38,7 @@ public:
     };
 
     Basis basis;
+    std::vector<std::optional<std::size_t>> owners;    // by parameter: the effect of which it is a part
     std::vector<Eigen::Index> features;                // of the study
     Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
     Eigen::MatrixXd root;                              // lower triangular; root root' = noise
@@ -64,6 +65,9 @@ public:
 
     /// The terms at a setting. Effects that are not simulated here count as absent.
     Eigen::VectorXd terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+
+    /// By parameter: 1, or the amplitude of the effect of which it is a part.
+    Eigen::VectorXd reach(const std::vector<Present>& present) const;
 };
 
 /// Emulators of all training conditions, with scales of the priors and noise that they share.

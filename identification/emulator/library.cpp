@@ -47,9 +47,7 @@ public:
         {
             for (const double side : {-1.0, 1.0})
             {
-                Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * axialStep);
-                add(setting, study_.parameters[p].name + " alone", axialRepeats);
+                add(at(p, side * axialStep), study_.parameters[p].name + " alone", axialRepeats);
             }
         }
         std::vector<std::size_t> designed;
@@ -80,9 +78,7 @@ public:
         {
             for (const double side : {-1.0, 1.0})
             {
-                Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * parameterStep);
-                add(setting, "design", 1);
+                add(at(p, side * parameterStep), "design", 1);
             }
         }
         for (const auto e : simulatedEffects(study_, condition_))
@@ -104,6 +100,16 @@ private:
     {
         Setting setting = simulator_.plainSetting();
         setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+        return setting;
+    }
+
+    /// One parameter moved; one that is a part of an effect, together with this.
+    Setting at(std::size_t parameter, double sds) const
+    {
+        const Parameter& own = study_.parameters[parameter];
+        Setting setting =
+            own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : simulator_.plainSetting();
+        setting.parameters(static_cast<Eigen::Index>(parameter)) = moved(own, sds);
         return setting;
     }
 

@@ -127,6 +127,35 @@ TEST(Emulator, FindsLinearEffects)
     }
 }
 
+/// What is a part of an effect does nothing without it, and half as much at half its amplitude. A library that moved it
+/// without its effect would know nothing of it.
+TEST(Emulator, ParameterOfAnEffect)
+{
+    for (const std::string seed : {"seed", "none"})
+    {
+        const TemporaryFolder folder;
+        const Study study = linearStudy(folder, seed,
+            "  - { name: edge, of: x, set: { edge: edge }, prior: { mean: 0, sd: 0.2 }, range: [-1, 1] }\n");
+        LinearRig rig;
+        Simulator simulator(study, rig);
+        const Library library = makeLibrary(simulator);
+        const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+        const auto effectOfEdge = [&](const std::vector<Present>& present) {
+            const Eigen::MatrixXd mean = emulator[0]->mean(present);
+            const Eigen::VectorXd moved = parameterTermsAt(Eigen::Vector2d(0, 1));
+            EXPECT_NEAR((mean * moved)(0),
+                (emulator[0]->terms(Eigen::Vector2d(0, 1), present).transpose() * emulator[0]->coefficients
+                    * emulator[0]->root.transpose())(0),
+                1e-12);
+            return (mean * moved)(0) - mean(0, 0);
+        };
+        EXPECT_NEAR(effectOfEdge({{0, 1.}}), .06 * .2, 1e-3);
+        EXPECT_NEAR(effectOfEdge({{0, .5}}), .03 * .2, 1e-3);
+        EXPECT_EQ(effectOfEdge({}), 0);
+        EXPECT_EQ(effectOfEdge({{1, 1.}}), 0);
+    }
+}
+
 /// An effect that bends strongly leaves the others as they are.
 TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
 {
