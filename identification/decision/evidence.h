@@ -190,7 +190,8 @@ private:
     std::vector<Part> parts_;
     Eigen::VectorXd around_;
     std::vector<Eigen::VectorXd> aroundEffects_;
-    FewNumbers lower_; // ends of the parameters' ranges
+    std::vector<double> misfits_; // of these fits; of two effects at once the better one's place is taken
+    FewNumbers lower_;            // ends of the parameters' ranges
     FewNumbers upper_;
     mutable Workspace workspace_;
     Node null_;

@@ -93,9 +93,8 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(here.noiseOf(present)(places, places));
         Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
         ofMean.diagonal().array() += 1e-18;
-        drawn.mean.segment(block.first, block.size()) =
-            Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places) + block.shared * errors
-            + ofMean.llt().matrixL() * numbers(block.size(), 1);
+        drawn.mean.segment(block.first, block.size()) = here.at(parameters, present)(places) + block.shared * errors
+                                                        + ofMean.llt().matrixL() * numbers(block.size(), 1);
         const Eigen::MatrixXd deviations =
             block.freedom > 0.0
                 ? Eigen::MatrixXd(single.llt().matrixL() * numbers(block.size(), std::lround(block.freedom)))

@@ -84,7 +84,9 @@ public:
         for (const auto e : simulatedEffects(study_, condition_))
         {
             const auto [lower, upper] = study_.effects[e].bounds;
-            for (const double amplitude : {lower, upper})
+            // What goes to one side only is looked at in its middle, too
+            const bool hasMiddle = lower == 0.0 && !study_.effects[e].isSwitch;
+            for (const double amplitude : {hasMiddle ? upper / 2.0 : lower, upper})
             {
                 if (amplitude != 0.0)
                 {

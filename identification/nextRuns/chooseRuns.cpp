@@ -23,7 +23,7 @@ public:
         {
             const Eigen::MatrixXd run = here.noiseOf(contender.present)(places, places);
             const Eigen::MatrixXd single = block.noise.size() > 0 ? block.noise : run;
-            means_.emplace_back((here.mean(contender.present) * parameterTermsAt(contender.parameters))(places));
+            means_.emplace_back(here.at(contender.parameters, contender.present)(places));
             unknown_.emplace_back(here.uncertainty(contender.parameters, contender.present)(places, places));
             runs_.push_back(run);
             data_.emplace_back(single.cwiseProduct(block.meanShare) + block.unshown());

@@ -17,6 +17,9 @@ namespace
 /// The first round goes to the null fit, the others to the fits of the explanations that lead.
 constexpr int rounds = 3;
 
+/// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: more rounds of fewer runs.
+constexpr int roundsOfExact = 9;
+
 /// How many explanations get runs, beside no effect, and how much less likely than the best they may be (log odds).
 constexpr std::size_t mostContenders = 4;
 constexpr double hopeless = 8.0;
@@ -42,7 +45,8 @@ public:
     {
         learn();
         Eigen::VectorXd around = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
-        for (int round = 0; round < rounds; ++round)
+        const int last = answer_.emulator->scatters() ? rounds : roundsOfExact;
+        for (int round = 0; round < last; ++round)
         {
             Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
             evidence.refine(answer_.measured);
