@@ -193,7 +193,7 @@ void Evidence::refine(const Measured& measured)
     {
         if (!effects_[e].nodes.empty())
         {
-            for (int step = 0; step < refinements; ++step)
+            for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
             {
                 const Fit found = fit(e, measured);
                 aroundEffects_[e] = found.parameters;
