@@ -113,8 +113,6 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
       layout_(layout),
       parts_(partsOf(layout)),
       around_(around),
-      aroundEffects_(study.effects.size(), around),
-      misfits_(study.effects.size(), 0.0),
       workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
           Eigen::MatrixXd(layout.rows, static_cast<Eigen::Index>(study.parameters.size()))},
       null_(nodeAt({})),
@@ -178,8 +176,7 @@ Evidence::Evidence(const Evidence& like, const Emulator& emulator)
       layout_(like.layout_),
       parts_(like.parts_),
       around_(like.around_),
-      aroundEffects_(like.aroundEffects_),
-      misfits_(like.misfits_),
+      places_(like.places_),
       workspace_(like.workspace_),
       null_(nodeAt({})),
       effects_(like.effects_.size())
@@ -193,22 +190,41 @@ void Evidence::refine(const Measured& measured)
     {
         if (!effects_[e].nodes.empty())
         {
-            for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
-            {
-                const Fit found = fit(e, measured);
-                aroundEffects_[e] = found.parameters;
-                misfits_[e] = found.misfit;
-                effects_[e] = explanationOf({e});
-            }
+            refine({e}, measured);
+            effects_[e] = explanationOf({e});
         }
     }
 }
 
+void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& measured)
+{
+    for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
+    {
+        const Fit found = fits(explanationOf(effects), measured).front();
+        places_[effects] = {found.parameters, found.misfit};
+    }
+}
+
+const Eigen::VectorXd& Evidence::placeOf(const std::vector<Present>& present) const
+{
+    std::vector<std::size_t> effects;
+    const Place* best = nullptr;
+    for (const auto& one : present)
+    {
+        effects.push_back(one.effect);
+        const auto alone = places_.find({one.effect});
+        if (alone != places_.end() && (best == nullptr || alone->second.misfit < best->misfit))
+        {
+            best = &alone->second;
+        }
+    }
+    const auto together = places_.find(effects);
+    return together != places_.end() ? together->second.parameters : best != nullptr ? best->parameters : around_;
+}
+
 Node Evidence::nodeAt(const std::vector<Present>& present) const
 {
-    const auto better = std::min_element(present.begin(), present.end(),
-        [&](const Present& one, const Present& other) { return misfits_[one.effect] < misfits_[other.effect]; });
-    const Eigen::VectorXd& here = better == present.end() ? around_ : aroundEffects_[better->effect];
+    const Eigen::VectorXd& here = placeOf(present);
     Node node;
     node.present = present;
     node.extra.resize(layout_.rows);

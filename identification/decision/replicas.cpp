@@ -11,10 +11,11 @@ constexpr int worlds = 40;
 } // namespace
 
 Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
-    : layout_(layout),
+    : emulator_(emulator),
+      layout_(layout),
       evidence_(evidence)
 {
-    for (int i = 0; i < worlds; ++i)
+    for (int i = 0; i < (emulator.scatters() ? worlds : 0); ++i)
     {
         Emulator world = emulator.possibleWorld(random);
         Emulator learnt = emulator.relearnt(world, random);
@@ -26,8 +27,13 @@ Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidenc
 Replicas::Trial Replicas::draw(
     const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
 {
+    const Eigen::VectorXd& seenFrom = evidence_.placeOf(present);
+    if (all_.empty())
+    {
+        return {identification::draw(layout_, emulator_, present, parameters, seenFrom, true, random), evidence_};
+    }
     const Replica& one = *all_[turn_++ % all_.size()];
-    return {identification::draw(layout_, one.world, present, parameters, random), *one.judge};
+    return {identification::draw(layout_, one.world, present, parameters, seenFrom, false, random), *one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

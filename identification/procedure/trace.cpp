@@ -19,6 +19,7 @@ constexpr int rounds = 3;
 
 /// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: more rounds of fewer runs.
 constexpr int roundsOfExact = 9;
+constexpr int pairRoundsOfExact = 4;
 
 /// How many explanations get runs, beside no effect, and how much less likely than the best they may be (log odds).
 constexpr std::size_t mostContenders = 4;
@@ -172,23 +173,35 @@ private:
     /// Two effects at once, where no single one explains the data.
     void tryPairs(const Eigen::VectorXd& around)
     {
-        const auto evidenceNow = [&] { return Evidence(study_, *answer_.emulator, answer_.layout, around); };
-        const auto leading = leadingPairs(study_, evidenceNow(), answer_.measured);
-        std::vector<Contender> contenders;
-        for (const auto& pair : leading)
+        const bool isExact = !answer_.emulator->scatters();
+        const auto evidenceNow = [&] {
+            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            if (isExact)
+            {
+                evidence.refine(answer_.measured);
+            }
+            return evidence;
+        };
+        for (int round = 0; round < (isExact ? pairRoundsOfExact : 1); ++round)
         {
-            contenders.push_back({presentOf(pair), pair.fits.front().parameters,
-                std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
+            Evidence evidence = evidenceNow();
+            const auto leading = leadingPairs(study_, evidence, answer_.measured);
+            std::vector<Contender> contenders;
+            for (const auto& pair : leading)
+            {
+                contenders.push_back({presentOf(pair), pair.fits.front().parameters,
+                    std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
+            }
+            if (contenders.empty())
+            {
+                return;
+            }
+            if (simulateAmong(contenders, "deciding between pairs"))
+            {
+                learn();
+            }
         }
-        if (contenders.empty())
-        {
-            return;
-        }
-        if (simulateAmong(contenders, "deciding between pairs"))
-        {
-            learn();
-        }
-        const Evidence evidence = evidenceNow();
+        Evidence evidence = evidenceNow();
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
@@ -197,9 +210,14 @@ private:
             if (pair.inSet)
             {
                 answer_.set.push_back(explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability));
-                answer_.decision = pair.mayBeNamed ? Decision::named : Decision::set;
-                answer_.somethingElseInSet = !pair.mayBeNamed;
             }
+        }
+        if (!answer_.set.empty())
+        {
+            const bool isName = mayBeNamed(study_, pairs);
+            answer_.decision = isName ? Decision::named : Decision::set;
+            answer_.somethingElseInSet = !isName;
+            answer_.family = isName && answer_.set.size() > 1 ? sharedName(study_, pairs) : "";
         }
     }
 
