@@ -112,6 +112,12 @@ public:
 
     Node nodeAt(const std::vector<Present>& present) const;
 
+    /// Parameters within their ranges.
+    Eigen::VectorXd inRanges(const Eigen::VectorXd& parameters) const
+    {
+        return parameters.cwiseMax(lower_).cwiseMin(upper_);
+    }
+
     /// Parameters near which the emulator is asked about effects: of two that were not refined the better one's fit.
     const Eigen::VectorXd& placeOf(const std::vector<Present>& present) const;
 

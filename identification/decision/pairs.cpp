@@ -125,11 +125,12 @@ bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs)
     double together = 0.0;
     for (const auto& pair : pairs)
     {
-        if (pair.inSet && !areVariants(study, pairs.front(), pair))
+        const bool isVariant = areVariants(study, pairs.front(), pair);
+        if (pair.inSet && !isVariant)
         {
             return false;
         }
-        together += pair.inSet ? pair.probability : 0.0;
+        together += isVariant ? pair.probability : 0.0;
     }
     return !pairs.empty() && pairs.front().fitsWell && together >= 1.0 - roomForElse;
 }

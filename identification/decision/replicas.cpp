@@ -28,12 +28,13 @@ Replicas::Trial Replicas::draw(
     const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
 {
     const Eigen::VectorXd& seenFrom = evidence_.placeOf(present);
+    const Eigen::VectorXd allowed = evidence_.inRanges(parameters);
     if (all_.empty())
     {
-        return {identification::draw(layout_, emulator_, present, parameters, seenFrom, true, random), evidence_};
+        return {identification::draw(layout_, emulator_, present, allowed, seenFrom, true, random), evidence_};
     }
     const Replica& one = *all_[turn_++ % all_.size()];
-    return {identification::draw(layout_, one.world, present, parameters, seenFrom, false, random), *one.judge};
+    return {identification::draw(layout_, one.world, present, allowed, seenFrom, false, random), *one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

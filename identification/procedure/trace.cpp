@@ -17,7 +17,7 @@ namespace
 /// The first round goes to the null fit, the others to the fits of the explanations that lead.
 constexpr int rounds = 3;
 
-/// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: more rounds of fewer runs.
+/// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: rounds until nothing is open any more.
 constexpr int roundsOfExact = 9;
 constexpr int pairRoundsOfExact = 4;
 
@@ -53,10 +53,11 @@ public:
             evidence.refine(answer_.measured);
             around = evidence.fitNull(answer_.measured).parameters;
             const bool changed = round == 0 ? simulateNull(around) : simulateContenders(evidence, round);
-            if (changed)
+            if (!changed)
             {
-                learn();
+                break;
             }
+            learn();
         }
         {
             Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
@@ -155,8 +156,10 @@ private:
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
-        for (const auto& [contender, condition] :
-            chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound()))
+        const auto wanted = answer_.emulator->scatters()
+                                ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
+                                : openRuns(*answer_.emulator, answer_.layout, contenders);
+        for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
             std::string what = present.empty() ? "no effect" : "";
@@ -196,10 +199,11 @@ private:
             {
                 return;
             }
-            if (simulateAmong(contenders, "deciding between pairs"))
+            if (!simulateAmong(contenders, "deciding between pairs"))
             {
-                learn();
+                break;
             }
+            learn();
         }
         Evidence evidence = evidenceNow();
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
