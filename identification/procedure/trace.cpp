@@ -147,8 +147,38 @@ private:
             const Fit fit = evidence.fit(e, answer_.measured);
             // The root of the odds: what is behind by chance must get its runs, too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
+            if (i == 0 && !answer_.emulator->scatters())
+            {
+                addNeighbours(contenders, {fit});
+            }
         }
         return simulateAmong(contenders, "deciding, round " + std::to_string(round));
+    }
+
+    /// The last contender with each number that was fitted moved by its error: runs there tell the slopes, which the next fit
+    /// needs.
+    void addNeighbours(std::vector<Contender>& contenders, const std::vector<Fit>& fits) const
+    {
+        const Contender centre = contenders.back();
+        for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
+        {
+            const Parameter& parameter = study_.parameters[static_cast<std::size_t>(p)];
+            const double error = std::sqrt(fits.front().covariance(p, p));
+            const double end = (parameter.upper - parameter.mean) / parameter.sd;
+            contenders.push_back(centre);
+            contenders.back().parameters(p) += centre.parameters(p) + error > end ? -error : error;
+        }
+        for (std::size_t k = 0; k < fits.size(); ++k)
+        {
+            const Effect& effect = study_.effects[centre.present[k].effect];
+            const double amplitude = centre.present[k].amplitude;
+            if (!effect.isSwitch)
+            {
+                const double error = fits[k].sd;
+                contenders.push_back(centre);
+                contenders.back().present[k].amplitude += amplitude + error > effect.bounds.upper ? -error : error;
+            }
+        }
     }
 
     /// Runs where they tell contenders apart.
@@ -194,6 +224,10 @@ private:
             {
                 contenders.push_back({presentOf(pair), pair.fits.front().parameters,
                     std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
+                if (&pair == &leading.front() && isExact)
+                {
+                    addNeighbours(contenders, pair.fits);
+                }
             }
             if (contenders.empty())
             {
