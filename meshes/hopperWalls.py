@@ -27,7 +27,7 @@ def beadWalls(p):
     rings = [(orifice * (hopper / orifice) ** (ring / count), 0) for ring in range(count + 1)]
     return {"hopperWall": revolved([(hopper, height * row / rows) for row in range(rows + 1)], BEAD_CORNERS),
             "hopperPlate": revolved(exitProfile(p)[:0:-1] + rings, BEAD_CORNERS),
-            "plug": fan(circle(orifice, 0, BEAD_CORNERS))}
+            "plug": fan(circle(orifice, 0, BEAD_CORNERS), (0, 0, 0))}
 
 
 def waterWalls(p):
@@ -93,8 +93,8 @@ def band(first, second):
     return triangles
 
 
-def fan(ring):
-    return [((0, 0, ring[0][2]), point, after) for point, after in zip(ring, ring[1:] + ring[:1])]
+def fan(ring, centre):
+    return [(centre, point, after) for point, after in zip(ring, ring[1:] + ring[:1])]
 
 
 def write(walls, folder):
@@ -107,10 +107,14 @@ def write(walls, folder):
 def stl(name, triangles):
     lines = [f"solid {name}"]
     for a, b, c in triangles:
-        u, v = ([end - start for start, end in zip(a, other)] for other in (b, c))
-        normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-        length = sqrt(sum(part * part for part in normal))
-        lines.append("facet normal {:.8g} {:.8g} {:.8g}".format(*(part / length for part in normal)))
+        lines.append("facet normal {:.8g} {:.8g} {:.8g}".format(*unitNormal(a, b, c)))
         lines += ["outer loop"] + ["vertex {:.8g} {:.8g} {:.8g}".format(*point) for point in (a, b, c)]
         lines += ["endloop", "endfacet"]
     return "\n".join(lines + [f"endsolid {name}"]) + "\n"
+
+
+def unitNormal(a, b, c):
+    u, v = ([end - start for start, end in zip(a, other)] for other in (b, c))
+    normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+    length = sqrt(sum(part * part for part in normal))
+    return tuple(part / length for part in normal)

@@ -8,8 +8,12 @@ DRAWS = {"first": range(1, 9), "second": range(9, 17), "third": range(17, 1000)}
 
 def rates(score):
     """{draw: {name: rate}} of each draw that has been opened, and of all together."""
-    drawn = {draw: [one for one in score if int(one["set"][3:]) in numbers] for draw, numbers in DRAWS.items()}
+    drawn = {draw: [one for one in score if drawOf(one["set"]) == draw] for draw in DRAWS}
     return {draw: ratesOf(some) for draw, some in (drawn | {"all": score}).items() if some}
+
+
+def drawOf(name):
+    return next(draw for draw, numbers in DRAWS.items() if int(name[3:]) in numbers)
 
 
 def ratesOf(score):
