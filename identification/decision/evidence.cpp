@@ -381,7 +381,7 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
         const double before = solution.misfit;
         for (int halving = 0; halving < halvings; ++halving, ahead *= 0.5)
         {
-            t = (from + ahead).cwiseMax(lower_).cwiseMin(upper_);
+            t = inRanges(FewNumbers(from + ahead));
             residual();
             solution.misfit = misfitHere();
             if (solution.misfit <= before)

@@ -105,7 +105,8 @@ public:
     Node nodeAt(const std::vector<Present>& present) const;
 
     /// Parameters within their ranges.
-    Eigen::VectorXd inRanges(const Eigen::VectorXd& parameters) const
+    template<typename Parameters>
+    Parameters inRanges(const Parameters& parameters) const
     {
         return parameters.cwiseMax(lower_).cwiseMin(upper_);
     }
