@@ -7,7 +7,7 @@ Circles become polygons. Their corners lie a little outside the circle, so that 
 orifice is not made smaller by its corners.
 """
 
-from math import cos, log, pi, sin, sqrt
+from math import cos, hypot, log, pi, sin, sqrt
 
 BEAD_CORNERS = 48       # of the beads' walls: each triangle costs time at every step
 WATER_CORNERS = 192     # of the surfaces that the fluid's mesh is fitted to
@@ -113,8 +113,12 @@ def stl(name, triangles):
     return "\n".join(lines + [f"endsolid {name}"]) + "\n"
 
 
-def unitNormal(a, b, c):
+def normal(a, b, c):
+    """As long as twice the triangle's area."""
     u, v = ([end - start for start, end in zip(a, other)] for other in (b, c))
-    normal = (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
-    length = sqrt(sum(part * part for part in normal))
-    return tuple(part / length for part in normal)
+    return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
+
+
+def unitNormal(a, b, c):
+    along = normal(a, b, c)
+    return tuple(part / hypot(*along) for part in along)

@@ -79,8 +79,15 @@ class Surface(unittest.TestCase):
         self.expectRefused("hopper.stl has a hole at (")
         self.write([tuple(tuple(1e3 * part for part in point) for point in triangle) for triangle in whole])
         self.expectRefused("Are its lengths in metres?")
+        a, b = whole[0][:2]
+        self.write(whole + [(a, b, tuple((one + other) / 2 for one, other in zip(a, b)))])
+        self.expectRefused("has a triangle of three points in line")
         self.write(whole + [(whole[100][0], whole[100][1], (0, 0, 0.03))])
         self.expectRefused("has an edge of 3 triangles")
+        for angle in ("steep", "90"):
+            refused = subprocess.run([MESHES / "coneSurface", self.parameters, angle], capture_output=True, text=True)
+            self.assertEqual(refused.returncode, 1)
+            self.assertIn(f"coneSurface: ANGLE is {angle}; allowed: ", refused.stderr)
         self.file.write_text("a hopper")
         self.expectRefused("is no STL file")
         self.file.unlink()
