@@ -34,10 +34,11 @@ Eigen::VectorXd parameterTermsAt(const Eigen::VectorXd& parameters)
     return terms;
 }
 
-Waves::Waves(Eigen::Index count, Eigen::Index parameters, Eigen::Index effects)
-    : frequencies(count, parameters + effects),
+Waves::Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index effects)
+    : frequencies(count, static_cast<Eigen::Index>(moves.size()) + effects),
       phases(count)
 {
+    const auto parameters = static_cast<Eigen::Index>(moves.size());
     // Lengths over which the function changes: prior sd of parameters, ranges of amplitudes
     constexpr double ofParameters = 3.0;
     constexpr double ofAmplitudes = 1.0;
@@ -48,7 +49,8 @@ Waves::Waves(Eigen::Index count, Eigen::Index parameters, Eigen::Index effects)
     {
         for (Eigen::Index i = 0; i < parameters + effects; ++i)
         {
-            frequencies(k, i) = normal(random) / (i < parameters ? ofParameters : ofAmplitudes);
+            const bool isIn = i >= parameters || moves[static_cast<std::size_t>(i)];
+            frequencies(k, i) = isIn ? normal(random) / (i < parameters ? ofParameters : ofAmplitudes) : 0.0;
         }
         phases(k) = anywhere(random);
     }

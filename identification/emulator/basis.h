@@ -25,7 +25,8 @@ struct Waves
     Eigen::VectorXd phases;
 
     Waves() = default;
-    Waves(Eigen::Index count, Eigen::Index parameters, Eigen::Index effects);
+    /// \param moves  by parameter: whether the function depends on it
+    Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index effects);
 
     Eigen::Index size() const
     {

@@ -375,8 +375,13 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
     }
     if (!scatters_)
     {
-        emulator.basis.waves =
-            Waves(waves, emulator.basis.parameters, static_cast<Eigen::Index>(emulator.basis.effects.size()));
+        // Of parameters of the model itself, polynomials: a fit without any effect must not go where waves say anything
+        std::vector<bool> isOfEffect;
+        for (const auto& owner : emulator.owners)
+        {
+            isOfEffect.push_back(owner.has_value());
+        }
+        emulator.basis.waves = Waves(waves, isOfEffect, static_cast<Eigen::Index>(emulator.basis.effects.size()));
     }
     conditions_[c] = std::move(emulator);
 }
