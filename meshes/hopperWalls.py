@@ -121,4 +121,5 @@ def normal(a, b, c):
 
 def unitNormal(a, b, c):
     along = normal(a, b, c)
-    return tuple(part / hypot(*along) for part in along)
+    length = hypot(*along)
+    return tuple(part / length for part in along)

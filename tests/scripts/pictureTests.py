@@ -169,6 +169,16 @@ class Report(Pictures):
 
 @unittest.skipUnless(shutil.which("pvpython"), "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)")
 class ParaView(Pictures):
+    def testWhatNoFitHasSeen(self):
+        """Measured in black, the model before and after in red and blue; a study that held nothing out has no picture."""
+        self.makes("studies", "--picture", "studies.png", "beadsInTwoLiquids")
+        red, green, blue = np.moveaxis(matplotlib.image.imread(self.folder / "studies.png")[:, :, :3], 2, 0)
+        for drawn in (red > blue + 0.4, blue > red + 0.4, red + green + blue < 0.1):
+            self.assertGreater(drawn.sum(), 20)
+        refused = self.runs("studies", "--picture", "none.png", "sphereInBoxCurves")
+        self.assertEqual(refused.returncode, 1)
+        self.assertIn("nothing to draw", refused.stderr)
+
     def testStateWithBeadsAndWater(self):
         display = [] if "DISPLAY" in os.environ else ["xvfb-run", "--auto-servernum"]
         subprocess.run([*display, "pvpython", SCRIPTS / "paraviewState", self.submerged, "state.png"], check=True, cwd=self.folder, capture_output=True)
