@@ -34,6 +34,9 @@ constexpr int parameterSteps = 8;
 constexpr int halvings = 6;
 constexpr double worthAStep = 1e-3;
 
+/// How often the place of an effect's fit is found anew, where the emulator is no polynomial.
+constexpr int refinements = 3;
+
 /// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
 constexpr double alikeFeatures = 0.5;
 constexpr double alikeConditions = 0.3;
@@ -110,7 +113,6 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
       layout_(layout),
       parts_(partsOf(layout)),
       around_(around),
-      aroundEffects_(study.effects.size(), around),
       workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
           Eigen::MatrixXd(layout.rows, static_cast<Eigen::Index>(study.parameters.size()))},
       null_(nodeAt({})),
@@ -174,7 +176,7 @@ Evidence::Evidence(const Evidence& like, const Emulator& emulator)
       layout_(like.layout_),
       parts_(like.parts_),
       around_(like.around_),
-      aroundEffects_(like.aroundEffects_),
+      places_(like.places_),
       workspace_(like.workspace_),
       null_(nodeAt({})),
       effects_(like.effects_.size())
@@ -188,15 +190,41 @@ void Evidence::refine(const Measured& measured)
     {
         if (!effects_[e].nodes.empty())
         {
-            aroundEffects_[e] = fit(e, measured).parameters;
+            refine({e}, measured);
             effects_[e] = explanationOf({e});
         }
     }
 }
 
+void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& measured)
+{
+    for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
+    {
+        const Fit found = fits(explanationOf(effects), measured).front();
+        places_[effects] = {found.parameters, found.misfit};
+    }
+}
+
+const Eigen::VectorXd& Evidence::placeOf(const std::vector<Present>& present) const
+{
+    std::vector<std::size_t> effects;
+    const Place* best = nullptr;
+    for (const auto& one : present)
+    {
+        effects.push_back(one.effect);
+        const auto alone = places_.find({one.effect});
+        if (alone != places_.end() && (best == nullptr || alone->second.misfit < best->misfit))
+        {
+            best = &alone->second;
+        }
+    }
+    const auto together = places_.find(effects);
+    return together != places_.end() ? together->second.parameters : best != nullptr ? best->parameters : around_;
+}
+
 Node Evidence::nodeAt(const std::vector<Present>& present) const
 {
-    const Eigen::VectorXd& here = present.size() == 1 ? aroundEffects_[present.front().effect] : around_;
+    const Eigen::VectorXd& here = placeOf(present);
     Node node;
     node.present = present;
     node.extra.resize(layout_.rows);
@@ -212,7 +240,7 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         allNoise.block(block.first, block.first, block.size(), block.size()) = single.cwiseProduct(block.meanShare);
         allExtra.block(block.first, block.first, block.size(), block.size()) =
             Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
-        node.terms.middleRows(block.first, block.size()) = emulator.mean(present)(places, Eigen::all);
+        node.terms.middleRows(block.first, block.size()) = emulator.mean(present, here)(places, Eigen::all);
         if (block.freedom > 0.0)
         {
             const Eigen::LLT<Eigen::MatrixXd> one(single);
@@ -550,15 +578,16 @@ void Evidence::prepareOther()
     // What the library's effects do to each feature at full size, root mean square over effects and conditions.
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
     Eigen::VectorXd counts = squares;
+    const Eigen::VectorXd prior = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
     for (const auto& block : layout_.blocks)
     {
         const ConditionEmulator& emulator = *emulator_[block.condition];
-        const Eigen::VectorXd base = emulator.mean({}).col(0);
+        const Eigen::VectorXd base = emulator.at(prior, {});
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
             if (emulator_.knows(e) && acts(study_.effects[e], study_.conditions[block.condition]))
             {
-                const Eigen::VectorXd change = emulator.mean({{e, study_.effects[e].bounds.upper}}).col(0) - base;
+                const Eigen::VectorXd change = emulator.at(prior, {{e, study_.effects[e].bounds.upper}}) - base;
                 for (const auto place : block.places)
                 {
                     const auto f = emulator.features[static_cast<std::size_t>(place)];

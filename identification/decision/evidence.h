@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <map>
 #include <random>
 #include <vector>
 
@@ -67,9 +68,16 @@ public:
     /// The same questions to another emulator.
     Evidence(const Evidence& like, const Emulator& emulator);
 
-    /// Takes the emulator's uncertainty of each effect at the parameters that go with it, which may be far from those
-    /// without any effect.
+    /// Asks the emulator about each effect, or about some that are on together, at the parameters that go with it, which may
+    /// be far from those without any effect.
     void refine(const Measured& measured);
+    void refine(const std::vector<std::size_t>& effects, const Measured& measured);
+
+    /// Whether runs do not scatter.
+    bool isExact() const
+    {
+        return !emulator_.scatters();
+    }
 
     Evidences operator()(const Measured& measured) const;
 
@@ -111,6 +119,9 @@ public:
         return parameters.cwiseMax(lower_).cwiseMin(upper_);
     }
 
+    /// Parameters near which the emulator is asked about effects: of two that were not refined the better one's fit.
+    const Eigen::VectorXd& placeOf(const std::vector<Present>& present) const;
+
     /// Something else: a discrepancy of a size, as a multiple of the library's effects, to be added to the means.
     Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 
@@ -143,6 +154,13 @@ private:
         FewSquare precision;
         double misfit = 0.0;
         double logVolume = 0.0; // of the log likelihood, what is no misfit
+    };
+
+    /// Where an explanation fits.
+    struct Place
+    {
+        Eigen::VectorXd parameters;
+        double misfit = 0.0;
     };
 
     struct Discrepancy
@@ -196,8 +214,8 @@ private:
     const Layout& layout_;
     std::vector<Part> parts_;
     Eigen::VectorXd around_;
-    std::vector<Eigen::VectorXd> aroundEffects_;
-    FewNumbers lower_; // ends of the parameters' ranges
+    std::map<std::vector<std::size_t>, Place> places_; // by effects that are on
+    FewNumbers lower_;                                 // ends of the parameters' ranges
     FewNumbers upper_;
     mutable Workspace workspace_;
     Node null_;

@@ -76,7 +76,7 @@ std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, cons
 }
 
 Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
-    const Eigen::VectorXd& parameters, std::mt19937_64& random)
+    const Eigen::VectorXd& parameters, const Eigen::VectorXd& seenFrom, bool doubted, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
     const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
@@ -92,10 +92,14 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
         const Eigen::MatrixXd single =
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(here.noiseOf(present)(places, places));
         Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
+        if (doubted)
+        {
+            ofMean += here.uncertainty(seenFrom, present)(places, places);
+        }
         ofMean.diagonal().array() += 1e-18;
+        const Eigen::VectorXd expected = here.mean(present, seenFrom) * parameterTermsAt(parameters);
         drawn.mean.segment(block.first, block.size()) =
-            Eigen::VectorXd(here.mean(present) * parameterTermsAt(parameters))(places) + block.shared * errors
-            + ofMean.llt().matrixL() * numbers(block.size(), 1);
+            expected(places) + block.shared * errors + ofMean.llt().matrixL() * numbers(block.size(), 1);
         const Eigen::MatrixXd deviations =
             block.freedom > 0.0
                 ? Eigen::MatrixXd(single.llt().matrixL() * numbers(block.size(), std::lround(block.freedom)))

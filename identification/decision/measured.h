@@ -58,9 +58,10 @@ struct Measured
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
     const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes = {});
 
-/// Measurements in a world that is as an emulator says on average, at a setting.
+/// Measurements at a setting, in a world that is as an emulator says on average, as it looks from some parameters.
+/// \param doubted  whether the world is only as likely as the emulator says, there
 Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
-    const Eigen::VectorXd& parameters, std::mt19937_64& random);
+    const Eigen::VectorXd& parameters, const Eigen::VectorXd& seenFrom, bool doubted, std::mt19937_64& random);
 
 /// Features of the training conditions that measurements have, by condition of the study.
 std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, const std::vector<MeasuredCondition>& data);

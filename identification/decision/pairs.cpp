@@ -35,6 +35,11 @@ bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one
            && !evidence.amplitudes(one).empty() && !evidence.amplitudes(other).empty();
 }
 
+bool isOrVaries(const Study& study, std::size_t one, std::size_t other)
+{
+    return one == other || areVariants(study, one, other);
+}
+
 /// Pairs against each other and something else, by one judge.
 class PairJudge
 {
@@ -94,6 +99,42 @@ std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt1
 
 } // namespace
 
+bool areVariants(const Study& study, const PairFinding& one, const PairFinding& other)
+{
+    const std::size_t first = other.effects.front();
+    const std::size_t second = other.effects.back();
+    return (isOrVaries(study, one.effects.front(), first) && isOrVaries(study, one.effects.back(), second))
+           || (isOrVaries(study, one.effects.front(), second) && isOrVaries(study, one.effects.back(), first));
+}
+
+std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs)
+{
+    std::string name;
+    for (const auto e : pairs.front().effects)
+    {
+        const bool isShared = std::all_of(pairs.begin(), pairs.end(), [&](const PairFinding& pair) {
+            return !pair.inSet || std::count(pair.effects.begin(), pair.effects.end(), e) > 0;
+        });
+        name += (name.empty() ? "" : " with ") + (isShared ? study.effects[e].name : study.effects[e].family);
+    }
+    return name;
+}
+
+bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs)
+{
+    double together = 0.0;
+    for (const auto& pair : pairs)
+    {
+        const bool isVariant = areVariants(study, pairs.front(), pair);
+        if (pair.inSet && !isVariant)
+        {
+            return false;
+        }
+        together += isVariant ? pair.probability : 0.0;
+    }
+    return !pairs.empty() && pairs.front().fitsWell && together >= 1.0 - roomForElse;
+}
+
 bool undoEachOther(const Effect& one, const Effect& other)
 {
     const auto clash = [&](const auto& set) {
@@ -104,7 +145,7 @@ bool undoEachOther(const Effect& one, const Effect& other)
            || std::any_of(other.entries.begin(), other.entries.end(), clash);
 }
 
-std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& evidence, const Measured& measured)
+std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, const Measured& measured)
 {
     std::vector<PairFinding> pairs;
     double weights = 0.0;
@@ -121,14 +162,28 @@ std::vector<PairFinding> leadingPairs(const Study& study, const Evidence& eviden
         }
     }
     const double null = evidence(measured).null;
+    const auto judge = [&] {
+        for (auto& pair : pairs)
+        {
+            pair.logOdds =
+                evidence.judge(evidence.explanationOf(pair.effects), measured).logEvidence - null + pair.logPrior;
+        }
+        std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+    };
     for (auto& pair : pairs)
     {
         pair.logPrior -= std::log(weights);
-        pair.logOdds =
-            evidence.judge(evidence.explanationOf(pair.effects), measured).logEvidence - null + pair.logPrior;
     }
-    std::sort(pairs.begin(), pairs.end(), [](const auto& a, const auto& b) { return a.logOdds > b.logOdds; });
+    judge();
     pairs.resize(std::min(pairs.size(), mostPairs));
+    if (evidence.isExact())
+    {
+        for (const auto& pair : pairs)
+        {
+            evidence.refine(pair.effects, measured);
+        }
+        judge();
+    }
     while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - hopeless))
     {
         pairs.pop_back();
@@ -145,7 +200,6 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
 {
     const auto verdict = PairJudge(study, evidence, pairs)(measured);
     std::map<const Evidence*, PairJudge> judges;
-    std::size_t members = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         PairFinding& pair = pairs[i];
@@ -167,13 +221,7 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
                      && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
                      && 1.0 - pair.probability <= std::max(
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
-        pair.mayBeNamed = pair.inSet && pair.probability >= 1.0 - roomForElse
-                          && verdict.judgements[i].misfit <= misfitLimit(misfits, fitsWell);
-        members += pair.inSet ? 1 : 0;
-    }
-    for (auto& pair : pairs)
-    {
-        pair.mayBeNamed = pair.mayBeNamed && members == 1;
+        pair.fitsWell = pair.inSet && verdict.judgements[i].misfit <= misfitLimit(misfits, fitsWell);
     }
 }
 

@@ -11,10 +11,11 @@ constexpr int worlds = 40;
 } // namespace
 
 Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
-    : layout_(layout),
+    : emulator_(emulator),
+      layout_(layout),
       evidence_(evidence)
 {
-    for (int i = 0; i < worlds; ++i)
+    for (int i = 0; i < (emulator.scatters() ? worlds : 0); ++i)
     {
         Emulator world = emulator.possibleWorld(random);
         Emulator learnt = emulator.relearnt(world, random);
@@ -26,9 +27,14 @@ Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidenc
 Replicas::Trial Replicas::draw(
     const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
 {
-    const Replica& one = *all_[turn_++ % all_.size()];
+    const Eigen::VectorXd& seenFrom = evidence_.placeOf(present);
     const Eigen::VectorXd allowed = evidence_.inRanges(parameters);
-    return {identification::draw(layout_, one.world, present, allowed, random), *one.judge};
+    if (all_.empty())
+    {
+        return {identification::draw(layout_, emulator_, present, allowed, seenFrom, true, random), evidence_};
+    }
+    const Replica& one = *all_[turn_++ % all_.size()];
+    return {identification::draw(layout_, one.world, present, allowed, seenFrom, false, random), *one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

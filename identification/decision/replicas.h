@@ -11,7 +11,8 @@ namespace clepsydra::identification
 
 /// The whole procedure in worlds that are known: in each the runs are made again, another emulator learns from them, and
 /// judges data drawn of that world. What the emulator gets wrong here it gets wrong there, in the same ways; data drawn of the
-/// emulator itself would find it right.
+/// emulator itself would find it right. Where runs do not scatter there is one world, as it looks from the fits: the rounds of
+/// runs have gone there, and would go to those of other data; what is not known far from all runs must not pass for chance.
 class Replicas
 {
 public:
@@ -35,6 +36,7 @@ private:
         std::unique_ptr<Evidence> judge;
     };
 
+    const Emulator& emulator_;
     const Layout& layout_;
     const Evidence& evidence_;
     std::vector<std::unique_ptr<Replica>> all_;

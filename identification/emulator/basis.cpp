@@ -1,6 +1,8 @@
 #include "emulator/basis.h"
 
 #include <algorithm>
+#include <cmath>
+#include <random>
 
 namespace clepsydra::identification
 {
@@ -32,10 +34,55 @@ Eigen::VectorXd parameterTermsAt(const Eigen::VectorXd& parameters)
     return terms;
 }
 
-Eigen::Index Basis::size() const
+Waves::Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index effects)
+    : frequencies(count, static_cast<Eigen::Index>(moves.size()) + effects),
+      phases(count)
+{
+    const auto parameters = static_cast<Eigen::Index>(moves.size());
+    // Lengths over which the function changes: prior sd of parameters, ranges of amplitudes
+    constexpr double ofParameters = 3.0;
+    constexpr double ofAmplitudes = 1.0;
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> anywhere(0.0, 2.0 * std::acos(-1.0));
+    for (Eigen::Index k = 0; k < count; ++k)
+    {
+        for (Eigen::Index i = 0; i < parameters + effects; ++i)
+        {
+            const bool isIn = i >= parameters || moves[static_cast<std::size_t>(i)];
+            frequencies(k, i) = isIn ? normal(random) / (i < parameters ? ofParameters : ofAmplitudes) : 0.0;
+        }
+        phases(k) = anywhere(random);
+    }
+}
+
+Eigen::VectorXd Waves::at(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
+{
+    const Eigen::VectorXd angles =
+        frequencies.leftCols(t.size()) * t + frequencies.rightCols(amplitudes.size()) * amplitudes + phases;
+    return std::sqrt(2.0 / static_cast<double>(size())) * angles.array().cos();
+}
+
+Eigen::MatrixXd Waves::linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
+{
+    const Eigen::VectorXd angles =
+        frequencies.leftCols(t.size()) * t + frequencies.rightCols(amplitudes.size()) * amplitudes + phases;
+    const double scale = std::sqrt(2.0 / static_cast<double>(size()));
+    Eigen::MatrixXd both(size(), 1 + t.size());
+    both.rightCols(t.size()) = (-scale * angles.array().sin()).matrix().asDiagonal() * frequencies.leftCols(t.size());
+    both.col(0) = (scale * angles.array().cos()).matrix() - both.rightCols(t.size()) * t;
+    return both;
+}
+
+Eigen::Index Basis::firstWave() const
 {
     const auto count = static_cast<Eigen::Index>(effects.size());
-    return parameterTerms(parameters) + count * (2 + parameters) + count * (count - 1) / 2 + 1;
+    return parameterTerms(parameters) + count * (2 + parameters) + count * (count - 1) / 2;
+}
+
+Eigen::Index Basis::size() const
+{
+    return firstWave() + waves.size() + 1;
 }
 
 Basis::Kind Basis::kind(Eigen::Index term) const
@@ -47,6 +94,10 @@ Basis::Kind Basis::kind(Eigen::Index term) const
     if (term == designTerm())
     {
         return constant;
+    }
+    if (term >= firstWave())
+    {
+        return wave;
     }
     const Eigen::Index first = parameterTerms(parameters);
     if (term < first)
@@ -100,6 +151,10 @@ Eigen::VectorXd Basis::at(const Eigen::VectorXd& t, const Eigen::VectorXd& ampli
         {
             terms(pairTerm(other, k)) = a * amplitudes(static_cast<Eigen::Index>(other));
         }
+    }
+    if (waves.size() > 0)
+    {
+        terms.segment(firstWave(), waves.size()) = waves.at(t, amplitudes);
     }
     terms(designTerm()) = 0.0;
     return terms;

@@ -43,6 +43,9 @@ constexpr double curvatureShare = 0.4;
 constexpr double curvatureOfCorrections = 0.05;
 constexpr double designShare = 0.1;
 
+/// Where runs do not scatter they show what is no polynomial of second order.
+constexpr Eigen::Index waves = 128;
+
 /// The largest scale of a prior, in units of one run's noise, and the smallest.
 constexpr double largestScale = 1e5;
 constexpr double smallestScale = 1e-2;
@@ -106,19 +109,45 @@ BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Ru
 
 Eigen::VectorXd ConditionEmulator::terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const
 {
-    Eigen::VectorXd amplitudes = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.effects.size()));
+    return basis.at(parameters.cwiseProduct(reach(present)), amplitudes(present));
+}
+
+Eigen::VectorXd ConditionEmulator::amplitudes(const std::vector<Present>& present) const
+{
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.effects.size()));
     for (const auto& [effect, amplitude] : present)
     {
         const std::size_t place = basis.placeOf(effect);
         if (place < basis.effects.size())
         {
-            amplitudes(static_cast<Eigen::Index>(place)) = amplitude;
+            all(static_cast<Eigen::Index>(place)) = amplitude;
         }
     }
-    return basis.at(parameters, amplitudes);
+    return all;
 }
 
-Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) const
+Eigen::VectorXd ConditionEmulator::at(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const
+{
+    return mean(present, parameters) * parameterTermsAt(parameters);
+}
+
+Eigen::VectorXd ConditionEmulator::reach(const std::vector<Present>& present) const
+{
+    Eigen::VectorXd factors = Eigen::VectorXd::Ones(basis.parameters);
+    for (std::size_t p = 0; p < owners.size(); ++p)
+    {
+        if (owners[p])
+        {
+            const auto on = std::find_if(present.begin(), present.end(), [&](const Present& one) {
+                return one.effect == *owners[p] && basis.placeOf(one.effect) < basis.effects.size();
+            });
+            factors(static_cast<Eigen::Index>(p)) = on == present.end() ? 0.0 : on->amplitude;
+        }
+    }
+    return factors;
+}
+
+Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, const Eigen::VectorXd& around) const
 {
     const Eigen::Index q = basis.parameters;
     Eigen::MatrixXd whitened = coefficients.topRows(parameterTerms(q)).transpose();
@@ -143,7 +172,12 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present) con
             }
         }
     }
-    Eigen::MatrixXd polynomial = root * whitened;
+    if (basis.waves.size() > 0)
+    {
+        whitened.leftCols(1 + q) += coefficients.middleRows(basis.firstWave(), basis.waves.size()).transpose()
+                                    * basis.waves.linearAt(around.cwiseProduct(reach(present)), amplitudes(present));
+    }
+    Eigen::MatrixXd polynomial = root * whitened * parameterTermsAt(reach(present)).asDiagonal();
     for (const auto& [effect, a] : present)
     {
         const auto found = chain.find(effect);
@@ -314,6 +348,10 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         return;
     }
     emulator.basis.parameters = static_cast<Eigen::Index>(study_->parameters.size());
+    for (const auto& parameter : study_->parameters)
+    {
+        emulator.owners.push_back(parameter.effect);
+    }
     for (const auto e : simulatedEffects(*study_, c))
     {
         const auto isOn = [&](const Run* run) {
@@ -334,6 +372,16 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         {
             emulator.logScatter[e] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(emulator.features.size()));
         }
+    }
+    if (!scatters_)
+    {
+        // Of parameters of the model itself, polynomials: a fit without any effect must not go where waves say anything
+        std::vector<bool> isOfEffect;
+        for (const auto& owner : emulator.owners)
+        {
+            isOfEffect.push_back(owner.has_value());
+        }
+        emulator.basis.waves = Waves(waves, isOfEffect, static_cast<Eigen::Index>(emulator.basis.effects.size()));
     }
     conditions_[c] = std::move(emulator);
 }
@@ -566,15 +614,19 @@ void Emulator::chooseScales()
 {
     if (scales_[Basis::linear] == 0.0)
     {
-        scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0};
+        scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, scatters_ ? 0.0 : 1.0};
     }
     constexpr int bits = 8;
     constexpr int sweeps = 2;
     constexpr std::uintmax_t mostEvaluations = 16;
     for (int sweep = 0; sweep < sweeps; ++sweep)
     {
-        for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction})
+        for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction, Basis::wave})
         {
+            if (kind == Basis::wave && scatters_)
+            {
+                continue;
+            }
             const auto misfit = [&](double logScale) {
                 auto scales = scales_;
                 scales[kind] = std::exp(logScale);

@@ -38,6 +38,7 @@ public:
     };
 
     Basis basis;
+    std::vector<std::optional<std::size_t>> owners;    // by parameter: the effect of which it is a part
     std::vector<Eigen::Index> features;                // of the study
     Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
     Eigen::MatrixXd root;                              // lower triangular; root root' = noise
@@ -47,8 +48,11 @@ public:
     std::map<std::size_t, Eigen::VectorXd> logScatter; // by simulated effect: log sd that amplitude 1 adds, by feature
     int runs = 0;
 
-    /// Mean of the features as a polynomial in the parameters: features x parameterTerms.
-    Eigen::MatrixXd mean(const std::vector<Present>& present) const;
+    /// Mean of the features at some parameters.
+    Eigen::VectorXd at(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+
+    /// The same as a polynomial in the parameters, which holds near some: features x parameterTerms.
+    Eigen::MatrixXd mean(const std::vector<Present>& present, const Eigen::VectorXd& around) const;
 
     /// Covariance of what the emulator does not know of that mean, at some parameters.
     Eigen::MatrixXd uncertainty(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
@@ -64,6 +68,11 @@ public:
 
     /// The terms at a setting. Effects that are not simulated here count as absent.
     Eigen::VectorXd terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
+
+    Eigen::VectorXd amplitudes(const std::vector<Present>& present) const; // by place in the basis
+
+    /// By parameter: 1, or the amplitude of the effect of which it is a part.
+    Eigen::VectorXd reach(const std::vector<Present>& present) const;
 };
 
 /// Emulators of all training conditions, with scales of the priors and noise that they share.

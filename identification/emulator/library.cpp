@@ -47,9 +47,7 @@ public:
         {
             for (const double side : {-1.0, 1.0})
             {
-                Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * axialStep);
-                add(setting, study_.parameters[p].name + " alone", axialRepeats);
+                add(at(p, side * axialStep), study_.parameters[p].name + " alone", axialRepeats);
             }
         }
         std::vector<std::size_t> designed;
@@ -80,15 +78,15 @@ public:
         {
             for (const double side : {-1.0, 1.0})
             {
-                Setting setting = simulator_.plainSetting();
-                setting.parameters(static_cast<Eigen::Index>(p)) = moved(study_.parameters[p], side * parameterStep);
-                add(setting, "design", 1);
+                add(at(p, side * parameterStep), "design", 1);
             }
         }
         for (const auto e : simulatedEffects(study_, condition_))
         {
             const auto [lower, upper] = study_.effects[e].bounds;
-            for (const double amplitude : {lower, upper})
+            // What goes to one side only is looked at in its middle, too
+            const bool hasMiddle = lower == 0.0 && !study_.effects[e].isSwitch;
+            for (const double amplitude : {hasMiddle ? upper / 2.0 : lower, upper})
             {
                 if (amplitude != 0.0)
                 {
@@ -104,6 +102,16 @@ private:
     {
         Setting setting = simulator_.plainSetting();
         setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+        return setting;
+    }
+
+    /// One parameter moved; one that is a part of an effect, together with this.
+    Setting at(std::size_t parameter, double sds) const
+    {
+        const Parameter& own = study_.parameters[parameter];
+        Setting setting =
+            own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : simulator_.plainSetting();
+        setting.parameters(static_cast<Eigen::Index>(parameter)) = moved(own, sds);
         return setting;
     }
 

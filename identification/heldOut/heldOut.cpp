@@ -127,7 +127,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
             {
                 const auto k = place - emulator->features.begin();
                 const double unknown = emulator->uncertainty(parameters, {})(k, k);
-                residuals.push_back(measured - (emulator->mean({}) * parameterTermsAt(parameters))(k));
+                residuals.push_back(measured - emulator->at(parameters, {})(k));
                 variances.push_back(answer.layout.noise(f, f) * shareOfMean(training[c].features)(f, f) + unknown
                                     + training[c].declaredError(f) * training[c].declaredError(f)
                                     + study.modelError(f) * study.modelError(f) + 1e-12);

@@ -10,6 +10,9 @@ namespace clepsydra::identification
 namespace
 {
 
+/// A share of the variance that is worth a run.
+constexpr double worthARun = 0.01;
+
 /// What is expected of the contenders in one condition.
 class Expectation
 {
@@ -23,7 +26,7 @@ public:
         {
             const Eigen::MatrixXd run = here.noiseOf(contender.present)(places, places);
             const Eigen::MatrixXd single = block.noise.size() > 0 ? block.noise : run;
-            means_.emplace_back((here.mean(contender.present) * parameterTermsAt(contender.parameters))(places));
+            means_.emplace_back(here.at(contender.parameters, contender.present)(places));
             unknown_.emplace_back(here.uncertainty(contender.parameters, contender.present)(places, places));
             runs_.push_back(run);
             data_.emplace_back(single.cwiseProduct(block.meanShare) + block.unshown());
@@ -45,6 +48,12 @@ public:
             }
         }
         return sum;
+    }
+
+    /// What is not known of a contender, over the errors of what was measured; variances, the mean of all features.
+    double openShare(std::size_t i) const
+    {
+        return data_[i].llt().solve(unknown_[i]).trace() / static_cast<double>(data_[i].rows());
     }
 
     void run(std::size_t i)
@@ -115,6 +124,24 @@ std::vector<WantedRun> chooseRuns(
         }
     }
     return chosen;
+}
+
+std::vector<WantedRun> openRuns(
+    const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders)
+{
+    std::vector<WantedRun> wanted;
+    for (const auto& block : layout.blocks)
+    {
+        const Expectation expectation(emulator, block, contenders);
+        for (std::size_t i = 0; i < contenders.size(); ++i)
+        {
+            if (expectation.openShare(i) > worthARun)
+            {
+                wanted.push_back({i, block.condition});
+            }
+        }
+    }
+    return wanted;
 }
 
 } // namespace clepsydra::identification

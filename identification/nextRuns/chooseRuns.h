@@ -28,4 +28,9 @@ struct WantedRun
 std::vector<WantedRun> chooseRuns(
     const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders, int count);
 
+/// Where runs do not scatter one at a place tells all: a run of each contender where what the emulator does not know of it is
+/// not small beside the errors of what was measured.
+std::vector<WantedRun> openRuns(
+    const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders);
+
 } // namespace clepsydra::identification

@@ -17,6 +17,10 @@ namespace
 /// The first round goes to the null fit, the others to the fits of the explanations that lead.
 constexpr int rounds = 3;
 
+/// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: rounds until nothing is open any more.
+constexpr int roundsOfExact = 9;
+constexpr int pairRoundsOfExact = 4;
+
 /// How many explanations get runs, beside no effect, and how much less likely than the best they may be (log odds).
 constexpr std::size_t mostContenders = 4;
 constexpr double hopeless = 8.0;
@@ -42,16 +46,18 @@ public:
     {
         learn();
         Eigen::VectorXd around = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
-        for (int round = 0; round < rounds; ++round)
+        const int last = answer_.emulator->scatters() ? rounds : roundsOfExact;
+        for (int round = 0; round < last; ++round)
         {
             Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
             evidence.refine(answer_.measured);
             around = evidence.fitNull(answer_.measured).parameters;
             const bool changed = round == 0 ? simulateNull(around) : simulateContenders(evidence, round);
-            if (changed)
+            if (!changed)
             {
-                learn();
+                break;
             }
+            learn();
         }
         {
             Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
@@ -141,8 +147,38 @@ private:
             const Fit fit = evidence.fit(e, answer_.measured);
             // The root of the odds: what is behind by chance must get its runs, too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
+            if (i == 0 && !answer_.emulator->scatters())
+            {
+                addNeighbours(contenders, {fit});
+            }
         }
         return simulateAmong(contenders, "deciding, round " + std::to_string(round));
+    }
+
+    /// The last contender with each number that was fitted moved by its error: runs there tell the slopes, which the next fit
+    /// needs.
+    void addNeighbours(std::vector<Contender>& contenders, const std::vector<Fit>& fits) const
+    {
+        const Contender centre = contenders.back();
+        for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
+        {
+            const Parameter& parameter = study_.parameters[static_cast<std::size_t>(p)];
+            const double error = std::sqrt(fits.front().covariance(p, p));
+            const double end = (parameter.upper - parameter.mean) / parameter.sd;
+            contenders.push_back(centre);
+            contenders.back().parameters(p) += centre.parameters(p) + error > end ? -error : error;
+        }
+        for (std::size_t k = 0; k < fits.size(); ++k)
+        {
+            const Effect& effect = study_.effects[centre.present[k].effect];
+            const double amplitude = centre.present[k].amplitude;
+            if (!effect.isSwitch)
+            {
+                const double error = fits[k].sd;
+                contenders.push_back(centre);
+                contenders.back().present[k].amplitude += amplitude + error > effect.bounds.upper ? -error : error;
+            }
+        }
     }
 
     /// Runs where they tell contenders apart.
@@ -150,8 +186,10 @@ private:
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
-        for (const auto& [contender, condition] :
-            chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound()))
+        const auto wanted = answer_.emulator->scatters()
+                                ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
+                                : openRuns(*answer_.emulator, answer_.layout, contenders);
+        for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
             std::string what = present.empty() ? "no effect" : "";
@@ -168,23 +206,40 @@ private:
     /// Two effects at once, where no single one explains the data.
     void tryPairs(const Eigen::VectorXd& around)
     {
-        const auto evidenceNow = [&] { return Evidence(study_, *answer_.emulator, answer_.layout, around); };
-        const auto leading = leadingPairs(study_, evidenceNow(), answer_.measured);
-        std::vector<Contender> contenders;
-        for (const auto& pair : leading)
+        const bool isExact = !answer_.emulator->scatters();
+        const auto evidenceNow = [&] {
+            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
+            if (isExact)
+            {
+                evidence.refine(answer_.measured);
+            }
+            return evidence;
+        };
+        for (int round = 0; round < (isExact ? pairRoundsOfExact : 1); ++round)
         {
-            contenders.push_back({presentOf(pair), pair.fits.front().parameters,
-                std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
-        }
-        if (contenders.empty())
-        {
-            return;
-        }
-        if (simulateAmong(contenders, "deciding between pairs"))
-        {
+            Evidence evidence = evidenceNow();
+            const auto leading = leadingPairs(study_, evidence, answer_.measured);
+            std::vector<Contender> contenders;
+            for (const auto& pair : leading)
+            {
+                contenders.push_back({presentOf(pair), pair.fits.front().parameters,
+                    std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
+                if (&pair == &leading.front() && isExact)
+                {
+                    addNeighbours(contenders, pair.fits);
+                }
+            }
+            if (contenders.empty())
+            {
+                return;
+            }
+            if (!simulateAmong(contenders, "deciding between pairs"))
+            {
+                break;
+            }
             learn();
         }
-        const Evidence evidence = evidenceNow();
+        Evidence evidence = evidenceNow();
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
@@ -193,9 +248,14 @@ private:
             if (pair.inSet)
             {
                 answer_.set.push_back(explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability));
-                answer_.decision = pair.mayBeNamed ? Decision::named : Decision::set;
-                answer_.somethingElseInSet = !pair.mayBeNamed;
             }
+        }
+        if (!answer_.set.empty())
+        {
+            const bool isName = mayBeNamed(study_, pairs);
+            answer_.decision = isName ? Decision::named : Decision::set;
+            answer_.somethingElseInSet = !isName;
+            answer_.family = isName && answer_.set.size() > 1 ? sharedName(study_, pairs) : "";
         }
     }
 

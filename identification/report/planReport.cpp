@@ -66,8 +66,7 @@ private:
         Eigen::VectorXd mean(layout_.rows);
         for (const auto& block : layout_.blocks)
         {
-            mean.segment(block.first, block.size()) =
-                (emulator_[block.condition]->mean(present) * parameterTermsAt(parameters))(block.places);
+            mean.segment(block.first, block.size()) = emulator_[block.condition]->at(parameters, present)(block.places);
         }
         return mean;
     }

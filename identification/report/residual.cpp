@@ -15,7 +15,7 @@ std::vector<Residual> residualsOf(const Findings& findings)
     for (const auto& block : answer.layout.blocks)
     {
         const ConditionEmulator& emulator = *(*answer.emulator)[block.condition];
-        const Eigen::VectorXd expected = (emulator.mean({}) * parameterTermsAt(parameters))(block.places);
+        const Eigen::VectorXd expected = emulator.at(parameters, {})(block.places);
         const Eigen::MatrixXd single =
             block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noise(block.places, block.places));
         const Eigen::MatrixXd unknown = emulator.uncertainty(parameters, {})(block.places, block.places);

@@ -58,7 +58,7 @@ RigSpecification readRig(const YamlPlace& place)
 
 Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
 {
-    place.allow({"name", "unit", "set", "prior", "range"});
+    place.allow({"name", "unit", "set", "prior", "range", "of"});
     Parameter parameter;
     parameter.name = place.at("name").text();
     parameter.unit = place.textOr("unit", "");
@@ -257,6 +257,14 @@ Study readStudy(const std::filesystem::path& file)
         }
     }
     readAllEffects(root, study);
+    for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    {
+        const auto place = root.at("parameters").list()[p];
+        if (place.has("of"))
+        {
+            study.parameters[p].effect = indexOf(place.at("of"), study.effects);
+        }
+    }
     if (root.has("commonErrors"))
     {
         study.commonErrors = readCommonErrors(root.at("commonErrors"), study);

@@ -55,6 +55,8 @@ struct Parameter
     double sd = 0.0;
     double lower = 0.0; // limits of what is physical; simulations stay within
     double upper = 0.0;
+    std::optional<std::size_t>
+        effect; // of which it is a part, as the height of a layer's edge: without it, it does nothing
 };
 
 /// What the model may lack, or the measuring chain may add. Data, not code.

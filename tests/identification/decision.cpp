@@ -1,4 +1,5 @@
 /// What a decision promises, held against data of known worlds: fresh ones, not those that set the thresholds.
+#include "decision/pairs.h"
 #include "decision/visibility.h"
 #include "effectOf.h"
 #include "emulator/settings.h"
@@ -217,6 +218,38 @@ TEST(Decision, NothingIsDrawnFromBeyondARange)
     const Calibration calibration =
         Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
     EXPECT_LT(calibration.critical, 10) << "36 with draws from beyond";
+}
+
+/// A layered liquid with either law for the walls is one name; with a drift of the temperature beside them it is a set, and a
+/// likeliest pair that does not fit well is no name.
+TEST(Decision, PairsOfVariantsAreOneName)
+{
+    Study study;
+    study.effects.resize(4);
+    study.effects[0].name = "layers";
+    study.effects[1].name = "tankFlow";
+    study.effects[2].name = "tube";
+    study.effects[1].family = study.effects[2].family = "walls";
+    study.effects[3].name = "drift";
+    const auto judged = [](std::size_t one, std::size_t other, double probability) {
+        PairFinding pair;
+        pair.effects = {one, other};
+        pair.probability = probability;
+        pair.inSet = pair.fitsWell = true;
+        return pair;
+    };
+    std::vector<PairFinding> pairs = {judged(0, 1, .6), judged(2, 0, .395)};
+    EXPECT_TRUE(mayBeNamed(study, pairs));
+    EXPECT_EQ(sharedName(study, pairs), "layers with walls");
+    pairs.push_back(judged(0, 3, .004));
+    EXPECT_FALSE(mayBeNamed(study, pairs)) << "another pair is in the set";
+    pairs.pop_back();
+    pairs.back().probability = .1;
+    EXPECT_FALSE(mayBeNamed(study, pairs)) << "there is room for something else";
+    pairs = {judged(0, 1, .999)};
+    EXPECT_TRUE(mayBeNamed(study, pairs));
+    pairs.front().fitsWell = false;
+    EXPECT_FALSE(mayBeNamed(study, pairs));
 }
 
 /// Two explanations that differ in wet conditions only: runs go there; and to both of them, once the one that the library

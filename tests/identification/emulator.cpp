@@ -85,7 +85,7 @@ TEST(Noise, MeansWithGaps)
 /// Products of parameters and of effects each have a place of their own.
 TEST(Basis, TermsAreEachThere)
 {
-    const Basis basis{2, {3, 5, 8}};
+    const Basis basis{2, {3, 5, 8}, {}};
     const Eigen::Vector2d t(2, 3);
     const Eigen::Vector3d a(5, 7, 11);
     const Eigen::VectorXd terms = basis.at(t, a);
@@ -104,6 +104,9 @@ TEST(Basis, TermsAreEachThere)
     EXPECT_EQ(basis.placeOf(4), 3U);
 }
 
+/// Parameters as they are known beforehand.
+const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
+
 TEST(Emulator, FindsLinearEffects)
 {
     for (const std::string seed : {"seed", "none"})
@@ -115,15 +118,44 @@ TEST(Emulator, FindsLinearEffects)
         const Library library = makeLibrary(simulator);
         const Emulator emulator(study, simulator, library.runs, allFeatures(study));
         const ConditionEmulator& both = *emulator[0];
-        const Eigen::MatrixXd base = both.mean({});
-        EXPECT_NEAR(base(0, 0), std::log(.1), 1e-3);
-        EXPECT_NEAR(base(0, 1), .04, 1e-3);
-        EXPECT_NEAR(both.mean({{0, 1.}})(0, 0) - base(0, 0), .06, 1e-3);
-        EXPECT_NEAR(both.mean({{0, -.5}})(0, 0) - base(0, 0), -.03, 1e-3);
-        EXPECT_NEAR(both.mean({{1, 1.}})(0, 0) - base(0, 0), .2, 1e-3);
-        EXPECT_NEAR(both.mean({{2, 1.}})(0, 0) - base(0, 0), -std::log(1.01), 1e-3);
-        EXPECT_NEAR(emulator[1]->mean({{1, 1.}})(0, 0), emulator[1]->mean({})(0, 0), 1e-12) << "y acts in water only";
+        const Eigen::VectorXd base = both.at(none, {});
+        EXPECT_NEAR(base(0), std::log(.1), 1e-3);
+        EXPECT_NEAR(both.at(Eigen::VectorXd::Ones(1), {})(0) - base(0), .04, 1e-3);
+        EXPECT_NEAR(both.at(none, {{0, 1.}})(0) - base(0), .06, 1e-3);
+        EXPECT_NEAR(both.at(none, {{0, -.5}})(0) - base(0), -.03, 1e-3);
+        EXPECT_NEAR(both.at(none, {{1, 1.}})(0) - base(0), .2, 1e-3);
+        EXPECT_NEAR(both.at(none, {{2, 1.}})(0) - base(0), -std::log(1.01), 1e-3);
+        EXPECT_NEAR(emulator[1]->at(none, {{1, 1.}})(0), emulator[1]->at(none, {})(0), 1e-12) << "y acts in water only";
         EXPECT_FALSE(emulator[2]) << "held out";
+    }
+}
+
+/// What is a part of an effect does nothing without it, and half as much at half its amplitude. A library that moved it
+/// without its effect would know nothing of it.
+TEST(Emulator, ParameterOfAnEffect)
+{
+    for (const std::string seed : {"seed", "none"})
+    {
+        const TemporaryFolder folder;
+        const Study study = linearStudy(folder, seed,
+            "  - { name: edge, of: x, set: { edge: edge }, prior: { mean: 0, sd: 0.2 }, range: [-1, 1] }\n");
+        LinearRig rig;
+        Simulator simulator(study, rig);
+        const Library library = makeLibrary(simulator);
+        const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+        const auto effectOfEdge = [&](const std::vector<Present>& present) {
+            const Eigen::MatrixXd mean = emulator[0]->mean(present, Eigen::Vector2d(0, 0));
+            const Eigen::VectorXd moved = parameterTermsAt(Eigen::Vector2d(0, 1));
+            EXPECT_NEAR((mean * moved)(0),
+                (emulator[0]->terms(Eigen::Vector2d(0, 1), present).transpose() * emulator[0]->coefficients
+                    * emulator[0]->root.transpose())(0),
+                1e-12);
+            return (mean * moved)(0) - mean(0, 0);
+        };
+        EXPECT_NEAR(effectOfEdge({{0, 1.}}), .06 * .2, 1e-3);
+        EXPECT_NEAR(effectOfEdge({{0, .5}}), .03 * .2, 1e-3);
+        EXPECT_EQ(effectOfEdge({}), 0);
+        EXPECT_EQ(effectOfEdge({{1, 1.}}), 0);
     }
 }
 
@@ -137,10 +169,10 @@ TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
     Simulator simulator(study, rig);
     const Library library = makeLibrary(simulator);
     const Emulator emulator(study, simulator, library.runs, allFeatures(study));
-    const double base = emulator[0]->mean({})(0, 0);
-    EXPECT_NEAR(emulator[0]->mean({{0, 1.}})(0, 0) - base, .06 + .08, 2e-3);
-    EXPECT_NEAR(emulator[0]->mean({{0, -1.}})(0, 0) - base, -.06 + .08, 2e-3);
-    EXPECT_NEAR(emulator[0]->mean({{1, 1.}})(0, 0) - base, .2, 2e-3);
+    const double base = emulator[0]->at(none, {})(0);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - base, .06 + .08, 2e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, -1.}})(0) - base, -.06 + .08, 2e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{1, 1.}})(0) - base, .2, 2e-3);
 }
 
 /// A run that fails is tried again with other seeds, then excluded, and both is told. An effect of which nothing is left is
@@ -156,11 +188,11 @@ TEST(Emulator, FailedRunsAreToldAndExcluded)
     const Emulator emulator(study, simulator, library.runs, allFeatures(study));
     EXPECT_FALSE(emulator.knows(1));
     EXPECT_TRUE(emulator.knows(0));
-    EXPECT_NEAR(emulator[0]->mean({{0, 1.}})(0, 0) - emulator[0]->mean({})(0, 0), .06, 1e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - emulator[0]->at(none, {})(0), .06, 1e-3);
     ASSERT_EQ(emulator.remarks().size(), 1U);
     EXPECT_NE(emulator.remarks().front().find('y'), std::string::npos);
-    ASSERT_EQ(simulator.failures().size(), 1U);
-    EXPECT_EQ(simulator.failures().front().reason, "y is not possible");
+    ASSERT_EQ(simulator.failures().size(), 2U);
+    EXPECT_EQ(simulator.failures().back().reason, "y is not possible");
 }
 
 /// Runs with known coefficients and noise: what the emulator says of its own errors holds.
@@ -192,7 +224,7 @@ TEST(Emulator, IntervalsCover)
         const Emulator emulator(study, simulator, runs, allFeatures(study));
         const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, .5);
         const std::vector<Present> present = {{0, .7}};
-        const double error = (emulator[0]->mean(present) * parameterTermsAt(at))(0) - .15 - .35;
+        const double error = emulator[0]->at(at, present)(0) - .15 - .35;
         squares += error * error / emulator[0]->uncertainty(at, present)(0, 0);
         count += 1;
     }

@@ -12,7 +12,7 @@
 namespace clepsydra::identification::tests
 {
 
-/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x + 5 y + curvature x^2: linear in the feature, where there is no
+/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x (1 + edge) + 5 y + curvature x^2: linear in the feature, where there is no
 /// curvature, so that the library must find the columns exactly.
 class LinearRig final : public Rig
 {
@@ -28,7 +28,7 @@ public:
 
     Entries defaults() const override
     {
-        return {{"friction", "0.15"}, {"x", "0"}, {"y", "0"}, {"seed", "1"}};
+        return {{"friction", "0.15"}, {"x", "0"}, {"y", "0"}, {"edge", "0"}, {"seed", "1"}};
     }
     int missing(const std::vector<RunOrder>& orders) override
     {
@@ -49,7 +49,7 @@ public:
                 continue;
             }
             double rate = .1
-                          * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") + 5 * p.at("y")
+                          * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") * (1 + p.at("edge")) + 5 * p.at("y")
                                      + curvature * p.at("x") * p.at("x"));
             rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
             Curve curve;
@@ -64,9 +64,10 @@ public:
     }
 };
 
-inline Study linearStudy(const TemporaryFolder& folder, const std::string& seed)
+/// \param moreParameters  a line for each
+inline Study linearStudy(const TemporaryFolder& folder, const std::string& seed, const std::string& moreParameters = "")
 {
-    folder.write("case/parameters", "friction 0.15;\nx 0;\ny 0;\nseed 1;\n");
+    folder.write("case/parameters", "friction 0.15;\nx 0;\ny 0;\nedge 0;\nseed 1;\n");
     return readStudy(folder.write("study.yaml", R"(study: s
 rig: { case: case, seed: )" + seed + R"( }
 observable: { file: f, value: m, features: [ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }
@@ -76,7 +77,7 @@ conditions:
   - { name: again, role: heldOut, tags: { medium: water } }
 parameters:
   - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
-effects:
+)" + moreParameters + R"(effects:
   - { name: x, set: { x: "0.02*a" }, amplitude: [-1, 1] }
   - { name: y, set: { y: "0.04*a" }, actsIn: { medium: water } }
   - { name: clock, chain: { timeFactor: "0.01*a" } }

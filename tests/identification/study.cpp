@@ -202,6 +202,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"role: training", "role: train", "study.yaml:9:", "training, heldOut or candidate"},
         {"sd: 0.02", "sd: -1", "study.yaml:11:", "above 0"},
         {"sd: 0.02", "sigma: 1", "study.yaml:11:", "mean or sd"},
+        {"range: [0", "of: sise, range: [0", "study.yaml:11:", "did you mean 'size'"},
         {"(1 + a)", "(1 + a", "study.yaml:13:", "Missing parenthesis"},
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
