@@ -178,6 +178,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
                                     * basis.waves.linearAt(around.cwiseProduct(reach(present)), amplitudes(present));
     }
     Eigen::MatrixXd polynomial = root * whitened * parameterTermsAt(reach(present)).asDiagonal();
+    polynomial.col(0) += centre;
     for (const auto& [effect, a] : present)
     {
         const auto found = chain.find(effect);
@@ -278,7 +279,7 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
                 whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
             const Eigen::MatrixXd root = here.noiseOf(rows.scattering[static_cast<std::size_t>(row)]).llt().matrixL();
             const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(whitened.cols(), [&] { return normal(random); });
-            rows.values.row(row) = (here.root * whitened.row(row).transpose() + root * z).transpose();
+            rows.values.row(row) = (here.centre + here.root * whitened.row(row).transpose() + root * z).transpose();
         }
     }
     other.learnNoiseAndScatter();
@@ -427,6 +428,7 @@ void Emulator::append(std::size_t c, const Simulator& simulator, const std::vect
         rows.scattering.push_back(std::move(scattering));
     }
     conditions_[c]->runs = static_cast<int>(rows.settings.size());
+    conditions_[c]->centre = rows.values.colwise().mean().transpose();
 }
 
 void Emulator::setNoise(std::size_t c, const Eigen::MatrixXd& noise)
@@ -579,6 +581,14 @@ Eigen::ArrayXXd Emulator::variances(std::size_t c) const
     return all;
 }
 
+/// Values of the runs from their centre, in units of the noise, runs x features.
+Eigen::MatrixXd Emulator::whitened(std::size_t c) const
+{
+    const ConditionEmulator& emulator = *conditions_[c];
+    const Eigen::MatrixXd values = rows_[c].values.rowwise() - emulator.centre.transpose();
+    return emulator.root.triangularView<Eigen::Lower>().solve(values.transpose()).transpose();
+}
+
 /// Log marginal likelihood of all runs, without constants.
 double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
 {
@@ -600,11 +610,9 @@ double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) con
         Eigen::MatrixXd covariance = scaled * scaled.transpose();
         covariance.diagonal() += variances(c).rowwise().mean().matrix();
         const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-        const Eigen::MatrixXd whitened =
-            emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
-        const Eigen::MatrixXd left = factor.matrixL().solve(whitened);
+        const Eigen::MatrixXd left = factor.matrixL().solve(whitened(c));
         sum -= 0.5 * left.squaredNorm()
-               + static_cast<double>(whitened.cols()) * factor.matrixLLT().diagonal().array().abs().log().sum();
+               + static_cast<double>(left.cols()) * factor.matrixLLT().diagonal().array().abs().log().sum();
     }
     return sum;
 }
@@ -666,8 +674,7 @@ void Emulator::solve(std::size_t c)
     {
         prior(i) = scales_[emulator.basis.kind(i)] * scales_[emulator.basis.kind(i)];
     }
-    const Eigen::MatrixXd whitened =
-        emulator.root.triangularView<Eigen::Lower>().solve(rows.values.transpose()).transpose();
+    const Eigen::MatrixXd values = whitened(c);
     const Eigen::ArrayXXd variance = variances(c);
     emulator.coefficients.resize(prior.size(), features);
     emulator.covariances.resize(static_cast<std::size_t>(features));
@@ -698,7 +705,7 @@ void Emulator::solve(std::size_t c)
             Eigen::MatrixXd covariance = rows.terms * spread + inDesign;
             covariance.diagonal() += variance.col(f).matrix();
             const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-            emulator.coefficients.col(f) = spread * factor.solve(whitened.col(f));
+            emulator.coefficients.col(f) = spread * factor.solve(values.col(f));
             if (heredity)
             {
                 const Eigen::MatrixXd half = factor.matrixL().solve(spread.transpose());

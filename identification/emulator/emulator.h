@@ -42,6 +42,7 @@ public:
     std::vector<Eigen::Index> features;                // of the study
     Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
     Eigen::MatrixXd root;                              // lower triangular; root root' = noise
+    Eigen::VectorXd centre;                            // mean of the runs, from which values are counted
     Eigen::MatrixXd coefficients;                      // terms x features, in units of `root`
     std::vector<Eigen::MatrixXd> covariances;          // of these, by feature
     std::map<std::size_t, Chain> chain;                // by effect
@@ -159,6 +160,7 @@ private:
     void learnChain(
         std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
+    Eigen::MatrixXd whitened(std::size_t condition) const;
 
     const Study* study_;
     std::vector<Rows> rows_;

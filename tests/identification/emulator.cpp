@@ -147,8 +147,9 @@ TEST(Emulator, ParameterOfAnEffect)
             const Eigen::MatrixXd mean = emulator[0]->mean(present, Eigen::Vector2d(0, 0));
             const Eigen::VectorXd moved = parameterTermsAt(Eigen::Vector2d(0, 1));
             EXPECT_NEAR((mean * moved)(0),
-                (emulator[0]->terms(Eigen::Vector2d(0, 1), present).transpose() * emulator[0]->coefficients
-                    * emulator[0]->root.transpose())(0),
+                (emulator[0]->centre.transpose()
+                    + emulator[0]->terms(Eigen::Vector2d(0, 1), present).transpose() * emulator[0]->coefficients
+                          * emulator[0]->root.transpose())(0),
                 1e-12);
             return (mean * moved)(0) - mean(0, 0);
         };
