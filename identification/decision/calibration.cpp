@@ -298,7 +298,7 @@ void Calibrator::setMembership()
         }
         return limits;
     };
-    calibration_.misfits = limitsOf(&Odds::misfits, meansStillFit);
+    calibration_.misfits = limitsOf(&Odds::misfits, meansStillFit).cwiseMin(evidence_.largestMisfit(meansStillFit));
     calibration_.scatterMisfits = limitsOf(&Odds::scatterMisfits, scatterStillFits);
 }
 

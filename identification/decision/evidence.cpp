@@ -1,5 +1,8 @@
 #include "decision/evidence.h"
 
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/distributions/normal.hpp>
+
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
@@ -431,6 +434,18 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
         solution.logVolume -= std::log(factored(i, i));
     }
     return solution;
+}
+
+double Evidence::largestMisfit(double sds) const
+{
+    if (!isExact())
+    {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double beyond = boost::math::cdf(boost::math::complement(boost::math::normal(), sds));
+    const auto rows = static_cast<double>(layout_.rows);
+    return rows
+           * boost::math::quantile(boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), beyond));
 }
 
 /// The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).

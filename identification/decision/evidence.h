@@ -79,6 +79,10 @@ public:
         return !emulator_.scatters();
     }
 
+    /// What the misfit of the truth stays below but for chance, this many standard deviations from the mean; where runs do
+    /// not scatter, else infinite. No draw tells more: of what is not known, far from all runs, draws lie anywhere.
+    double largestMisfit(double sds) const;
+
     Evidences operator()(const Measured& measured) const;
 
     /// Log evidence of something that is not in the library.

@@ -216,12 +216,15 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
             scatterMisfits.push_back(own.judgements[i].scatterMisfit);
             improbabilities.push_back(1.0 - own.probabilities(place));
         }
+        const auto fitsWithin = [&](double sds) {
+            return verdict.judgements[i].misfit <= std::min(misfitLimit(misfits, sds), evidence.largestMisfit(sds));
+        };
         pair.probability = verdict.probabilities(place);
-        pair.inSet = verdict.judgements[i].misfit <= misfitLimit(misfits, meansStillFit)
+        pair.inSet = fitsWithin(meansStillFit)
                      && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
                      && 1.0 - pair.probability <= std::max(
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
-        pair.fitsWell = pair.inSet && verdict.judgements[i].misfit <= misfitLimit(misfits, fitsWell);
+        pair.fitsWell = pair.inSet && fitsWithin(fitsWell);
     }
 }
 

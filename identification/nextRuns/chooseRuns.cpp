@@ -1,8 +1,11 @@
 #include "nextRuns/chooseRuns.h"
 
+#include "emulator/settings.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <optional>
 
 namespace clepsydra::identification
 {
@@ -56,6 +59,14 @@ public:
         return data_[i].llt().solve(unknown_[i]).trace() / static_cast<double>(data_[i].rows());
     }
 
+    /// How far features at some setting are from those of a contender, over the errors of what was measured; squares, the
+    /// mean of all features.
+    double distance(std::size_t i, const Eigen::VectorXd& mean) const
+    {
+        const Eigen::VectorXd apart = mean - means_[i];
+        return apart.dot(data_[i].llt().solve(apart)) / static_cast<double>(apart.size());
+    }
+
     void run(std::size_t i)
     {
         unknown_[i] = afterRun(i);
@@ -82,6 +93,29 @@ private:
     std::vector<Eigen::MatrixXd> runs_;        // noise of a run
     std::vector<Eigen::MatrixXd> data_;        // of the mean of the measurements
 };
+
+/// Effects of a contender as they are in a run, those of the measuring chain as they are in the contender; none where not the
+/// same effects are on.
+std::optional<std::vector<Present>> simulatedAs(
+    const std::vector<Present>& present, const ConditionEmulator& here, const Setting& setting)
+{
+    std::vector<Present> own = present;
+    Eigen::VectorXd others = setting.amplitudes;
+    for (auto& one : own)
+    {
+        const auto effect = static_cast<Eigen::Index>(one.effect);
+        if (here.basis.placeOf(one.effect) < here.basis.effects.size())
+        {
+            one.amplitude = setting.amplitudes(effect);
+            if (one.amplitude == 0.0)
+            {
+                return std::nullopt;
+            }
+        }
+        others(effect) = 0.0;
+    }
+    return others.isZero() ? std::optional(own) : std::nullopt;
+}
 
 } // namespace
 
@@ -126,16 +160,27 @@ std::vector<WantedRun> chooseRuns(
     return chosen;
 }
 
-std::vector<WantedRun> openRuns(
-    const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders)
+std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, const Layout& layout,
+    const std::vector<Contender>& contenders, const std::vector<Run>& runs)
 {
     std::vector<WantedRun> wanted;
     for (const auto& block : layout.blocks)
     {
         const Expectation expectation(emulator, block, contenders);
+        const ConditionEmulator& here = *emulator[block.condition];
         for (std::size_t i = 0; i < contenders.size(); ++i)
         {
-            if (expectation.openShare(i) > worthARun)
+            const auto isNear = [&](const Run& run) {
+                if (run.simulation.condition != block.condition || run.simulation.failed)
+                {
+                    return false;
+                }
+                const auto own = simulatedAs(contenders[i].present, here, run.setting);
+                return own
+                       && expectation.distance(i, here.at(inSds(study, run.setting.parameters), *own)(block.places))
+                              < 1.0;
+            };
+            if (expectation.openShare(i) > worthARun || std::none_of(runs.begin(), runs.end(), isNear))
             {
                 wanted.push_back({i, block.condition});
             }

@@ -29,8 +29,9 @@ std::vector<WantedRun> chooseRuns(
     const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders, int count);
 
 /// Where runs do not scatter one at a place tells all: a run of each contender where what the emulator does not know of it is
-/// not small beside the errors of what was measured.
-std::vector<WantedRun> openRuns(
-    const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders);
+/// not small beside the errors of what was measured, or where there is none that differs from it by less than these: what the
+/// emulator says of its own errors where no run is rests on what effects do elsewhere.
+std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, const Layout& layout,
+    const std::vector<Contender>& contenders, const std::vector<Run>& runs);
 
 } // namespace clepsydra::identification

@@ -188,7 +188,7 @@ private:
         std::vector<SimulationOrder> orders;
         const auto wanted = answer_.emulator->scatters()
                                 ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
-                                : openRuns(*answer_.emulator, answer_.layout, contenders);
+                                : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
