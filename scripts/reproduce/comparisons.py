@@ -11,7 +11,7 @@ import closures
 import exitFlow
 import paper
 import series
-from series import Value
+from series import Value, ratio
 
 SIGNIFICANT = 3             # standard errors
 SURGE_IS_SEEN = False       # what cases/hopper5cm/README.md says of the fills that have been run; a deeper one may show it
@@ -38,11 +38,6 @@ def require(claim, holds):
 
 def names(runs):
     return [run.name for run in runs]
-
-
-def ratio(above, below):
-    mean = above.mean / below.mean
-    return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
 
 
 def rates():
@@ -90,25 +85,39 @@ def matchingFriction():
 
 
 def surge():
-    """How straight m(t) is: what the rate gains while half of the fill leaves."""
-    friction, rises, found = paper.MATCHING_FRICTION["dry"], {}, []
+    """How straight m(t) is: what the rate gains while half of the fill leaves, and what it is late over what it was early."""
+    friction = paper.MATCHING_FRICTION["dry"]
     runsOf = series.deepestOfBoth(friction)
-    for stage, runs in runsOf.items():
-        rises[stage] = series.mean([run.rise for run in runs])
-        found.append(row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-",
-                         rises[stage], names(runs)))
-        late = [ratio(run.lateRate, run.rateBetween(*series.LINEAR)) for run in runs if run.lateRate]
-        if late:
-            found.append(row("W from {} to {} g over W in the upper half, {}".format(*series.LATE, stage), "-",
-                             series.mean(late), names(runs)))
+    rises = {stage: series.mean([run.rise for run in runs]) for stage, runs in runsOf.items()}
+    found = [row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-", rises[stage], names(runs))
+             for stage, runs in runsOf.items()]
     difference = Value(rises["submerged"].mean - rises["dry"].mean,
                        float(np.hypot(rises["submerged"].error, rises["dry"].error)))
     found.append(row("rise of W, submerged less dry", "-", difference, names(sum(runsOf.values(), []))))
+    for window in series.SURGE:
+        found += gains(runsOf, window)
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
     require(f"submerged there is {'a' if SURGE_IS_SEEN else 'no'} rise beyond three standard errors, as cases/hopper5cm/README.md says",
             (rises["submerged"].mean > SIGNIFICANT * rises["submerged"].error) == SURGE_IS_SEEN)
+    return found
+
+
+def gains(runsOf, window):
+    """W in a window of mass over W in the upper half, of each medium; and the one over the other, which frees it of the heap."""
+    what, gain, found, used = "W from {} to {} g over W in the upper half".format(*window), {}, [], []
+    for stage, runs in runsOf.items():
+        whole = [run for run in runs if run.gain(*window)]
+        if whole:
+            gain[stage] = series.mean([run.gain(*window) for run in whole])
+            found.append(row(f"{what}, {stage}", "-", gain[stage], names(whole)))
+            used += names(whole)
+    if len(gain) == len(paper.STAGES):
+        found.append(row(f"{what}, submerged over dry", "-", ratio(gain["submerged"], gain["dry"]), used))
+    fill = runsOf["submerged"][0].fill
+    expected = paper.wilsonRate(*window) / paper.wilsonRate(*(part * fill for part in series.LINEAR))
+    found.append(row(f"{what}, by the formula of Wilson et al. (2014)", "-", Value(expected, 0), []))
     return found
 
 

@@ -4,6 +4,7 @@ Stages are named as in the cases, masses in g, rates in g/s, times in s.
 """
 
 from dataclasses import dataclass
+from math import log
 
 STAGES = ("dry", "submerged")
 
@@ -38,3 +39,11 @@ class Bead:
 
 # The printed I = eta D/(rho_e v_t) has a dimension; 4 eta/(rho_e v_t D) gives the printed numbers.
 TABLE_1 = (Bead(0.5e-3, 37, 1.76, 34.0e-4), Bead(1e-3, 151, 0.86, 17.0e-4), Bead(2e-3, 530, 0.56, 9.8e-4))
+
+
+def wilsonRate(upper, lower, surge=0.25, mass=187):
+    """Mean rate between two masses, of W = 1 + S/(1 + m/M): what Wilson et al., Papers in Physics 6, 060009 (2014) measured
+    under water, in another hopper."""
+    # the time that it takes, the integral of dm/W
+    time = upper - lower - surge * mass * log((mass * (1 + surge) + upper) / (mass * (1 + surge) + lower))
+    return (upper - lower) / time

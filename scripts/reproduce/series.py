@@ -16,7 +16,10 @@ import paper
 START = (0.95, 0.75)        # of the fill: "the beginning", 380 to 300 g of 400 g
 LINEAR = (0.95, 0.5)        # of the fill: 400 to 200 g of 400 g, where the paper fits its straight line
 CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom shows
-LATE = (200, 100)           # g: the paper sees the surge below 200 g, the heap on the bottom shows below some 75 g
+# The surge: the mean rate while so many g are left, over that in LINEAR. The paper sees it below 200 g. Fixed on 2026-11-24,
+# when submerged runs of 400 g ended at 97 g (the first window was seen, the second was not) and the dry one was whole; below
+# 50 g the heap on the bottom slows the dry flow. What the heap does above that, the dry run in the same window tells.
+SURGE = ((200, 100), (100, 50))
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
@@ -35,6 +38,11 @@ class Value:
 
     def __str__(self):
         return f"{self.mean:.4g} +- {self.error:.2g}"
+
+
+def ratio(above, below):
+    mean = above.mean / below.mean
+    return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
 
 
 class HopperRun:
@@ -89,11 +97,12 @@ class HopperRun:
         """The paper's W, "at the beginning"."""
         return self.rateBetween(*START)
 
-    @cached_property
-    def lateRate(self):
-        """After the upper half, in which the paper finds m(t) straight; None for a fill without such a part."""
-        upper, lower = (mass / self.mass[0] for mass in LATE)
-        return self.rateBetween(upper, lower) if upper < LINEAR[1] and self.mass[-1] < LATE[1] else None
+    def gain(self, upper, lower):
+        """Mean rate while so many g are left, over that in the upper half, in which the paper finds m(t) straight; None for a
+        run without such parts."""
+        if upper > LINEAR[1] * self.mass[0] * 1.001 or self.mass[-1] > lower:
+            return None
+        return ratio(self.rateBetween(upper / self.mass[0], lower / self.mass[0]), self.rateBetween(*LINEAR))
 
     @cached_property
     def rise(self):
