@@ -10,6 +10,7 @@ STAGES = ("dry", "submerged")
 
 # measured, both while 300 to 400 g are left
 RATE = {"dry": 11.4, "submerged": 7.6}
+RATE_ERROR = 0.05           # half of the last printed digit: no error is given
 
 # of the simulations: the friction at which the rate is the measured one, and W_o of the fit W - W_o "exponential" in mu
 MATCHING_FRICTION = {"dry": 0.15, "submerged": 0.13}
@@ -42,8 +43,8 @@ TABLE_1 = (Bead(0.5e-3, 37, 1.76, 34.0e-4), Bead(1e-3, 151, 0.86, 17.0e-4), Bead
 
 
 def wilsonRate(upper, lower, surge=0.25, mass=187):
-    """Mean rate between two masses, of W = 1 + S/(1 + m/M): what Wilson et al., Papers in Physics 6, 060009 (2014) measured
-    under water, in another hopper."""
+    """Mean rate between two masses, of W = 1 + S/(1 + m/M): rises by up to S as the hopper empties, as Wilson et al., Papers
+    in Physics 6, 060009 (2014) measured under water in another hopper."""
     # the time that it takes, the integral of dm/W
     time = upper - lower - surge * mass * log((mass * (1 + surge) + upper) / (mass * (1 + surge) + lower))
     return (upper - lower) / time

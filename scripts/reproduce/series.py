@@ -247,6 +247,11 @@ class FrictionLaw:
         asymptote, amplitude, scale = self.fits[fit]
         return asymptote + amplitude * np.exp(-np.asarray(friction) / scale)
 
+    def band(self, friction):
+        """Between what 16 and what 84 % of the draws have."""
+        drawn = [self.rate(friction, fit) for fit in range(1, len(self.fits))]
+        return np.percentile(drawn, [16, 84], axis=0)
+
     def parameter(self, index):
         return self._value(self.fits[:, index])
 
