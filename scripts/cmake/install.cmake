@@ -79,9 +79,9 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
-# What the scripts start: the groups of scripts/setup that are not for building
+# Packages of the libraries: scripts/cmake/packages.cmake. What the scripts start: the groups of scripts/setup that are not for building
+set(CPACK_PROJECT_CONFIG_FILE "${PROJECT_SOURCE_DIR}/scripts/cmake/packages.cmake")
+set(CPACK_CLEPSYDRA_BUILT "${PROJECT_BINARY_DIR}")
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
     "openfoam, libopenfoam, liggghts, openmpi-bin, make, python3, python3-numpy, python3-scipy, python3-matplotlib, python3-vtk9, python3-yaml, xvfb, xauth, ffmpeg")
 # liggghts recommends ParaView, whose Python conflicts with VTK's: apt looks no further where we do not say so, too.

@@ -119,7 +119,9 @@ class Installed(unittest.TestCase):
 
 
 class Package(Installed):
-    """The same from the package, unpacked beside what is there."""
+    """The same from the package, unpacked beside what is there; as far as it is not shown by its files being the same."""
+
+    testManualPages = testCompletions = testForceOfOnesOwn = testCopiedHopperMakesItsMesh = testResultsOfRunsHereStayHere = None
 
     @classmethod
     def unpack(cls):
@@ -129,6 +131,18 @@ class Package(Installed):
         subprocess.run(["dpkg-deb", "-x", cls.package, cls.folder / "unpacked"], check=True)
         (cls.folder / "usr").symlink_to("unpacked/usr")
         cls.prefix = cls.folder / "usr"
+
+    def testHoldsWhatIsInstalled(self):
+        """All files of `cmake --install`, byte by byte but for the programs, from which debugging symbols are stripped."""
+        installed = self.folder / "installed"
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", installed], check=True, stdout=subprocess.DEVNULL)
+        files = [{path.relative_to(root): path for path in root.rglob("*") if path.is_file()} for root in (installed, self.prefix)]
+        self.assertGreater(len(files[0]), 100)
+        self.assertEqual(set(files[0]), set(files[1]))
+        for name, path in files[0].items():
+            content, packed = path.read_bytes(), files[1][name].read_bytes()
+            if not content.startswith(b"\x7fELF"):
+                self.assertEqual(content, packed, name)
 
     def testPackageConflictsWithParaViewsPython(self):
         """Else apt, which liggghts recommends ParaView to, finds no way to install ours."""
