@@ -98,8 +98,10 @@ class Campaign:
     def parameters(self, task):
         return self._resolved(dict(task.overrides))
 
-    def check(self):
-        """{name: what is known of it} of all tasks; CampaignError where the template's rules refuse the parameters of any."""
+    def check(self, executor):
+        """{name: what is known of it} of all tasks; CampaignError where the template's rules refuse the parameters of any.
+
+        Slurm's tasks run on other machines than this one: what fits there, each finds when it starts."""
         if "rules" not in self.template:
             return {}
         if self.template["rules"] not in RULES:
@@ -110,7 +112,8 @@ class Campaign:
             # runs of one set of parameters are checked once
             key = task.overrides, task.ranks, task.part
             if key not in seen:
-                seen[key] = rules.check(case, self.parameterText(task), self.case, task.ranks, task.part, f"{self.path}: {name}")
+                seen[key] = rules.check(case, self.parameterText(task), self.case, task.ranks if executor == "local" else None,
+                                        task.part, f"{self.path}: {name}")
             known[name] = seen[key]
             problems += [problem for problem in known[name].problems if problem not in problems]
         if problems:

@@ -45,7 +45,7 @@ def check(case, text, folder, ranks, part, path):
     """Findings about the text of a file `parameters`, which is called `path` in them.
 
     case: a module with RULES and findings; folder: where the case lies, whose files may have entries of their own; part: what
-    of the case is wanted, as its Allrun calls it, or `all`."""
+    of the case is wanted, as its Allrun calls it, or `all`; ranks: None where it is to run on another machine."""
     try:
         p = parametersIn(text, path)
     except ParameterError as problem:

@@ -152,21 +152,26 @@ def cells(text, p, found):
 
 
 def checkMachine(p, cells, ranks, found):
+    needed = cells * BYTES_PER_CELL + p["beadCount"] * BYTES_PER_BEAD
+    if ranks is not None:
+        checkHere(p, cells, ranks, needed, found)
+    found.facts.append(f"mesh: some {cells:.3g} cells ({p['mesher']}); memory: some {needed / 1e6:.3g} MB")
+    for stage, of in (("dry", 0), ("submerged", cells)):
+        found.facts.append(f"{stage}: at most some {seconds(p, of, p[stage + 'Time']):.2g} s of computing on one core")
+
+
+def checkHere(p, cells, ranks, needed, found):
     cores = len(os.sched_getaffinity(0))
     most = max(cores * RANKS_PER_CORE, int(os.environ.get("SLURM_NTASKS", 1)))
     if ranks > most:
         found.problems.append(f"{ranks} ranks; allowed: 1 to {most} ({cores} cores here)")
     elif ranks > max(cores, int(os.environ.get("SLURM_NTASKS", 1))):
         found.warnings.append(f"{ranks} ranks on {cores} cores are slower than {cores}")
-    needed = cells * BYTES_PER_CELL + p["beadCount"] * BYTES_PER_BEAD
     here = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     if needed > here:
         found.problems.append(f"the mesh would have some {cells:.3g} cells, which need {needed / 1e9:.3g} GB with "
                               f"{p['beadCount']:.3g} beads; allowed: what fits into the {here / 1e9:.3g} GB of this machine. "
                               "Are all lengths in metres?")
-    found.facts.append(f"mesh: some {cells:.3g} cells ({p['mesher']}); memory: some {needed / 1e6:.3g} MB")
-    for stage, of in (("dry", 0), ("submerged", cells)):
-        found.facts.append(f"{stage}: at most some {seconds(p, of, p[stage + 'Time']):.2g} s of computing on one core")
 
 
 def seconds(p, cells, simulated):

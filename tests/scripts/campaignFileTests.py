@@ -117,6 +117,13 @@ class MistakenFiles(CampaignFile):
                 self.assertIn(words, self.refused(command))
             self.assertFalse((self.folder / "work").exists())
 
+    def testMachinesOfSlurmAreNotThisOne(self):
+        """More ranks than this machine can bear are refused here, and are none of its business where Slurm places them."""
+        self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), packings=[100003], ranks=100000)
+        self.assertIn("100000 ranks; allowed", self.refused())
+        outcome = self.call("check", "--executor", "slurm")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
     def testACampaignMayLieOutsideTheRepository(self):
         """A copy of cases/hopperDry: its base is found, and its work and results lie beside it."""
         shutil.copy(REPOSITORY / "cases" / "hopperDry" / "case.yaml", self.folder / "test.yaml")
