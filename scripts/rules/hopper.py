@@ -21,7 +21,8 @@ BYTES_PER_BEAD, BYTES_PER_CELL = 2240, 2470     # scripts/benchmarks/README.md
 
 
 def isSeed(value):
-    return (isinstance(value, float) and value.is_integer() and 10000 < value < 2**31
+    """LIGGGHTS wants primes above 10000, and another one for each of its commands: those from 10007 on are the bead templates'."""
+    return (isinstance(value, float) and value.is_integer() and 11000 < value < 2**31
             and all(value % divisor for divisor in range(2, math.isqrt(int(value)) + 1)))
 
 
@@ -31,7 +32,7 @@ RULES = {
     "friction": number(0, 10), "frictionWall": number(0, 10), "frictionBottom": number(0, 10),
     "rollingFriction": number(0, 10), "cohesionEnergyDensity": number(0, 1e9, "J/m3"), "diameterDeviation": number(0, 0.4),
     "addedMassCoefficient": number(0, 5), "lift": SWITCH, "lubrication": SWITCH, "roughness": length(1e-12, 1e-2),
-    "seed": Rule("a prime from 10007 to 2147483647", isSeed),
+    "seed": Rule("a prime from 11003 to 2147483647", isSeed),
     "fluidDensity": number(0.1, 3e4, "kg/m3"), "fluidViscosity": number(1e-9, 10, "m2/s"),
     "dragLaw": Rule("a word", lambda value: isinstance(value, str)), "dragFactor": number(0, 100),
     "hopperDiameter": length(1e-4, 10), "orificeDiameter": length(1e-4, 10), "hopperHeight": length(1e-4, 10),

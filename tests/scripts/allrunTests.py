@@ -125,7 +125,8 @@ class Mistakes(HopperCase):
                 ("beadDensity", "beadDensity 1e308;", ["entry 'beadDensity' is 1e+308; allowed"]),
                 ("mesher", "mesher ../../bin/sh;", ["entry 'mesher' is ../../bin/sh; allowed: hopperInTank, hopperBySnappy, "
                                                         "hopperFromSurface"]),
-                ("seed", "seed 100004;", ["entry 'seed' is 100004; allowed: a prime"])):
+                ("seed", "seed 100004;", ["entry 'seed' is 100004; allowed: a prime"]),
+                ("seed", "seed 10007;", ["entry 'seed' is 10007; allowed: a prime from 11003"])):       # a bead template has it
             with self.otherParameters(self.otherLine(name, line)):
                 self.expectRefused("parameters", *words)
         with self.otherParameters(self.otherLine("friction", "friction x;")):

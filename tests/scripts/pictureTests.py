@@ -25,20 +25,21 @@ import numpy as np
 TIMES = 5               # written while the water flows: .5 s, one each .1 s
 
 
-class Pictures(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="clepsydra-pictures-")
-        cls.addClassCleanup(folder.cleanup)
-        cls.folder = Path(folder.name)
-        case = cls.folder / "cases/hopperQuick"
-        shutil.copytree(REPOSITORY / "cases/hopperQuick", case, ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
-        for name in ("scripts", "meshes", "tests"):
-            (cls.folder / name).symlink_to(REPOSITORY / name)
-        subprocess.run(["bash", "-ec", ". tests/pages/smallHopper; cases/hopperQuick/Allrun mesh pour dry submerged"], cwd=cls.folder, check=True,
-                       stdout=subprocess.DEVNULL, env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)})
-        cls.dry, cls.submerged = (case / "stages" / stage for stage in ("dry", "submerged"))
+def setUpModule():
+    """One run of the hopper, dry and under water, for all that is made of it."""
+    folder = tempfile.TemporaryDirectory(prefix="clepsydra-pictures-")
+    unittest.addModuleCleanup(folder.cleanup)
+    Pictures.folder = Path(folder.name)
+    case = Pictures.folder / "cases/hopperQuick"
+    shutil.copytree(REPOSITORY / "cases/hopperQuick", case, ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
+    for name in ("scripts", "meshes", "tests"):
+        (Pictures.folder / name).symlink_to(REPOSITORY / name)
+    subprocess.run(["bash", "-ec", ". tests/pages/smallHopper; cases/hopperQuick/Allrun mesh pour dry submerged"], cwd=Pictures.folder, check=True,
+                   stdout=subprocess.DEVNULL, env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)})
+    Pictures.dry, Pictures.submerged = (case / "stages" / stage for stage in ("dry", "submerged"))
 
+
+class Pictures(unittest.TestCase):
     def runs(self, script, *arguments, **options):
         return subprocess.run([SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, **options)
 
@@ -167,8 +168,7 @@ class Report(Pictures):
         self.assertIn("has no log.pimpleDemFoam", done.stderr)
 
 
-@unittest.skipUnless(shutil.which("pvpython"), "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)")
-class ParaView(Pictures):
+class Studies(Pictures):
     def testWhatNoFitHasSeen(self):
         """Measured in black, the model before and after in red and blue; a study that held nothing out has no picture."""
         self.makes("studies", "--picture", "studies.png", "beadsInTwoLiquids")
@@ -179,6 +179,9 @@ class ParaView(Pictures):
         self.assertEqual(refused.returncode, 1)
         self.assertIn("nothing to draw", refused.stderr)
 
+
+@unittest.skipUnless(shutil.which("pvpython"), "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)")
+class ParaView(Pictures):
     def testStateWithBeadsAndWater(self):
         display = [] if "DISPLAY" in os.environ else ["xvfb-run", "--auto-servernum"]
         subprocess.run([*display, "pvpython", SCRIPTS / "paraviewState", self.submerged, "state.png"], check=True, cwd=self.folder, capture_output=True)
