@@ -45,6 +45,11 @@ def ratio(above, below):
     return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
 
 
+def product(values):
+    mean = float(np.prod([value.mean for value in values]))
+    return Value(mean, abs(mean) * float(np.hypot.reduce([value.error / value.mean for value in values])))
+
+
 class HopperRun:
     """One m(t), in g and s."""
 
@@ -252,6 +257,16 @@ class FrictionLaw:
         drawn = [self.rate(friction, fit) for fit in range(1, len(self.fits))]
         return np.percentile(drawn, [16, 84], axis=0)
 
+    def scaled(self, factor):
+        """All rates times a factor: each draw's by one drawn within the factor's error."""
+        drawn = np.random.default_rng(20170328).normal(factor.mean, factor.error, len(self.fits) - 1)
+        factors = np.append(factor.mean, drawn)[:, None]
+        return FrictionLaw(self.fits * np.hstack([factors, factors, np.ones_like(factors)]))
+
+    def value(self, friction):
+        """The rate with its error."""
+        return self._value(np.array([self.rate(friction, fit) for fit in range(len(self.fits))]))
+
     def parameter(self, index):
         return self._value(self.fits[:, index])
 
@@ -312,10 +327,31 @@ def variants(stage):
     found = {}
     for run in allRuns():
         if run.stage == stage and run.entry == "cells":
-            found[f"mesh {run.parameters['meshLevel']}"] = run
+            found[f"{run.parameters['meshLevel']} mesh"] = run
         if run.stage == stage and run.entry == "stiff":
-            found[f"beads of {run.parameters['youngsModulus']:.0e} Pa"] = run
+            found[f"beads of {run.parameters['youngsModulus'] / 1e6:g} MPa"] = run
     return found
+
+
+FINEST = "medium mesh"
+
+
+def corrections(stage):
+    """{what: factor} of what was tried one by one at one friction: the paper's fill, stiffer beads, and under water a finer
+    mesh, each over the runs of the entry fill100."""
+    friction = paper.MATCHING_FRICTION["dry"]
+    usual = mean([run.startRate for run in asDeepAsHalfSize(stage)])
+    deepest = deepestOfBoth(friction)[stage]
+    found = {f"{deepest[0].fill:.0f} g": ratio(mean([run.startRate for run in deepest]), usual)}
+    for what, run in variants(stage).items():
+        if what == FINEST or not what.endswith("mesh"):
+            found[what] = ratio(run.startRate, usual)
+    return found
+
+
+def correctedLaw(stage):
+    """The fit with all corrections at once, as if they multiplied and were the same at every friction."""
+    return frictionLaw(stage).scaled(product(corrections(stage).values()))
 
 
 def halfSize(stage):
