@@ -287,6 +287,7 @@ class FrictionLaw:
         return Value(float(values[0]), float(error))
 
 
+@cache
 def frictionLaw(stage):
     """The paper's fit to the rates of a sweep. Needs three frictions; three leave nothing to check it by."""
     byFriction = sweep(stage)
@@ -349,6 +350,7 @@ def corrections(stage):
     return found
 
 
+@cache
 def correctedLaw(stage):
     """The fit with all corrections at once, as if they multiplied and were the same at every friction."""
     return frictionLaw(stage).scaled(product(corrections(stage).values()))
