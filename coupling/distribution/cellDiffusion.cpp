@@ -29,9 +29,9 @@ struct Link
     double distance;
 };
 
-/// Quantities of a cell side by side, as many as a vector unit takes at once.
+/// Quantities of a cell side by side, for vector units.
 template<int Lanes>
-struct alignas(Lanes * sizeof(double)) Values
+struct alignas((Lanes > 8 ? 4 : Lanes) * sizeof(double)) Values
 {
     double lane[Lanes] = {};
 };
@@ -249,7 +249,7 @@ CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const
 
 void CellDiffusion::applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const
 {
-    constexpr Eigen::Index most = 8;
+    constexpr Eigen::Index most = 12;
     for (Eigen::Index row = 0; row < u.rows(); row += most)
     {
         const Eigen::Index rows = std::min(most, u.rows() - row);
@@ -261,6 +261,10 @@ void CellDiffusion::applyChebyshev(const std::vector<double>& coefficients, Eige
         else if (rows <= 4)
         {
             applyChebyshevTo<4>(coefficients, part);
+        }
+        else if (rows <= 8)
+        {
+            applyChebyshevTo<8>(coefficients, part);
         }
         else
         {

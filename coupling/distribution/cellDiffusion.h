@@ -30,7 +30,7 @@ public:
     }
 
     /// u <- sum_k c_k T_k(1 - 2 L/largestEigenvalue) u, T_k being Chebyshev's polynomials. Collective; one message to
-    /// each neighbouring rank per term for up to eight quantities.
+    /// each neighbouring rank per term for up to twelve quantities.
     /// \param coefficients  c_k, at least one
     /// \param u  quantities x cells of this rank
     void applyChebyshev(const std::vector<double>& coefficients, Eigen::MatrixXd& u) const;

@@ -12,19 +12,26 @@ namespace
 
 constexpr int messageTag = 51;
 
-/// A box as six numbers; an empty box stays empty.
-using BoxNumbers = Eigen::Matrix<double, 6, 1>;
+/// On each side, in parts of the box around a rank's beads: what spreads is announced ever less often, and no rank hears
+/// of many more beads than touch it.
+constexpr double roomAroundBeads = 0.25;
 
-BoxNumbers numbers(const Box& box)
+/// Collective.
+std::vector<Box> boxesOfRanks(MPI_Comm communicator, const Box& own)
 {
-    BoxNumbers six;
-    six << box.min(), box.max();
-    return six;
-}
-
-Box box(const BoxNumbers& six)
-{
-    return Box(Vector3d(six.head<3>()), Vector3d(six.tail<3>()));
+    int rankCount = 1;
+    MPI_Comm_size(communicator, &rankCount);
+    Eigen::Matrix<double, 6, 1> corners;
+    corners << own.min(), own.max();
+    Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, rankCount);
+    MPI_Allgather(corners.data(), 6, MPI_DOUBLE, all.data(), 6, MPI_DOUBLE, communicator);
+    std::vector<Box> boxes;
+    for (const auto& of : all.colwise())
+    {
+        // An empty one stays empty.
+        boxes.emplace_back(Vector3d(of.head<3>()), Vector3d(of.tail<3>()));
+    }
+    return boxes;
 }
 
 Box boxAround(const BeadsView& beads, double commonReach)
@@ -52,52 +59,71 @@ VisitingBead visitFrom(const BeadsView& beads, const Reactions& reactions, Eigen
 BeadExchange::BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach)
     : communicator_(communicator),
       cells_(cells),
-      commonReach_(commonReach)
+      commonReach_(commonReach),
+      cellsOfRanks_(boxesOfRanks(communicator, cells))
 {
     MPI_Comm_rank(communicator_, &rank_);
 }
 
-void BeadExchange::makePlan(const BeadsView& beads)
+void BeadExchange::announce(const Box& beads)
 {
-    int rankCount = 1;
-    MPI_Comm_size(communicator_, &rankCount);
-
-    Eigen::Matrix<double, 12, 1> mine;
-    mine << numbers(boxAround(beads, commonReach_)), numbers(cells_);
-    Eigen::Matrix<double, 12, Eigen::Dynamic> all(12, rankCount);
-    MPI_Allgather(mine.data(), 12, MPI_DOUBLE, all.data(), 12, MPI_DOUBLE, communicator_);
-
-    exports_.clear();
-    imports_.clear();
-    const Box myBeads = boxAround(beads, commonReach_);
+    if (!announced_.contains(beads))
+    {
+        const Vector3d room = roomAroundBeads * beads.sizes();
+        announced_.extend(Box(beads.min() - room, beads.max() + room));
+    }
+    const std::vector<Box> announced = boxesOfRanks(communicator_, announced_);
+    hosts_.clear();
+    guests_.clear();
     const auto add = [&](int rank) {
-        const Box theirBeads = box(all.col(rank).head<6>());
-        const Box theirCells = box(all.col(rank).tail<6>());
-        if (myBeads.intersects(theirCells))
+        const auto of = static_cast<std::size_t>(rank);
+        if (announced_.intersects(cellsOfRanks_[of]))
         {
-            Exports leaving{rank, {}};
-            for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
-            {
-                const SphereInFluid sphere = sphereInFluid(beads, bead);
-                if (cubeMeets(theirCells, sphere.centre, std::max(sphere.radius, commonReach_)))
-                {
-                    leaving.beads.push_back(bead);
-                }
-            }
-            exports_.push_back(std::move(leaving));
+            hosts_.push_back(rank);
         }
-        if (theirBeads.intersects(cells_))
+        if (announced[of].intersects(cells_))
         {
-            imports_.push_back({rank, 0, 0});
+            guests_.push_back(rank);
         }
     };
     add(rank_);
-    for (int rank = 0; rank < rankCount; ++rank)
+    for (int rank = 0; rank < static_cast<int>(announced.size()); ++rank)
     {
         if (rank != rank_)
         {
             add(rank);
         }
+    }
+}
+
+void BeadExchange::makePlan(const BeadsView& beads)
+{
+    const Box around = boxAround(beads, commonReach_);
+    int anyLeft = announced_.contains(around) ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &anyLeft, 1, MPI_INT, MPI_MAX, communicator_);
+    if (anyLeft != 0)
+    {
+        announce(around);
+    }
+    exports_.clear();
+    for (const int host : hosts_)
+    {
+        Exports leaving{host, {}};
+        const Box& cells = cellsOfRanks_[static_cast<std::size_t>(host)];
+        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        {
+            const SphereInFluid sphere = sphereInFluid(beads, bead);
+            if (cubeMeets(cells, sphere.centre, std::max(sphere.radius, commonReach_)))
+            {
+                leaving.beads.push_back(bead);
+            }
+        }
+        exports_.push_back(std::move(leaving));
+    }
+    imports_.clear();
+    for (const int guest : guests_)
+    {
+        imports_.push_back({guest, 0, 0});
     }
 }
 

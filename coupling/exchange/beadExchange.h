@@ -30,10 +30,12 @@ struct VisitingBead
 ///
 /// The engine and the fluid cut space differently, so a bead may live on one rank and displace fluid on another, or
 /// on two at a processor boundary. Ranks whose boxes (beads here, cells there) do not touch never exchange a message:
-/// what is known to every rank is two boxes a rank, not the beads.
+/// what is known to every rank is two boxes a rank, not the beads. A rank announces a box with room around its beads, so
+/// that in most intervals all that every rank must hear is that no box has become too small.
 class BeadExchange
 {
 public:
+    /// Collective.
     /// \param cells  box around this rank's cells; the mesh does not move.
     /// \param commonReach  how far from its centre every bead acts, if farther than its radius [m]
     BeadExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
@@ -77,6 +79,8 @@ private:
     };
 
     void makePlan(const BeadsView& beads);
+    /// Makes the announced boxes wide enough, and the lists from them. Collective.
+    void announce(const Box& beads);
     std::vector<std::vector<double>> swap(const std::vector<int>& toRanks, const std::vector<std::vector<double>>& out,
         const std::vector<int>& fromRanks) const;
 
@@ -84,6 +88,13 @@ private:
     int rank_ = 0;
     Box cells_;
     double commonReach_;
+    /// Of each rank.
+    std::vector<Box> cellsOfRanks_;
+    /// Around the beads of this rank, with room; never shrinks.
+    Box announced_;
+    /// Ranks with cells in the announced box; ranks with cells here in theirs. This rank first.
+    std::vector<int> hosts_;
+    std::vector<int> guests_;
     std::vector<Exports> exports_;
     std::vector<Imports> imports_;
     std::vector<VisitingBead> visitors_;

@@ -14,8 +14,14 @@ CarriedMomentum::CarriedMomentum(const fvMesh& mesh, double fluidDensity)
     : fluidDensity_(fluidDensity),
       coefficient_(fieldOfInterval<volScalarField>("anticipatedDrag", mesh, dimless / dimTime)),
       beadSource_(couplingField<vector>("beadSource", mesh, dimAcceleration, vector::zero)),
-      unassigned_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero))
+      given_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero)),
+      promised_(couplingField<vector>("promisedMomentum", mesh, dimVelocity, vector::zero))
 {}
+
+void CarriedMomentum::addPromised(Eigen::Ref<Eigen::MatrixXd> densities) const
+{
+    densities.topRows<3>() += fluidDensity_ * columns(promised_.primitiveField());
+}
 
 void CarriedMomentum::update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
 {
@@ -29,16 +35,16 @@ void CarriedMomentum::update(const Eigen::Ref<const Eigen::MatrixXd>& densities,
 tmp<fvVectorMatrix> CarriedMomentum::source(volVectorField& U) const
 {
     const dimensionedScalar interval("interval", dimTime, interval_);
-    return beadSource_ + unassigned_ / interval - fvm::Sp(coefficient_, U);
+    return beadSource_ + given_ / interval - fvm::Sp(coefficient_, U);
 }
 
 void CarriedMomentum::carry(
     const volVectorField& U, const volVectorField& sourceOfPressure, const Eigen::Ref<const Eigen::MatrixXd>& densities)
 {
-    unassigned_.primitiveFieldRef() =
+    given_.primitiveFieldRef() =
         interval_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());
-    columns(unassigned_.primitiveFieldRef()) -= densities / fluidDensity_;
-    unassigned_.correctBoundaryConditions();
+    given_.correctBoundaryConditions();
+    columns(promised_.primitiveFieldRef()) = densities / fluidDensity_;
 }
 
 void CarriedMomentum::takeFrom(volVectorField& U, const volScalarField& voidFraction) const

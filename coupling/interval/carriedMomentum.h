@@ -41,7 +41,11 @@ public:
     /// Rows of what update() is given.
     static constexpr Eigen::Index rowCount = 4;
 
-    /// \param densities  rowCount x cells, per volume: of all beads, the sum of A - P - c v [N s/m3], of c [kg/m3]
+    /// Adds what carry() was given, so that one smoothing does for both.
+    /// \param densities  of update(), not smoothed
+    void addPromised(Eigen::Ref<Eigen::MatrixXd> densities) const;
+
+    /// \param densities  rowCount x cells, per volume, smoothed: of all beads, the sum of A - P - c v [N s/m3], of c [kg/m3]
     /// \param interval  of the coming step, not of the one for whose drag c stands [s]
     void update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
 
@@ -49,17 +53,17 @@ public:
     Foam::tmp<Foam::fvVectorMatrix> source(Foam::volVectorField& U) const;
 
     /// When U has been solved for. \param sourceOfPressure  see FluidCoupling [m/s2]
-    /// \param densities  3 x cells, per volume: the sum of c U_b + n V dt grad p [N s/m3]
+    /// \param densities  3 x cells, per volume, not smoothed: the sum of c U_b + n V dt grad p [N s/m3]
     void carry(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
         const Eigen::Ref<const Eigen::MatrixXd>& densities);
 
     /// For the first interval: takes what is given in advance from the fluid's velocity itself.
     void takeFrom(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 
-    /// What the fluid has given and no bead has been promised [m/s, as impulse per mass and volume].
-    const Foam::volVectorField& unassigned() const
+    /// What the fluid has given and no bead has been promised, in each cell [m/s, as impulse per mass and volume].
+    Foam::tmp<Foam::vectorField> unassigned() const
     {
-        return unassigned_;
+        return given_.primitiveField() - promised_.primitiveField();
     }
 
 private:
@@ -70,7 +74,9 @@ private:
     Foam::volScalarField coefficient_;
     /// Of A - P - c v, with the sign that it has for the fluid [m/s2].
     Foam::volVectorField beadSource_;
-    Foam::volVectorField unassigned_;
+    /// What the fluid has given, and what beads have been promised [m/s]; the latter is not smoothed yet.
+    Foam::volVectorField given_;
+    Foam::volVectorField promised_;
 };
 
 } // namespace clepsydra

@@ -96,7 +96,7 @@ vector FluidCoupling::momentumGivenInAdvance() const
 {
     const Vector3d ofBeads = kept(engine_.beads()).middleRows<3>(inAdvance).rowwise().sum();
     return returnReduce(toFoam(ofBeads), sumOp<vector>())
-           + gSum(vectorField(fluid_.density * mesh_.V().field() * carriedMomentum_.unassigned().primitiveField()));
+           + gSum(vectorField(fluid_.density * mesh_.V().field() * carriedMomentum_.unassigned()));
 }
 
 void FluidCoupling::start(bool resumed)
@@ -227,9 +227,7 @@ void FluidCoupling::giveInAdvance(const volVectorField& U, const volScalarField&
             + anticipatedTime_ * motion.following * volumeInFluid(beads, bead) * fluid.pressureGradient;
         kept(beads).col(bead).segment<3>(inAdvance) = fromFluid.col(bead) - motion.drag * beads.velocity.col(bead);
     }
-    Eigen::MatrixXd densities = distribution_.densities(exchange_.toVisitors(fromFluid));
-    smooth(densities);
-    carriedMomentum_.carry(U, sourceOfPressure(p), densities);
+    carriedMomentum_.carry(U, sourceOfPressure(p), distribution_.densities(exchange_.toVisitors(fromFluid)));
 }
 
 tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) const
@@ -279,6 +277,10 @@ Eigen::MatrixXd FluidCoupling::densitiesOfBeads(Eigen::Index rowCount)
         given.col(i) << bead.volume, bead.reaction, bead.implicitCoefficientTime;
     }
     Eigen::MatrixXd densities = distribution_.densities(given.topRows(rowCount));
+    if (rowCount > momentum)
+    {
+        carriedMomentum_.addPromised(densities.middleRows<CarriedMomentum::rowCount>(momentum));
+    }
     smooth(densities);
     return densities;
 }

@@ -1,15 +1,36 @@
 #include "ledger/beadCensus.h"
 
+#include "vectors.h"
+
+#include "DynamicList.H"
 #include "HashSet.H"
+#include "ListListOps.H"
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "error.H"
-#include "stringList.H"
+#include "pointField.H"
 
 #include <cstdlib>
 
 namespace clepsydra
 {
+
+namespace
+{
+
+/// The lists of all ranks after each other; nothing on any rank but the first. Collective.
+template<class Type>
+Foam::List<Type> onMaster(const Foam::UList<Type>& own)
+{
+    Foam::List<Foam::List<Type>> ofRanks(Foam::Pstream::nProcs());
+    ofRanks[Foam::Pstream::myProcNo()] = own;
+    Foam::Pstream::gatherList(ofRanks);
+    return Foam::Pstream::master()
+               ? Foam::ListListOps::combine<Foam::List<Type>>(ofRanks, Foam::accessOp<Foam::List<Type>>())
+               : Foam::List<Type>();
+}
+
+} // namespace
 
 int BeadCensus::count(const BeadsView& beads)
 {
@@ -69,37 +90,49 @@ void BeadCensus::reportMissing(const BeadsView& beads, Foam::label missing) cons
 {
     using namespace Foam;
 
-    List<labelList> idsOfRanks(Pstream::nProcs());
-    labelList& own = idsOfRanks[Pstream::myProcNo()];
-    own.resize(static_cast<label>(beads.size()));
-    std::copy(beads.id.begin(), beads.id.end(), own.begin());
-    Pstream::gatherList(idsOfRanks);
-    Pstream::scatterList(idsOfRanks);
-    labelHashSet present;
-    for (const labelList& ids : idsOfRanks)
-    {
-        present.insert(ids);
-    }
-
-    string names;
+    // What a rank no longer has is new on another, or nowhere: only these are told, not all beads.
+    labelHashSet before;
     for (const Sighting& seen : last_)
     {
-        if (!present.found(seen.id))
+        before.insert(seen.id);
+    }
+    labelHashSet here;
+    DynamicList<label> arrived;
+    for (const int id : beads.id)
+    {
+        here.insert(id);
+        if (id <= highestId_ && !before.found(id))
         {
-            names += "\n    bead " + Foam::name(seen.id) + ", last seen at (" + Foam::name(seen.position.x()) + ' '
-                     + Foam::name(seen.position.y()) + ' ' + Foam::name(seen.position.z()) + ") m";
+            arrived.append(id);
         }
     }
-    stringList namesOfRanks(Pstream::nProcs());
-    namesOfRanks[Pstream::myProcNo()] = names;
-    Pstream::gatherList(namesOfRanks);
-    string allNames;
-    for (const string& part : namesOfRanks)
+    DynamicList<label> gone;
+    DynamicList<point> places;
+    for (const Sighting& seen : last_)
     {
-        allNames += part;
+        if (!here.found(seen.id))
+        {
+            gone.append(seen.id);
+            places.append(toFoam(seen.position));
+        }
     }
+    const labelHashSet arrivedAnywhere(onMaster<label>(arrived));
+    const labelList goneAnywhere = onMaster<label>(gone);
+    const pointField placesOfGone(onMaster<point>(places));
+    string names;
+    forAll (goneAnywhere, i)
+    {
+        if (!arrivedAnywhere.found(goneAnywhere[i]))
+        {
+            const point& at = placesOfGone[i];
+            names += "\n    bead " + Foam::name(goneAnywhere[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
+                     + Foam::name(at.y()) + ' ' + Foam::name(at.z()) + ") m";
+        }
+    }
+    // Nobody ends the run before all know why.
+    Pstream::scatter(names);
     FatalErrorInFunction
-        << missing << " of " << now_ << " beads were lost in the last interval:" << allNames.c_str()
+        << missing << " of " << now_ << " beads were lost in the last interval:" << names.c_str()
         << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Beads may leave "
         << "through beadOutlets; the DEM box must go on behind these for a bead's diameter and its "
         << "travel of one interval." << exit(FatalError);

@@ -55,8 +55,8 @@ std::vector<Damage> damages()
         {"rm -r 0.02/uniform/functionObjects", "0.02/uniform/functionObjects"},
         {": > 0.02/uniform/time", "0.02/uniform/time"},
     };
-    for (const char* field :
-        {"U", "p", "phi", "voidFraction", "unassignedMomentum", "voidFractionInContinuity", "fluidAcceleration"})
+    for (const char* field : {"U", "p", "phi", "voidFraction", "unassignedMomentum", "promisedMomentum",
+             "voidFractionInContinuity", "fluidAcceleration"})
     {
         const std::string file = "0.02/" + std::string(field);
         all.push_back({": > " + file, file});

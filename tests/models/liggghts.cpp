@@ -75,6 +75,8 @@ public:
         {
             text.replace(at, usual.size(), "model hertz " + contactModel);
         }
+        const std::string usualMap = "map array";
+        text.replace(text.find(usualMap), usualMap.size(), map);
         // Each rank reads its own copy.
         const std::string name = testing::TempDir() + "clepsydraModels" + std::to_string(getpid());
         std::ofstream(name) << text;
@@ -124,6 +126,7 @@ public:
     Box box;
     DemScript dem;
     std::vector<GroupChange> groupChanges;
+    std::string map = "map array";
 
 private:
     std::unique_ptr<LiggghtsEngine> engine_;
@@ -285,9 +288,11 @@ namespace
 
 /// Position, velocity and angular velocity, a column for each bead, after 260 beads of two sizes have fallen into a heap,
 /// with friction and sliding. Twenty pairs touch at the start, when no spring is loaded.
-Eigen::MatrixXd heap(int steps, const std::string& wordsOfContactLaw, const std::string& more = {})
+Eigen::MatrixXd heap(
+    int steps, const std::string& wordsOfContactLaw, const std::string& more = {}, const std::string& map = "map array")
 {
     Beads beads;
+    beads.map = map;
     beads.dem.walls = true;
     beads.dem.timeStep = 2e-5;
     beads.dem.beads = simpleLattice(beads.box, {10, 6, 4});
@@ -338,6 +343,14 @@ TEST(Liggghts, ForgetsWhatItsOwnForgetsWithAListForEveryStep)
     EXPECT_EQ(ours, heap(steps, "forget_parted on tangential_damping on"));
     EXPECT_EQ(ours, heap(steps, "forget_parted off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
     EXPECT_NE(ours, heap(steps, "forget_parted off"));
+}
+
+/// Beads are found by a hash of their numbers, whose memory does not grow with the largest of them on every rank, with the
+/// same springs of contacts, to the last bit, as by an array.
+TEST(Liggghts, FindsBeadsByAHashAsByAnArray)
+{
+    constexpr int steps = 1200;
+    EXPECT_EQ(heap(steps, "", "", "map hash"), heap(steps, ""));
 }
 
 /// A bead is led past another: it touches it and shears the contact by B, parts, goes back, and touches it again with a

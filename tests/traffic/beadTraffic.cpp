@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "benchmarks/countMessages.h"
 #include "ledger/ledger.h"
 #include "support/boxMesh.h"
 #include "support/errorOf.h"
@@ -219,6 +220,39 @@ TEST(BeadTrafficTest, TheCensusFindsBeadsThatStayOrGoWithTheOthers)
             EXPECT_EQ(census.lost(), 0);
         }
     }
+}
+
+// One of 5000 beads is lost while another goes to the other rank: the one that is named with its place is the lost one, and
+// to find out, the ranks tell each other of these two, not of all that they have.
+TEST(BeadTrafficTest, TheCensusNamesALostBeadWithoutAListOfAll)
+{
+    constexpr int count = 5000;
+    FakeEngine engine(1e-3);
+    for (int id = Pstream::myProcNo() + 1; id <= count; id += Pstream::nProcs())
+    {
+        engine.addBead(id, Vector3d::Constant(1e-4 * id), radius);
+    }
+    BeadCensus census;
+    census.count(engine.beads());
+    const int lost = 10 * Pstream::nProcs() + 1;
+    const int moved = lost + Pstream::nProcs();
+    if (Pstream::master())
+    {
+        engine.removeBead(lost);
+        engine.removeBead(moved);
+    }
+    if (Pstream::myProcNo() == Pstream::nProcs() - 1)
+    {
+        engine.addBead(moved, Vector3d::Zero(), radius);
+    }
+    const double before = bytesSentSoFar();
+    const std::string error = errorOf([&] { census.count(engine.beads()); });
+    EXPECT_THAT(error, testing::HasSubstr("1 of 5000 beads were lost"));
+    EXPECT_THAT(error, testing::HasSubstr("bead " + std::to_string(lost) + ", last seen at (0.00"));
+    EXPECT_THAT(error, testing::Not(testing::HasSubstr("bead " + std::to_string(moved) + ',')));
+    const double bytes = bytesSentSoFar() - before;
+    EXPECT_LT(bytes, 1000);
+    EXPECT_TRUE(bytes > 0 || !Pstream::parRun());
 }
 
 } // namespace clepsydra::tests

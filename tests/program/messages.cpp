@@ -1,0 +1,141 @@
+/// \file
+/// What keeps a run off more ranks: messages, bytes and memory of a rank, counted on 2, 4 and 8 ranks of one machine. No
+/// time is measured here.
+
+#include "support/testCase.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iostream>
+#include <regex>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double diameter = 0.002;
+constexpr double interval = 1e-4;
+
+/// Beads that lie loosely all over a box of water: the more ranks, the fewer beads and cells has one of them.
+void bedInABox(TestCase& test, const std::string& boxes)
+{
+    test.box.upper = {0.032, 0.032, 0.064};
+    test.cells = {16, 16, 32};
+    test.setTimes(4 * interval, interval, 4 * interval);
+    // What the fluid's solvers send is not counted here: let them end early.
+    for (const std::string field : {"p", "pFinal"})
+    {
+        test.solution().set(
+            "solvers/" + field, "{ solver PCG; preconditioner DIC; tolerance 1e-3; relTol 0; maxIter 3; }");
+    }
+    test.coupling().set("ledger/continuityTolerance", "1");
+    Box beads = test.box;
+    beads.upper.z() = 0.06;
+    test.dem.diameter = diameter;
+    test.dem.beads = simpleLattice(beads, {10, 10, 20});
+    jitter(test.dem.beads, 5e-5, 1);
+    test.dem.timeStep = interval / 3;
+    test.file("system/decomposeParDict")
+        .set("method", "simple")
+        .set("simpleCoeffs", "{ n " + boxes + "; delta 0.001; }");
+}
+
+/// Of all ranks, by name of the phase.
+struct Counts
+{
+    nlohmann::json ofRanks = nlohmann::json::array();
+    int sweeps = 0;
+
+    double largest(const std::string& phase, const std::string& quantity) const
+    {
+        double most = 0;
+        for (const nlohmann::json& ofRank : ofRanks)
+        {
+            most = std::max(most, ofRank["phases"][phase][quantity].get<double>());
+        }
+        return most;
+    }
+
+    double largestMemory() const
+    {
+        double most = 0;
+        for (const nlohmann::json& ofRank : ofRanks)
+        {
+            most = std::max(most, ofRank["peakMemory"].get<double>());
+        }
+        return most;
+    }
+};
+
+Counts countsOn(int ranks, const std::string& boxes)
+{
+    TestCase test;
+    bedInABox(test, boxes);
+    test.file("system/decomposeParDict").set("numberOfSubdomains", std::to_string(ranks));
+    const Outcome outcome = test.runCommand(
+        "blockMesh > log.blockMesh && decomposePar > log.decomposePar && MESSAGE_COUNTS=$PWD mpirun -np "
+        + std::to_string(ranks) + " -x MESSAGE_COUNTS -x LD_PRELOAD=" COUNT_MESSAGES " $SOLVER -parallel");
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    Counts counts;
+    for (int rank = 0; rank < ranks; ++rank)
+    {
+        std::ifstream file(test.path() / (std::to_string(rank) + ".json"));
+        counts.ofRanks.push_back(nlohmann::json::parse(file));
+    }
+    std::smatch found;
+    if (std::regex_search(outcome.output, found, std::regex("in ([0-9]+) sweeps")))
+    {
+        counts.sweeps = std::stoi(found[1]);
+    }
+    std::cout << ranks << " ranks, an interval of the busiest rank:\n";
+    for (const auto& [phase, of] : counts.ofRanks[0]["phases"].items())
+    {
+        std::cout << "    " << phase;
+        for (const char* quantity : {"messages", "neighbours", "bytes", "collectives", "collectiveBytes"})
+        {
+            std::cout << "  " << quantity << ' ' << counts.largest(phase, quantity);
+        }
+        std::cout << '\n';
+    }
+    std::cout << "    memory " << counts.largestMemory() / 1e6 << " MB, " << counts.sweeps << " sweeps\n";
+    return counts;
+}
+
+} // namespace
+
+/// The same bed on 2, 4 and 8 ranks. Nothing that a rank is told grows with their number: not the bytes of collective
+/// calls, which a list of all ranks' boxes in every interval made grow by 96 a rank; not the messages to one neighbour; not
+/// its memory. The smoothing passes the mesh twice in an interval, with all that the beads give and with what they feel:
+/// one message to each neighbour a sweep, and two for each of the few rounds in which cells near beads are found. When it
+/// took eight quantities at most, and what is given in advance by itself, there were four passes.
+TEST(Messages, OfARankDoNotGrowWithTheRanks)
+{
+    const Counts two = countsOn(2, "(2 1 1)");
+    const Counts four = countsOn(4, "(2 2 1)");
+    const Counts eight = countsOn(8, "(2 2 2)");
+    for (const Counts& counts : {two, four, eight})
+    {
+        const auto perNeighbour = [&](const char* phase) {
+            return counts.largest(phase, "messages") / counts.largest(phase, "neighbours");
+        };
+        EXPECT_EQ(perNeighbour("exchange"), 3);
+        ASSERT_GT(counts.sweeps, 10);
+        EXPECT_GE(perNeighbour("smooth"), 2 * counts.sweeps);
+        EXPECT_LE(perNeighbour("smooth"), 2 * counts.sweeps + 8);
+    }
+    for (const char* phase : {"DEM", "distribute", "exchange", "forces", "locate", "other", "output", "smooth"})
+    {
+        EXPECT_EQ(two.largest(phase, "collectiveBytes"), eight.largest(phase, "collectiveBytes")) << phase;
+    }
+    for (const char* phase : {"exchange", "smooth"})
+    {
+        EXPECT_LT(eight.largest(phase, "bytes"), two.largest(phase, "bytes")) << phase;
+    }
+    EXPECT_LT(eight.largestMemory(), two.largestMemory());
+}
+
+} // namespace clepsydra::tests
