@@ -156,7 +156,8 @@ void Ledger::report() const
          << cumulativeContinuityError_ << ", spread over the closed tank " << imbalance_ << endl;
 }
 
-void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) const
+void Ledger::writeSummary(
+    const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const
 {
     if (!Pstream::master())
     {
@@ -164,7 +165,7 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
     }
     const fileName folder = time_.globalPath() / "postProcessing" / "ledger" / startTime_;
     mkDir(folder);
-    const nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
+    nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
         {"beadsStart", census_.atStart()}, {"beadsEnd", census_.now()}, {"beadsLost", census_.lost()},
         {"beadsInserted", census_.inserted()}, {"beadsLeft", census_.removed()}, {"trafficError", largestTrafficError_},
         {"solidVolume", solidVolume_}, {"solidVolumeError", largestSolidVolumeError_},
@@ -174,6 +175,11 @@ void Ledger::writeSummary(const PhaseTimers& timers, double exchangedBytes) cons
         {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()}, {"ranks", Pstream::nProcs()},
         {"phaseSeconds", timers.wallSeconds()}, {"phaseProcessorSeconds", timers.processorSeconds()},
         {"exchangedBytes", exchangedBytes}};
+    if (estimate)
+    {
+        summary["estimatedSeconds"] = estimate->wall;
+        summary["estimatedProcessorSeconds"] = estimate->processor;
+    }
     writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');
 }
 

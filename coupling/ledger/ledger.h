@@ -8,6 +8,7 @@
 #include "vector.H"
 #include "volFields.H"
 
+#include <optional>
 #include <string>
 
 namespace clepsydra
@@ -19,6 +20,13 @@ struct ReceivedMomentum
     Foam::vector sum;
     /// Of the magnitudes: in a tank at rest the sum may vanish.
     double turnover;
+};
+
+/// What a whole run was expected to take, once a hundredth of it was done.
+struct EstimatedSeconds
+{
+    double wall;
+    double processor;
 };
 
 /// Books what must balance between beads and fluid: solid volume, momentum, the number of beads; and what was
@@ -91,7 +99,8 @@ public:
 
     /// Writes postProcessing/ledger/<startTime>/summary.json, with it the time of each phase and what the exchange of
     /// beads has sent between ranks, all of them together. Master rank only.
-    void writeSummary(const PhaseTimers& timers, double exchangedBytes) const;
+    void writeSummary(
+        const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const;
 
 private:
     double momentumError() const;

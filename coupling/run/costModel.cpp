@@ -1,46 +1,59 @@
 #include "run/costModel.h"
 
-#include <nlohmann/json.hpp>
-
-#include <cmath>
-#include <fstream>
-#include <stdexcept>
+#include <algorithm>
+#include <utility>
 
 namespace clepsydra
 {
 
-std::optional<CostModel> CostModel::read(const std::filesystem::path& file)
+namespace
 {
-    std::ifstream stream(file);
-    if (!stream)
-    {
-        return std::nullopt;
-    }
-    try
-    {
-        const nlohmann::json entries = nlohmann::json::parse(stream);
-        CostModel model;
-        model.perBeadStep = entries.at("perBeadStep");
-        model.perBead = entries.at("perBead");
-        model.perCell = entries.at("perCell");
-        model.perCell43 = entries.at("perCell43");
-        model.serialFraction = entries.at("serialFraction");
-        model.machine = entries.at("machine");
-        return model;
-    }
-    catch (const nlohmann::json::exception& error)
-    {
-        throw std::runtime_error(file.string() + ": " + error.what()
-                                 + "; allowed: numbers perBeadStep, perBead, perCell, perCell43, serialFraction and a "
-                                   "text machine, as scripts/benchmark writes them");
-    }
+
+/// Where there are no beads yet, steps take their time all the same.
+double atLeastOne(double beads)
+{
+    return std::max(beads, 1.0);
 }
 
-double CostModel::seconds(const RunWork& work, int ranks) const
+} // namespace
+
+CostModel::CostModel(std::map<std::string, double> seconds)
+    : before_(std::move(seconds))
+{}
+
+void CostModel::add(double beads, double demSteps)
 {
-    const double perInterval = perBead * work.beads + perCell * work.cells + perCell43 * std::pow(work.cells, 4. / 3);
-    const double oneRank = perBeadStep * work.beads * work.demSteps + perInterval * work.intervals;
-    return oneRank * (serialFraction + (1 - serialFraction) / ranks);
+    ++intervals_;
+    beadIntervals_ += atLeastOne(beads);
+    beadSteps_ += atLeastOne(beads) * demSteps;
+}
+
+double CostModel::secondsLeft(
+    const std::map<std::string, double>& seconds, double beads, double demSteps, double intervals) const
+{
+    double left = 0;
+    for (const auto& [phase, total] : seconds)
+    {
+        if (phase == "other")
+        {
+            continue;
+        }
+        const auto earlier = before_.find(phase);
+        const double taken = total - (earlier == before_.end() ? 0 : earlier->second);
+        if (phase == "DEM" || phase == "forces")
+        {
+            left += taken / beadSteps_ * atLeastOne(beads) * demSteps;
+        }
+        else if (phase == "locate" || phase == "exchange")
+        {
+            left += taken / beadIntervals_ * atLeastOne(beads) * intervals;
+        }
+        else
+        {
+            left += taken / intervals_ * intervals;
+        }
+    }
+    return left;
 }
 
 } // namespace clepsydra

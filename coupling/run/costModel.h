@@ -1,46 +1,43 @@
 #pragma once
 
-#include <filesystem>
-#include <optional>
+#include <map>
 #include <string>
 
 namespace clepsydra
 {
 
-/// What a run, or a part of it, consists of.
-struct RunWork
-{
-    double beads;
-    double cells; ///< of the fluid; 0 in a dry run
-    double demSteps;
-    double intervals; ///< of coupling; each is one time step of the fluid
-};
-
-/// Wall time of a run, estimated before it begins: on one rank
+/// How long the rest of a run will take, from what the run itself has taken so far:
 ///
-///     seconds = perBeadStep n_beads n_steps + (perBead n_beads + perCell n_cells + perCell43 n_cells^(4/3)) n_intervals
+///     seconds = perBeadStep n_beads n_steps + (perBead n_beads + perInterval) n_intervals
 ///
-/// The last term is the pressure's: conjugate gradients need iterations in proportion to the cells along one side. On
-/// more ranks Amdahl's law, with a part `serialFraction` that does not get faster.
-///
-/// The coefficients are measured and fitted by scripts/benchmark on one machine; elsewhere the estimate is off by the
-/// ratio of the two machines.
+/// Its speeds are measured on the spot, each from the time of its own phases: DEM and forces; finding cells and the
+/// exchange; all the rest, which goes with the cells of the mesh. So the estimate holds on any machine and on any number of
+/// ranks, and follows where beads come and go, or the interval's length changes; not where the flow itself changes what an
+/// iteration or a contact costs. (scripts/benchmarks/costModel.py has the last term by the number of cells.)
 class CostModel
 {
 public:
-    double perBeadStep; // [s], as all of them
-    double perBead;
-    double perCell;
-    double perCell43;
-    double serialFraction;
-    std::string machine; ///< where and when they were measured
+    /// \param seconds  of each phase so far, which do not count: PhaseTimers' "other" never does
+    explicit CostModel(std::map<std::string, double> seconds = {});
 
-    /// \return nothing where there is no such file.
-    /// \throws std::runtime_error  naming file and entry that is missing or no number.
-    static std::optional<CostModel> read(const std::filesystem::path& file);
+    /// One more interval has been done.
+    void add(double beads, double demSteps);
 
-    /// Estimated wall time [s].
-    double seconds(const RunWork& work, int ranks) const;
+    double intervals() const
+    {
+        return intervals_;
+    }
+
+    /// \param seconds  of each phase so far
+    /// \param beads  in all that is left, as DEM steps and intervals are. \pre intervals() > 0
+    double secondsLeft(
+        const std::map<std::string, double>& seconds, double beads, double demSteps, double intervals) const;
+
+private:
+    std::map<std::string, double> before_;
+    double intervals_ = 0;
+    double beadIntervals_ = 0;
+    double beadSteps_ = 0;
 };
 
 } // namespace clepsydra

@@ -81,8 +81,11 @@ std::string describe(const ProgressState& state)
     if (simulated > 0 && state.wallTime > 0)
     {
         const double wallPerSimulated = state.wallTime / simulated;
-        text << ", " << std::setprecision(3) << wallPerSimulated << " s per simulated s, "
-             << clockTime(std::max(0.0, state.endTime - state.time) * wallPerSimulated) << " to go";
+        text << ", " << std::setprecision(3) << wallPerSimulated << " s per simulated s";
+    }
+    if (state.wallLeft >= 0)
+    {
+        text << ", " << clockTime(state.wallLeft) << " to go";
     }
     return text.str();
 }
@@ -101,7 +104,7 @@ Progress::~Progress()
     clear();
 }
 
-void Progress::update(double time, double endTime, long beadsInHopper, bool atWriteTime)
+void Progress::update(double time, double endTime, long beadsInHopper, double wallLeft, bool atWriteTime)
 {
     if (!Foam::Pstream::master())
     {
@@ -115,7 +118,7 @@ void Progress::update(double time, double endTime, long beadsInHopper, bool atWr
         wallStart_ = now;
     }
     const ProgressState state{
-        time, startTime_, endTime, std::chrono::duration<double>(now - wallStart_).count(), beadsInHopper};
+        time, startTime_, endTime, std::chrono::duration<double>(now - wallStart_).count(), beadsInHopper, wallLeft};
 
     if (atWriteTime)
     {

@@ -15,6 +15,7 @@ struct ProgressState
     double endTime;   // simulated [s]
     double wallTime;  // since the start [s]
     long beads;       // in the hopper; negative: not known
+    double wallLeft;  // [s]; negative: not known
 };
 
 /// "t = 0.1/2 s, 2931 beads in the hopper, 120 s per simulated s, 00:03:48 to go"
@@ -40,8 +41,9 @@ public:
     /// Call after each interval; on a terminal it prints at most five times a second. Local.
     /// \param time, endTime  simulated [s]; the first call's `time` counts as the start
     /// \param beadsInHopper  negative: not known
+    /// \param wallLeft  to the end [s]; negative: not known
     /// \param atWriteTime  true: prints a line that stays
-    void update(double time, double endTime, long beadsInHopper, bool atWriteTime = false);
+    void update(double time, double endTime, long beadsInHopper, double wallLeft, bool atWriteTime = false);
 
     bool isTerminal() const
     {

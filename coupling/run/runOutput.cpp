@@ -1,7 +1,6 @@
 #include "run/runOutput.h"
 
 #include "run/caseSizes.h"
-#include "run/costModel.h"
 #include "functionObjects/massInHopper.h"
 #include "run/startReport.h"
 #include "run/unreadFields.h"
@@ -11,7 +10,8 @@
 #include "globalMeshData.H"
 #include "memInfo.H"
 
-#include <cstdlib>
+#include <cmath>
+#include <numeric>
 #include <sstream>
 
 namespace clepsydra
@@ -29,6 +29,12 @@ std::string describe(const closures::Stratification& liquid)
          << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; beads feel what is "
          << liquid.lag << " d above them";
     return line.str();
+}
+
+double sum(const std::map<std::string, double>& secondsByPhase)
+{
+    return std::accumulate(secondsByPhase.begin(), secondsByPhase.end(), 0.0,
+        [](double all, const auto& phase) { return all + phase.second; });
 }
 
 } // namespace
@@ -49,7 +55,8 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     {
         scratch_ = std::make_unique<ScratchFolder>();
     }
-    intervals_ = (time_.endTime().value() - time_.value()) / settings_.couplingInterval();
+    startTime_ = time_.value();
+    intervals_ = (time_.endTime().value() - startTime_) / settings_.couplingInterval();
     printReport(fluid, models);
     if (models)
     {
@@ -81,26 +88,41 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     }
     const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
     printStartReport(engine_, lines, scales, settings_.demDict());
-    printEstimate(static_cast<double>(scales.beads), models != nullptr);
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.beads > 0;
 }
 
-void RunOutput::printEstimate(double beads, bool withFluid) const
+double RunOutput::estimate()
 {
-    const char* clepsydra = std::getenv("CLEPSYDRA");
-    const std::optional<CostModel> model =
-        clepsydra ? CostModel::read(std::filesystem::path(clepsydra) / "scripts/benchmarks/costModel.json")
-                  : std::nullopt;
-    if (!model || !(beads > 0))
+    const PhaseTimers& timers = interval_.timers();
+    const auto beads = static_cast<double>(interval_.ledger().beads());
+    const double interval = time_.deltaTValue();
+    const double timeLeft = std::max(0.0, time_.endTime().value() - time_.value());
+    const auto left = [&](CostModel& cost, const std::map<std::string, double>& seconds) {
+        cost.add(beads, interval / engine_.timeStep());
+        return cost.secondsLeft(seconds, beads, timeLeft / engine_.timeStep(), timeLeft / interval);
+    };
+    const double wall = left(wallCost_, timers.wallSeconds());
+    const double processor = left(processorCost_, timers.processorSeconds());
+    constexpr double firstPart = 0.01;
+    constexpr double fewest = 5;
+    if (!firstIntervalSeconds_)
     {
-        return;
+        firstIntervalSeconds_ = wallCost_.secondsLeft(timers.wallSeconds(), beads, interval / engine_.timeStep(), 1);
+        // It also fetches all memory.
+        wallCost_ = CostModel(timers.wallSeconds());
+        processorCost_ = CostModel(timers.processorSeconds());
+        return -1;
     }
-    const double duration = time_.endTime().value() - time_.value();
-    const RunWork work{beads, withFluid ? static_cast<double>(mesh_.globalData().nTotalCells()) : 0,
-        duration / engine_.timeStep(), duration / settings_.couplingInterval()};
-    Info << "Estimated wall time: " << round(model->seconds(work, Pstream::nProcs())) << " s to "
-         << time_.endTime().value() << " s, from costs measured on " << model->machine.c_str() << nl << endl;
+    const double done = time_.value() - startTime_;
+    if (!estimateOfRun_ && wallCost_.intervals() >= fewest && done >= firstPart * (done + timeLeft))
+    {
+        estimateOfRun_ = EstimatedSeconds{sum(timers.wallSeconds()) + wall, sum(timers.processorSeconds()) + processor};
+        progress_.clear();
+        Info << "Estimated wall time: " << round(wall) << " s more to " << time_.endTime().value() << " s, as the last "
+             << wallCost_.intervals() << " intervals" << nl << endl;
+    }
+    return wall;
 }
 
 void RunOutput::start()
@@ -115,6 +137,9 @@ void RunOutput::start()
         functionObject::outputPrefix =
             word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
     }
+    const PhaseTimers& timers = interval_.timers();
+    wallCost_ = CostModel(timers.wallSeconds());
+    processorCost_ = CostModel(timers.processorSeconds());
     // They check their entries now, before anything of an earlier run is replaced.
     if (!time_.functionObjects().start())
     {
@@ -150,6 +175,7 @@ bool RunOutput::afterInterval()
     {
         runChecks_->afterInterval(engine_.beads());
     }
+    const double wallLeft = estimate();
     if (scratch_)
     {
         time_.endHere();
@@ -182,7 +208,7 @@ bool RunOutput::afterInterval()
         }
         interval_.ledger().report();
     }
-    progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), atWriteTime);
+    progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), wallLeft, atWriteTime);
     return atWriteTime;
 }
 
@@ -228,13 +254,14 @@ void RunOutput::finish()
     {
         const memInfo memory;
         const scalar mebibytes = returnReduce(scalar(memory.peak()), sumOp<scalar>()) / 1024;
-        Info << "Dry run: one interval took " << total << " s, so the " << round(intervals_) << " to "
-             << "endTime take about " << round(intervals_ * total) << " s as long as they are like it; memory "
-             << round(mebibytes) << " MiB in all. The case would start; nothing was written" << nl << endl;
+        Info << "Dry run: one interval took " << *firstIntervalSeconds_ << " s, so the " << round(intervals_) << " to "
+             << "endTime take about " << round(intervals_ * *firstIntervalSeconds_)
+             << " s as long as they are like it; memory " << round(mebibytes)
+             << " MiB in all. The case would start; nothing was written" << nl << endl;
         return;
     }
     const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
-    interval_.ledger().writeSummary(timers, returnReduce(sent, sumOp<scalar>()));
+    interval_.ledger().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
 }
 
 } // namespace clepsydra

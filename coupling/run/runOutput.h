@@ -6,11 +6,13 @@
 #include "functionObjects/observedBeads.h"
 #include "interval/couplingInterval.h"
 #include "output/beadWriter.h"
+#include "run/costModel.h"
 #include "run/progress.h"
 #include "run/runChecks.h"
 #include "run/scratchFolder.h"
 
 #include <memory>
+#include <optional>
 
 namespace clepsydra
 {
@@ -53,7 +55,8 @@ private:
     void checkDemStepOnce();
     void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
-    void printEstimate(double beads, bool withFluid) const;
+    /// After each interval. \return wall time that is left [s], negative while it is not known
+    double estimate();
 
     RunTime& time_;
     const Foam::fvMesh& mesh_;
@@ -69,6 +72,12 @@ private:
     std::unique_ptr<RunChecks> runChecks_;
     /// Empty unless the run only tries the case.
     std::unique_ptr<ScratchFolder> scratch_;
+    /// By wall and by processor time.
+    CostModel wallCost_;
+    CostModel processorCost_;
+    std::optional<double> firstIntervalSeconds_;
+    std::optional<EstimatedSeconds> estimateOfRun_;
+    double startTime_ = 0;
     double intervals_ = 0;
     /// False while there are no beads yet: pouring starts without.
     bool demStepChecked_ = false;

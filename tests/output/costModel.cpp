@@ -1,16 +1,13 @@
 /// \file
-/// The estimate of a run's wall time. No test here measures time.
-
-#include <gmock/gmock.h>
+/// How long the rest of a run will take. No test here measures time.
 
 #include "run/costModel.h"
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
+#include <algorithm>
+#include <map>
+#include <string>
 
 namespace clepsydra::tests
 {
@@ -18,54 +15,57 @@ namespace clepsydra::tests
 namespace
 {
 
-class CostModelFile : public testing::Test
+/// What an interval costs on a machine that the model knows nothing of.
+class Machine
 {
-protected:
-    void write(const std::string& text) const
+public:
+    void interval(double beads, double demSteps)
     {
-        std::ofstream(file) << text;
+        seconds["DEM"] += 3e-7 * beads * demSteps;
+        seconds["forces"] += 1e-7 * beads * demSteps;
+        seconds["locate"] += 2e-6 * beads;
+        seconds["pressure"] += 0.05;
+        seconds["output"] += 0.002;
     }
 
-    void TearDown() override
+    double total() const
     {
-        std::filesystem::remove(file);
+        double all = 0;
+        for (const auto& [phase, time] : seconds)
+        {
+            all += time;
+        }
+        return all;
     }
 
-    const std::filesystem::path file =
-        std::filesystem::temp_directory_path() / ("costModel" + std::to_string(getpid()) + ".json");
+    std::map<std::string, double> seconds{{"other", 100}, {"smooth", 0.5}};
 };
 
-/// Worked out by hand: 10 beads, 5 steps, 27 cells (27^(4/3) = 81), 2 intervals:
-/// 1*10*5 + (2*10 + 3*27 + 4*81)*2 = 50 + 850 = 900; on 4 ranks with a tenth serial 900*(.1 + .9/4) = 292.5.
-/// Leaving out any term or the ranks gives another number.
-TEST_F(CostModelFile, SumsBeadStepsAndIntervals)
-{
-    write(
-        R"({"perBeadStep": 1, "perBead": 2, "perCell": 3, "perCell43": 4, "serialFraction": 0.1, "machine": "here"})");
-    const std::optional<CostModel> model = CostModel::read(file);
-    ASSERT_TRUE(model.has_value());
-    EXPECT_NEAR(model->seconds({10, 27, 5, 2}, 1), 900, 1e-9);
-    EXPECT_NEAR(model->seconds({10, 27, 5, 2}, 4), 292.5, 1e-9);
-    EXPECT_EQ(model->machine, "here");
-}
-
-/// No file, no estimate; a damaged one is an error that names the file and what is missing.
-TEST_F(CostModelFile, MissingFileIsNoModelMissingEntryAnError)
-{
-    EXPECT_FALSE(CostModel::read(file).has_value());
-    write(R"({"perBeadStep": 1})");
-    try
-    {
-        CostModel::read(file);
-        FAIL() << "accepted a file without entries";
-    }
-    catch (const std::runtime_error& error)
-    {
-        EXPECT_THAT(error.what(), testing::HasSubstr(file.string()));
-        EXPECT_THAT(error.what(), testing::HasSubstr("perBead"));
-    }
-}
-
 } // namespace
+
+/// A hundredth of a run has been done while beads came in and the interval became longer; then 5000 beads remain, and the
+/// interval is four times as long as at first. What is left is known to rounding, though the start took longer than all of
+/// it; by the wall time so far it would be 4 times as much, and by that without the start 1.9 times.
+TEST(CostModel, KnowsTheRestOfARunByItsFirstIntervals)
+{
+    Machine machine;
+    CostModel model(machine.seconds);
+    for (int interval = 0; interval < 10; ++interval)
+    {
+        const double beads = 500.0 * interval;
+        const double steps = 25 + 5 * interval;
+        // A step without beads takes as long as with one.
+        machine.interval(std::max(beads, 1.0), steps);
+        model.add(beads, steps);
+    }
+    const std::map<std::string, double> soFar = machine.seconds;
+    const double before = machine.total();
+    for (int interval = 0; interval < 400; ++interval)
+    {
+        machine.interval(5000, 100);
+    }
+    EXPECT_EQ(model.intervals(), 10);
+    EXPECT_NEAR(model.secondsLeft(soFar, 5000, 40000, 400) / (machine.total() - before), 1, 1e-12);
+}
 
 } // namespace clepsydra::tests

@@ -16,13 +16,12 @@ namespace clepsydra::tests
 namespace
 {
 
-/// From 1 s to 1.5 s took 60 s: 120 s per simulated second, and 1.5 s more of them is 180 s. Progress from 0 instead
-/// of from the start of the run gives 40.
+/// From 1 s to 1.5 s took 60 s: 120 s per simulated second. Progress from 0 instead of from the start of the run gives 40.
 TEST(Progress, TellsSpeedAndTimeToGo)
 {
-    EXPECT_EQ(describe({1.5, 1, 3, 60, 2931}),
+    EXPECT_EQ(describe({1.5, 1, 3, 60, 2931, 180}),
         "t = 1.5/3 s, 2931 beads in the hopper, 120 s per simulated s, 00:03:00 to go");
-    EXPECT_EQ(describe({1, 1, 3, 0, -1}), "t = 1/3 s");
+    EXPECT_EQ(describe({1, 1, 3, 0, -1, -1}), "t = 1/3 s");
 }
 
 /// In a log: nothing but one plain line per write time, without control characters, and from the master only.
@@ -33,7 +32,7 @@ TEST(Progress, WritesPlainLinesToALog)
         Progress progress(log, false);
         for (int step = 1; step <= 100; ++step)
         {
-            progress.update(0.01 * step, 2, 50, step % 50 == 0);
+            progress.update(0.01 * step, 2, 50, -1, step % 50 == 0);
         }
     }
     const std::string text = log.str();
@@ -55,7 +54,7 @@ TEST(Progress, DrawsABarOnATerminal)
         Progress progress(terminal, true);
         for (int step = 1; step <= 1000; ++step)
         {
-            progress.update(0.001 * step, 2, 50);
+            progress.update(0.001 * step, 2, 50, -1);
         }
     }
     if (Foam::Pstream::master())
