@@ -41,7 +41,7 @@ RULES = {
     "mesher": oneOf(*MESHERS), "meshLevel": oneOf("quick", "coarse", "medium", "paper"), "cellSize": length(1e-5, 1),
     "demStep": number(1e-12, 1e-2, "s"), "couplingInterval": number(1e-9, 1, "s"), "smoothingLength": length(1e-5, 10),
     "selfDisturbance": oneOf("off", "Oseen"), "dilation": SWITCH, "dilationTime": number(0, 10, "s"),
-    "pressureTolerance": number(1e-16, 1, "m2/s2"), "velocityTolerance": number(1e-16, 1), "outerCorrectors": whole(1, 100),
+    "pressureTolerance": number(1e-16, 1), "velocityTolerance": number(1e-16, 1), "outerCorrectors": whole(1, 100),
     "pressureCorrectors": whole(1, 100), "nonOrthogonalCorrectors": whole(0, 100),
     "hopperLeftBelow": length(-10, 0), "heapBelow": length(-10, 0), "heapSpeed": number(0, 100, "m/s"),
     "heapRestTime": number(0, 100, "s"), "pourDuration": number(1e-6, 1e5, "s"), "pourTime": number(1e-6, 1e5, "s"),
