@@ -26,6 +26,7 @@ struct Arguments
     fs::path caseFolder;
     std::vector<fs::path> measured;
     bool execute = false;
+    bool time = false;
 };
 
 fs::path reportFolder(const Arguments& arguments)
@@ -84,6 +85,7 @@ int main(int argc, char** argv)
         app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
     planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
+    planning->add_flag("--time", arguments.time, "where no run has been timed yet, make one, for the cost");
     auto* running = app.add_subcommand("run", "from study file to report; may be interrupted and started again");
     running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
@@ -100,7 +102,7 @@ int main(int argc, char** argv)
         }
         else if (*planning)
         {
-            plan(arguments.study, arguments.execute, std::cout);
+            plan(arguments.study, arguments.execute, arguments.time, std::cout);
         }
         else if (*running)
         {

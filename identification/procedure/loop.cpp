@@ -65,7 +65,8 @@ void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostrea
     const double seconds = rig.secondsPerRun();
     const int perData = study.rig.seedEntry.empty() ? runsPerDataSet(study) / 3 : runsPerDataSet(study);
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
-        << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s a run)\n"
+        << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s a run"
+        << (rig.measuredSecondsPerRun() ? "" : ", assumed: 'traceResidual plan --time' makes one and times it") << ")\n"
         << "each data set: up to about " << perData << " runs more, " << clockTime(perData * seconds) << '\n'
         << "budget: " << study.settings.budget << " runs" << std::endl;
 }
@@ -102,13 +103,18 @@ std::vector<MeasuredCondition> plannedData(
 
 } // namespace
 
-void plan(const std::filesystem::path& studyFile, bool execute, std::ostream& out)
+void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::ostream& out)
 {
     const Study study = readStudy(studyFile);
     checkMeasurements(study, out);
     const auto measured = measurementsOf(study, Role::training);
     CaseRig rig(study, out);
     Simulator simulator(study, rig);
+    if (time && !rig.measuredSecondsPerRun())
+    {
+        // The library needs it anyway.
+        simulator.run({libraryOrders(simulator).front()});
+    }
     sayCost(study, rig, simulator, out);
     checkMagnitudes(simulator, measured, execute);
     if (!execute && simulator.missing(libraryOrders(simulator)) > 0)

@@ -375,7 +375,7 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
     return results;
 }
 
-double CaseRig::secondsPerRun() const
+std::optional<double> CaseRig::measuredSecondsPerRun() const
 {
     double sum = 0.0;
     double count = 0.0;
@@ -388,7 +388,7 @@ double CaseRig::secondsPerRun() const
             count += 1.0;
         }
     }
-    return count > 0.0 ? sum / count : study_.rig.costPerRun;
+    return count > 0.0 ? std::optional(sum / count) : std::nullopt;
 }
 
 } // namespace clepsydra::identification

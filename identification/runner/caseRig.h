@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <set>
 #include <string>
@@ -34,8 +35,14 @@ public:
     /// Hash of all that enters a run.
     std::string keyOf(const RunOrder& order) const;
 
-    /// Mean wall-clock seconds of the stored runs; the study's own estimate where there are none.
-    double secondsPerRun() const;
+    /// Mean wall-clock seconds of the stored runs; nothing where there are none.
+    std::optional<double> measuredSecondsPerRun() const;
+
+    /// The same, or the study's own estimate.
+    double secondsPerRun() const
+    {
+        return measuredSecondsPerRun().value_or(study_.rig.costPerRun);
+    }
 
 private:
     std::filesystem::path copyOf(const std::string& key) const;

@@ -294,6 +294,27 @@ TEST(Program, PlansBeforeItRuns)
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
+/// What a run takes is assumed, and said to be, until one has been timed, which is kept. The stand-in takes far less than the
+/// 60 s that a study assumes by itself.
+TEST(Program, PlansByTheTimeOfOneRun)
+{
+    Workshop workshop;
+    workshop.measure({});
+    ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("s a run, assumed"));
+    ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
+    std::smatch found;
+    const std::regex said("effect library: (\\d+) runs, (\\d+) of them not made yet.*\\((\\S+) s a run\\)");
+    ASSERT_TRUE(std::regex_search(workshop.output, found, said)) << workshop.output;
+    EXPECT_EQ(std::stoi(found[2]), std::stoi(found[1]) - 1);
+    EXPECT_LT(std::stod(found[3]), 30);
+    const fs::directory_iterator stored(workshop.path() / "standIn.work/cache");
+    EXPECT_EQ(std::distance(begin(stored), end(stored)), 1);
+    // Not another one.
+    ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
+    EXPECT_TRUE(std::regex_search(workshop.output, found, said) && found[2] == std::to_string(std::stoi(found[1]) - 1));
+}
+
 /// Where nothing scatters and no effect does anything, a plan says that nothing shows; it ended with SIGSEGV.
 TEST(Program, PlansWhereNothingShows)
 {
