@@ -130,19 +130,22 @@ class CampaignOfStandIns(CampaignTest):
         self.assertIn("begun with other parameters", outcome.stdout + outcome.stderr)
 
     def testTheTemplateMayBeEditedMeanwhile(self):
-        """The second run begins after the template got another default (which its program refuses) and
-        another parameter: it must be as the first, on the same mesh and pour."""
+        """The second run begins after the template got another default (which its program refuses), another parameter
+        and another file beside them, as a hopper's surface is: it must be as the first, on the same mesh and pour."""
         template = self.folder / "template"
         shutil.copytree(Path(__file__).parent / "standIn", template)
+        (template / "hopper.stl").write_text("as it was")
         self.write(case=str(template), stages=["dry"], packings=[1], runs={"one": {}, "other": {}})
         self.assertEqual(self.call("run", "--only", "one").returncode, 0)
         parameters = template / "parameters"
         parameters.write_text(re.sub(r"(?m)^friction .*;", "friction 2;", parameters.read_text()) + "another 1;\n")
         self.assertIn("friction 2;", parameters.read_text())
+        (template / "hopper.stl").write_text("edited")
         outcome = self.call("run")
         self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
         one, other = (json.loads((self.folder / "results" / f"{name}.1.dry.json").read_text()) for name in ("one", "other"))
         self.assertEqual(other["parameters"], one["parameters"])
+        self.assertEqual([path.read_text() for path in self.work("*/*/hopper.stl")], 4 * ["as it was"])
         self.assertEqual(len(self.work("shared/*")), 2)
 
     def testOnlySomeOfTheRuns(self):
