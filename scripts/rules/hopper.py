@@ -176,7 +176,7 @@ def checkHere(p, cells, ranks, needed, found):
 
 
 def seconds(p, cells, simulated):
-    """As pimpleDemFoam estimates it (coupling/run/costModel.h)."""
+    """By the speeds of another machine, scripts/benchmarks/costModel.json: a run that has begun knows its own."""
     costs = json.loads((REPOSITORY / "scripts" / "benchmarks" / "costModel.json").read_text())
     perInterval = costs["perBead"] * p["beadCount"] + costs["perCell"] * cells + costs["perCell43"] * cells**(4 / 3)
     return simulated * (costs["perBeadStep"] * p["beadCount"] / p["demStep"] + perInterval * (cells > 0) / p["couplingInterval"])
