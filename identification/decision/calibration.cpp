@@ -77,18 +77,21 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
 {
     const Eigen::Index count = evidences.effects.size();
     Eigen::VectorXd all(count + 1);
+    Eigen::VectorXd peaks(count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
         // With its variants: what they share would be its name.
         const auto effect = static_cast<std::size_t>(e);
-        all(e) = effect == without || areVariants(study, effect, without)
-                     ? -std::numeric_limits<double>::infinity()
-                     : evidences.effects(e) + logPrior(study, effect);
+        const double weight = effect == without || areVariants(study, effect, without)
+                                  ? -std::numeric_limits<double>::infinity()
+                                  : logPrior(study, effect);
+        all(e) = evidences.effects(e) + weight;
+        peaks(e) = evidences.peaks(e) + weight;
     }
-    all(count) = evidences.other + std::log(study.settings.otherWeight);
+    all(count) = peaks(count) = evidences.other + std::log(study.settings.otherWeight);
     const double sum = logSumExp(all);
-    return {sum - evidences.null, (all.head(count).array() - sum).matrix(), all(count) - sum, evidences.misfits,
-        evidences.scatterMisfits};
+    return {sum - evidences.null, logSumExp(peaks) - evidences.null, (all.head(count).array() - sum).matrix(),
+        all(count) - sum, evidences.misfits, evidences.scatterMisfits};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)

@@ -12,7 +12,11 @@ namespace clepsydra::identification
 /// What evidences amount to, before any threshold.
 struct Odds
 {
-    double statistic = 0.0;  // log odds of anything against no effect
+    double logOdds = 0.0; // of anything against no effect
+    /// Of the test: the same with each effect at its likeliest amplitude. What an amplitude's range costs hangs on how far an
+    /// effect is from what the parameters do, which errors of its learnt columns enlarge: in draws, whose columns are learnt
+    /// from what was learnt, twice.
+    double statistic = 0.0;
     Eigen::VectorXd effects; // log probability of each, given that there is something
     double other = 0.0;      // the same of something else
     Eigen::VectorXd misfits; // of each effect where it is likeliest, as in `Evidences`

@@ -508,9 +508,9 @@ Evidence::Posterior Evidence::over(
     }
     Eigen::Index row = 0;
     Eigen::Index column = 0;
-    posterior.logs.maxCoeff(&row, &column);
-    posterior.judgement = {
-        logSumExp(posterior.logs.reshaped()), misfit(row, column), interpolated(nodes.scatterMisfits)(row, column)};
+    const double highest = posterior.logs.maxCoeff(&row, &column);
+    posterior.judgement = {logSumExp(posterior.logs.reshaped()), misfit(row, column),
+        interpolated(nodes.scatterMisfits)(row, column), highest - logCell};
     return posterior;
 }
 
@@ -564,6 +564,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     evidences.effects.setConstant(static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
     evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
     evidences.scatterMisfits = evidences.misfits;
+    evidences.peaks = evidences.effects;
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
         if (!effects_[e].nodes.empty())
@@ -572,6 +573,7 @@ Evidences Evidence::operator()(const Measured& measured) const
             evidences.effects(static_cast<Eigen::Index>(e)) = found.logEvidence;
             evidences.misfits(static_cast<Eigen::Index>(e)) = found.misfit;
             evidences.scatterMisfits(static_cast<Eigen::Index>(e)) = found.scatterMisfit;
+            evidences.peaks(static_cast<Eigen::Index>(e)) = found.peak;
         }
     }
     evidences.other = otherEvidence(measured, usual, null);

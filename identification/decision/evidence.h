@@ -22,6 +22,7 @@ struct Evidences
     // Of each effect at its likeliest amplitude:
     Eigen::VectorXd misfits;        // of the means, as in `Fit`
     Eigen::VectorXd scatterMisfits; // of the spread between repeats, where it is not that of runs without effects
+    Eigen::VectorXd peaks;          // log likelihood
 };
 
 /// Where an explanation fits best, and how well that is known.
@@ -106,6 +107,7 @@ public:
         double logEvidence = 0.0;
         double misfit = 0.0; // at the likeliest amplitudes, as in `Evidences`
         double scatterMisfit = 0.0;
+        double peak = 0.0; // log likelihood there
     };
     Judgement judge(const Explanation& explanation, const Measured& measured) const;
     /// Fits of its effects, which share parameters.

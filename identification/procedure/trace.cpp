@@ -243,11 +243,25 @@ private:
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
-        for (const auto& pair : pairs)
+        for (auto& pair : pairs)
         {
+            if (!pair.inSet)
+            {
+                continue;
+            }
+            Explanation found = explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability);
+            const Contender own{presentOf(pair), pair.fits.front().parameters, 1.0};
+            pair.inSet = !isExact || openRuns(study_, *answer_.emulator, answer_.layout, {own}, runs_).empty();
             if (pair.inSet)
             {
-                answer_.set.push_back(explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability));
+                answer_.set.push_back(std::move(found));
+            }
+            else
+            {
+                answer_.remarks.push_back(
+                    nameOf(study_, found)
+                    + " might make what was measured, but no run near its fit shows it: the runs that were made "
+                      "have led on to other fits");
             }
         }
         if (!answer_.set.empty())
@@ -277,7 +291,7 @@ private:
         const Calibration& calibration = answer_.calibration;
         const Evidences evidences = evidence(measured);
         const Odds odds = oddsOf(study_, evidences);
-        answer_.logOdds = odds.statistic;
+        answer_.logOdds = odds.logOdds;
         answer_.pValue = calibration.pValue(odds.statistic);
         answer_.otherProbability = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
@@ -292,7 +306,7 @@ private:
             finding.fit = calibration.widened(e, std::move(finding.fit), study_.effects[e].bounds);
             finding.parameters = settingOf({}, finding.fit.parameters).parameters;
             finding.probability = std::exp(odds.effects(i));
-            finding.logOdds = odds.effects(i) + odds.statistic;
+            finding.logOdds = odds.effects(i) + odds.logOdds;
             finding.threshold = std::exp(calibration.membership(i));
             answer_.effects.push_back(std::move(finding));
         }

@@ -193,8 +193,10 @@ TEST(Decision, VariantsShareTheirWeight)
         study.effects[e].name = "history" + std::to_string(e);
         study.effects[e].family = "history";
     }
-    const Odds odds =
-        oddsOf(study, {0, Eigen::VectorXd::Constant(4, 5.), -100, Eigen::VectorXd::Ones(4), Eigen::VectorXd::Ones(4)});
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(4);
+    const Odds odds = oddsOf(study, {0, 5 * ones, -100, ones, ones, 7 * ones});
+    EXPECT_NEAR(odds.logOdds, 5 + std::log(2.), 1e-9);
+    EXPECT_NEAR(odds.statistic, 7 + std::log(2.), 1e-9) << "the test does not ask how wide an amplitude's range is";
     EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
     EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
     Calibration calibration;

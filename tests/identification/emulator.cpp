@@ -196,7 +196,26 @@ TEST(Emulator, FailedRunsAreToldAndExcluded)
     EXPECT_EQ(simulator.failures().back().reason, "y is not possible");
 }
 
-/// Runs with known coefficients and noise: what the emulator says of its own errors holds.
+/// Runs of the library with known coefficients, and noise of .1.
+std::vector<identification::Run> noisyRuns(const Simulator& simulator, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    std::vector<identification::Run> runs;
+    for (const auto& order : libraryOrders(simulator))
+    {
+        const double t = (order.setting.parameters(0) - .15) / .02;
+        const Eigen::VectorXd& a = order.setting.amplitudes;
+        identification::Run run{order.setting, {}};
+        run.simulation.condition = order.condition;
+        run.simulation.features = Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
+        run.simulation.plain.time = {0, 1};
+        run.simulation.plain.value = {1, 0};
+        runs.push_back(run);
+    }
+    return runs;
+}
+
+/// What the emulator says of its own errors holds.
 TEST(Emulator, IntervalsCover)
 {
     const TemporaryFolder folder;
@@ -204,25 +223,11 @@ TEST(Emulator, IntervalsCover)
     LinearRig rig;
     const Simulator simulator(study, rig);
     std::mt19937_64 random(3);
-    std::normal_distribution<double> normal;
     double squares = 0;
     double count = 0;
     for (int trial = 0; trial < 60; ++trial)
     {
-        std::vector<identification::Run> runs;
-        for (const auto& order : libraryOrders(simulator))
-        {
-            const double t = (order.setting.parameters(0) - .15) / .02;
-            const Eigen::VectorXd& a = order.setting.amplitudes;
-            identification::Run run{order.setting, {}};
-            run.simulation.condition = order.condition;
-            run.simulation.features =
-                Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
-            run.simulation.plain.time = {0, 1};
-            run.simulation.plain.value = {1, 0};
-            runs.push_back(run);
-        }
-        const Emulator emulator(study, simulator, runs, allFeatures(study));
+        const Emulator emulator(study, simulator, noisyRuns(simulator, random), allFeatures(study));
         const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, .5);
         const std::vector<Present> present = {{0, .7}};
         const double error = emulator[0]->at(at, present)(0) - .15 - .35;
@@ -231,6 +236,27 @@ TEST(Emulator, IntervalsCover)
     }
     EXPECT_GT(squares / count, .4);
     EXPECT_LT(squares / count, 2.);
+}
+
+/// The noise was learnt from few repeats: draws that took it for known would call data without any effect a residual.
+TEST(Emulator, WorldsHaveNoiseOfTheirOwn)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    const Simulator simulator(study, rig);
+    std::mt19937_64 random(3);
+    const Emulator emulator(study, simulator, noisyRuns(simulator, random), allFeatures(study));
+    const double error = emulator[0]->logSdError(0);
+    ASSERT_GT(error, .02);
+    double squares = 0;
+    constexpr int worlds = 400;
+    for (int i = 0; i < worlds; ++i)
+    {
+        const Emulator world = emulator.possibleWorld(random);
+        squares += std::pow(.5 * std::log(world[0]->noise(0, 0) / emulator[0]->noise(0, 0)), 2);
+    }
+    EXPECT_NEAR(std::sqrt(squares / worlds), error, .15 * error);
 }
 
 /// Repeats with y on scatter four times as much: seen without being declared, and the noise of all others stays as it is.
