@@ -255,11 +255,11 @@ Emulator Emulator::possibleWorld(std::mt19937_64& random) const
             const Eigen::VectorXd error = factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
             condition->coefficients.col(f) += error;
         }
-        if (condition && condition->logSdError.size() > 0)
+        if (condition && condition->logSdError > 0.0)
         {
             // `root` stays, the unit of the coefficients
-            const Eigen::VectorXd factor =
-                condition->logSdError.unaryExpr([&](double sd) { return std::exp(sd * normal(random)); });
+            const Eigen::VectorXd factor = Eigen::VectorXd::NullaryExpr(
+                condition->noise.rows(), [&] { return std::exp(condition->logSdError * normal(random)); });
             condition->noise = factor.asDiagonal() * condition->noise * factor.asDiagonal();
         }
     }
@@ -505,21 +505,21 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     const Eigen::VectorXd pooled =
         0.5 * squares.cwiseQuotient(weight.cwiseMax(1e-9)).cwiseMax(1e-30).array().log().matrix();
-    // Of each feature, the variance between conditions beyond that of chance, 1/(2 nu) for the log of a standard deviation.
-    Eigen::VectorXd between = Eigen::VectorXd::Zero(features);
-    Eigen::VectorXd count = between;
+    // Variance between conditions beyond that of chance, 1/(2 nu) for the log of a standard deviation. It is that of all
+    // features together: a feature's own would follow the one condition whose few repeats happen to lie close.
+    double between = 0.0;
+    double count = 0.0;
     degreesOfFreedom_ = 0.0;
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
         if (conditions_[c] && freedom[c] > 0.0)
         {
-            const auto& kept = conditions_[c]->features;
-            between(kept).array() += (logSds[c] - pooled(kept)).array().square() - 0.5 / freedom[c];
-            count(kept).array() += 1.0;
+            between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom[c]).sum();
+            count += static_cast<double>(logSds[c].size());
             degreesOfFreedom_ += freedom[c];
         }
     }
-    between = between.cwiseQuotient(count.cwiseMax(1.0)).cwiseMax(leastBetween);
+    between = std::max(leastBetween, between / std::max(count, 1.0));
     Eigen::MatrixXd standardised(0, features);
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
@@ -532,12 +532,12 @@ void Emulator::learnNoise(bool ofPlainRuns)
         if (freedom[c] == 0.0)
         {
             logSds[c] = common;
-            conditions_[c]->logSdError = between(kept).cwiseSqrt();
+            conditions_[c]->logSdError = std::sqrt(between);
             continue;
         }
-        const Eigen::ArrayXd own = between(kept).array() / (between(kept).array() + 0.5 / freedom[c]);
-        logSds[c] = common.array() + (logSds[c] - common).array() * own;
-        conditions_[c]->logSdError = (0.5 * own / freedom[c]).sqrt();
+        const double own = between / (between + 0.5 / freedom[c]);
+        logSds[c] = common + (logSds[c] - common) * own;
+        conditions_[c]->logSdError = std::sqrt(0.5 * own / freedom[c]);
         const Eigen::Index first = standardised.rows();
         standardised.conservativeResize(first + deviations[c].rows(), Eigen::NoChange);
         standardised.bottomRows(deviations[c].rows()).setConstant(std::nan(""));

@@ -38,15 +38,15 @@ public:
     };
 
     Basis basis;
-    std::vector<std::optional<std::size_t>> owners; // by parameter: the effect of which it is a part
-    std::vector<Eigen::Index> features;             // of the study
-    Eigen::MatrixXd noise;                          // covariance of one run without effects that raise the scatter
-    Eigen::MatrixXd root;                           // lower triangular; root root' = noise, as it was learnt
-    Eigen::VectorXd logSdError;                     // of the noise: what is not known of the log of its sd, by feature
-    Eigen::VectorXd centre;                         // mean of the runs, from which values are counted
-    Eigen::MatrixXd coefficients;                   // terms x features, in units of `root`
-    std::vector<Eigen::MatrixXd> covariances;       // of these, by feature
-    std::map<std::size_t, Chain> chain;             // by effect
+    std::vector<std::optional<std::size_t>> owners;    // by parameter: the effect of which it is a part
+    std::vector<Eigen::Index> features;                // of the study
+    Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
+    Eigen::MatrixXd root;                              // lower triangular; root root' = noise, as it was learnt
+    double logSdError = 0.0;                           // of the noise: what is not known of the log of each sd
+    Eigen::VectorXd centre;                            // mean of the runs, from which values are counted
+    Eigen::MatrixXd coefficients;                      // terms x features, in units of `root`
+    std::vector<Eigen::MatrixXd> covariances;          // of these, by feature
+    std::map<std::size_t, Chain> chain;                // by effect
     std::map<std::size_t, Eigen::VectorXd> logScatter; // by simulated effect: log sd that amplitude 1 adds, by feature
     int runs = 0;
 

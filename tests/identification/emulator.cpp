@@ -247,7 +247,7 @@ TEST(Emulator, WorldsHaveNoiseOfTheirOwn)
     const Simulator simulator(study, rig);
     std::mt19937_64 random(3);
     const Emulator emulator(study, simulator, noisyRuns(simulator, random), allFeatures(study));
-    const double error = emulator[0]->logSdError(0);
+    const double error = emulator[0]->logSdError;
     ASSERT_GT(error, .02);
     double squares = 0;
     constexpr int worlds = 400;
