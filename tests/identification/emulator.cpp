@@ -196,38 +196,44 @@ TEST(Emulator, FailedRunsAreToldAndExcluded)
     EXPECT_EQ(simulator.failures().back().reason, "y is not possible");
 }
 
-/// Runs of the library with known coefficients, and noise of .1.
-std::vector<identification::Run> noisyRuns(const Simulator& simulator, std::mt19937_64& random)
-{
-    std::normal_distribution<double> normal;
-    std::vector<identification::Run> runs;
-    for (const auto& order : libraryOrders(simulator))
-    {
-        const double t = (order.setting.parameters(0) - .15) / .02;
-        const Eigen::VectorXd& a = order.setting.amplitudes;
-        identification::Run run{order.setting, {}};
-        run.simulation.condition = order.condition;
-        run.simulation.features = Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
-        run.simulation.plain.time = {0, 1};
-        run.simulation.plain.value = {1, 0};
-        runs.push_back(run);
-    }
-    return runs;
-}
-
-/// What the emulator says of its own errors holds.
-TEST(Emulator, IntervalsCover)
+/// Emulators learnt from runs with known coefficients and noise of .1, other noise each time.
+struct NoisyBench
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");
     LinearRig rig;
-    const Simulator simulator(study, rig);
-    std::mt19937_64 random(3);
+    const Simulator simulator{study, rig};
+    std::mt19937_64 random{3};
+
+    Emulator learn()
+    {
+        std::normal_distribution<double> normal;
+        std::vector<identification::Run> runs;
+        for (const auto& order : libraryOrders(simulator))
+        {
+            const double t = (order.setting.parameters(0) - .15) / .02;
+            const Eigen::VectorXd& a = order.setting.amplitudes;
+            identification::Run run{order.setting, {}};
+            run.simulation.condition = order.condition;
+            run.simulation.features =
+                Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
+            run.simulation.plain.time = {0, 1};
+            run.simulation.plain.value = {1, 0};
+            runs.push_back(run);
+        }
+        return {study, simulator, runs, allFeatures(study)};
+    }
+};
+
+/// What the emulator says of its own errors holds.
+TEST(Emulator, IntervalsCover)
+{
+    NoisyBench bench;
     double squares = 0;
     double count = 0;
     for (int trial = 0; trial < 60; ++trial)
     {
-        const Emulator emulator(study, simulator, noisyRuns(simulator, random), allFeatures(study));
+        const Emulator emulator = bench.learn();
         const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, .5);
         const std::vector<Present> present = {{0, .7}};
         const double error = emulator[0]->at(at, present)(0) - .15 - .35;
@@ -241,19 +247,15 @@ TEST(Emulator, IntervalsCover)
 /// The noise was learnt from few repeats: draws that took it for known would call data without any effect a residual.
 TEST(Emulator, WorldsHaveNoiseOfTheirOwn)
 {
-    const TemporaryFolder folder;
-    const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    const Simulator simulator(study, rig);
-    std::mt19937_64 random(3);
-    const Emulator emulator(study, simulator, noisyRuns(simulator, random), allFeatures(study));
+    NoisyBench bench;
+    const Emulator emulator = bench.learn();
     const double error = emulator[0]->logSdError;
     ASSERT_GT(error, .02);
     double squares = 0;
     constexpr int worlds = 400;
     for (int i = 0; i < worlds; ++i)
     {
-        const Emulator world = emulator.possibleWorld(random);
+        const Emulator world = emulator.possibleWorld(bench.random);
         squares += std::pow(.5 * std::log(world[0]->noise(0, 0) / emulator[0]->noise(0, 0)), 2);
     }
     EXPECT_NEAR(std::sqrt(squares / worlds), error, .15 * error);
