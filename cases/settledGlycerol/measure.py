@@ -1,0 +1,33 @@
+#!/usr/bin/python3
+"""The numbers of study.yaml from the tracks, where these are (they are not ours to keep here): mean speeds in four parts of the way.
+
+usage: measure.py FILE ...     prints a line for each track
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+# As the features of study.yaml have them [mm below the picture's top]
+PARTS = ((20, 65), (65, 120), (120, 180), (180, 240))
+
+
+def main():
+    if len(sys.argv) < 2:
+        raise SystemExit(__doc__)
+    for name in sys.argv[1:]:
+        time, position = np.loadtxt(name, skiprows=2).T
+        seen = position > 0
+        print(Path(name).stem, *(f"{meanSpeed(time[seen], position[seen], *part):.4f}" for part in PARTS))
+
+
+def meanSpeed(time, position, begin, end):
+    """The way over its time [mm/s]."""
+    deepest = np.maximum.accumulate(position)
+    if deepest[0] > begin or deepest[-1] < end:
+        return float("nan")
+    return (end - begin) / np.diff(np.interp((begin, end), deepest, time))[0]
+
+
+main()
