@@ -5,7 +5,7 @@ from pathlib import Path
 
 sys.dont_write_bytecode = True
 sys.path[:0] = [str(Path(__file__).resolve().parent.parent / "common/column"),
-                str(Path(__file__).resolve().parents[3] / "scripts")]
+                str(Path(__file__).resolve().parent.parent / "../../scripts")]
 from column import Column
 import numpy as np
 
