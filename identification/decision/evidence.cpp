@@ -448,6 +448,14 @@ double Evidence::largestMisfit(double sds) const
            * boost::math::quantile(boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), beyond));
 }
 
+double Evidence::chanceOfMisfit(double misfit) const
+{
+    const auto rows = static_cast<double>(layout_.rows);
+    return isExact() ? boost::math::cdf(
+               boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), misfit / rows))
+                     : 1.0;
+}
+
 /// The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
 double Evidence::logLikelihood(double misfit, double logVolume) const
 {

@@ -84,6 +84,9 @@ public:
     /// not scatter, else infinite. No draw tells more: of what is not known, far from all runs, draws lie anywhere.
     double largestMisfit(double sds) const;
 
+    /// How often noise alone makes a misfit as large as this; where runs scatter 1, for there draws tell.
+    double chanceOfMisfit(double misfit) const;
+
     Evidences operator()(const Measured& measured) const;
 
     /// Log evidence of something that is not in the library.

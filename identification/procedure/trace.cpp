@@ -292,10 +292,16 @@ private:
         const Evidences evidences = evidence(measured);
         const Odds odds = oddsOf(study_, evidences);
         answer_.logOdds = odds.logOdds;
+        const Fit null = evidence.fitNull(measured);
         answer_.pValue = calibration.pValue(odds.statistic);
+        if (evidence.isExact())
+        {
+            // Two questions. Draws lie anywhere where no run was made, and then look as odd as any data; what the runs at the
+            // null fit leave does not.
+            answer_.pValue = std::min(1.0, 2.0 * std::min(answer_.pValue, evidence.chanceOfMisfit(null.misfit)));
+        }
         answer_.otherProbability = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
-        const Fit null = evidence.fitNull(measured);
         answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {

@@ -87,6 +87,38 @@ TEST(Trace, NoAnswerWithoutSimulations)
     }
 }
 
+/// Where runs do not scatter draws may be as odd as any data: then a misfit of 470 in a few numbers was called "no residual".
+TEST(Trace, AMisfitBeyondNoiseIsAResidual)
+{
+    for (const std::string seed : {"none", "seed"})
+    {
+        const TemporaryFolder folder;
+        const Study study = linearStudy(folder, seed);
+        LinearRig rig(seed == "seed");
+        Simulator simulator(study, rig);
+        const Library library = makeLibrary(simulator);
+        std::vector<MeasuredCondition> data(study.conditions.size());
+        for (auto& condition : data)
+        {
+            condition.features = (Eigen::MatrixXd(6, 1) << -2.31, -2.30, -2.29, -2.31, -2.30, -2.29).finished();
+            condition.declaredError = Eigen::VectorXd::Zero(1);
+        }
+        const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+        const Layout layout = arrange(study, emulator, data).first;
+        const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
+        EXPECT_DOUBLE_EQ(evidence.chanceOfMisfit(0), 1);
+        if (seed == "none")
+        {
+            EXPECT_NEAR(evidence.chanceOfMisfit(2), 0.4, 0.05) << "as large as there are numbers: nothing odd";
+            EXPECT_LT(evidence.chanceOfMisfit(470), 1e-6);
+        }
+        else
+        {
+            EXPECT_DOUBLE_EQ(evidence.chanceOfMisfit(470), 1) << "left to draws, which have the runs' noise";
+        }
+    }
+}
+
 /// One effect at a setting, as a member of a set.
 Explanation explanationBy(std::size_t effect, const Setting& setting)
 {
