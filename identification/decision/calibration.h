@@ -52,6 +52,10 @@ double misfitLimit(const std::vector<double>& draws, double sds);
 constexpr double meansStillFit = 3.0;
 constexpr double scatterStillFits = 2.0;
 
+/// What is less likely than the best by more than this (log odds) gets no runs near its fit. Where runs do not scatter it is in
+/// no set either: draws of it, from where no run was made, would make any probability seem usual.
+constexpr double hopeless = 8.0;
+
 /// Parameters that a fit leaves possible [prior sd].
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
 

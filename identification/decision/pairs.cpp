@@ -10,9 +10,8 @@ namespace clepsydra::identification
 namespace
 {
 
-/// How many pairs are followed up, and how much less likely than the best they may be (log odds).
+/// How many pairs are followed up.
 constexpr std::size_t mostPairs = 4;
-constexpr double hopeless = 8.0;
 
 /// Trials with each of them.
 constexpr int trials = 100;

@@ -21,9 +21,8 @@ constexpr int rounds = 3;
 constexpr int roundsOfExact = 9;
 constexpr int pairRoundsOfExact = 4;
 
-/// How many explanations get runs, beside no effect, and how much less likely than the best they may be (log odds).
+/// How many explanations get runs, beside no effect.
 constexpr std::size_t mostContenders = 4;
-constexpr double hopeless = 8.0;
 
 /// Weight of no effect among the contenders: whether there is anything must be decided, too.
 constexpr double nullWeight = 0.3;
