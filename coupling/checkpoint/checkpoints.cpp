@@ -378,14 +378,20 @@ void Checkpoints::complete(DemEngine& engine) const
         mkDir(checkpoint.c_str());
     }
     string lines;
+    // No rank leaves the others alone in what the engine does on all.
     std::string problem = problemOfRanks([&] {
         const fileName half = time_.path() / timeName / halfName;
         mkDir(half.path());
         writeWhole(half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
-        engine.writeCheckpoint(checkpoint / beadsName);
-        requireFunctionState(time_);
-        lines = linesOfThisRank(caseDirectory, timeName);
     });
+    if (problem.empty())
+    {
+        problem = problemOfRanks([&] {
+            engine.writeCheckpoint(checkpoint / beadsName);
+            requireFunctionState(time_);
+            lines = linesOfThisRank(caseDirectory, timeName);
+        });
+    }
 
     List<string> linesOfRanks(Pstream::nProcs());
     linesOfRanks[Pstream::myProcNo()] = lines;
