@@ -76,10 +76,10 @@ def wholeExtent(walls):
 class Moment:
     """What is drawn of one written time."""
 
-    def __init__(self, case, view, at, files, folder):
-        """files, folder: of writtenTimes()."""
+    def __init__(self, case, view, at, beads, folder):
+        """beads, folder: of writtenTimes()."""
         self.at = at
-        self.position, self.radius, velocity = beadFiles.readBeads(files)
+        self.position, self.radius, velocity = beadFiles.readBeads(beads)
         self.speed = np.linalg.norm(velocity, axis=1)
         self.across, self.up = water(case, folder, view) if folder else (None, None)
 
@@ -101,11 +101,11 @@ def fieldTimes(case):
 
 
 def writtenTimes(case):
-    """{time: (files of beads, folder with U or None)}: in a run with water the times of which both are there."""
+    """{time: (file of beads, folder with U or None)}: in a run with water the times of which both are there."""
     fields, beads = fieldTimes(case), beadFiles.writtenTimes(case)
     # a folder's name has fewer digits than the beads' time
     named = {at: next((name for time, name in fields.items() if abs(time - at) <= 1e-6 * at), None) for at in beads}
-    return {at: (files, named[at]) for at, files in beads.items() if named[at] or not fields}
+    return {at: (file, named[at]) for at, file in beads.items() if named[at] or not fields}
 
 
 def water(case, time, view):

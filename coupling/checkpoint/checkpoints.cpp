@@ -2,6 +2,7 @@
 
 #include "checkpoint/manifest.h"
 #include "engine/demEngine.h"
+#include "ranks.h"
 
 #include "IFstream.H"
 #include "OSspecific.H"
@@ -57,24 +58,6 @@ word beginningOf(const fileName& folder)
     return word(line);
 }
 
-/// No rank goes on before the others have come here: OpenFOAM has no barrier but a reduction.
-void waitForAllRanks()
-{
-    label nothing = 0;
-    reduce(nothing, sumOp<label>());
-}
-
-/// Of what the ranks found, the first that is not empty. Collective.
-std::string firstOfRanks(const std::string& here)
-{
-    List<string> found(Pstream::nProcs());
-    found[Pstream::myProcNo()] = here;
-    Pstream::gatherList(found);
-    Pstream::scatterList(found);
-    const auto first = std::find_if(found.begin(), found.end(), [](const string& text) { return !text.empty(); });
-    return first == found.end() ? std::string() : std::string(*first);
-}
-
 /// This rank's part of the case, as names in a manifest begin: "" or "processor1/".
 std::string partPrefix()
 {
@@ -97,7 +80,7 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
     for (const Manifest::File& file : manifest.files)
     {
         const bool mine = isBeadsFile(file) ? Pstream::master() : startsWith(file.name, partPrefix());
-        if (const std::string found = mine ? Manifest::mismatch(caseDirectory, file) : std::string(); !found.empty())
+        if (std::string found = mine ? Manifest::mismatch(caseDirectory, file) : std::string(); !found.empty())
         {
             return found;
         }
@@ -115,7 +98,7 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
         const bool beads = isBeadsFile(file);
         if (Pstream::master() && (beads || fs::exists(caseDirectory / file.name)))
         {
-            if (const std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
+            if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
                 return found;
             }
@@ -394,40 +377,36 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         mkDir(checkpoint.c_str());
     }
-    std::string problem;
     string lines;
-    try
-    {
+    // No rank leaves the others alone in what the engine does on all.
+    std::string problem = problemOfRanks([&] {
         const fileName half = time_.path() / timeName / halfName;
         mkDir(half.path());
         writeWhole(half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
-        engine.writeCheckpoint(checkpoint / beadsName);
-        requireFunctionState(time_);
-        lines = linesOfThisRank(caseDirectory, timeName);
-    }
-    catch (const std::runtime_error& error) // FileError, or of std::filesystem
+    });
+    if (problem.empty())
     {
-        problem = error.what();
+        problem = problemOfRanks([&] {
+            engine.writeCheckpoint(checkpoint / beadsName);
+            requireFunctionState(time_);
+            lines = linesOfThisRank(caseDirectory, timeName);
+        });
     }
 
     List<string> linesOfRanks(Pstream::nProcs());
     linesOfRanks[Pstream::myProcNo()] = lines;
     Pstream::gatherList(linesOfRanks);
-    problem = firstOfRanks(problem);
-    if (problem.empty() && Pstream::master())
+    if (problem.empty())
     {
-        const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, {}};
-        try
-        {
-            writeWhole(checkpoint / completeName,
-                manifest.text(std::accumulate(linesOfRanks.begin(), linesOfRanks.end(), std::string())));
-        }
-        catch (const FileError& error)
-        {
-            problem = error.what();
-        }
+        problem = problemOfRanks([&] {
+            if (Pstream::master())
+            {
+                const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, {}};
+                writeWhole(checkpoint / completeName,
+                    manifest.text(std::accumulate(linesOfRanks.begin(), linesOfRanks.end(), std::string())));
+            }
+        });
     }
-    problem = firstOfRanks(problem);
     if (!problem.empty())
     {
         FatalErrorInFunction << "The checkpoint of time " << timeName << " could not be written: " << problem.c_str()

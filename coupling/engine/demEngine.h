@@ -97,8 +97,8 @@ public:
     /// Local: contact materials, empty where the script states none.
     virtual std::vector<ContactMaterial> contactMaterials() const = 0;
 
-    /// Writes everything the engine needs to go on as if never stopped. The file is complete when this returns.
-    /// \pre initialised.
+    /// Writes everything the engine needs to go on as if never stopped. The file is complete when this returns. Collective.
+    /// \pre initialised. \throws FileError where it cannot be written, on the rank that writes it.
     virtual void writeCheckpoint(const std::filesystem::path& file) = 0;
 
     /// Local: name and version of the engine.

@@ -101,21 +101,13 @@ int writeAll(int descriptor, const char* bytes, std::size_t count)
     return 0;
 }
 
-/// An unfinished file in the place of the file, when it is on the disk.
-void takePlace(int unfinished, const std::filesystem::path& file)
+/// What has been written of an unfinished file is on the disk, or FileError.
+void settle(int unfinished, const std::filesystem::path& file)
 {
     if (fsync(unfinished) != 0)
     {
         throw FileError::ofSystem("Cannot write", unfinishedName(file));
     }
-    std::error_code error;
-    std::filesystem::rename(unfinishedName(file), file, error);
-    if (error)
-    {
-        throw FileError(
-            "Cannot rename " + unfinishedName(file).string() + " to " + file.string() + ": " + error.message());
-    }
-    flushToDisk(file.has_parent_path() ? file.parent_path() : ".");
 }
 
 } // namespace
@@ -167,15 +159,56 @@ void flushToDisk(const std::filesystem::path& file)
 
 void writeWhole(const std::filesystem::path& file, const std::string& text)
 {
-    const OpenFile output(unfinishedName(file), O_WRONLY | O_CREAT | O_TRUNC);
+    beginInParts(file);
+    try
+    {
+        writePart(file, 0, text);
+    }
+    catch (const FileError&)
+    {
+        discardParts(file);
+        throw;
+    }
+    finishInParts(file);
+}
+
+void beginInParts(const std::filesystem::path& file)
+{
+    const OpenFile emptied(unfinishedName(file), O_WRONLY | O_CREAT | O_TRUNC);
+}
+
+void writePart(const std::filesystem::path& file, std::uint64_t place, const std::string& text)
+{
+    // To create what is there makes a computer of a network ask for it, where it may still believe that it is not.
+    const OpenFile output(unfinishedName(file), O_WRONLY | O_CREAT);
+    if (lseek(output.descriptor(), static_cast<off_t>(place), SEEK_SET) < 0)
+    {
+        throw FileError::ofSystem("Cannot write", unfinishedName(file));
+    }
     if (const int failure = writeAll(output.descriptor(), text.data(), text.size()))
     {
-        std::error_code ignored;
-        std::filesystem::remove(unfinishedName(file), ignored);
         errno = failure;
         throw FileError::ofSystem("Cannot write", unfinishedName(file));
     }
-    takePlace(output.descriptor(), file);
+    settle(output.descriptor(), file);
+}
+
+void finishInParts(const std::filesystem::path& file)
+{
+    std::error_code error;
+    std::filesystem::rename(unfinishedName(file), file, error);
+    if (error)
+    {
+        throw FileError(
+            "Cannot rename " + unfinishedName(file).string() + " to " + file.string() + ": " + error.message());
+    }
+    flushToDisk(file.has_parent_path() ? file.parent_path() : ".");
+}
+
+void discardParts(const std::filesystem::path& file) noexcept
+{
+    std::error_code ignored;
+    std::filesystem::remove(unfinishedName(file), ignored);
 }
 
 std::filesystem::path checksumName(const std::filesystem::path& file)
@@ -238,8 +271,7 @@ FileThroughPipe::~FileThroughPipe()
     if (output_ >= 0)
     {
         close(output_);
-        std::error_code ignored;
-        std::filesystem::remove(unfinishedName(file_), ignored);
+        discardParts(file_);
     }
 }
 
@@ -288,7 +320,8 @@ void FileThroughPipe::finish()
         errno = failure_;
         throw FileError::ofSystem("Cannot write", unfinishedName(file_));
     }
-    takePlace(output_, file_);
+    settle(output_, file_);
+    finishInParts(file_);
     close(output_);
     output_ = -1;
 }

@@ -43,6 +43,14 @@ void flushToDisk(const std::filesystem::path& file);
 /// the file is the old one or the new one, whatever happens. FileError, and the old one is there still.
 void writeWhole(const std::filesystem::path& file, const std::string& text);
 
+/// The same of a file that several processes write, each its own part: first one begins it, then each writes, then, when all
+/// have, one finishes it, or discards it where one could not write. Each may throw FileError; the old file is there until it
+/// is finished.
+void beginInParts(const std::filesystem::path& file);
+void writePart(const std::filesystem::path& file, std::uint64_t place, const std::string& text);
+void finishInParts(const std::filesystem::path& file);
+void discardParts(const std::filesystem::path& file) noexcept;
+
 /// Name under which a file is written before it is whole.
 std::filesystem::path unfinishedName(const std::filesystem::path& file);
 

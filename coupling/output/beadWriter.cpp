@@ -1,17 +1,13 @@
 #include "output/beadWriter.h"
 
-#include "couplingState.h"
+#include "files/wholeFile.h"
 #include "output/vtkBeads.h"
 #include "output/vtkSeries.h"
+#include "ranks.h"
 
-#include "OSspecific.H"
-#include "Pstream.H"
-#include "labelList.H"
-#include "scalarList.H"
+#include <mpi.h>
 
-#include <algorithm>
-#include <numeric>
-#include <vector>
+#include <cstdint>
 
 namespace clepsydra
 {
@@ -19,106 +15,76 @@ namespace clepsydra
 namespace
 {
 
-/// How beads travel to the master: position, velocity, angular velocity, radius, void fraction.
-constexpr Eigen::Index packedSize = 11;
-using Packed = Eigen::Matrix<double, packedSize, Eigen::Dynamic>;
-
-Foam::scalarList pack(const BeadsView& beads)
-{
-    Foam::scalarList values(static_cast<Foam::label>(packedSize * beads.size()));
-    Eigen::Map<Packed> packed(values.data(), packedSize, beads.size());
-    packed.topRows<3>() = beads.position;
-    packed.middleRows<3>(3) = beads.velocity;
-    packed.middleRows<3>(6) = beads.angularVelocity;
-    packed.row(9) = beads.radius.matrix().transpose();
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
-    {
-        packed(10, bead) = beads.state != nullptr ? beads.state[bead].fluid.voidFraction : 1.0;
-    }
-    return values;
-}
-
-/// The beads of all ranks by id; empty but on the master. Collective.
-DrawnBeads gather(const BeadsView& beads)
+void endWhereThereIsA(const std::string& problem)
 {
     using namespace Foam;
 
-    List<labelList> idsOfRanks(Pstream::nProcs());
-    idsOfRanks[Pstream::myProcNo()] = labelList(beads.id.begin(), beads.id.end());
-    Pstream::gatherList(idsOfRanks);
-    List<scalarList> valuesOfRanks(Pstream::nProcs());
-    valuesOfRanks[Pstream::myProcNo()] = pack(beads);
-    Pstream::gatherList(valuesOfRanks);
-    if (!Pstream::master())
+    if (!problem.empty())
     {
-        return {};
+        FatalErrorInFunction << problem.c_str() << exit(FatalError);
     }
+}
 
-    std::vector<int> ids;
-    std::vector<double> values;
-    for (label rank = 0; rank < Pstream::nProcs(); ++rank)
+/// Where a part of so many bytes begins in the file of all ranks. Collective.
+std::uint64_t placeOf(std::uint64_t bytes)
+{
+    std::uint64_t end = bytes;
+    if (Foam::Pstream::parRun())
     {
-        ids.insert(ids.end(), idsOfRanks[rank].begin(), idsOfRanks[rank].end());
-        values.insert(values.end(), valuesOfRanks[rank].begin(), valuesOfRanks[rank].end());
+        MPI_Scan(&bytes, &end, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
     }
-    std::vector<Eigen::Index> order(ids.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return ids[a] < ids[b]; });
-
-    const auto count = static_cast<Eigen::Index>(ids.size());
-    const Packed sorted = Eigen::Map<const Packed>(values.data(), packedSize, count)(Eigen::all, order);
-    DrawnBeads drawn;
-    drawn.id = Eigen::Map<const Eigen::ArrayXi>(ids.data(), count)(order);
-    drawn.position = sorted.topRows<3>();
-    drawn.velocity = sorted.middleRows<3>(3);
-    drawn.angularVelocity = sorted.middleRows<3>(6);
-    drawn.radius = sorted.row(9).transpose();
-    drawn.voidFraction = sorted.row(10).transpose();
-    return drawn;
+    return end - bytes;
 }
 
 } // namespace
 
 BeadWriter::BeadWriter(const Foam::Time& time)
-    : folder_(time.globalPath() / "VTK")
+    : folder_(std::string(time.globalPath() / "VTK"))
 {
-    using namespace Foam;
-
-    if (Pstream::master())
-    {
-        try
+    endWhereThereIsA(problemOfRanks([&] {
+        if (Foam::Pstream::master())
         {
-            series_ = std::make_unique<VtkSeries>(std::string(folder_ / "beads.pvd"), time.startTime().value());
+            series_ = std::make_unique<VtkSeries>(folder_ / "beads.pvd", time.startTime().value());
         }
-        catch (const std::runtime_error& error)
-        {
-            FatalErrorInFunction << error.what() << exit(FatalError);
-        }
-    }
+    }));
 }
 
 BeadWriter::~BeadWriter() = default;
 
 void BeadWriter::write(const BeadsView& beads, double time)
 {
-    using namespace Foam;
+    using Foam::Pstream;
 
-    const DrawnBeads drawn = gather(beads);
-    if (!Pstream::master())
+    const std::string name = "beads_" + Foam::Time::timeName(time) + ".vtp";
+    const std::filesystem::path file = folder_ / name;
+    std::string part;
+    std::string problem = problemOfRanks([&] {
+        if (Pstream::master())
+        {
+            std::filesystem::create_directories(folder_);
+            beginInParts(file);
+        }
+        part = partOfVtp(beads, Pstream::master(), Pstream::myProcNo() == Pstream::nProcs() - 1);
+    });
+    if (problem.empty())
     {
-        return;
+        problem = problemOfRanks([&, place = placeOf(part.size())] { writePart(file, place, part); });
     }
-    const fileName name = "beads_" + Time::timeName(time) + ".vtp";
-    try
+    if (problem.empty())
     {
-        mkDir(folder_);
-        writeVtp(std::string(folder_ / name), drawn);
-        series_->add(time, std::string(name));
+        problem = problemOfRanks([&] {
+            if (Pstream::master())
+            {
+                finishInParts(file);
+                series_->add(time, name);
+            }
+        });
     }
-    catch (const std::runtime_error& error)
+    if (!problem.empty() && Pstream::master())
     {
-        FatalErrorInFunction << error.what() << exit(FatalError);
+        discardParts(file);
     }
+    endWhereThereIsA(problem);
 }
 
 } // namespace clepsydra

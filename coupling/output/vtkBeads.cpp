@@ -1,6 +1,6 @@
 #include "output/vtkBeads.h"
 
-#include "files/wholeFile.h"
+#include "couplingState.h"
 
 #include <vtkCellArray.h>
 #include <vtkDoubleArray.h>
@@ -12,7 +12,9 @@
 #include <vtkXMLPolyDataWriter.h>
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
+#include <vector>
 
 namespace clepsydra
 {
@@ -32,41 +34,68 @@ vtkNew<VtkArray> vtkArray(const char* name, const Values& values)
     return array;
 }
 
-} // namespace
-
-void writeVtp(const std::filesystem::path& file, const DrawnBeads& beads)
+Eigen::RowVectorXd voidFractions(const BeadsView& beads)
 {
-    vtkNew<vtkPoints> points;
-    points->SetData(vtkArray<vtkDoubleArray>("position", beads.position));
+    Eigen::RowVectorXd values = Eigen::RowVectorXd::Ones(beads.size());
+    for (Eigen::Index bead = 0; beads.state != nullptr && bead < beads.size(); ++bead)
+    {
+        values(bead) = beads.state[bead].fluid.voidFraction;
+    }
+    return values;
+}
 
+vtkNew<vtkPolyData> drawingOf(const BeadsView& beads)
+{
+    std::vector<Eigen::Index> byId(static_cast<std::size_t>(beads.size()));
+    std::iota(byId.begin(), byId.end(), 0);
+    std::sort(byId.begin(), byId.end(), [&](auto a, auto b) { return beads.id[a] < beads.id[b]; });
+    const auto sorted = [&](const auto& columns) { return columns(Eigen::all, byId).eval(); };
+
+    vtkNew<vtkPoints> points;
+    points->SetData(vtkArray<vtkDoubleArray>("position", sorted(beads.position)));
     vtkNew<vtkCellArray> vertices;
-    for (vtkIdType bead = 0; bead < beads.id.size(); ++bead)
+    for (vtkIdType bead = 0; bead < beads.size(); ++bead)
     {
         vertices->InsertNextCell(1, &bead);
     }
 
-    vtkNew<vtkPolyData> drawn;
-    drawn->SetPoints(points);
-    drawn->SetVerts(vertices);
-    vtkPointData& data = *drawn->GetPointData();
-    data.AddArray(vtkArray<vtkIntArray>("id", beads.id.transpose().eval()));
-    data.AddArray(vtkArray<vtkDoubleArray>("radius", beads.radius.transpose().eval()));
-    data.AddArray(vtkArray<vtkDoubleArray>("velocity", beads.velocity));
-    data.AddArray(vtkArray<vtkDoubleArray>("angularVelocity", beads.angularVelocity));
-    data.AddArray(vtkArray<vtkDoubleArray>("voidFraction", beads.voidFraction.transpose().eval()));
-    data.AddArray(vtkArray<vtkDoubleArray>("speed", beads.velocity.colwise().norm().eval()));
+    vtkNew<vtkPolyData> drawing;
+    drawing->SetPoints(points);
+    drawing->SetVerts(vertices);
+    vtkPointData& data = *drawing->GetPointData();
+    const Eigen::Matrix3Xd velocity = sorted(beads.velocity);
+    data.AddArray(vtkArray<vtkIntArray>("id", sorted(beads.id.transpose())));
+    data.AddArray(vtkArray<vtkDoubleArray>("radius", sorted(beads.radius.transpose())));
+    data.AddArray(vtkArray<vtkDoubleArray>("velocity", velocity));
+    data.AddArray(vtkArray<vtkDoubleArray>("angularVelocity", sorted(beads.angularVelocity)));
+    data.AddArray(vtkArray<vtkDoubleArray>("voidFraction", sorted(voidFractions(beads))));
+    data.AddArray(vtkArray<vtkDoubleArray>("speed", velocity.colwise().norm().eval()));
+    return drawing;
+}
 
+} // namespace
+
+std::string partOfVtp(const BeadsView& beads, bool first, bool last)
+{
     vtkNew<vtkXMLPolyDataWriter> writer;
     // VTK does not see every write that fails.
     writer->WriteToOutputStringOn();
-    writer->SetInputData(drawn);
+    writer->SetInputData(drawingOf(beads));
     // Not appended, a third smaller: Debian 12's ParaView 5.11 cannot read that with Debian's expat 2.5.0-1+deb12u2.
     writer->SetDataModeToBinary();
     if (writer->Write() != 1)
     {
-        throw std::runtime_error("VTK cannot make " + file.string());
+        throw std::runtime_error("VTK cannot make a drawing of the beads");
     }
-    writeWhole(file, writer->GetOutputString());
+    const std::string whole = writer->GetOutputString();
+    const std::string pieceEnd = "</Piece>\n";
+    const std::size_t begin = first ? 0 : whole.find("<Piece");
+    std::string part = whole.substr(begin, last ? std::string::npos : whole.find(pieceEnd) + pieceEnd.size() - begin);
+    if (!last)
+    {
+        part.append(pageSize - 1 - (part.size() + pageSize - 1) % pageSize, ' ');
+    }
+    return part;
 }
 
 } // namespace clepsydra

@@ -1,26 +1,20 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "engine/beads.h"
 
-#include <filesystem>
+#include <string>
 
 namespace clepsydra
 {
 
-/// What is drawn of the beads; one row or column per bead. SI units.
-struct DrawnBeads
-{
-    Eigen::ArrayXi id;
-    Eigen::Matrix3Xd position;
-    Eigen::Matrix3Xd velocity;
-    Eigen::Matrix3Xd angularVelocity;
-    Eigen::ArrayXd radius;
-    /// Of the fluid at the bead; 1 without fluid.
-    Eigen::ArrayXd voidFraction;
-};
+/// A rank's part of a file of the beads for ParaView (.vtp, binary): VTK reads as many pieces as there are in it. The
+/// parts of all ranks, one after the other, are the file. Each but the last ends at a multiple of `pageSize`, for file
+/// systems of networks keep files by pages, and two ranks that write to the same page may each undo what the other wrote.
+///
+/// A piece has the beads as vertices, sorted by id, with point data id, radius, velocity, angularVelocity, voidFraction
+/// (of the fluid at the bead; 1 without fluid) and speed. \throws std::runtime_error where VTK cannot make it.
+std::string partOfVtp(const BeadsView& beads, bool first, bool last);
 
-/// Writes the beads as vertices with point data id, radius, velocity, angularVelocity, voidFraction and speed, for
-/// ParaView (binary). Local. \throws std::runtime_error naming the file where it cannot be written.
-void writeVtp(const std::filesystem::path& file, const DrawnBeads& beads);
+constexpr std::size_t pageSize = 4096;
 
 } // namespace clepsydra

@@ -4,7 +4,7 @@ import json
 import shutil
 
 from . import timing
-from .hopper import Hopper, solver
+from .hopper import FUNCTIONS, Hopper, solver
 from .twoRanks import loopSeconds
 
 # Parts of the fill that remain, and the length of each window [s]
@@ -59,7 +59,8 @@ def window(folder, start, ranks):
         shutil.copytree(folder / "checkpoints" / name, part / "checkpoints" / name)
         shutil.copy(folder / "checkpoints" / "beginning", part / "checkpoints")
     with open(part / "stage", "a") as stage:
-        stage.write(f"stageEndTime {start + WINDOW};\nranks {ranks};\nfieldInterval 10;\n")
+        stage.write(f"stageEndTime {start + WINDOW};\nfieldInterval 10;\n")
+    Hopper.inFolder(part.parent.parent, f"{FUNCTIONS}; ranks={ranks}; shareOut stages/{part.name}/stage")
     if ranks > 1:
         Hopper.inFolder(part, f"decomposePar -latestTime > log.decomposePar 2>&1")
     return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newestLedger(part))

@@ -66,9 +66,9 @@ class Hopper:
         self._pour()
         folder = self.case / "stages" / name
         shutil.rmtree(folder, ignore_errors=True)
-        self.inFolder(self.case, f"{FUNCTIONS}; prepareStage {template}")
+        self.inFolder(self.case, f"{FUNCTIONS}; ranks={ranks}; prepareStage {template}")
         shutil.copytree(self.case / "stages" / template, folder, symlinks=True)
-        entries = {"stageEndTime": duration, "ranks": ranks, **entries}
+        entries = {"stageEndTime": duration, **entries}
         with open(folder / "stage", "a") as stage:
             stage.writelines(f"{entry} {value};\n" for entry, value in entries.items())
         if ranks > 1:

@@ -34,8 +34,8 @@ def roomAgain(bench, folder):
     mount(bench, folder, "-o", "remount,size=64m")
 
 
-def fill(bench, part, kibibytes, fresh=False):
-    case = bench.pile() if fresh else bench.stopped()
+def fill(bench, part, kibibytes, fresh=False, ranks=1):
+    case = bench.pile(ranks) if fresh else bench.stopped(ranks)
     disk = onSmallDiskAt(bench, case.folder / part, kibibytes)
     outcome = case.run()
     said = judged(outcome)
@@ -84,6 +84,12 @@ def diskFullForTables(bench):
 @fault("the disk is full where the drawings of the beads are", STOPS)
 def diskFullForDrawings(bench):
     return [functools.partial(fill, bench, "VTK", room) for room in bench.some(range(0, 48, 4), quick=2)]
+
+
+@fault("the disk is full where two ranks have the case, the beads' checkpoints or their drawings", STOPS)
+def diskFullOnTwoRanks(bench):
+    places = [(part, room) for room in (0, 8, 40, 120) for part in ("checkpoints", "VTK", ".")]
+    return [functools.partial(fill, bench, part, room, ranks=2) for part, room in bench.some(places, quick=2)]
 
 
 @fault("the output goes to a full disk (/dev/full)", STOPS, inQuick=False)

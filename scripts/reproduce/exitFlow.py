@@ -32,9 +32,9 @@ def keep(folder):
     with open(FOLDER / f"{folder.name}.profile.csv", "w") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "height [m]", "solid fraction [-]", "downward solid flux [m/s]"])
-        for time, files in sorted(times.items()):
+        for time, drawn in sorted(times.items()):
             if STEADY[0] <= time <= STEADY[1]:
-                for row in zip(HEIGHTS, *crossSections(*beadFiles.readBeads(files), radius)):
+                for row in zip(HEIGHTS, *crossSections(*beadFiles.readBeads(drawn), radius)):
                     table.writerow([f"{time:.6g}", *(f"{value:.5g}" for value in row)])
     position, size, velocity = beadFiles.readBeads(times[min(times, key=lambda time: abs(time - PICTURE_AT))])
     cut = np.abs(position[:, 1]) < size

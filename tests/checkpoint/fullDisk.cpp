@@ -3,12 +3,10 @@
 
 #include "checkpoint/pilingBeads.h"
 #include "files/wholeFile.h"
+#include "support/smallDisk.h"
 
 #include <gtest/gtest.h>
 
-#include <sys/resource.h>
-
-#include <csignal>
 #include <fstream>
 #include <iostream>
 
@@ -17,32 +15,6 @@ namespace clepsydra::tests
 
 namespace
 {
-
-/// As long as it lives no file of this process can grow beyond a size: what comes after is refused, as by a full disk.
-class SmallDisk
-{
-public:
-    explicit SmallDisk(rlim_t bytes)
-        : handler_(std::signal(SIGXFSZ, SIG_IGN))
-    {
-        getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        setrlimit(RLIMIT_FSIZE, &limit);
-    }
-
-    ~SmallDisk()
-    {
-        setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-
-    SmallDisk(const SmallDisk&) = delete;
-    SmallDisk& operator=(const SmallDisk&) = delete;
-
-private:
-    void (*handler_)(int);
-    rlimit before_{};
-};
 
 class WholeFile : public testing::Test
 {

@@ -1,5 +1,11 @@
+// First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
+#include <gmock/gmock.h>
+
+#include "benchmarks/countMessages.h"
 #include "output/beadWriter.h"
+#include "support/errorOf.h"
 #include "support/fakeEngine.h"
+#include "support/smallDisk.h"
 #include "support/temporaryCase.h"
 
 #include <gtest/gtest.h>
@@ -8,75 +14,170 @@
 #include <vtkPolyData.h>
 #include <vtkXMLPolyDataReader.h>
 
+#include <map>
+#include <optional>
+
 namespace clepsydra::tests
 {
 
 namespace
 {
 
-/// Beads 5, 4 .. 0 dealt to the ranks in turn, bead i with values made from i; every value must be found again in the
-/// file at place i, through VTK's own reader. Writing one rank's beads, leaving out an array, or the engine's order
-/// fails.
-TEST(BeadWriter, WritesTheBeadsOfAllRanksSortedById)
+using Foam::Pstream;
+
+/// Beads 0 .. count - 1, dealt in turn to so many ranks from a first one on, the last first; bead i with values made from i.
+std::unique_ptr<FakeEngine> beadsOnRanks(int count, int firstRank, int ranks)
 {
-    TemporaryCase temporaryCase;
-    FakeEngine engine(0.01);
-    for (int id = 5; id >= 0; --id)
+    auto engine = std::make_unique<FakeEngine>(0.01);
+    for (int id = count - 1; id >= 0; --id)
     {
-        if (id % Foam::Pstream::nProcs() == Foam::Pstream::myProcNo())
+        if (firstRank + id % ranks == Pstream::myProcNo())
         {
-            engine.addBead(id, {1.0 * id, 2.0 * id, 3.0 * id}, 0.1 * (id + 1), 2500, {0, 3.0 * id, 4.0 * id});
+            engine->addBead(id, {1.0 * id, 2.0 * id, 3.0 * id}, 0.1 * (id + 1), 2500, {0, 3.0 * id, 4.0 * id});
         }
     }
-    engine.initialise(nullptr);
-    const BeadsView beads = engine.beads();
+    engine->initialise(nullptr);
+    const BeadsView beads = engine->beads();
     for (Eigen::Index i = 0; i < beads.size(); ++i)
     {
         beads.state[i].fluid.voidFraction = 1 - 0.1 * beads.id[i];
     }
+    return engine;
+}
 
-    BeadWriter(temporaryCase.time()).write(beads, 0.25);
-
-    if (!Foam::Pstream::master())
-    {
-        return;
-    }
+/// What VTK's own reader finds in a file.
+vtkNew<vtkPolyData> drawnIn(const std::filesystem::path& file)
+{
     vtkNew<vtkXMLPolyDataReader> reader;
-    reader->SetFileName((temporaryCase.folder() / "VTK/beads_0.25.vtp").c_str());
+    reader->SetFileName(file.c_str());
     reader->Update();
-    vtkPolyData& written = *reader->GetOutput();
-    ASSERT_EQ(written.GetNumberOfPoints(), 6);
-    EXPECT_EQ(written.GetNumberOfVerts(), 6);
-    const auto value = [&](const char* name, int bead, int component) {
-        vtkDataArray* array = written.GetPointData()->GetArray(name);
-        return array != nullptr ? array->GetComponent(bead, component) : -1;
+    vtkNew<vtkPolyData> drawn;
+    drawn->ShallowCopy(reader->GetOutput());
+    return drawn;
+}
+
+/// Exactly beads 0 .. count - 1, each once and with all that was made from its number.
+void expectBeads(const std::filesystem::path& file, int count)
+{
+    const vtkNew<vtkPolyData> drawn = drawnIn(file);
+    ASSERT_EQ(drawn->GetNumberOfPoints(), count);
+    EXPECT_EQ(drawn->GetNumberOfVerts(), count);
+    const auto value = [&](const char* name, vtkIdType point, int component) {
+        vtkDataArray* array = drawn->GetPointData()->GetArray(name);
+        return array != nullptr ? array->GetComponent(point, component) : -1;
     };
-    for (int id = 0; id < 6; ++id)
+    std::map<int, vtkIdType> points;
+    for (vtkIdType point = 0; point < count; ++point)
     {
-        EXPECT_EQ(value("id", id, 0), id);
-        EXPECT_EQ(written.GetPoint(id)[2], 3.0 * id);
-        EXPECT_EQ(value("radius", id, 0), 0.1 * (id + 1));
-        EXPECT_EQ(value("velocity", id, 1), 3.0 * id);
-        EXPECT_EQ(value("angularVelocity", id, 2), 0);
-        EXPECT_EQ(value("voidFraction", id, 0), 1 - 0.1 * id);
-        EXPECT_DOUBLE_EQ(value("speed", id, 0), 5.0 * id);
+        points[static_cast<int>(value("id", point, 0))] = point;
     }
-    EXPECT_TRUE(std::filesystem::exists(temporaryCase.folder() / "VTK/beads.pvd"));
+    for (int id = 0; id < count; ++id)
+    {
+        ASSERT_EQ(points.count(id), 1u) << id;
+        const vtkIdType point = points[id];
+        EXPECT_EQ(drawn->GetPoint(point)[2], 3.0 * id);
+        EXPECT_EQ(value("radius", point, 0), 0.1 * (id + 1));
+        EXPECT_EQ(value("velocity", point, 1), 3.0 * id);
+        EXPECT_EQ(value("angularVelocity", point, 2), 0);
+        EXPECT_EQ(value("voidFraction", point, 0), 1 - 0.1 * id);
+        EXPECT_DOUBLE_EQ(value("speed", point, 0), 5.0 * id);
+        // On one rank: in one order at all times, whatever the engine's.
+        EXPECT_TRUE(Pstream::parRun() || point == id);
+    }
+}
+
+std::size_t filesIn(const std::filesystem::path& folder)
+{
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+} // namespace
+
+/// Beads on all ranks, then on all but the first, all but the last, and in the one file every value of each must be found
+/// again. Writing one rank's beads, two ranks' to one place, leaving out an array or a piece fails, and so does a file
+/// whose first piece, without beads, would name no arrays.
+TEST(BeadWriter, WritesTheBeadsOfAllRanksInOneFile)
+{
+    TemporaryCase temporaryCase;
+    BeadWriter writer(temporaryCase.time());
+    const int ranks = Pstream::nProcs();
+    const int some = std::max(1, ranks - 1);
+    double time = 0;
+    for (const auto& [first, count] : {std::pair(0, ranks), std::pair(ranks - some, some), std::pair(0, some)})
+    {
+        time += 0.25;
+        writer.write(beadsOnRanks(10, first, count)->beads(), time);
+        if (Pstream::master())
+        {
+            const std::string name = "beads_" + Foam::Time::timeName(time) + ".vtp";
+            expectBeads(temporaryCase.folder() / "VTK" / name, 10);
+        }
+    }
+    if (Pstream::master())
+    {
+        EXPECT_TRUE(std::filesystem::exists(temporaryCase.folder() / "VTK/beads.pvd"));
+        EXPECT_EQ(filesIn(temporaryCase.folder() / "VTK"), 4u);
+    }
+}
+
+/// Of 4000 beads of a rank, 92 bytes and more each, none goes to another rank: what is said beside the file does not depend
+/// on them. A gathering of all beads fails; that they are written is shown above.
+TEST(BeadWriter, SendsNoBeads)
+{
+    TemporaryCase temporaryCase;
+    BeadWriter writer(temporaryCase.time());
+    const auto sentWith = [&](int beadsOfRank) {
+        const auto engine = beadsOnRanks(beadsOfRank * Pstream::nProcs(), 0, Pstream::nProcs());
+        const double before = bytesSentSoFar();
+        writer.write(engine->beads(), beadsOfRank);
+        return bytesSentSoFar() - before;
+    };
+    const double few = sentWith(4);
+    EXPECT_EQ(sentWith(4000), few);
+    EXPECT_LT(few, 1000);
+    EXPECT_EQ(few > 0, Pstream::parRun());
+}
+
+/// The last rank alone has no room: all ranks end with what it says, the file of that time is the old one, and nothing else
+/// is left. One that waited for a rank that has failed would never come back; one that writes into the file itself leaves
+/// half of it.
+TEST(BeadWriter, TellsOnAllRanksThatOneCouldNotWrite)
+{
+    TemporaryCase temporaryCase;
+    BeadWriter writer(temporaryCase.time());
+    writer.write(beadsOnRanks(10, 0, Pstream::nProcs())->beads(), 0.25);
+    {
+        std::optional<SmallDisk> disk;
+        if (Pstream::myProcNo() == Pstream::nProcs() - 1)
+        {
+            disk.emplace(100);
+        }
+        const auto more = beadsOnRanks(100, 0, Pstream::nProcs());
+        EXPECT_THAT(errorOf([&] { writer.write(more->beads(), 0.25); }),
+            testing::HasSubstr("VTK/beads_0.25.vtp.unfinished: File too large"));
+    }
+    if (Pstream::master())
+    {
+        expectBeads(temporaryCase.folder() / "VTK/beads_0.25.vtp", 10);
+        EXPECT_EQ(filesIn(temporaryCase.folder() / "VTK"), 2u);
+    }
+    writer.write(beadsOnRanks(100, 0, Pstream::nProcs())->beads(), 0.25);
+    if (Pstream::master())
+    {
+        expectBeads(temporaryCase.folder() / "VTK/beads_0.25.vtp", 100);
+    }
 }
 
 /// Before pouring there is no bead: a file without beads, not an error.
 TEST(BeadWriter, WritesNoBeads)
 {
     TemporaryCase temporaryCase;
-    FakeEngine engine(0.01);
-    engine.initialise(nullptr);
-    BeadWriter(temporaryCase.time()).write(engine.beads(), 0);
-    if (Foam::Pstream::master())
+    BeadWriter(temporaryCase.time()).write(beadsOnRanks(0, 0, 1)->beads(), 0);
+    if (Pstream::master())
     {
-        EXPECT_TRUE(std::filesystem::exists(temporaryCase.folder() / "VTK/beads_0.vtp"));
+        expectBeads(temporaryCase.folder() / "VTK/beads_0.vtp", 0);
     }
 }
-
-} // namespace
 
 } // namespace clepsydra::tests

@@ -69,8 +69,8 @@ class FreshRun(unittest.TestCase):
         # from the top of the beads, of which none lies higher than 2 cm, to the floor of the tank
         limit = np.sqrt(2 * flow.GRAVITY * (self.runs["dry"].parameters["tankDepth"] + 0.02))
         case = self.folder / "work" / "runs" / self.runs["dry"].name / "stages" / "dry"
-        fastest = max(np.linalg.norm(beadFiles.readBeads(files)[2], axis=1).max()
-                      for files in beadFiles.writtenTimes(case).values())
+        fastest = max(np.linalg.norm(beadFiles.readBeads(file)[2], axis=1).max()
+                      for file in beadFiles.writtenTimes(case).values())
         print(f"fastest bead {fastest:.2f} m/s, free fall {limit:.2f} m/s")
         self.assertLess(fastest, limit)
 

@@ -85,6 +85,27 @@ class Stops(HopperCase):
         self.assertIn("'./Allrun mesh' makes another", self.refuses("submerged"))
 
 
+class Ranks(HopperCase):
+    def testTheirBoxesLieSideBySide(self):
+        """As many as ranks, as near to squares as may be, said once however often a stage is prepared, also for a stage that was
+        begun when there were slabs only. Slabs for all numbers of ranks fail at 4, a second say at the second number."""
+        shares = {1: (1, 1), 2: (2, 1), 3: (3, 1), 4: (2, 2), 6: (3, 2), 7: (7, 1), 8: (4, 2), 16: (4, 4), 24: (6, 4)}
+        stage = self.case / "stages" / "dry" / "stage"
+        for ranks, (alongX, alongY) in shares.items():
+            self.prepare("dry", ranks)
+            said = re.findall(r"^(ranks\w*) +(\d+);$", stage.read_text(), re.MULTILINE)
+            self.assertEqual(said, [("ranks", str(ranks)), ("ranksAlongX", str(alongX)), ("ranksAlongY", str(alongY))])
+        text = (self.case / "stage.dry").read_text()
+        stage.write_text(text + "ranks           4;\n")
+        self.prepare("dry", 4)
+        self.assertTrue(stage.read_text().startswith(text))
+        self.assertIn("ranksAlongY     2;\n", stage.read_text())
+
+    def prepare(self, stage, ranks):
+        subprocess.run(["bash", "-euc", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; ranks={ranks}; prepareStage {stage}"],
+                       env=self.environment, check=True)
+
+
 class Mistakes(HopperCase):
     """Each must be told in a line that names file and entry, and what is allowed, before anything is made."""
 

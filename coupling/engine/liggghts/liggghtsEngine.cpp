@@ -32,6 +32,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -883,19 +884,36 @@ std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
 {
     implementation_->keepFinishedInsertionsFinished();
-    // The first rank writes what all send to it.
+    // The first rank writes what all send to it. Where it cannot, it goes through all of it with them nonetheless: they
+    // would wait for it.
+    const bool first = implementation_->program().comm->me == 0;
     std::optional<FileThroughPipe> received;
-    if (implementation_->program().comm->me == 0)
+    std::exception_ptr failure;
+    const auto attempt = [&](const auto& step) {
+        try
+        {
+            step();
+        }
+        catch (const FileError&)
+        {
+            failure = std::current_exception();
+        }
+    };
+    if (first)
     {
-        received.emplace(file);
+        attempt([&] { received.emplace(file); });
     }
-    implementation_->execute("write_restart " + (received ? received->entrance() : file).string(), "checkpoint");
+    implementation_->execute("write_restart " + (received ? received->entrance().string() : "/dev/null"), "checkpoint");
     if (received)
     {
-        received->finish();
+        attempt([&] { received->finish(); });
     }
     implementation_->restartInsertions();
     MPI_Barrier(implementation_->program().world);
+    if (failure)
+    {
+        std::rethrow_exception(failure);
+    }
 }
 
 std::string LiggghtsEngine::version() const
