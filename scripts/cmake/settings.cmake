@@ -16,6 +16,10 @@ if(CLEPSYDRA_NATIVE)
     add_compile_options(-march=native)
 endif()
 
+# Messages name our sources from the repository's root on (OpenFOAM's errors quote __FILE__), wherever it was built. Debug
+# information keeps whole paths, by which a debugger finds the sources.
+add_compile_options("-fmacro-prefix-map=${PROJECT_SOURCE_DIR}/=")
+
 set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin")
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/lib")
