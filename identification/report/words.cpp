@@ -153,7 +153,7 @@ std::string probabilitiesInWords(const Findings& findings)
     std::vector<std::string> shares;
     for (const auto& explanation : answer.set)
     {
-        shares.push_back(nameOf(*findings.study, explanation) + ' ' + percent(explanation.probability));
+        shares.push_back(meaningOf(findings, explanation) + ' ' + percent(explanation.probability));
     }
     shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherProbability));
     return "How likely: " + joined(shares, ", ") + '.';
@@ -167,7 +167,7 @@ std::string heldOutInWords(const Findings& findings)
         "On the held-out conditions the error is " + errorOf(study, heldOut.before) + " without any effect, ";
     if (heldOut.after)
     {
-        text += errorOf(study, *heldOut.after) + " with " + nameOf(study, findings.answer->set.front()) + ", ";
+        text += errorOf(study, *heldOut.after) + " with the likeliest effect, ";
     }
     return text + errorOf(study, heldOut.oneMoreParameter)
            + " with one more free parameter in its place; noise alone gives "
