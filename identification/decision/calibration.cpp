@@ -277,7 +277,8 @@ void Calibrator::setMembership()
         const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
         // Known worlds are a little better known than this one: what is not unlikely belongs to the set, whatever they say.
         const double notUnlikely = std::log(1.0 - study_.settings.coverage);
-        const double usual = place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
+        const double usual =
+            place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
         return evidence_.isExact() ? std::max(usual, -hopeless) : usual;
     };
     calibration_.membership.resize(static_cast<Eigen::Index>(study_.effects.size()));
