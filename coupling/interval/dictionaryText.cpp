@@ -24,6 +24,12 @@ constexpr std::size_t deepest = 100;
 /// `1000(0 0 ...)` and `1000{0}` are lists of OpenFOAM's, whose memory is taken before any of it is read.
 constexpr double longestList = 1e6;
 
+/// A key in quotes is a regular expression, which std::regex tries in all ways in which it can be divided: in a time that
+/// grows with a power of a word's length, and exponentially where what is repeated has repetitions itself.
+constexpr std::size_t longestPattern = 200;
+constexpr std::ptrdiff_t mostChoices = 4;
+const std::string repetitions = "*+?{";
+
 /// A bracket or an #ifeq that is still open.
 struct Opened
 {
@@ -116,7 +122,32 @@ private:
         {
             refuse("A '\"' is not closed", line_);
         }
+        if (keyComes_ || isDirectiveLine_)
+        {
+            refuseEndlessPattern(text_.substr(at_ + 1, end - at_ - 1));
+        }
+        keyComes_ = isDirectiveLine_;
         step(end + 1);
+    }
+
+    void refuseEndlessPattern(const std::string& pattern) const
+    {
+        const auto choices = std::count_if(pattern.begin(), pattern.end(),
+            [](char c) { return c == '|' || repetitions.find(c) != std::string::npos; });
+        bool repeatsGroup = false;
+        for (auto at = pattern.find(')'); at < pattern.size(); at = pattern.find(')', at + 1))
+        {
+            repeatsGroup =
+                repeatsGroup || (at + 1 < pattern.size() && repetitions.find(pattern[at + 1]) != std::string::npos);
+        }
+        if (repeatsGroup || choices > mostChoices || pattern.size() > longestPattern)
+        {
+            refuse("The pattern \"" + pattern.substr(0, longestPattern)
+                       + "\" may take for ever to be compared; allowed: up to " + std::to_string(longestPattern)
+                       + " characters, no '*', '+', '?' or '{' behind a ')', and up to " + std::to_string(mostChoices)
+                       + " of these and '|' in all",
+                line_);
+        }
     }
 
     void directive()
@@ -127,6 +158,7 @@ private:
             ++end;
         }
         const std::string word = text_.substr(at_, end - at_);
+        isDirectiveLine_ = isDirectiveLine_ || keyComes_;
         if (word == "#if" || word == "#ifeq")
         {
             open(word);
@@ -209,7 +241,21 @@ private:
             }
             open_.pop_back();
         }
+        followKeys(c);
         step(at_ + 1);
+    }
+
+    void followKeys(char c)
+    {
+        if (c == '\n' && isDirectiveLine_)
+        {
+            keyComes_ = true;
+            isDirectiveLine_ = false;
+        }
+        else if (std::isspace(static_cast<unsigned char>(c)) == 0)
+        {
+            keyComes_ = c == ';' || c == '{' || c == '}';
+        }
     }
 
     void open(const std::string& what)
@@ -226,6 +272,8 @@ private:
     std::size_t at_ = 0;
     label line_ = 1;
     std::vector<Opened> open_;
+    bool keyComes_ = true;
+    bool isDirectiveLine_ = false; // of an #include or #ifeq in a key's place, which a key may follow
 };
 
 } // namespace
