@@ -63,7 +63,7 @@ def measured(hopper, repetitions):
     return fits
 
 
-def column(hopper, beads, cells):
+def column(hopper, beads, cells, **entries):
     (across, up), (cellsAcross, cellsUp) = beads, cells
     folder = hopper.folder / "memory"
     shutil.rmtree(folder, ignore_errors=True)
@@ -72,7 +72,7 @@ def column(hopper, beads, cells):
     (folder / "system" / "functions").write_text("")
     values = {"width": across * DIAMETER, "height": (up + 4) * DIAMETER, "cellsAcross": cellsAcross, "cellsUp": cellsUp,
               "beadCount": across**2 * up, "smoothingLength": 1.5e-3, "endTime": 1e-4, "couplingInterval": 5e-5,
-              "writeInterval": 1}
+              "writeInterval": 1, **entries}
     Hopper.setParameters(folder / "parameters", values)
     Hopper.inFolder(folder, "blockMesh > log.blockMesh 2>&1")
     return timing.Run(["pimpleDemFoam"], folder, prepare=lambda: forgetResults(folder))

@@ -1,0 +1,68 @@
+"""A million beads in a million cells on two ranks against a fiftieth of both: what grows faster than the bed does."""
+
+import functools
+import shutil
+
+from . import memory, timing
+from .hopper import REPOSITORY, Hopper, forgetResults, ledger, solver
+
+RANKS = 2
+DEM_STEPS = 20      # in an interval
+
+# Beads along a side and up, cells along a side and up, and coupling intervals.
+SMALL = (20, 50), (20, 50), 150
+LARGE = (100, 100), (100, 100), 15
+
+OF_BEADS = ("DEM", "locate", "distribute", "exchange", "forces")
+OF_CELLS = ("momentum", "pressure", "smooth")
+
+
+def millionBeads(hopper, repetitions):
+    return growth(hopper, repetitions, "incompressible", OF_BEADS, "a bead and DEM step", "bead")
+
+
+def millionBeadsDry(hopper, repetitions):
+    return growth(hopper, repetitions, "none", OF_BEADS, "a bead and DEM step, without fluid", "bead")
+
+
+def millionCells(hopper, repetitions):
+    return growth(hopper, repetitions, "incompressible", OF_CELLS, "a cell and step of the fluid", "cell")
+
+
+def growth(hopper, repetitions, fluid, phases, said, unit):
+    times = measured(hopper, repetitions, fluid)
+    seconds = {name: [{phase: of.result["phaseSeconds"][phase] * scale(size, unit) for phase in phases if phase in of.result["phaseSeconds"]}
+                      for of in times[name]] for name, size in (("large", LARGE), ("small", SMALL))}
+    return timing.Figure(
+        [sum(large.values()) / sum(small.values()) for large, small in zip(seconds["large"], seconds["small"])], target="<= 1.3",
+        meaning=f"wall time of {said} on two ranks, a million of each over 20,000 ({', '.join(phases)})",
+        details={"seconds": seconds, "peakMemoryOfARank": {name: [of.peakMemory for of in times[name]] for name in times}})
+
+
+def scale(size, unit):
+    """Seconds of a run to seconds of one bead and DEM step, or of one cell and step of the fluid."""
+    (across, up), (cellsAcross, cellsUp), intervals = size
+    return 1 / ((across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp) * intervals)
+
+
+@functools.cache
+def measured(hopper, repetitions, fluid):
+    beds = {name: bed(hopper, name, fluid, *size) for name, size in (("small", SMALL), ("large", LARGE))}
+    return timing.interleaved(beds, repetitions)
+
+
+def bed(hopper, name, fluid, beads, cells, intervals):
+    """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
+    folder = memory.column(hopper, beads, cells, fluid=fluid, couplingInterval=DEM_STEPS * 1e-5,
+                           endTime=intervals * DEM_STEPS * 1e-5).folder
+    bed = folder.with_name(f"{name}Bed.{fluid}")
+    shutil.rmtree(bed, ignore_errors=True)
+    folder.rename(bed)
+    for name in ("fvSolution", "decomposeParDict"):
+        shutil.copy(REPOSITORY / "cases/hopperQuick/system" / name, bed / "system")
+    (bed / "stage").write_text("".join(f"{name} {value:g};\n" for name, value in {
+        **{name: hopper.parameters[name] for name in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
+                                                      "pressureCorrectors", "nonOrthogonalCorrectors")},
+        "ranks": RANKS, "ranksAlongX": RANKS, "ranksAlongY": 1}.items()))
+    Hopper.inFolder(bed, "decomposePar > log.decomposePar 2>&1")
+    return timing.Run(solver(RANKS), bed, prepare=lambda: forgetResults(bed), result=lambda: ledger(bed))
