@@ -51,8 +51,8 @@ public:
             Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
             evidence.refine(answer_.measured);
             around = evidence.fitNull(answer_.measured).parameters;
-            const bool changed = round == 0 ? simulateNull(around) : simulateContenders(evidence, round);
-            if (!changed)
+            const bool libraryAlone = study_.settings.decidingRuns == 0;
+            if (libraryAlone || !(round == 0 ? simulateNull(around) : simulateContenders(evidence, round)))
             {
                 break;
             }

@@ -179,7 +179,7 @@ void readSettings(const YamlPlace& root, Settings& settings)
         place.allow({"base", "alone", "deciding", "heldOut"});
         settings.repeatsBase = place.countOr("base", settings.repeatsBase, 2);
         settings.repeatsAlone = place.countOr("alone", settings.repeatsAlone, 1);
-        settings.decidingRuns = place.countOr("deciding", settings.decidingRuns, 3);
+        settings.decidingRuns = place.countOr("deciding", settings.decidingRuns, 0);
         settings.repeatsHeldOut = place.countOr("heldOut", settings.repeatsHeldOut, 1);
     }
     if (root.has("failures"))

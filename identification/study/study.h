@@ -184,7 +184,7 @@ struct Settings
     unsigned seed = 1;
     int repeatsBase = 6;  // runs at the base setting of a condition
     int repeatsAlone = 5; // and of an effect that runs alone
-    int decidingRuns = 9; // in each training condition on average, for one data set
+    int decidingRuns = 9; // in each training condition on average, for one data set; 0: the library alone decides
     int repeatsHeldOut = 3;
     int attempts = 3; // of a run that fails, each with another seed
     double level = 0.05;
