@@ -18,30 +18,73 @@ CASE = ROOT / "cases/hopperQuick"
 NUMERICS = {"demStep": 2.5e-5, "smoothingLength": 5e-3}     # not those of the study
 SCALE_NOISE = 1e-5                                          # [kg], standard deviation of every reading
 SAMPLING = 5e-3                                             # [s] between readings
+ATTEMPTS = 3                                                # of each measurement, with seeds of their own
+CANDIDATE_REPEATS = 8
 
 
 class RunFailed(Exception):
     pass
 
 
-def conditions():
-    """The declared experiment, from study.yaml: {condition: (stage, entries, repeats)}."""
-    study = yaml.safe_load((HERE / "study.yaml").read_text())
-    found = {}
-    for condition in study["conditions"]:
-        stage = condition.get("command", study["rig"]["command"]).split()[-1]
-        entries = {**study["rig"]["set"], **condition["set"]}
-        found[condition["name"]] = (stage, entries, len(condition["measured"]["files"]))
-    return found
+def conditions(*roles):
+    """The declared experiment, from study.yaml: {condition: (stage, entries, repeats)}; of these roles or all."""
+    return {name: (*experiment(one), len(one["measured"]["files"]))
+            for name, one in declared("study.yaml").items() if not roles or one["role"] in roles}
+
+
+def candidates():
+    """The same of what could be measured beside it, from candidates.yaml."""
+    return {name: (*experiment(one), CANDIDATE_REPEATS) for name, one in declared("candidates.yaml").items()}
+
+
+def declared(file):
+    return {condition["name"]: condition for condition in yaml.safe_load((HERE / file).read_text())["conditions"]}
+
+
+def experiment(condition):
+    rig = yaml.safe_load((HERE / "study.yaml").read_text())["rig"]
+    return condition.get("command", rig["command"]).split()[-1], {**rig["set"], **condition["set"]}
 
 
 def acts(effect, stage):
     return effect.medium == "both" or effect.medium == {"dry": "air", "submerged": "water"}[stage]
 
 
+def measureTo(target, folder, truth, label, run):
+    """One file of a set; run: CONDITION_REPEAT. False where all attempts have failed."""
+    effects = [(e["name"], e["amplitude"]) for e in truth["effects"]]
+    for attempt, seed in enumerate(truth["seeds"][run]):
+        random = np.random.default_rng([truth["noise"], seed])
+        try:
+            time, mass = measure(folder, run.rsplit("_", 1)[0], truth["friction"], effects, seed, random)
+        except RunFailed:
+            print(f"{label}: attempt {attempt + 1} failed", flush=True)
+            continue
+        writeCsv(target, time, mass)
+        shutil.rmtree(folder)
+        print(label, flush=True)
+        return True
+    return False
+
+
+def seedsOf(conditions, random):
+    """{CONDITION_REPEAT: seeds of its attempts}; random: of the standard library"""
+    return {f"{condition}_{repeat}": [prime(random) for _ in range(ATTEMPTS)]
+            for condition, (_, _, repeats) in conditions.items()
+            for repeat in range(1, repeats + 1)}
+
+
+def prime(random):
+    """LIGGGHTS asks for primes above 10000 as seeds."""
+    number = random.randrange(10007, 10 ** 8) | 1
+    while any(number % divisor == 0 for divisor in range(3, int(number ** 0.5) + 1, 2)):
+        number += 2
+    return number
+
+
 def measure(folder, condition, friction, effects, seed, random):
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
-    stage, entries, _ = conditions()[condition]
+    stage, entries, _ = (conditions() | candidates())[condition]
     acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], stage)]
     makeCase(folder, {**entries, **NUMERICS, "friction": friction, "seed": seed}, acting)
     allrun(folder, "mesh")

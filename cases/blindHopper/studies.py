@@ -1,0 +1,27 @@
+"""study.yaml with other files, further conditions, or nothing held out. As text: numbers keep the form that stored runs know."""
+
+import re
+from pathlib import Path
+
+import yaml
+
+HERE = Path(__file__).resolve().parent
+
+
+def study(replaced, further="", heldOut=True):
+    """replaced: {text: by what}; further: blocks of conditions."""
+    text = (HERE / "study.yaml").read_text()
+    for name, block in conditions("study.yaml").items():
+        if not heldOut and "role: heldOut" in block:
+            text = text.replace(block, "")
+    text = text.replace("\nparameters:", further + "\nparameters:")
+    for old, new in replaced.items():
+        text = text.replace(old, new)
+    return text
+
+
+def conditions(file):
+    """{name: block of text} of its conditions."""
+    text = (HERE / file).read_text().split("\nconditions:\n")[1].split("\nparameters:")[0]
+    blocks = re.split("^(?=  - name: )", text, flags=re.MULTILINE)[1:]
+    return {yaml.safe_load(block)[0]["name"]: block for block in blocks}
