@@ -1,6 +1,15 @@
-"""The quick hopper under water from the first bead that leaves to the last, on two cores."""
+"""The quick hopper under water on two cores: from the first bead that leaves to the last, and against an earlier version."""
+
+import os
+import shutil
+from pathlib import Path
 
 from . import timing
+from .hopper import REPOSITORY, Hopper, ledger
+from .twoRanks import loopSeconds
+
+DURATION = 1    # [s] of flow, of both versions
+ADAPTIVE = "adjustableInterval yes;\nmaxInterval 4e-3;\n"
 
 
 def quickHopperSubmerged(hopper, repetitions):
@@ -10,3 +19,33 @@ def quickHopperSubmerged(hopper, repetitions):
     return timing.Figure(
         [time.wall for time in times], target="<= 60", meaning="s wall time, submerged quick hopper until its flow ends, 2 ranks",
         details={"simulated": times[0].result["timeEnd"], "phases": [time.result["phaseSeconds"] for time in times]})
+
+
+def quickHopperOverLast(hopper, repetitions):
+    """Each version with its own case, meshes and scripts, poured by itself; the last one as its case is."""
+    if "CLEPSYDRA_LAST" not in os.environ:
+        raise timing.Skipped("CLEPSYDRA_LAST names no folder in which an earlier version has been built")
+    last = Path(os.environ["CLEPSYDRA_LAST"]).resolve()
+    runs = {name: submerged(hopper.folder / name, checkout, entries) for name, checkout, entries in (
+        ("last", last, ""), ("this", REPOSITORY, ""), ("thisAdaptive", REPOSITORY, ADAPTIVE))}
+    times = timing.interleaved(runs, repetitions)
+    wall = {name: [loopSeconds(time.result) / time.result["timeEnd"] for time in of] for name, of in times.items()}
+    return timing.Figure([a / b for a, b in zip(wall["last"], wall["thisAdaptive"])], target=">= 3",
+                         meaning=f"wall time of the first {DURATION} s of flow without the start, that of {last} over ours with an adaptive "
+                                 "interval, 2 ranks", details={"wallSecondsASecond": wall})
+
+
+def submerged(folder, checkout, entries):
+    """The submerged stage by a version's own Allrun."""
+    case = folder / "cases/hopperQuick"
+    shutil.copytree(checkout / "cases/hopperQuick", case, ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
+    for part in ("meshes", "scripts"):
+        (folder / part).symlink_to(checkout / part)
+    Hopper.setParameters(case / "parameters", {"submergedTime": DURATION})
+    with open(case / "constant/couplingProperties", "a") as settings:
+        settings.write(entries)
+    own = f"unset CLEPSYDRA; . {checkout}/scripts/environment; export CLEPSYDRA_BUILD={checkout}/build"
+    Hopper.inFolder(case, f"{own}; ./Allrun mesh pour")
+    stage = case / "stages/submerged"
+    return timing.Run(["bash", "-c", f"{own}; ./Allrun -np 2 submerged"], case,
+                      prepare=lambda: shutil.rmtree(stage, ignore_errors=True), result=lambda: ledger(stage))
