@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <numeric>
 #include <set>
 
@@ -27,7 +28,10 @@ namespace fs = std::filesystem;
 
 const std::string folderName("checkpoints");
 const std::string completeName("complete");
-const std::string beadsName("beads.restart");
+/// A file for each rank, see DemEngine::writeCheckpoint().
+const std::string beadsName("beads.%.restart");
+/// What held the beads of all ranks before.
+const std::string oldBeadsName("beads.restart");
 /// Holds the time of the fresh start, whose fields are the user's own.
 const std::string beginningName("beginning");
 /// In each time folder that this program has written: it is half of a checkpoint.
@@ -74,15 +78,41 @@ bool isBeadsFile(const Manifest::File& file)
     return startsWith(file.name, folderName + '/');
 }
 
-/// What this rank finds wrong with a checkpoint that was written on as many ranks as now.
+/// The folder of the beads, relative to the case, in which the program runs: LIGGGHTS would take a `%` of the case's own
+/// path for the rank.
+fs::path beadsOf(const std::string& timeName)
+{
+    return fs::path(folderName) / timeName;
+}
+
+/// What this rank finds wrong with the beads' files, which are shared out evenly, whichever ranks have written them.
+std::string mismatchOfBeads(const fs::path& caseDirectory, const Manifest& manifest)
+{
+    int turn = 0;
+    for (const Manifest::File& file : manifest.files)
+    {
+        if (isBeadsFile(file) && turn++ % Pstream::nProcs() == Pstream::myProcNo())
+        {
+            if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
+            {
+                return found;
+            }
+        }
+    }
+    return {};
+}
+
+/// What this rank finds wrong with the fields of a checkpoint that was written on as many ranks as now.
 std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest)
 {
     for (const Manifest::File& file : manifest.files)
     {
-        const bool mine = isBeadsFile(file) ? Pstream::master() : startsWith(file.name, partPrefix());
-        if (std::string found = mine ? Manifest::mismatch(caseDirectory, file) : std::string(); !found.empty())
+        if (!isBeadsFile(file) && startsWith(file.name, partPrefix()))
         {
-            return found;
+            if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
+            {
+                return found;
+            }
         }
     }
     return {};
@@ -95,38 +125,43 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
     const std::string timeFolder = manifest.time + '/';
     for (const Manifest::File& file : manifest.files)
     {
-        const bool beads = isBeadsFile(file);
-        if (Pstream::master() && (beads || fs::exists(caseDirectory / file.name)))
+        if (isBeadsFile(file))
+        {
+            continue;
+        }
+        if (Pstream::master() && fs::exists(caseDirectory / file.name))
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
                 return found;
             }
         }
-        if (!beads)
+        const std::string name = partPrefix() + file.name.substr(file.name.find(timeFolder));
+        std::error_code missing;
+        if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
         {
-            const std::string name = partPrefix() + file.name.substr(file.name.find(timeFolder));
-            std::error_code missing;
-            if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
-            {
-                return name + " is missing or empty (made from " + file.name + ')';
-            }
+            return name + " is missing or empty (made from " + file.name + ')';
         }
     }
     return {};
 }
 
 /// Why a checkpoint cannot be resumed from; empty where it can. Collective.
-std::string damageOf(const fileName& caseDirectory, const std::string& timeName)
+/// \param manifest  takes up the checkpoint's, where that can be read
+std::string damageOf(const fileName& caseDirectory, const std::string& timeName, Manifest& manifest)
 {
     const fs::path folder(caseDirectory.c_str());
     std::string found;
     try
     {
-        const Manifest manifest = Manifest::read(folder / folderName / timeName / completeName);
-        found = manifest.time != timeName             ? "it has the manifest of time " + manifest.time
-                : manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
-                                                      : mismatchAfterRedistribution(folder, manifest);
+        manifest = Manifest::read(folder / folderName / timeName / completeName);
+        found = manifest.time != timeName ? "it has the manifest of time " + manifest.time
+                                          : mismatchOfBeads(folder, manifest);
+        if (found.empty())
+        {
+            found = manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
+                                                        : mismatchAfterRedistribution(folder, manifest);
+        }
     }
     catch (const std::runtime_error& error)
     {
@@ -212,7 +247,9 @@ void requireFunctionState(const Time& time)
 }
 
 /// The lines of a manifest for what this rank has written. \throws FileError
-std::string linesOfThisRank(const fs::path& caseDirectory, const std::string& timeName)
+/// \param beads  files of the beads, relative to the case
+std::string linesOfThisRank(
+    const fs::path& caseDirectory, const std::string& timeName, const std::vector<fs::path>& beads)
 {
     std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(caseDirectory / (partPrefix() + timeName)))
@@ -222,10 +259,7 @@ std::string linesOfThisRank(const fs::path& caseDirectory, const std::string& ti
             names.push_back(fs::relative(entry.path(), caseDirectory));
         }
     }
-    if (Pstream::master())
-    {
-        names.push_back(folderName / timeName / beadsName);
-    }
+    names.insert(names.end(), beads.begin(), beads.end());
     std::sort(names.begin(), names.end());
     std::string lines;
     for (const std::string& name : names)
@@ -270,7 +304,8 @@ void Checkpoints::setAsideUnusable(const argList& args)
     std::string damages;
     for (; whole < usable.size(); ++whole)
     {
-        const std::string damage = damageOf(caseDirectory, usable[whole]);
+        Manifest manifest;
+        const std::string damage = damageOf(caseDirectory, usable[whole], manifest);
         if (damage.empty())
         {
             break;
@@ -314,7 +349,8 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
         return;
     }
     beginning_ = std::stod(beginning);
-    const std::string damage = damageOf(time.globalPath(), start);
+    Manifest manifest;
+    const std::string damage = damageOf(time.globalPath(), start, manifest);
     if (!damage.empty())
     {
         FatalErrorInFunction << "There is no whole checkpoint of time " << start << ": " << damage.c_str()
@@ -323,7 +359,10 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
                              << "afresh remove the folder " << folder << " and all times after " << beginning
                              << exit(FatalError);
     }
-    resumeFrom_ = (folder / start / beadsName).c_str();
+    const fs::path oldBeads = beadsOf(start) / oldBeadsName;
+    const bool old = std::any_of(manifest.files.begin(), manifest.files.end(),
+        [&](const Manifest::File& file) { return file.name == oldBeads.string(); });
+    resumeFrom_ = old ? oldBeads : beadsOf(start) / beadsName;
     Info << "Resuming from the checkpoint of time " << start << nl << endl;
 }
 
@@ -364,7 +403,10 @@ void Checkpoints::begin() const
             FatalErrorInFunction << "There is no " << time_.globalPath() / folderName / beginningName
                                  << " any more: was the case moved or removed while it runs?" << exit(FatalError);
         }
-        rm(time_.globalPath() / folderName / time_.timeName() / completeName);
+        const fileName earlier = time_.globalPath() / folderName / time_.timeName();
+        rm(earlier / completeName);
+        // It may have been of more ranks.
+        rmDir(earlier, true);
     }
 }
 
@@ -377,35 +419,38 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         mkDir(checkpoint.c_str());
     }
-    string lines;
-    // No rank leaves the others alone in what the engine does on all.
-    std::string problem = problemOfRanks([&] {
-        const fileName half = time_.path() / timeName / halfName;
-        mkDir(half.path());
-        writeWhole(half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
-    });
-    if (problem.empty())
-    {
-        problem = problemOfRanks([&] {
-            engine.writeCheckpoint(checkpoint / beadsName);
-            requireFunctionState(time_);
-            lines = linesOfThisRank(caseDirectory, timeName);
-        });
-    }
-
+    std::vector<fs::path> beads;
     List<string> linesOfRanks(Pstream::nProcs());
-    linesOfRanks[Pstream::myProcNo()] = lines;
-    Pstream::gatherList(linesOfRanks);
-    if (problem.empty())
-    {
-        problem = problemOfRanks([&] {
+    const std::function<void()> steps[] = {
+        [&] {
+            const fileName half = time_.path() / timeName / halfName;
+            mkDir(half.path());
+            writeWhole(
+                half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
+        },
+        [&] { beads = engine.writeCheckpoint(beadsOf(timeName) / beadsName); },
+        [&] {
+            requireFunctionState(time_);
+            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeName, beads);
+        },
+        [&] {
+            Pstream::gatherList(linesOfRanks);
             if (Pstream::master())
             {
                 const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, {}};
                 writeWhole(checkpoint / completeName,
                     manifest.text(std::accumulate(linesOfRanks.begin(), linesOfRanks.end(), std::string())));
             }
-        });
+        },
+    };
+    // No rank leaves the others alone in a step, nor goes on to the next before all have come to its end.
+    std::string problem;
+    for (const std::function<void()>& step : steps)
+    {
+        if (problem.empty())
+        {
+            problem = problemOfRanks(step);
+        }
     }
     if (!problem.empty())
     {

@@ -97,9 +97,12 @@ public:
     /// Local: contact materials, empty where the script states none.
     virtual std::vector<ContactMaterial> contactMaterials() const = 0;
 
-    /// Writes everything the engine needs to go on as if never stopped. The file is complete when this returns. Collective.
-    /// \pre initialised. \throws FileError where it cannot be written, on the rank that writes it.
-    virtual void writeCheckpoint(const std::filesystem::path& file) = 0;
+    /// Writes everything the engine needs to go on as if never stopped. The files are complete when this returns.
+    /// \param name  a file, through which the first rank writes what all send to it; or, with a `%` in it, a file for each
+    ///              rank, whose number takes the place of `%`, and one with `base` there: no rank gets the others' beads
+    /// \return those that this rank has written
+    /// \pre initialised. \throws FileError where one cannot be written, on the rank that writes it.
+    virtual std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& name) = 0;
 
     /// Local: name and version of the engine.
     virtual std::string version() const = 0;

@@ -101,6 +101,12 @@ int writeAll(int descriptor, const char* bytes, std::size_t count)
     return 0;
 }
 
+std::filesystem::path withEnding(std::filesystem::path file, const char* ending)
+{
+    file += ending;
+    return file;
+}
+
 /// What has been written of an unfinished file is on the disk, or FileError.
 void settle(int unfinished, const std::filesystem::path& file)
 {
@@ -213,9 +219,7 @@ void discardParts(const std::filesystem::path& file) noexcept
 
 std::filesystem::path checksumName(const std::filesystem::path& file)
 {
-    std::filesystem::path name = file;
-    name += ".sha256";
-    return name;
+    return withEnding(file, ".sha256");
 }
 
 void writeChecksum(const std::filesystem::path& file)
@@ -241,9 +245,7 @@ void requireUndamaged(const std::filesystem::path& file)
 
 std::filesystem::path unfinishedName(const std::filesystem::path& file)
 {
-    std::filesystem::path name = file;
-    name += ".unfinished";
-    return name;
+    return withEnding(file, ".unfinished");
 }
 
 FileThroughPipe::FileThroughPipe(std::filesystem::path file)
@@ -254,30 +256,48 @@ FileThroughPipe::FileThroughPipe(std::filesystem::path file)
     {
         throw FileError::ofSystem("Cannot open", unfinishedName(file_));
     }
-    std::array<int, 2> ends{};
-    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    try
     {
-        close(output_);
-        throw FileError::ofSystem("Cannot open a pipe for", file_);
+        openEntrance();
     }
-    exit_ = ends[0];
-    entrance_ = ends[1];
+    catch (const FileError&)
+    {
+        discard();
+        throw;
+    }
     receiver_ = std::thread(&FileThroughPipe::receive, this);
 }
 
 FileThroughPipe::~FileThroughPipe()
 {
     closeEntrance();
-    if (output_ >= 0)
-    {
-        close(output_);
-        discardParts(file_);
-    }
+    discard();
 }
 
-std::filesystem::path FileThroughPipe::entrance() const
+std::filesystem::path FileThroughPipe::entrance(const std::filesystem::path& file)
 {
-    return "/proc/self/fd/" + std::to_string(entrance_);
+    return withEnding(file, ".entrance");
+}
+
+void FileThroughPipe::openEntrance()
+{
+    std::array<int, 2> ends{};
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+    {
+        throw FileError::ofSystem("Cannot open a pipe for", file_);
+    }
+    const std::filesystem::path link = entrance(file_);
+    // that of a program that was killed
+    unlink(link.c_str());
+    if (symlink(("/proc/self/fd/" + std::to_string(ends[1])).c_str(), link.c_str()) != 0)
+    {
+        const FileError error = FileError::ofSystem("Cannot make the link", link);
+        close(ends[0]);
+        close(ends[1]);
+        throw error;
+    }
+    exit_ = ends[0];
+    entrance_ = ends[1];
 }
 
 void FileThroughPipe::receive()
@@ -307,8 +327,18 @@ void FileThroughPipe::closeEntrance()
 {
     if (receiver_.joinable())
     {
+        unlink(entrance(file_).c_str());
         close(entrance_);
         receiver_.join();
+    }
+}
+
+void FileThroughPipe::discard() noexcept
+{
+    if (output_ >= 0)
+    {
+        close(output_);
+        discardParts(file_);
     }
 }
 

@@ -63,15 +63,16 @@ void writeChecksum(const std::filesystem::path& file);
 void requireUndamaged(const std::filesystem::path& file);
 
 /// A file that a library writes by its name without looking whether that works, as LIGGGHTS does. The library writes
-/// into a pipe; what comes out of it is written here, and checked.
+/// into a pipe; what comes out of it is written here, and checked. While this lives there is a link to the pipe beside the
+/// file, for a library that makes the names of several files of one.
 ///
 ///     FileThroughPipe checkpoint("beads.restart");
-///     library.writeTo(checkpoint.entrance());
+///     library.writeTo(FileThroughPipe::entrance("beads.restart"));
 ///     checkpoint.finish();
 class FileThroughPipe
 {
 public:
-    /// FileError where the file cannot be made.
+    /// FileError where the file or the link cannot be made.
     explicit FileThroughPipe(std::filesystem::path file);
 
     /// Without finish(): the file stays as it was.
@@ -79,15 +80,17 @@ public:
     FileThroughPipe(const FileThroughPipe&) = delete;
     FileThroughPipe& operator=(const FileThroughPipe&) = delete;
 
-    /// The name to write to. It is to be opened once, and closed before finish().
-    std::filesystem::path entrance() const;
+    /// The name to write to, of this file's link. It is to be opened once, and closed before finish().
+    static std::filesystem::path entrance(const std::filesystem::path& file);
 
     /// FileError where not all that was written is on the disk; otherwise it is, and has taken the file's place.
     void finish();
 
 private:
+    void openEntrance();
     void receive();
     void closeEntrance();
+    void discard() noexcept;
 
     std::filesystem::path file_;
     int output_ = -1;

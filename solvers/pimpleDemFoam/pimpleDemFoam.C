@@ -81,10 +81,9 @@ void writeFinalBeads(DemEngine& engine, const std::filesystem::path& file)
     {
         std::filesystem::remove(checksumName(file));
     }
-    engine.writeCheckpoint(file);
-    if (Pstream::master())
+    for (const std::filesystem::path& written : engine.writeCheckpoint(file))
     {
-        writeChecksum(file);
+        writeChecksum(written);
     }
 }
 

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace clepsydra::tests
 {
 
@@ -42,19 +44,23 @@ Outcome inCopy(TestCase& test, const std::string& command)
 
 std::vector<Damage> damages()
 {
-    const std::string beads = "checkpoints/0.02/beads.restart";
     std::vector<Damage> all = {
-        {": > " + beads, beads},
-        {"truncate -s -1 " + beads, beads},
-        {flipBit(beads), beads},
-        {"cp checkpoints/0.01/beads.restart " + beads, beads},
-        {"rm " + beads, beads},
         {": > checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"truncate -s 200 checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"cp checkpoints/0.01/complete checkpoints/0.02", "manifest of time 0.01"},
         {"rm -r 0.02/uniform/functionObjects", "0.02/uniform/functionObjects"},
         {": > 0.02/uniform/time", "0.02/uniform/time"},
     };
+    for (const std::string part : {"base", "0"})
+    {
+        const std::string beads = "/beads." + part + ".restart";
+        const std::string file = "checkpoints/0.02" + beads;
+        all.push_back({": > " + file, file});
+        all.push_back({"truncate -s -1 " + file, file});
+        all.push_back({flipBit(file), file});
+        all.push_back({"cp checkpoints/0.01" + beads + ' ' + file, file});
+        all.push_back({"rm " + file, file});
+    }
     for (const char* field : {"U", "p", "phi", "voidFraction", "unassignedMomentum", "promisedMomentum",
              "voidFractionInContinuity", "fluidAcceleration"})
     {
@@ -135,24 +141,33 @@ TEST(DamagedCheckpoint, IsFoundOnEachRank)
     EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << outcome.output;
 }
 
-// The beads that a run leaves for others are damaged: the other run names the file. LIGGGHTS goes round in it for ever.
-TEST(FinalBeads, AreHeldAgainstTheirChecksum)
+// The beads that a run leaves for others, in one file or in one for each rank, are damaged: the other run names the file.
+// LIGGGHTS goes round in it for ever.
+class FinalBeads : public testing::TestWithParam<std::pair<const char*, const char*>>
+{};
+
+TEST_P(FinalBeads, AreHeldAgainstTheirChecksum)
 {
+    const auto [name, file] = GetParam();
     TestCase pour;
     pilingBeads(pour, false);
-    pour.coupling().set("DEM/writeRestart", "\"packing.restart\"");
+    pour.coupling().set("DEM/writeRestart", '"' + std::string(name) + '"');
     pour.setTimes(0.005, interval, 1);
     ASSERT_TRUE(pour.run().succeeded());
-    const std::string packing = (pour.path() / "packing.restart").string();
-    EXPECT_TRUE(pour.runCommand("sha256sum --check packing.restart.sha256").succeeded());
+    const std::string packing = (pour.path() / file).string();
+    EXPECT_TRUE(pour.runCommand("sha256sum --check packing.*.sha256").succeeded());
 
     TestCase drain;
     pilingBeads(drain, false);
-    drain.dem.readRestart = packing;
+    drain.dem.beads.clear();
+    drain.dem.readRestart = (pour.path() / name).string();
     drain.dem.more = "fix integrate all nve/sphere\n";
     drain.coupling().remove("DEM/groupChanges");
     drain.setTimes(0.002, interval, 1);
-    ASSERT_TRUE(drain.makeMesh().succeeded());
+    const Outcome undamaged = drain.run();
+    ASSERT_TRUE(undamaged.succeeded()) << undamaged.output;
+    EXPECT_EQ(drain.ledgerSummary()["beadsEnd"], static_cast<int>(pour.dem.beads.size()));
+    ASSERT_TRUE(drain.runCommand("rm -r checkpoints 0.*").succeeded());
     for (const std::string& damage : {flipBit(""), std::string(": > ")})
     {
         ASSERT_TRUE(pour.runCommand(damage + packing).succeeded());
@@ -161,5 +176,9 @@ TEST(FinalBeads, AreHeldAgainstTheirChecksum)
         EXPECT_TRUE(outcome.says(packing)) << outcome.output;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(InOneFileAndInParts, FinalBeads,
+    testing::Values(std::pair("packing.restart", "packing.restart"),
+        std::pair("packing.%.restart", "packing.base.restart"), std::pair("packing.%.restart", "packing.0.restart")));
 
 } // namespace clepsydra::tests

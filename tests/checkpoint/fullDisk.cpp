@@ -70,7 +70,7 @@ TEST_F(WholeFile, ThroughAPipeIsCheckedForItsWriter)
 {
     const auto writeThrough = [&](std::size_t bytes) {
         FileThroughPipe pipe(file_);
-        std::ofstream(pipe.entrance()) << std::string(bytes, 'x');
+        std::ofstream(FileThroughPipe::entrance(file_)) << std::string(bytes, 'x');
         pipe.finish();
     };
     {

@@ -138,6 +138,63 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     EXPECT_EQ(changed.ledgerSummary("0.125")["beadsEnd"], static_cast<int>(changed.dem.beads.size()));
 }
 
+// Each of two ranks writes a file of its own beads, and a resumed run reads them, bit for bit the run that was never stopped.
+// The files are together as large as one that holds the beads of both: a rank that was handed the other's has more.
+TEST(TwoRanks, WriteTheirOwnBeadsAndGoOn)
+{
+    TestCase through;
+    TestCase stopped;
+    stopped.coupling().set("DEM/writeRestart", "\"all.restart\"");
+    for (TestCase* test : {&through, &stopped})
+    {
+        pilingBeads(*test, true);
+        test->dem.dumpEvery = 0;
+        test->setTimes(test == &stopped ? 0.01 : 0.02, interval, 0.01);
+        const Outcome outcome = test->run(2);
+        ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    }
+    const auto size = [&](const std::string& file) { return std::filesystem::file_size(stopped.path() / file); };
+    const std::string beads = "checkpoints/0.01/beads.";
+    EXPECT_EQ(
+        size(beads + "base.restart") + size(beads + "0.restart") + size(beads + "1.restart"), size("all.restart"));
+    EXPECT_GT(size(beads + "1.restart"), size("all.restart") / 4);
+
+    const Outcome resumed =
+        stopped.runCommand("echo \"endTime 0.02;\" >> system/controlDict && mpirun -np 2 $SOLVER -parallel");
+    ASSERT_TRUE(resumed.succeeded()) << resumed.output;
+    EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
+    EXPECT_TRUE(
+        stopped.runCommand("cmp checkpoints/0.02/complete " + (through.path() / "checkpoints/0.02/complete").string())
+            .succeeded());
+}
+
+// A checkpoint of the time when one file held the beads of all ranks. A program that looks for a file of each rank only does
+// not find it.
+TEST(OneFileOfAllBeads, IsResumedFrom)
+{
+    TestCase test;
+    pilingBeads(test, true);
+    test.setTimes(0.01, interval, 0.01);
+    test.coupling().set("DEM/writeRestart", "\"all.restart\"");
+    ASSERT_TRUE(test.run().succeeded());
+    const Outcome resumed = test.runCommand(R"(python3 - <<'end'
+import hashlib, os
+folder = 'checkpoints/0.01/'
+checksum = lambda bytes: hashlib.sha256(bytes).hexdigest()
+lines = [line for line in open(folder + 'complete').read().splitlines()[:-1] if 'beads.' not in line]
+for name in ('base', '0'):
+    os.remove(folder + 'beads.' + name + '.restart')
+os.rename('all.restart', folder + 'beads.restart')
+beads = open(folder + 'beads.restart', 'rb').read()
+text = '\n'.join(lines + [checksum(beads) + ' ' + str(len(beads)) + ' ' + folder + 'beads.restart', ''])
+open(folder + 'complete', 'w').write(text + 'end ' + checksum(text.encode()) + '\n')
+end
+echo "endTime 0.02;" >> system/controlDict && $SOLVER)");
+    EXPECT_TRUE(resumed.succeeded()) << resumed.output;
+    EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
+    EXPECT_EQ(test.ledgerSummary("0.01")["beadsEnd"], static_cast<int>(test.dem.beads.size()));
+}
+
 // Killed by SIGKILL at eight random moments, in the middle of steps and of checkpoints, the run goes on each time, and in
 // the end all is as in a run that was never disturbed, to the last bit, and every row of m(t) is there once. Checkpoints
 // that are not whole, or rows written again, fail.

@@ -7,8 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <limits>
 #include <regex>
 
 namespace clepsydra::tests
@@ -21,11 +23,11 @@ constexpr double diameter = 0.002;
 constexpr double interval = 1e-4;
 
 /// Beads that lie loosely all over a box of water: the more ranks, the fewer beads and cells has one of them.
-void bedInABox(TestCase& test, const std::string& boxes)
+void bedInABox(TestCase& test, const std::string& boxes, double writeInterval)
 {
     test.box.upper = {0.032, 0.032, 0.064};
     test.cells = {16, 16, 32};
-    test.setTimes(4 * interval, interval, 4 * interval);
+    test.setTimes(4 * interval, interval, writeInterval);
     // What the fluid's solvers send is not counted here: let them end early.
     for (const std::string field : {"p", "pFinal"})
     {
@@ -49,6 +51,8 @@ struct Counts
 {
     nlohmann::json ofRanks = nlohmann::json::array();
     int sweeps = 0;
+    /// The smallest of the files of their beads.
+    double beadsFile = 0;
 
     double largest(const std::string& phase, const std::string& quantity) const
     {
@@ -71,20 +75,24 @@ struct Counts
     }
 };
 
-Counts countsOn(int ranks, const std::string& boxes)
+Counts countsOn(int ranks, const std::string& boxes, double writeInterval)
 {
     TestCase test;
-    bedInABox(test, boxes);
+    bedInABox(test, boxes, writeInterval);
     test.file("system/decomposeParDict").set("numberOfSubdomains", std::to_string(ranks));
     const Outcome outcome = test.runCommand(
         "blockMesh > log.blockMesh && decomposePar > log.decomposePar && MESSAGE_COUNTS=$PWD mpirun -np "
         + std::to_string(ranks) + " -x MESSAGE_COUNTS -x LD_PRELOAD=" COUNT_MESSAGES " $SOLVER -parallel");
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
     Counts counts;
+    counts.beadsFile = std::numeric_limits<double>::max();
     for (int rank = 0; rank < ranks; ++rank)
     {
         std::ifstream file(test.path() / (std::to_string(rank) + ".json"));
         counts.ofRanks.push_back(nlohmann::json::parse(file));
+        const std::string beads = "checkpoints/0.0004/beads." + std::to_string(rank) + ".restart";
+        counts.beadsFile =
+            std::min(counts.beadsFile, static_cast<double>(std::filesystem::file_size(test.path() / beads)));
     }
     std::smatch found;
     if (std::regex_search(outcome.output, found, std::regex("in ([0-9]+) sweeps")))
@@ -101,7 +109,8 @@ Counts countsOn(int ranks, const std::string& boxes)
         }
         std::cout << '\n';
     }
-    std::cout << "    memory " << counts.largestMemory() / 1e6 << " MB, " << counts.sweeps << " sweeps\n";
+    std::cout << "    memory " << counts.largestMemory() / 1e6 << " MB, " << counts.sweeps << " sweeps, beads on disk "
+              << counts.beadsFile << " bytes\n";
     return counts;
 }
 
@@ -114,9 +123,9 @@ Counts countsOn(int ranks, const std::string& boxes)
 /// took eight quantities at most, and what is given in advance by itself, there were four passes.
 TEST(Messages, OfARankDoNotGrowWithTheRanks)
 {
-    const Counts two = countsOn(2, "(2 1 1)");
-    const Counts four = countsOn(4, "(2 2 1)");
-    const Counts eight = countsOn(8, "(2 2 2)");
+    const Counts two = countsOn(2, "(2 1 1)", 4 * interval);
+    const Counts four = countsOn(4, "(2 2 1)", 4 * interval);
+    const Counts eight = countsOn(8, "(2 2 2)", 4 * interval);
     for (const Counts& counts : {two, four, eight})
     {
         const auto perNeighbour = [&](const char* phase) {
@@ -136,6 +145,15 @@ TEST(Messages, OfARankDoNotGrowWithTheRanks)
         EXPECT_LT(eight.largest(phase, "bytes"), two.largest(phase, "bytes")) << phase;
     }
     EXPECT_LT(eight.largestMemory(), two.largestMemory());
+}
+
+/// With a checkpoint in every interval a rank hands on what lies at its border and the checksums of its files, not its beads:
+/// those it writes itself. When the first rank wrote all that the others sent to it, they sent as much as lies on the disk.
+TEST(Messages, OfACheckpointAreNotItsBeads)
+{
+    const Counts counts = countsOn(2, "(2 1 1)", interval);
+    EXPECT_LT(counts.largest("output", "bytes"), 0.1 * counts.beadsFile);
+    EXPECT_LT(counts.largest("output", "collectiveBytes"), 0.1 * counts.beadsFile);
 }
 
 } // namespace clepsydra::tests

@@ -144,7 +144,7 @@ public:
     }
 
     /// A line per bead of this rank: id, position, velocity.
-    void writeCheckpoint(const std::filesystem::path& file) override
+    std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& file) override
     {
         std::ofstream out(file);
         out.precision(17);
@@ -152,6 +152,7 @@ public:
         {
             out << id_[bead] << ' ' << position_[bead].transpose() << ' ' << velocity_[bead].transpose() << '\n';
         }
+        return {file};
     }
 
     std::string version() const override

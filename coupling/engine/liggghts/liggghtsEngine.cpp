@@ -34,7 +34,7 @@
 #include <cstdlib>
 #include <exception>
 #include <fstream>
-#include <optional>
+#include <list>
 #include <sstream>
 #include <unordered_set>
 
@@ -91,6 +91,44 @@ bool isOtherThanRestart(const std::string& file)
     return stream
            && (!stream.read(found.data(), static_cast<std::streamsize>(found.size()))
                || found.substr(numbers) != begin);
+}
+
+/// A restart's name with something in place of its `%`.
+std::filesystem::path restartFile(std::string name, const std::string& part)
+{
+    return name.replace(name.find('%'), 1, part);
+}
+
+bool isInParts(const std::filesystem::path& restart)
+{
+    return restart.string().find('%') != std::string::npos;
+}
+
+/// What LIGGGHTS' write_restart writes on one rank.
+std::vector<std::filesystem::path> filesWritten(const std::filesystem::path& restart, int rank)
+{
+    std::vector<std::filesystem::path> files;
+    if (rank == 0)
+    {
+        files.push_back(isInParts(restart) ? restartFile(restart, "base") : restart);
+    }
+    if (isInParts(restart))
+    {
+        files.push_back(restartFile(restart, std::to_string(rank)));
+    }
+    return files;
+}
+
+/// What LIGGGHTS' read_restart reads on one of so many ranks. Before that it reads the base, for all.
+std::vector<std::filesystem::path> filesRead(const std::filesystem::path& restart, int rank, int ranks)
+{
+    std::vector<std::filesystem::path> files{isInParts(restart) ? restartFile(restart, "base") : restart};
+    const auto part = [&] { return restartFile(restart, std::to_string(rank)); };
+    for (; isInParts(restart) && std::filesystem::exists(part()); rank += ranks)
+    {
+        files.push_back(part());
+    }
+    return files;
 }
 
 /// By the forces on its beads, not as the script states or not at all.
@@ -668,21 +706,23 @@ private:
         std::istringstream words(withVariables(command.text));
         std::string name;
         std::string file;
-        if (words >> name >> file && name == "read_restart" && file.find_first_of("*%") == std::string::npos)
+        if (!(words >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
         {
-            try
-            {
-                requireUndamaged(file);
-            }
-            catch (const FileError& error)
-            {
-                throw DemEngineError(command.where + ": " + error.what());
-            }
-            if (isOtherThanRestart(file))
-            {
-                throw DemEngineError(command.where + ": '" + command.text + "': " + file
-                                     + " is no restart file; allowed: what LIGGGHTS' write_restart has written");
-            }
+            return;
+        }
+        const std::vector<std::filesystem::path> files = filesRead(file, program_->comm->me, program_->comm->nprocs);
+        try
+        {
+            std::for_each(files.begin(), files.end(), requireUndamaged);
+        }
+        catch (const FileError& error)
+        {
+            throw DemEngineError(command.where + ": " + error.what());
+        }
+        if (isOtherThanRestart(files.front()))
+        {
+            throw DemEngineError(command.where + ": '" + command.text + "': " + files.front().string()
+                                 + " is no restart file; allowed: what LIGGGHTS' write_restart has written");
         }
     }
 
@@ -881,13 +921,12 @@ std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
     return materials;
 }
 
-void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
+std::vector<std::filesystem::path> LiggghtsEngine::writeCheckpoint(const std::filesystem::path& name)
 {
     implementation_->keepFinishedInsertionsFinished();
-    // The first rank writes what all send to it. Where it cannot, it goes through all of it with them nonetheless: they
-    // would wait for it.
-    const bool first = implementation_->program().comm->me == 0;
-    std::optional<FileThroughPipe> received;
+    const lmp::LAMMPS& program = implementation_->program();
+    std::vector<std::filesystem::path> files = filesWritten(name, program.comm->me);
+    std::list<FileThroughPipe> pipes;
     std::exception_ptr failure;
     const auto attempt = [&](const auto& step) {
         try
@@ -899,21 +938,27 @@ void LiggghtsEngine::writeCheckpoint(const std::filesystem::path& file)
             failure = std::current_exception();
         }
     };
-    if (first)
+    attempt([&] {
+        for (const std::filesystem::path& file : files)
+        {
+            pipes.emplace_back(file);
+        }
+    });
+    // All write or none does: the others would wait for one that has no file.
+    int ready = failure ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &ready, 1, MPI_INT, MPI_MIN, program.world);
+    if (ready != 0)
     {
-        attempt([&] { received.emplace(file); });
+        implementation_->execute("write_restart " + FileThroughPipe::entrance(name).string(), "checkpoint");
+        attempt([&] { std::for_each(pipes.begin(), pipes.end(), [](FileThroughPipe& pipe) { pipe.finish(); }); });
+        implementation_->restartInsertions();
     }
-    implementation_->execute("write_restart " + (received ? received->entrance().string() : "/dev/null"), "checkpoint");
-    if (received)
-    {
-        attempt([&] { received->finish(); });
-    }
-    implementation_->restartInsertions();
-    MPI_Barrier(implementation_->program().world);
+    MPI_Barrier(program.world);
     if (failure)
     {
         std::rethrow_exception(failure);
     }
+    return files;
 }
 
 std::string LiggghtsEngine::version() const

@@ -21,7 +21,7 @@ struct LiggghtsSetup
     std::filesystem::path logFile;
     /// Leaves out the script's commands that write files.
     bool writesNothing = false;
-    /// A checkpoint to go on from; empty: the script's own beginning. With a checkpoint the script's first
+    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was told its name; empty: the script's own beginning. With a checkpoint the script's first
     /// `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or changes beads
     /// (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
     std::filesystem::path resumeFrom;
@@ -51,7 +51,7 @@ public:
     double timeStep() const override;
     Vector3d gravity() const override;
     std::vector<ContactMaterial> contactMaterials() const override;
-    void writeCheckpoint(const std::filesystem::path& file) override;
+    std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& name) override;
     std::string version() const override;
 
 private:
