@@ -86,15 +86,17 @@ class Stops(HopperCase):
 
 
 class Ranks(HopperCase):
-    def testTheirBoxesLieSideBySide(self):
-        """As many as ranks, as near to squares as may be, said once however often a stage is prepared, also for a stage that was
-        begun when there were slabs only. Slabs for all numbers of ranks fail at 4, a second say at the second number."""
-        shares = {1: (1, 1), 2: (2, 1), 3: (3, 1), 4: (2, 2), 6: (3, 2), 7: (7, 1), 8: (4, 2), 16: (4, 4), 24: (6, 4)}
+    def testTheirBoxesAllReachTheBeads(self):
+        """As many as ranks, at most two along x and y, said once however often a stage is prepared, also for a stage that was
+        begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the second
+        number."""
+        shares = {1: (1, 1, 1), 2: (2, 1, 1), 3: (1, 1, 3), 4: (2, 2, 1), 6: (2, 1, 3), 8: (2, 2, 2), 12: (2, 2, 3), 16: (2, 2, 4)}
         stage = self.case / "stages" / "dry" / "stage"
-        for ranks, (alongX, alongY) in shares.items():
+        for ranks, along in shares.items():
             self.prepare("dry", ranks)
             said = re.findall(r"^(ranks\w*) +(\d+);$", stage.read_text(), re.MULTILINE)
-            self.assertEqual(said, [("ranks", str(ranks)), ("ranksAlongX", str(alongX)), ("ranksAlongY", str(alongY))])
+            expected = [("ranks", ranks), *zip(("ranksAlongX", "ranksAlongY", "ranksAlongZ"), along)]
+            self.assertEqual(said, [(name, str(number)) for name, number in expected])
         text = (self.case / "stage.dry").read_text()
         stage.write_text(text + "ranks           4;\n")
         self.prepare("dry", 4)
