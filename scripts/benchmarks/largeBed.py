@@ -63,6 +63,6 @@ def bed(hopper, name, fluid, beads, cells, intervals):
     (bed / "stage").write_text("".join(f"{name} {value:g};\n" for name, value in {
         **{name: hopper.parameters[name] for name in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
                                                       "pressureCorrectors", "nonOrthogonalCorrectors")},
-        "ranks": RANKS, "ranksAlongX": RANKS, "ranksAlongY": 1}.items()))
+        "ranks": RANKS, "ranksAlongX": RANKS, "ranksAlongY": 1, "ranksAlongZ": 1}.items()))
     Hopper.inFolder(bed, "decomposePar > log.decomposePar 2>&1")
     return timing.Run(solver(RANKS), bed, prepare=lambda: forgetResults(bed), result=lambda: ledger(bed))
