@@ -67,9 +67,14 @@ def each(bench, names, writing=None):
     return [call for calls in found.values() for call in spread(calls, MOST_OF_A_FILE)]
 
 
+def onFile(case, name):
+    """Options of strace: by either of the names that a run in the case has for it."""
+    return ["-P", case.folder / name, "-P", name]
+
+
 def inject(bench, what, call, judge):
     case = bench.stopped(endTime=NEXT)
-    outcome = case.run(["strace", "-f", "-o", "/dev/null", "-P", case.folder / call.file, "-e", f"trace={call.name}",
+    outcome = case.run(["strace", "-f", "-o", "/dev/null", *onFile(case, call.file), "-e", f"trace={call.name}",
                         "-e", f"inject={call.name}:{what}:when={call.number}"])
     try:
         said = judge(outcome)
@@ -141,7 +146,7 @@ def die(bench, call, error, number):
     case = bench.stopped(endTime=NEXT)
     wrapper = ["strace", "-f", "-o", "/dev/null", "-e", "trace=openat,write,writev,fsync,rename,mkdir"]
     for file in files:
-        wrapper += ["-P", case.folder / file]
+        wrapper += onFile(case, file)
     for other in ("openat", "write", "writev", "fsync", "rename", "mkdir"):
         # reading goes well in the beginning
         first = len(files) if other == "openat" else 3
