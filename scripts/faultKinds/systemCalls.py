@@ -21,7 +21,8 @@ NAMES = ("rename", "renameat", "renameat2", "mkdir", "unlink", "unlinkat")
 READS = ("read", "pread64", "readv")
 OPENS = ("open", "openat", "creat")
 SYNCS = ("fsync", "fdatasync")
-OF_FILE = re.compile(r"^\d+ +(\w+)\(\d+<([^>]*)>")
+# without what has no path, as pipes
+OF_FILE = re.compile(r"^\d+ +(\w+)\(\d+<(/[^>]*)>")
 OF_PATH = re.compile(r'^\d+ +(\w+)\((?:AT_FDCWD[^"]*)?"([^"]*)"')
 # A file is written in many small pieces by the drawing library: some of them tell as much as all.
 MOST_OF_A_FILE = 4
