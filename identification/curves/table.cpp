@@ -1,10 +1,11 @@
 #include "curves/table.h"
 
+#include "lists.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
-#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -108,9 +109,7 @@ std::vector<Title> titlesOf(const std::string& line)
             texts.push_back(part);
         }
     }
-    std::vector<Title> titles(texts.size());
-    std::transform(texts.begin(), texts.end(), titles.begin(), titleOf);
-    return titles;
+    return mapped(texts, titleOf);
 }
 
 /// Larger ones are no measurement, and their squares would be no numbers.
@@ -244,11 +243,8 @@ Table readTable(const std::filesystem::path& file)
     const auto titles = titlesOf(header);
     if (titles.size() == table.columns.size())
     {
-        for (const auto& title : titles)
-        {
-            table.names.push_back(title.name);
-            table.units.push_back(title.unit);
-        }
+        table.names = mapped(titles, [](const Title& title) { return title.name; });
+        table.units = mapped(titles, [](const Title& title) { return title.unit; });
     }
     return table;
 }
@@ -308,22 +304,11 @@ Curve readCurve(const std::filesystem::path& pattern, const std::string& timeCol
 
 Curve tidied(Curve curve)
 {
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < curve.time.size(); ++i)
-    {
-        if (std::isfinite(curve.time[i]) && std::isfinite(curve.value[i]))
-        {
-            order.push_back(i);
-        }
-    }
+    auto order = numbersWhere(curve.time.size(),
+        [&](std::size_t i) { return std::isfinite(curve.time[i]) && std::isfinite(curve.value[i]); });
     std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return curve.time[a] < curve.time[b]; });
-    Curve tidy;
-    for (const auto i : order)
-    {
-        tidy.time.push_back(curve.time[i]);
-        tidy.value.push_back(curve.value[i]);
-    }
-    return tidy;
+    return {mapped(order, [&](std::size_t i) { return curve.time[i]; }),
+        mapped(order, [&](std::size_t i) { return curve.value[i]; })};
 }
 
 } // namespace clepsydra::identification

@@ -1,5 +1,7 @@
 #include "decision/calibration.h"
 
+#include "lists.h"
+
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -67,8 +69,7 @@ double upperQuantile(std::vector<double> values, double share)
 
 double misfitLimit(const std::vector<double>& draws, double sds)
 {
-    const Eigen::ArrayXd roots =
-        Eigen::Map<const Eigen::ArrayXd>(draws.data(), static_cast<Eigen::Index>(draws.size())).max(0.0).pow(1.0 / 3.0);
+    const Eigen::ArrayXd roots = Eigen::Map<const Eigen::ArrayXd>(draws.data(), draws.size()).max(0.0).pow(1.0 / 3.0);
     const double sd = std::sqrt((roots - roots.mean()).square().mean());
     return std::pow(roots.mean() + sds * sd, 3);
 }
@@ -81,7 +82,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     for (Eigen::Index e = 0; e < count; ++e)
     {
         // With its variants: what they share would be its name.
-        const auto effect = static_cast<std::size_t>(e);
+        const std::size_t effect = e;
         const double weight = effect == without || areVariants(study, effect, without)
                                   ? -std::numeric_limits<double>::infinity()
                                   : logPrior(study, effect);
@@ -106,7 +107,7 @@ double marginOf(const Study& study, const Odds& odds, std::size_t effect)
     double outside = std::exp(odds.other);
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        const double probability = std::exp(odds.effects(static_cast<Eigen::Index>(e)));
+        const double probability = std::exp(odds.effects(e));
         (e == effect || areVariants(study, effect, e) ? inVariants : outside) += probability;
     }
     constexpr double least = std::numeric_limits<double>::min();
@@ -115,18 +116,12 @@ double marginOf(const Study& study, const Odds& odds, std::size_t effect)
 
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds)
 {
-    std::vector<std::size_t> members;
-    for (Eigen::Index e = 0; e < odds.effects.size(); ++e)
-    {
-        if (odds.effects(e) >= calibration.membership(e) && odds.misfits(e) <= calibration.misfits(e)
-            && odds.scatterMisfits(e) <= calibration.scatterMisfits(e) && std::isfinite(odds.effects(e)))
-        {
-            members.push_back(static_cast<std::size_t>(e));
-        }
-    }
-    std::sort(members.begin(), members.end(), [&](std::size_t a, std::size_t b) {
-        return odds.effects(static_cast<Eigen::Index>(a)) > odds.effects(static_cast<Eigen::Index>(b));
+    auto members = numbersWhere(static_cast<std::size_t>(odds.effects.size()), [&](std::size_t e) {
+        return odds.effects(e) >= calibration.membership(e) && odds.misfits(e) <= calibration.misfits(e)
+               && odds.scatterMisfits(e) <= calibration.scatterMisfits(e) && std::isfinite(odds.effects(e));
     });
+    std::sort(members.begin(), members.end(),
+        [&](std::size_t a, std::size_t b) { return odds.effects(a) > odds.effects(b); });
     return members;
 }
 
@@ -145,7 +140,7 @@ std::optional<std::size_t> soleMember(const Study& study, const Calibration& cal
     double best = 0.0;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        const double probability = std::exp(odds.effects(static_cast<Eigen::Index>(e)));
+        const double probability = std::exp(odds.effects(e));
         if (e == members.front() || areVariants(study, members.front(), e))
         {
             inVariants += probability;
@@ -167,7 +162,7 @@ double Calibration::pValue(double statistic) const
 
 Fit Calibration::widened(std::size_t effect, Fit fit, const Bounds& bounds) const
 {
-    const double factor = widths(static_cast<Eigen::Index>(effect));
+    const double factor = widths(effect);
     fit.sd *= factor;
     fit.lower = std::max(bounds.lower, fit.amplitude - factor * (fit.amplitude - fit.lower));
     fit.upper = std::min(bounds.upper, fit.amplitude + factor * (fit.upper - fit.amplitude));
@@ -198,7 +193,7 @@ void Calibrator::drawNull()
     // Parameters as they are known beforehand: data that take them far from there are a residual, too (Box, J. R. Stat. Soc.
     // A 143, 383 (1980)).
     Fit prior;
-    const auto parameters = static_cast<Eigen::Index>(study_.parameters.size());
+    const Eigen::Index parameters = study_.parameters.size();
     prior.parameters = Eigen::VectorXd::Zero(parameters);
     prior.covariance = Eigen::MatrixXd::Identity(parameters, parameters);
     auto& all = calibration_.nullStatistics;
@@ -214,7 +209,7 @@ void Calibrator::drawNull()
 
 void Calibrator::drawEffects()
 {
-    calibration_.widths = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(study_.effects.size()));
+    calibration_.widths = Eigen::VectorXd::Ones(study_.effects.size());
     for (std::size_t e = 0; e < study_.effects.size(); ++e)
     {
         std::vector<double> amplitudes = evidence_.amplitudes(e);
@@ -239,7 +234,7 @@ void Calibrator::drawEffects()
                 ++found;
             }
         }
-        calibration_.widths(static_cast<Eigen::Index>(e)) = std::max(1.0, upperQuantile(widths, coverageOfIntervals));
+        calibration_.widths(e) = std::max(1.0, upperQuantile(widths, coverageOfIntervals));
     }
 }
 
@@ -262,16 +257,20 @@ void Calibrator::drawOther()
 /// Sets of least mean size for a coverage of each class: Sadinle, Lei & Wasserman, J. Am. Stat. Assoc. 114, 223 (2019).
 void Calibrator::setMembership()
 {
-    const auto quantileOf = [&](std::size_t truth) {
+    const auto ofTruth = [&](std::size_t truth, auto valueOf) {
         std::vector<double> own;
         for (const auto& draw : detected_)
         {
             if (draw.truth == truth)
             {
-                own.push_back(truth < study_.effects.size() ? draw.odds.effects(static_cast<Eigen::Index>(truth))
-                                                            : draw.odds.other);
+                own.push_back(valueOf(draw.odds));
             }
         }
+        return own;
+    };
+    const auto quantileOf = [&](std::size_t truth) {
+        auto own = ofTruth(
+            truth, [&](const Odds& odds) { return truth < study_.effects.size() ? odds.effects(truth) : odds.other; });
         std::sort(own.begin(), own.end());
         // The observed set counts as one more draw.
         const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
@@ -281,24 +280,17 @@ void Calibrator::setMembership()
             place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
         return evidence_.isExact() ? std::max(usual, -hopeless) : usual;
     };
-    calibration_.membership.resize(static_cast<Eigen::Index>(study_.effects.size()));
+    calibration_.membership.resize(study_.effects.size());
     for (std::size_t e = 0; e < study_.effects.size(); ++e)
     {
-        calibration_.membership(static_cast<Eigen::Index>(e)) = quantileOf(e);
+        calibration_.membership(e) = quantileOf(e);
     }
     calibration_.otherMembership = quantileOf(study_.effects.size());
     const auto limitsOf = [&](const Eigen::VectorXd Odds::*misfits, double sds) {
         Eigen::VectorXd limits(calibration_.membership.size());
         for (Eigen::Index e = 0; e < limits.size(); ++e)
         {
-            std::vector<double> own;
-            for (const auto& draw : detected_)
-            {
-                if (draw.truth == static_cast<std::size_t>(e))
-                {
-                    own.push_back((draw.odds.*misfits)(e));
-                }
-            }
+            const auto own = ofTruth(e, [&](const Odds& odds) { return (odds.*misfits)(e); });
             limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : misfitLimit(own, sds);
         }
         return limits;
@@ -370,12 +362,12 @@ void Calibrator::setNaming()
                     threshold = one.margin;
                 }
             }
-            calibration_.naming(static_cast<Eigen::Index>(e)) = threshold;
+            calibration_.naming(e) = threshold;
             wrong += ownAtBest;
         }
         return wrong;
     };
-    calibration_.naming.resize(static_cast<Eigen::Index>(count));
+    calibration_.naming.resize(count);
     double price = smallestPrice;
     calibration_.wrongNames = wrongAt(price);
     while (calibration_.wrongNames > study_.settings.wrongNames && price < largestPrice)

@@ -1,5 +1,6 @@
 #include "decision/measured.h"
 
+#include "lists.h"
 #include "emulator/covariance.h"
 
 #include <Eigen/Cholesky>
@@ -19,14 +20,8 @@ constexpr double asGoodAsKnown = 1e6;
 /// Repeats that have all features of a block.
 Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
 {
-    std::vector<Eigen::Index> complete;
-    for (Eigen::Index row = 0; row < features.rows(); ++row)
-    {
-        if (features.row(row).array().isFinite().all())
-        {
-            complete.push_back(row);
-        }
-    }
+    const auto complete =
+        numbersWhere(features.rows(), [&](Eigen::Index row) { return features.row(row).array().isFinite().all(); });
     return features(complete, Eigen::all);
 }
 
@@ -64,13 +59,7 @@ std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, cons
     for (const auto c : study.conditionsOf(Role::training))
     {
         const Eigen::VectorXd mean = meanFeatures(data[c].features);
-        for (Eigen::Index f = 0; f < mean.size(); ++f)
-        {
-            if (std::isfinite(mean(f)))
-            {
-                features[c].push_back(f);
-            }
-        }
+        features[c] = numbersWhere(mean.size(), [&](Eigen::Index f) { return std::isfinite(mean(f)); });
     }
     return features;
 }
@@ -117,7 +106,6 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
     const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, emulator);
     layout.noiseFreedom = emulator.scatters() ? emulator.degreesOfFreedom() : own.nu;
     layout.noise = emulator.scatters() ? emulator.noise() : own.matrix;
-    std::vector<Eigen::VectorXd> means;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         if (!emulator[c])
@@ -129,19 +117,13 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         Layout::Block block;
         block.condition = c;
         block.first = layout.rows;
-        std::vector<Eigen::Index> kept;
-        for (std::size_t k = 0; k < known.size(); ++k)
-        {
-            if (std::isfinite(all(known[k])))
-            {
-                block.places.push_back(static_cast<Eigen::Index>(k));
-                kept.push_back(known[k]);
-            }
-        }
-        if (kept.empty())
+        block.places = numbersWhere(
+            static_cast<Eigen::Index>(known.size()), [&](Eigen::Index k) { return std::isfinite(all(known[k])); });
+        if (block.places.empty())
         {
             continue;
         }
+        const auto kept = mapped(block.places, [&](Eigen::Index k) { return known[k]; });
         block.meanShare = shareOfMean(data[c].features)(kept, kept);
         const Eigen::VectorXd variance = data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
         block.common = variance.asDiagonal();
@@ -164,14 +146,10 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
             block.noise = own.matrix(kept, kept);
         }
         layout.rows += block.size();
-        layout.blocks.push_back(std::move(block));
+        measured.mean.conservativeResize(layout.rows);
+        measured.mean.tail(block.size()) = all(kept);
         measured.scatter.push_back(std::move(squares));
-        means.emplace_back(all(kept));
-    }
-    measured.mean.resize(layout.rows);
-    for (std::size_t b = 0; b < layout.blocks.size(); ++b)
-    {
-        measured.mean.segment(layout.blocks[b].first, means[b].size()) = means[b];
+        layout.blocks.push_back(std::move(block));
     }
     if (layout.rows <= static_cast<Eigen::Index>(study.parameters.size()))
     {

@@ -36,12 +36,11 @@ double reached(const std::vector<std::pair<double, double>>& shares)
 Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,
     const Measured& measured, std::mt19937_64& random)
 {
-    const auto count = static_cast<Eigen::Index>(study.effects.size());
+    const Eigen::Index count = study.effects.size();
     Visibility found{Eigen::VectorXd(count), Eigen::VectorXd(count), Eigen::VectorXd::Zero(count), {}};
     const Fit null = evidence.fitNull(measured);
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        const auto i = static_cast<Eigen::Index>(e);
         std::vector<std::pair<double, double>> detected;
         std::vector<std::pair<double, double>> named;
         const auto amplitudes = evidence.amplitudes(e);
@@ -65,7 +64,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
                 seen += 1.0;
                 const auto sole = soleMember(study, calibration, odds);
                 right += sole && (*sole == e || areVariants(study, *sole, e))
-                                 && marginOf(study, odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole))
+                                 && marginOf(study, odds, *sole) >= calibration.naming(*sole)
                              ? 1.0
                              : 0.0;
                 for (const auto member : membersOf(calibration, odds))
@@ -75,7 +74,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
             }
             detected.emplace_back(amplitude, seen / draws);
             named.emplace_back(amplitude, right / draws);
-            found.atFullSize(i) = right / draws;
+            found.atFullSize(e) = right / draws;
             if (amplitude == amplitudes.back())
             {
                 for (std::size_t other = 0; other < beside.size(); ++other)
@@ -87,8 +86,8 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
                 }
             }
         }
-        found.detected(i) = reached(detected);
-        found.named(i) = reached(named);
+        found.detected(e) = reached(detected);
+        found.named(e) = reached(named);
     }
     return found;
 }

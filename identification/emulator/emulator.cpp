@@ -3,6 +3,8 @@
 #include "emulator/covariance.h"
 #include "emulator/settings.h"
 
+#include "lists.h"
+
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/tools/minima.hpp>
@@ -62,14 +64,14 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     for (std::size_t i = 0; i < settings.size(); ++i)
     {
         const auto group = std::find_if(groups.begin(), groups.end(),
-            [&](const auto& one) { return sameSetting(settings[static_cast<std::size_t>(one.front())], settings[i]); });
+            [&](const auto& one) { return sameSetting(settings[one.front()], settings[i]); });
         if (group == groups.end())
         {
             groups.push_back({static_cast<Eigen::Index>(i)});
         }
         else
         {
-            group->push_back(static_cast<Eigen::Index>(i));
+            group->push_back(i);
         }
     }
     return groups;
@@ -79,6 +81,44 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
 double biasOfLog(double degreesOfFreedom)
 {
     return boost::math::digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
+}
+
+Eigen::VectorXd priorSds(const Basis& basis, const std::array<double, Basis::kinds>& scales)
+{
+    return Eigen::VectorXd::NullaryExpr(basis.size(), [&](Eigen::Index term) { return scales[basis.kind(term)]; });
+}
+
+/// Conditions that have an emulator.
+std::vector<std::size_t> learnt(const std::vector<std::optional<ConditionEmulator>>& conditions)
+{
+    return numbersWhere(conditions.size(), [&](std::size_t c) { return conditions[c].has_value(); });
+}
+
+std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition)
+{
+    std::vector<const Run*> good;
+    for (const auto& run : runs)
+    {
+        if (run.simulation.condition == condition && !run.simulation.failed)
+        {
+            good.push_back(&run);
+        }
+    }
+    return good;
+}
+
+/// Effects of a run that raise its scatter.
+std::vector<Present> scatteringOf(const ConditionEmulator& emulator, const Setting& setting)
+{
+    std::vector<Present> scattering;
+    for (const auto& [e, logs] : emulator.logScatter)
+    {
+        if (setting.amplitudes(e) != 0.0)
+        {
+            scattering.push_back({e, setting.amplitudes(e)});
+        }
+    }
+    return scattering;
 }
 
 /// What was simulated, before the measuring chain.
@@ -93,7 +133,7 @@ BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Ru
     BeforeChain before{run.setting, run.simulation.features};
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        double& amplitude = before.setting.amplitudes(static_cast<Eigen::Index>(e));
+        double& amplitude = before.setting.amplitudes(e);
         if (study.effects[e].isOfChain() && amplitude != 0.0)
         {
             amplitude = 0.0;
@@ -114,13 +154,13 @@ Eigen::VectorXd ConditionEmulator::terms(const Eigen::VectorXd& parameters, cons
 
 Eigen::VectorXd ConditionEmulator::amplitudes(const std::vector<Present>& present) const
 {
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(basis.effects.size()));
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(basis.effects.size());
     for (const auto& [effect, amplitude] : present)
     {
         const std::size_t place = basis.placeOf(effect);
         if (place < basis.effects.size())
         {
-            all(static_cast<Eigen::Index>(place)) = amplitude;
+            all(place) = amplitude;
         }
     }
     return all;
@@ -134,14 +174,13 @@ Eigen::VectorXd ConditionEmulator::at(const Eigen::VectorXd& parameters, const s
 Eigen::VectorXd ConditionEmulator::reach(const std::vector<Present>& present) const
 {
     Eigen::VectorXd factors = Eigen::VectorXd::Ones(basis.parameters);
+    const Eigen::VectorXd here = amplitudes(present);
     for (std::size_t p = 0; p < owners.size(); ++p)
     {
         if (owners[p])
         {
-            const auto on = std::find_if(present.begin(), present.end(), [&](const Present& one) {
-                return one.effect == *owners[p] && basis.placeOf(one.effect) < basis.effects.size();
-            });
-            factors(static_cast<Eigen::Index>(p)) = on == present.end() ? 0.0 : on->amplitude;
+            const std::size_t place = basis.placeOf(*owners[p]);
+            factors(p) = place < basis.effects.size() ? here(place) : 0.0;
         }
     }
     return factors;
@@ -189,7 +228,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
             polynomial.col(0) += one.changes * weights;
             for (Eigen::Index i = 0; i < q; ++i)
             {
-                polynomial.col(1 + i) += one.slopes[static_cast<std::size_t>(i)] * weights;
+                polynomial.col(1 + i) += one.slopes[i] * weights;
             }
         }
     }
@@ -201,19 +240,12 @@ Eigen::MatrixXd ConditionEmulator::uncertainty(
 {
     // Only the terms that are not zero here.
     const Eigen::VectorXd all = terms(parameters, present);
-    std::vector<Eigen::Index> used;
-    for (Eigen::Index i = 0; i < all.size(); ++i)
-    {
-        if (all(i) != 0.0)
-        {
-            used.push_back(i);
-        }
-    }
+    const auto used = numbersWhere(all.size(), [&](Eigen::Index i) { return all(i) != 0.0; });
     const Eigen::VectorXd x = all(used);
-    Eigen::VectorXd variances(static_cast<Eigen::Index>(covariances.size()));
+    Eigen::VectorXd variances(covariances.size());
     for (Eigen::Index f = 0; f < variances.size(); ++f)
     {
-        const Eigen::MatrixXd& covariance = covariances[static_cast<std::size_t>(f)];
+        const Eigen::MatrixXd& covariance = covariances[f];
         variances(f) = x.dot(covariance(used, used) * x);
     }
     return root * variances.cwiseMax(0.0).asDiagonal() * root.transpose();
@@ -249,7 +281,7 @@ Emulator Emulator::possibleWorld(std::mt19937_64& random) const
     {
         for (Eigen::Index f = 0; condition && f < condition->coefficients.cols(); ++f)
         {
-            const Eigen::LDLT<Eigen::MatrixXd> factor(condition->covariances[static_cast<std::size_t>(f)]);
+            const Eigen::LDLT<Eigen::MatrixXd> factor(condition->covariances[f]);
             Eigen::VectorXd z = factor.vectorD().cwiseMax(0.0).cwiseSqrt();
             z = z.unaryExpr([&](double sd) { return sd * normal(random); }).eval();
             const Eigen::VectorXd error = factor.transpositionsP().transpose() * Eigen::VectorXd(factor.matrixL() * z);
@@ -270,27 +302,23 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
 {
     std::normal_distribution<double> normal;
     Emulator other = *this;
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (!conditions_[c])
-        {
-            continue;
-        }
         const ConditionEmulator& here = *world.conditions_[c];
         Rows& rows = other.rows_[c];
         Eigen::MatrixXd whitened = rows.terms * here.coefficients;
         for (Eigen::Index row = 0; row < whitened.rows(); ++row)
         {
-            const double missed = rows.severalOn[static_cast<std::size_t>(row)] ? lackOfFit_ : 0.0;
+            const double missed = rows.severalOn[row] ? lackOfFit_ : 0.0;
             whitened.row(row) =
                 whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
-            const Eigen::MatrixXd root = here.noiseOf(rows.scattering[static_cast<std::size_t>(row)]).llt().matrixL();
+            const Eigen::MatrixXd root = here.noiseOf(rows.scattering[row]).llt().matrixL();
             const Eigen::VectorXd z = Eigen::VectorXd::NullaryExpr(whitened.cols(), [&] { return normal(random); });
             rows.values.row(row) = (here.centre + here.root * whitened.row(row).transpose() + root * z).transpose();
         }
     }
     other.learnNoiseAndScatter();
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
         other.solve(c);
     }
@@ -309,16 +337,16 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
 {
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
-        if (!features[c].empty())
+        choose(c, runs, features[c]);
+        if (conditions_[c])
         {
-            choose(c, runs, features[c]);
             append(c, simulator, runs);
         }
     }
     learnNoiseAndScatter();
     learnChain(simulator, runs);
     chooseScales();
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
         solve(c);
     }
@@ -327,14 +355,7 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
 /// Features and effects of a condition, from what its runs have.
 void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted)
 {
-    std::vector<const Run*> good;
-    for (const auto& run : runs)
-    {
-        if (run.simulation.condition == c && !run.simulation.failed)
-        {
-            good.push_back(&run);
-        }
-    }
+    const auto good = goodRuns(runs, c);
     ConditionEmulator emulator;
     for (const auto f : wanted)
     {
@@ -346,9 +367,8 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         }
         else
         {
-            remarks_.push_back("feature " + study_->features[static_cast<std::size_t>(f)].name
-                               + " is left out in condition " + study_->conditions[c].name
-                               + ": too many runs do not have it");
+            remarks_.push_back("feature " + study_->features[f].name + " is left out in condition "
+                               + study_->conditions[c].name + ": too many runs do not have it");
         }
     }
     if (emulator.features.empty())
@@ -356,14 +376,11 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         return;
     }
     emulator.basis.parameters = static_cast<Eigen::Index>(study_->parameters.size());
-    for (const auto& parameter : study_->parameters)
-    {
-        emulator.owners.push_back(parameter.effect);
-    }
+    emulator.owners = mapped(study_->parameters, [](const Parameter& parameter) { return parameter.effect; });
     for (const auto e : simulatedEffects(*study_, c))
     {
         const auto isOn = [&](const Run* run) {
-            return run->setting.amplitudes(static_cast<Eigen::Index>(e)) != 0.0
+            return run->setting.amplitudes(e) != 0.0
                    && run->simulation.features(emulator.features).array().isFinite().all();
         };
         if (std::any_of(good.begin(), good.end(), isOn))
@@ -378,37 +395,25 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
         }
         if (study_->effects[e].raisesScatter)
         {
-            emulator.logScatter[e] = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(emulator.features.size()));
+            emulator.logScatter[e] = Eigen::VectorXd::Zero(emulator.features.size());
         }
     }
     if (!scatters_)
     {
         // Of parameters of the model itself, polynomials: a fit without any effect must not go where waves say anything
-        std::vector<bool> isOfEffect;
-        for (const auto& owner : emulator.owners)
-        {
-            isOfEffect.push_back(owner.has_value());
-        }
-        emulator.basis.waves = Waves(waves, isOfEffect, static_cast<Eigen::Index>(emulator.basis.effects.size()));
+        const auto isOfEffect = mapped(emulator.owners, [](const auto& owner) { return owner.has_value(); });
+        emulator.basis.waves = Waves(waves, isOfEffect, emulator.basis.effects.size());
     }
     conditions_[c] = std::move(emulator);
 }
 
 void Emulator::append(std::size_t c, const Simulator& simulator, const std::vector<Run>& runs)
 {
-    if (!conditions_[c])
-    {
-        return;
-    }
     const ConditionEmulator& emulator = *conditions_[c];
     Rows& rows = rows_[c];
-    for (const auto& run : runs)
+    for (const auto* run : goodRuns(runs, c))
     {
-        if (run.simulation.condition != c || run.simulation.failed)
-        {
-            continue;
-        }
-        const auto [setting, all] = beforeChain(*study_, simulator, run);
+        const auto [setting, all] = beforeChain(*study_, simulator, *run);
         const Eigen::VectorXd values = all(emulator.features);
         if (!values.array().isFinite().all())
         {
@@ -417,22 +422,17 @@ void Emulator::append(std::size_t c, const Simulator& simulator, const std::vect
         std::vector<Present> present;
         for (const auto e : emulator.basis.effects)
         {
-            present.push_back({e, setting.amplitudes(static_cast<Eigen::Index>(e))});
+            present.push_back({e, setting.amplitudes(e)});
         }
-        const bool several =
-            std::count_if(present.begin(), present.end(), [](const Present& one) { return one.amplitude != 0.0; }) > 1;
         const Eigen::Index row = rows.values.rows();
         rows.values.conservativeResize(row + 1, values.size());
         rows.values.row(row) = values.transpose();
         rows.terms.conservativeResize(row + 1, emulator.basis.size());
         rows.terms.row(row) = emulator.terms(inSds(*study_, setting.parameters), present).transpose();
         rows.settings.push_back(setting);
-        rows.terms(row, emulator.basis.designTerm()) = several ? 1.0 : 0.0;
-        rows.severalOn.push_back(several);
-        std::vector<Present> scattering;
-        std::copy_if(present.begin(), present.end(), std::back_inserter(scattering),
-            [&](const Present& one) { return one.amplitude != 0.0 && emulator.logScatter.count(one.effect) > 0; });
-        rows.scattering.push_back(std::move(scattering));
+        rows.severalOn.push_back((setting.amplitudes(emulator.basis.effects).array() != 0.0).count() > 1);
+        rows.terms(row, emulator.basis.designTerm()) = rows.severalOn.back() ? 1.0 : 0.0;
+        rows.scattering.push_back(scatteringOf(emulator, setting));
     }
     conditions_[c]->runs = static_cast<int>(rows.settings.size());
     conditions_[c]->centre = rows.values.colwise().mean().transpose();
@@ -443,6 +443,7 @@ void Emulator::setNoise(std::size_t c, const Eigen::MatrixXd& noise)
     conditions_[c]->noise = noise;
     conditions_[c]->root = noise.llt().matrixL();
 }
+
 
 /// Effects that raise the scatter without being declared to are found by the noise of runs without effects.
 void Emulator::learnNoiseAndScatter()
@@ -461,25 +462,20 @@ void Emulator::learnNoiseAndScatter()
 void Emulator::learnNoise(bool ofPlainRuns)
 {
     const Eigen::Index features = study_->featureCount();
-    Scatter all;
     std::vector<Eigen::VectorXd> logSds(conditions_.size());
     std::vector<Eigen::VectorXd> smallest(conditions_.size());
     std::vector<double> freedom(conditions_.size(), 0.0);
     std::vector<Eigen::MatrixXd> deviations(conditions_.size());
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(features);
     Eigen::VectorXd weight = squares;
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (!conditions_[c])
-        {
-            continue;
-        }
         const auto& kept = conditions_[c]->features;
         const Rows& rows = rows_[c];
         Scatter own;
         for (const auto& group : repeatsOf(rows.settings))
         {
-            const auto first = static_cast<std::size_t>(group.front());
+            const std::size_t first = group.front();
             const bool isPlain = rows.settings[first].amplitudes.isZero() || !ofPlainRuns;
             if (scatters_ && rows.scattering[first].empty() && isPlain)
             {
@@ -510,9 +506,9 @@ void Emulator::learnNoise(bool ofPlainRuns)
     double between = 0.0;
     double count = 0.0;
     degreesOfFreedom_ = 0.0;
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (conditions_[c] && freedom[c] > 0.0)
+        if (freedom[c] > 0.0)
         {
             between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom[c]).sum();
             count += static_cast<double>(logSds[c].size());
@@ -521,12 +517,8 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     between = std::max(leastBetween, between / std::max(count, 1.0));
     Eigen::MatrixXd standardised(0, features);
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : degreesOfFreedom_ > 0.0 ? learnt(conditions_) : std::vector<std::size_t>{})
     {
-        if (!conditions_[c] || degreesOfFreedom_ == 0.0)
-        {
-            continue;
-        }
         const auto& kept = conditions_[c]->features;
         const Eigen::VectorXd common = pooled(kept).cwiseMax(smallest[c].array().log().matrix());
         if (freedom[c] == 0.0)
@@ -543,7 +535,7 @@ void Emulator::learnNoise(bool ofPlainRuns)
         standardised.bottomRows(deviations[c].rows()).setConstant(std::nan(""));
         for (std::size_t k = 0; k < kept.size(); ++k)
         {
-            const auto place = static_cast<Eigen::Index>(k);
+            const Eigen::Index place = k;
             standardised.col(kept[k]).tail(deviations[c].rows()) =
                 deviations[c].col(place) * std::exp(-logSds[c](place));
         }
@@ -558,14 +550,11 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     const Eigen::VectorXd typical = (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
     noise_ = typical.asDiagonal() * correlation * typical.asDiagonal();
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (conditions_[c])
-        {
-            const auto& kept = conditions_[c]->features;
-            const Eigen::VectorXd sds = logSds[c].array().exp();
-            setNoise(c, sds.asDiagonal() * Eigen::MatrixXd(correlation(kept, kept)) * sds.asDiagonal());
-        }
+        const auto& kept = conditions_[c]->features;
+        const Eigen::VectorXd sds = logSds[c].array().exp();
+        setNoise(c, sds.asDiagonal() * Eigen::MatrixXd(correlation(kept, kept)) * sds.asDiagonal());
     }
 }
 
@@ -578,13 +567,13 @@ Eigen::ArrayXXd Emulator::variances(std::size_t c) const
     const auto lower = emulator.root.triangularView<Eigen::Lower>();
     for (Eigen::Index row = 0; row < all.rows(); ++row)
     {
-        const auto& scattering = rows.scattering[static_cast<std::size_t>(row)];
+        const auto& scattering = rows.scattering[row];
         if (!scattering.empty())
         {
             const Eigen::MatrixXd wide = emulator.noiseOf(scattering).llt().matrixL();
             all.row(row) = lower.solve(wide).rowwise().squaredNorm().transpose().array();
         }
-        if (rows.severalOn[static_cast<std::size_t>(row)])
+        if (rows.severalOn[row])
         {
             all.row(row) += lackOfFit_ * lackOfFit_;
         }
@@ -604,20 +593,9 @@ Eigen::MatrixXd Emulator::whitened(std::size_t c) const
 double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
 {
     double sum = 0.0;
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (!conditions_[c])
-        {
-            continue;
-        }
-        const ConditionEmulator& emulator = *conditions_[c];
-        const Rows& rows = rows_[c];
-        Eigen::VectorXd prior(emulator.basis.size());
-        for (Eigen::Index i = 0; i < prior.size(); ++i)
-        {
-            prior(i) = scales[emulator.basis.kind(i)];
-        }
-        const Eigen::MatrixXd scaled = rows.terms * prior.asDiagonal();
+        const Eigen::MatrixXd scaled = rows_[c].terms * priorSds(conditions_[c]->basis, scales).asDiagonal();
         Eigen::MatrixXd covariance = scaled * scaled.transpose();
         covariance.diagonal() += variances(c).rowwise().mean().matrix();
         const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
@@ -673,22 +651,14 @@ void Emulator::chooseScales()
 /// Coefficients and their covariance.
 void Emulator::solve(std::size_t c)
 {
-    if (!conditions_[c])
-    {
-        return;
-    }
     ConditionEmulator& emulator = *conditions_[c];
     const Rows& rows = rows_[c];
     const Eigen::Index features = rows.values.cols();
-    Eigen::VectorXd prior(emulator.basis.size());
-    for (Eigen::Index i = 0; i < prior.size(); ++i)
-    {
-        prior(i) = scales_[emulator.basis.kind(i)] * scales_[emulator.basis.kind(i)];
-    }
+    const Eigen::VectorXd prior = priorSds(emulator.basis, scales_).cwiseAbs2();
     const Eigen::MatrixXd values = whitened(c);
     const Eigen::ArrayXXd variance = variances(c);
     emulator.coefficients.resize(prior.size(), features);
-    emulator.covariances.resize(static_cast<std::size_t>(features));
+    emulator.covariances.resize(features);
     for (Eigen::Index f = 0; f < features; ++f)
     {
         Eigen::VectorXd own = prior;
@@ -720,7 +690,7 @@ void Emulator::solve(std::size_t c)
             if (heredity)
             {
                 const Eigen::MatrixXd half = factor.matrixL().solve(spread.transpose());
-                Eigen::MatrixXd& posterior = emulator.covariances[static_cast<std::size_t>(f)];
+                Eigen::MatrixXd& posterior = emulator.covariances[f];
                 posterior = -half.transpose() * half;
                 posterior.diagonal() += own;
             }
@@ -733,25 +703,20 @@ void Emulator::learnScatter()
 {
     for (std::size_t e = 0; e < study_->effects.size(); ++e)
     {
-        const auto place = static_cast<Eigen::Index>(e);
         Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // over the usual variance
         Eigen::VectorXd freedom = squares;
         std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // by condition: the same, degrees of freedom
         double statistic = 0.0;
         double statisticFreedom = 0.0;
-        for (std::size_t c = 0; c < conditions_.size(); ++c)
+        for (const auto c : learnt(conditions_))
         {
-            if (!conditions_[c])
-            {
-                continue;
-            }
             const auto& kept = conditions_[c]->features;
             for (const auto& group : repeatsOf(rows_[c].settings))
             {
-                const Setting& setting = rows_[c].settings[static_cast<std::size_t>(group.front())];
+                const Setting& setting = rows_[c].settings[group.front()];
                 Eigen::VectorXd others = setting.amplitudes;
-                others(place) = 0.0;
-                if (group.size() < 2 || setting.amplitudes(place) == 0.0 || !others.isZero())
+                others(e) = 0.0;
+                if (group.size() < 2 || setting.amplitudes(e) == 0.0 || !others.isZero())
                 {
                     continue;
                 }
@@ -788,7 +753,7 @@ void Emulator::learnScatter()
             Eigen::VectorXd logs(ratio.size());
             for (Eigen::Index k = 0; k < ratio.size(); ++k)
             {
-                const auto f = kept[static_cast<std::size_t>(k)];
+                const auto f = kept[k];
                 const double all = 0.5 * (std::log(squares(f) / freedom(f)) - biasOfLog(freedom(f)));
                 const double here = 0.5 * (std::log(ratio(k) / nu) - biasOfLog(nu));
                 logs(k) = all + (here - all) * nu / (nu + sharedScatter);
@@ -796,24 +761,10 @@ void Emulator::learnScatter()
             conditions_[c]->logScatter[e] = logs;
         }
     }
-    for (std::size_t c = 0; c < conditions_.size(); ++c)
+    for (const auto c : learnt(conditions_))
     {
-        if (!conditions_[c])
-        {
-            continue;
-        }
-        for (std::size_t row = 0; row < rows_[c].settings.size(); ++row)
-        {
-            rows_[c].scattering[row].clear();
-            for (const auto& [e, logs] : conditions_[c]->logScatter)
-            {
-                const double amplitude = rows_[c].settings[row].amplitudes(static_cast<Eigen::Index>(e));
-                if (amplitude != 0.0)
-                {
-                    rows_[c].scattering[row].push_back({e, amplitude});
-                }
-            }
-        }
+        rows_[c].scattering =
+            mapped(rows_[c].settings, [&](const Setting& setting) { return scatteringOf(*conditions_[c], setting); });
     }
 }
 
@@ -821,13 +772,12 @@ void Emulator::learnChain(const Simulator& simulator, const std::vector<Run>& ru
 {
     for (std::size_t e = 0; e < study_->effects.size(); ++e)
     {
-        for (std::size_t c = 0; c < conditions_.size() && study_->effects[e].isOfChain(); ++c)
+        for (const auto c : learnt(conditions_))
         {
-            if (!conditions_[c] || !acts(study_->effects[e], study_->conditions[c]))
+            if (study_->effects[e].isOfChain() && acts(study_->effects[e], study_->conditions[c]))
             {
-                continue;
+                learnChain(e, c, simulator, runs);
             }
-            learnChain(e, c, simulator, runs);
         }
     }
 }
@@ -837,31 +787,27 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
 {
     const Effect& effect = study_->effects[e];
     const auto& kept = conditions_[c]->features;
-    const auto q = static_cast<Eigen::Index>(study_->parameters.size());
+    const Eigen::Index q = study_->parameters.size();
     std::vector<const Curve*> curves;
     std::vector<Setting> settings;
     std::vector<Eigen::VectorXd> features;
-    for (const auto& run : runs)
+    for (const auto* run : goodRuns(runs, c))
     {
-        if (run.simulation.condition != c || run.simulation.failed)
-        {
-            continue;
-        }
-        const auto [setting, all] = beforeChain(*study_, simulator, run);
+        const auto [setting, all] = beforeChain(*study_, simulator, *run);
         if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())
         {
-            curves.push_back(&run.simulation.plain);
+            curves.push_back(&run->simulation.plain);
             settings.push_back(setting);
             features.emplace_back(all(kept));
         }
     }
-    const auto rows = static_cast<Eigen::Index>(curves.size());
-    Eigen::MatrixXd before(rows, static_cast<Eigen::Index>(kept.size()));
+    const Eigen::Index rows = curves.size();
+    Eigen::MatrixXd before(rows, kept.size());
     Eigen::MatrixXd terms = Eigen::MatrixXd::Ones(rows, 1 + q);
     for (Eigen::Index row = 0; row < rows; ++row)
     {
-        before.row(row) = features[static_cast<std::size_t>(row)].transpose();
-        terms.row(row).tail(q) = inSds(*study_, settings[static_cast<std::size_t>(row)].parameters).transpose();
+        before.row(row) = features[row].transpose();
+        terms.row(row).tail(q) = inSds(*study_, settings[row].parameters).transpose();
     }
     const auto groups = repeatsOf(settings);
     const auto squares = [&](const Eigen::MatrixXd& values, const std::vector<Eigen::Index>& some) {
@@ -887,16 +833,16 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
     const Eigen::VectorXd& amplitudes = chain.amplitudes.amplitudes();
     chain.changes = Eigen::MatrixXd::Zero(before.cols(), amplitudes.size());
     chain.logScatter = chain.changes;
-    chain.slopes.assign(static_cast<std::size_t>(q), chain.changes);
+    chain.slopes.assign(q, chain.changes);
     for (Eigen::Index node = 0; node < amplitudes.size(); ++node)
     {
         Setting setting = simulator.plainSetting();
-        setting.amplitudes(static_cast<Eigen::Index>(e)) = amplitudes(node);
+        setting.amplitudes(e) = amplitudes(node);
         Eigen::MatrixXd after(rows, before.cols());
         std::vector<Eigen::Index> good;
         for (Eigen::Index row = 0; row < rows; ++row)
         {
-            const Curve& curve = *curves[static_cast<std::size_t>(row)];
+            const Curve& curve = *curves[row];
             after.row(row) = simulator.featuresOf(simulator.throughChain(curve, c, setting))(kept).transpose();
             if (after.row(row).array().isFinite().all())
             {
@@ -917,7 +863,7 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
         chain.changes.col(node) = solution.row(0).transpose();
         for (Eigen::Index i = 0; i < q; ++i)
         {
-            chain.slopes[static_cast<std::size_t>(i)].col(node) = solution.row(1 + i).transpose();
+            chain.slopes[i].col(node) = solution.row(1 + i).transpose();
         }
         if (scatters_)
         {

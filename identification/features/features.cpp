@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace clepsydra::identification
 {
@@ -31,11 +32,6 @@ double meanRate(const Curve& curve, double from, double to)
     return (from - to) * fill / (end - start);
 }
 
-double logMeanRate(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
-}
-
 /// A parabola through m(t) gives the rate and its change at the window's middle; by the chain rule
 /// d(ln W)/d(m/m0) = m0 W'/(W m') = 2 c2 m0/c1^2.
 double rateSlope(const Curve& curve, const Parameters& p)
@@ -51,20 +47,10 @@ double rateSlope(const Curve& curve, const Parameters& p)
     return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
 }
 
-double logTimeToDischarge(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(timeAtLevel(curve, (1.0 - p.at("share")) * curve.value.front()) - curve.time.front());
-}
-
 double logTimeBetween(const Curve& curve, const Parameters& p)
 {
     const double fill = curve.value.front();
     return logOfPositive(timeAtLevel(curve, p.at("to") * fill) - timeAtLevel(curve, p.at("from") * fill));
-}
-
-double residue(const Curve& curve, const Parameters& /*unused*/)
-{
-    return curve.value.back() / curve.value.front();
 }
 
 /// What a scale goes on showing after the flow has ended, as a share of the fill per second.
@@ -81,11 +67,6 @@ double speedBetweenLevels(const Curve& curve, double from, double to)
     const double start = timeAtLevel(curve, from);
     const double end = timeAtLevel(curve, to);
     return start < end ? std::abs(slopeBetween(curve, start, end)) : none;
-}
-
-double logSpeed(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
 }
 
 /// Time at which a position is reached; none where the two rows around it lie further apart than `gap`.
@@ -119,11 +100,6 @@ double logSpeedRatio(const Curve& curve, const Parameters& p)
         speedBetweenLevels(curve, middle, p.at("to")) / speedBetweenLevels(curve, p.at("from"), middle));
 }
 
-double logTimeToLevel(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(timeAtLevel(curve, p.at("level")) - curve.time.front());
-}
-
 /// Rows of the n-th contact: a minimum of the gap between two maxima. Found on the curve itself, without smoothing.
 std::vector<std::size_t> contacts(const Curve& curve, double level)
 {
@@ -143,10 +119,8 @@ std::vector<std::size_t> contacts(const Curve& curve, double level)
         if (after + 1 < gap.size() && gap[after + 1] > gap[i])
         {
             // Two minima without a rise between them are one contact.
-            const bool same = !found.empty()
-                              && *std::max_element(gap.begin() + static_cast<std::ptrdiff_t>(found.back()),
-                                     gap.begin() + static_cast<std::ptrdiff_t>(i))
-                                     < 2.0 * level;
+            const bool same =
+                !found.empty() && *std::max_element(gap.begin() + found.back(), gap.begin() + i) < 2.0 * level;
             if (!same)
             {
                 found.push_back(i);
@@ -165,71 +139,56 @@ struct Flight
     bool complete;
 };
 
-bool flight(const Curve& curve, const Parameters& p, Flight& found)
+std::optional<Flight> flight(const Curve& curve, const Parameters& p)
 {
     const auto hits = contacts(curve, p.at("level"));
     const auto n = static_cast<std::size_t>(p.at("bounce"));
     if (n < 1 || hits.size() < n)
     {
-        return false;
+        return std::nullopt;
     }
-    found = {hits[n - 1], hits.size() > n ? hits[n] : curve.value.size() - 1, hits.size() > n};
-    return true;
+    return Flight{hits[n - 1], hits.size() > n ? hits[n] : curve.value.size() - 1, hits.size() > n};
 }
 
 double logBounceHeight(const Curve& curve, const Parameters& p)
 {
-    Flight f{};
-    if (!flight(curve, p, f))
+    const auto f = flight(curve, p);
+    if (!f)
     {
         return none;
     }
     const auto begin = curve.value.begin();
-    const auto top =
-        std::max_element(begin + static_cast<std::ptrdiff_t>(f.begin), begin + static_cast<std::ptrdiff_t>(f.end) + 1);
+    const auto top = std::max_element(begin + f->begin, begin + f->end + 1);
     // A rise that the record cuts off has no height.
-    return !f.complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
+    return !f->complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
 }
 
 double logBounceDuration(const Curve& curve, const Parameters& p)
 {
-    Flight f{};
-    return flight(curve, p, f) && f.complete ? logOfPositive(curve.time[f.end] - curve.time[f.begin]) : none;
+    const auto f = flight(curve, p);
+    return f && f->complete ? logOfPositive(curve.time[f->end] - curve.time[f->begin]) : none;
+}
+
+/// Of the first contact.
+double timeOfImpact(const Curve& curve, double level)
+{
+    const auto hits = contacts(curve, level);
+    return hits.empty() ? none : curve.time[hits.front()];
 }
 
 double logImpactSpeed(const Curve& curve, const Parameters& p)
 {
-    const auto hits = contacts(curve, p.at("level"));
-    if (hits.empty())
-    {
-        return none;
-    }
-    const double hit = curve.time[hits.front()];
+    const double hit = timeOfImpact(curve, p.at("level"));
     return logOfPositive(-slopeBetween(curve, hit - p.at("before"), hit - p.at("until")));
 }
 
 double logReboundSpeed(const Curve& curve, const Parameters& p)
 {
-    const auto hits = contacts(curve, p.at("level"));
-    if (hits.empty())
-    {
-        return none;
-    }
-    const double hit = curve.time[hits.front()];
+    const double hit = timeOfImpact(curve, p.at("level"));
     return logOfPositive(slopeBetween(curve, hit + p.at("from"), hit + p.at("after")));
 }
 
 //--- Any curve ------------------------------------------------------------------------------------------------------
-
-double valueAtTime(const Curve& curve, const Parameters& p)
-{
-    return valueAt(curve, p.at("time")) / p.at("scale");
-}
-
-double logValueAtTime(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(valueAt(curve, p.at("time")));
-}
 
 double meanBetween(const Curve& curve, const Parameters& p)
 {
@@ -250,21 +209,6 @@ double meanBetween(const Curve& curve, const Parameters& p)
     return area / (p.at("to") - p.at("from"));
 }
 
-double logMeanBetween(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(meanBetween(curve, p));
-}
-
-double logFinalValue(const Curve& curve, const Parameters& /*unused*/)
-{
-    return logOfPositive(curve.value.back());
-}
-
-double logMaximum(const Curve& curve, const Parameters& /*unused*/)
-{
-    return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
-}
-
 /// Time at which the curve passes a share of its largest value on the way to it, or after it; none where it does
 /// not.
 double timeAtShare(const Curve& curve, double share, bool after)
@@ -277,21 +221,6 @@ double timeAtShare(const Curve& curve, double share, bool after)
         after ? curve.time.end() : curve.time.begin() + split + 1);
     part.value.assign(after ? top : curve.value.begin(), after ? curve.value.end() : top + 1);
     return timeAtLevel(part, level);
-}
-
-double logRiseTime(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(timeAtShare(curve, p.at("to"), false) - timeAtShare(curve, p.at("from"), false));
-}
-
-double logFallTime(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(timeAtShare(curve, p.at("to"), true) - timeAtShare(curve, p.at("from"), true));
-}
-
-double logTimeAbove(const Curve& curve, const Parameters& p)
-{
-    return logOfPositive(timeAtShare(curve, p.at("share"), true) - timeAtShare(curve, p.at("share"), false));
 }
 
 std::map<std::string, FeatureKind> makeKinds()
@@ -307,22 +236,34 @@ std::map<std::string, FeatureKind> makeKinds()
     const FeatureKind::Parameter upperFirst{"from", none, "larger share of the largest value"};
     const FeatureKind::Parameter lowerLast{"to", none, "smaller share of it"};
     const std::vector<FeatureKind> all = {
-        {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to}, logMeanRate},
+        {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
+            }},
         {"rateSlope", "d(log rate)/d(share of the first value), from a parabola between two shares", {from, to},
             rateSlope},
         {"logTimeToDischarge", "log of the time until a share has left", {{"share", 0.95, "of the first value"}},
-            logTimeToDischarge},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(
+                    timeAtLevel(curve, (1.0 - p.at("share")) * curve.value.front()) - curve.time.front());
+            }},
         {"logTimeBetween", "log of the time between two shares of the first value", {from, to}, logTimeBetween},
-        {"residue", "last value over first value (not a log)", {}, residue},
+        {"residue", "last value over first value (not a log)", {},
+            [](const Curve& curve, const Parameters& /*unused*/) { return curve.value.back() / curve.value.front(); }},
         {"tailSlope", "slope at the end over the first value [1/s] (not a log)",
             {{"duration", none, "of the part at the end [s]"}}, tailSlope},
-        {"logSpeed", "log of the speed between two positions, by least squares", {start, end}, logSpeed},
+        {"logSpeed", "log of the speed between two positions, by least squares", {start, end},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
+            }},
         {"logMeanSpeed", "log of the way between two positions over its time",
             {start, end, {"gap", 1e30, "of the rows around an end, at most: a larger one has no time, SI units"}},
             logMeanSpeed},
         {"logSpeedRatio", "log of speed in the second half of the way over the first", {start, end}, logSpeedRatio},
         {"logTimeToLevel", "log of the time until a position is reached", {{"level", none, "position, SI units"}},
-            logTimeToLevel},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(timeAtLevel(curve, p.at("level")) - curve.time.front());
+            }},
         {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight},
         {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration},
         {"logImpactSpeed", "log of the speed before the first contact",
@@ -332,18 +273,32 @@ std::map<std::string, FeatureKind> makeKinds()
             {level, {"from", none, "begin of the part, after contact [s]"}, {"after", none, "its end [s]"}},
             logReboundSpeed},
         {"valueAtTime", "value at a time over a scale (not a log)",
-            {{"time", none, "[s]"}, {"scale", none, "a typical value, SI units"}}, valueAtTime},
-        {"logValueAtTime", "log of the value at a time", {{"time", none, "[s]"}}, logValueAtTime},
+            {{"time", none, "[s]"}, {"scale", none, "a typical value, SI units"}},
+            [](const Curve& curve, const Parameters& p) { return valueAt(curve, p.at("time")) / p.at("scale"); }},
+        {"logValueAtTime", "log of the value at a time", {{"time", none, "[s]"}},
+            [](const Curve& curve, const Parameters& p) { return logOfPositive(valueAt(curve, p.at("time"))); }},
         {"logMeanBetween", "log of the mean between two times", {{"from", none, "[s]"}, {"to", none, "[s]"}},
-            logMeanBetween},
-        {"logFinalValue", "log of the last value", {}, logFinalValue},
-        {"logMaximum", "log of the largest value", {}, logMaximum},
+            [](const Curve& curve, const Parameters& p) { return logOfPositive(meanBetween(curve, p)); }},
+        {"logFinalValue", "log of the last value", {},
+            [](const Curve& curve, const Parameters& /*unused*/) { return logOfPositive(curve.value.back()); }},
+        {"logMaximum", "log of the largest value", {},
+            [](const Curve& curve, const Parameters& /*unused*/) {
+                return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
+            }},
         {"logRiseTime", "log of the time between two shares of the largest value, before it", {lowerShare, upperShare},
-            logRiseTime},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(timeAtShare(curve, p.at("to"), false) - timeAtShare(curve, p.at("from"), false));
+            }},
         {"logFallTime", "log of the time between two shares of the largest value, after it", {upperFirst, lowerLast},
-            logFallTime},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(timeAtShare(curve, p.at("to"), true) - timeAtShare(curve, p.at("from"), true));
+            }},
         {"logTimeAbove", "log of the time between a share of the largest value before it and after it",
-            {{"share", 0.5, "of the largest value"}}, logTimeAbove},
+            {{"share", 0.5, "of the largest value"}},
+            [](const Curve& curve, const Parameters& p) {
+                return logOfPositive(
+                    timeAtShare(curve, p.at("share"), true) - timeAtShare(curve, p.at("share"), false));
+            }},
     };
     std::map<std::string, FeatureKind> byName;
     for (const auto& kind : all)

@@ -1,5 +1,6 @@
 #include "heldOut/heldOut.h"
 
+#include "lists.h"
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
 #include "heldOut/draws.h"
@@ -22,17 +23,9 @@ constexpr double largestChange = 0.2; // of control 1's operation on a curve
 
 std::vector<Eigen::Index> logFeatures(const Study& study)
 {
-    std::vector<Eigen::Index> logs;
-    std::vector<Eigen::Index> all;
-    for (std::size_t f = 0; f < study.features.size(); ++f)
-    {
-        all.push_back(static_cast<Eigen::Index>(f));
-        if (study.features[f].kind->isLog())
-        {
-            logs.push_back(all.back());
-        }
-    }
-    return logs.empty() ? all : logs;
+    const auto logs =
+        numbersWhere(study.featureCount(), [&](Eigen::Index f) { return study.features[f].kind->isLog(); });
+    return logs.empty() ? numbersWhere(study.featureCount(), [](Eigen::Index) { return true; }) : logs;
 }
 
 Prediction predictionOf(const Eigen::MatrixXd& features, const Study& study, const Answer& answer)
@@ -43,11 +36,6 @@ Prediction predictionOf(const Eigen::MatrixXd& features, const Study& study, con
     prediction.variance = answer.emulator->noise().diagonal() / seeds + study.modelError.cwiseAbs2();
     prediction.dataCovariance = answer.layout.noise;
     return prediction;
-}
-
-Curve changed(const Study& study, const Curve& curve, double size)
-{
-    return chainOperations().at(study.settings.oneMoreParameter).apply(curve, size);
 }
 
 /// Control 1: one operation on the curves with a free size, fitted together with the parameters, as if it were an effect.
@@ -74,7 +62,7 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
     }
     for (auto& run : runs)
     {
-        run.setting.amplitudes.conservativeResize(static_cast<Eigen::Index>(study.effects.size()));
+        run.setting.amplitudes.conservativeResize(study.effects.size());
         run.setting.amplitudes.tail<1>().setZero();
     }
     const Simulator extended(study, simulator.rig());
@@ -87,12 +75,9 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
 
 Eigen::VectorXd coordinatesOf(const Study& study, std::size_t condition)
 {
-    std::vector<double> values;
-    for (const auto& [name, value] : study.conditions[condition].coordinates)
-    {
-        values.push_back(value);
-    }
-    return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+    auto values =
+        mapped(study.conditions[condition].coordinates, [](const auto& coordinate) { return coordinate.second; });
+    return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 }
 
 /// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates.
@@ -138,11 +123,11 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
         {
             continue;
         }
-        const auto count = static_cast<Eigen::Index>(at.size());
+        const Eigen::Index count = at.size();
         Eigen::MatrixXd coordinates(count, dimensions);
         for (Eigen::Index i = 0; i < count; ++i)
         {
-            coordinates.row(i) = coordinatesOf(study, at[static_cast<std::size_t>(i)]).transpose();
+            coordinates.row(i) = coordinatesOf(study, at[i]).transpose();
         }
         const GaussianProcess process(coordinates, Eigen::Map<Eigen::VectorXd>(residuals.data(), count),
             Eigen::Map<Eigen::VectorXd>(variances.data(), count));
@@ -266,7 +251,8 @@ private:
         {
             if (!simulation.failed)
             {
-                simulation.features = simulator_.featuresOf(changed(study_, simulation.curve, more.size));
+                const auto& operation = chainOperations().at(study_.settings.oneMoreParameter);
+                simulation.features = simulator_.featuresOf(operation.apply(simulation.curve, more.size));
             }
         }
         oneMore_ = scored(predictionsOf(oneMore));
@@ -284,7 +270,7 @@ private:
             right[i].mean = meanFeatures(result_.data[i].features);
         }
         const auto errors = scored(right).draws;
-        const Eigen::Map<const Eigen::ArrayXd> all(errors.data(), static_cast<Eigen::Index>(errors.size()));
+        const Eigen::Map<const Eigen::ArrayXd> all(errors.data(), errors.size());
         result_.noiseFloor = std::sqrt(all.square().mean());
         result_.noiseLimit = quantile(errors, 0.99);
     }
@@ -326,7 +312,7 @@ private:
     static Estimate difference(const Scored& larger, const Scored& smaller)
     {
         const auto drawsOf = [](const Scored& one) {
-            return Eigen::Map<const Eigen::ArrayXd>(one.draws.data(), static_cast<Eigen::Index>(one.draws.size()));
+            return Eigen::Map<const Eigen::ArrayXd>(one.draws.data(), one.draws.size());
         };
         const Eigen::ArrayXd gain = drawsOf(larger) - drawsOf(smaller);
         return {larger.score.rmsLogError.value - smaller.score.rmsLogError.value,

@@ -20,48 +20,31 @@ double largestOf(const Curve& curve)
     return largest;
 }
 
-class Comparison
+void compare(const Study& study, const MeasuredCondition& data, const Simulation& simulation)
 {
-public:
-    Comparison(const Study& study, std::size_t condition)
-        : study_(study),
-          condition_(condition)
-    {}
-
-    void compare(const std::string& what, double measured, double simulated) const
-    {
+    const auto compareNumbers = [&](const std::string& what, double measured, double simulated) {
         const double factor = measured > simulated ? measured / simulated : simulated / measured;
-        if (std::isfinite(factor) && factor > study_.magnitudeLimit)
+        if (std::isfinite(factor) && factor > study.magnitudeLimit)
         {
             throw std::runtime_error(
-                study_.file.string() + ": condition '" + study_.conditions[condition_].name + "': " + what + " is "
-                + textOf(measured) + " measured and " + textOf(simulated)
+                study.file.string() + ": condition '" + study.conditions[simulation.condition].name + "': " + what
+                + " is " + textOf(measured) + " measured and " + textOf(simulated)
                 + " in the first run of the bare model (SI units). Are unit and column right, in 'measured' and in "
                   "'observable'? Where so large a difference is meant, give the study a magnitudeLimit above "
-                + textOf(study_.magnitudeLimit));
+                + textOf(study.magnitudeLimit));
         }
-    }
-
-private:
-    const Study& study_;
-    std::size_t condition_;
-};
-
-void compare(const Study& study, const MeasuredCondition& measured, const Simulation& simulation)
-{
-    const Comparison comparison(study, simulation.condition);
-    for (const auto& curve : measured.curves)
+    };
+    for (const auto& curve : data.curves)
     {
-        comparison.compare("the largest value", largestOf(curve), largestOf(simulation.curve));
+        compareNumbers("the largest value", largestOf(curve), largestOf(simulation.curve));
     }
-    const Eigen::VectorXd features = meanFeatures(measured.features);
+    const Eigen::VectorXd features = meanFeatures(data.features);
     for (std::size_t f = 0; f < study.features.size(); ++f)
     {
-        const auto i = static_cast<Eigen::Index>(f);
         if (study.features[f].kind->isLog())
         {
-            comparison.compare("feature '" + study.features[f].name + "', its logarithm undone,", std::exp(features(i)),
-                std::exp(simulation.features(i)));
+            compareNumbers("feature '" + study.features[f].name + "', its logarithm undone,", std::exp(features(f)),
+                std::exp(simulation.features(f)));
         }
     }
 }

@@ -2,6 +2,7 @@
 
 #include "decision/pairs.h"
 #include "emulator/settings.h"
+#include "lists.h"
 #include "nextRuns/chooseRuns.h"
 
 #include <algorithm>
@@ -44,7 +45,7 @@ public:
     Answer run()
     {
         learn();
-        Eigen::VectorXd around = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
+        Eigen::VectorXd around = Eigen::VectorXd::Zero(study_.parameters.size());
         const int last = answer_.emulator->scatters() ? rounds : roundsOfExact;
         for (int round = 0; round < last; ++round)
         {
@@ -83,7 +84,7 @@ private:
         Setting setting = simulator_.plainSetting(physical(study_, parameters));
         for (const auto& [effect, amplitude] : present)
         {
-            setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+            setting.amplitudes(effect) = amplitude;
         }
         return setting;
     }
@@ -132,7 +133,7 @@ private:
         std::vector<std::pair<double, std::size_t>> order;
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
-            order.emplace_back(odds.effects(static_cast<Eigen::Index>(e)), e);
+            order.emplace_back(odds.effects(e), e);
         }
         std::sort(order.rbegin(), order.rend());
         std::vector<Contender> contenders = {{{}, evidence.fitNull(answer_.measured).parameters, nullWeight}};
@@ -161,7 +162,7 @@ private:
         const Contender centre = contenders.back();
         for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
         {
-            const Parameter& parameter = study_.parameters[static_cast<std::size_t>(p)];
+            const Parameter& parameter = study_.parameters[p];
             const double error = std::sqrt(fits.front().covariance(p, p));
             const double end = (parameter.upper - parameter.mean) / parameter.sd;
             contenders.push_back(centre);
@@ -304,15 +305,14 @@ private:
         answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
-            const auto i = static_cast<Eigen::Index>(e);
             EffectFinding finding;
             finding.known = answer_.emulator->knows(e);
             finding.fit = evidence.fit(e, measured);
             finding.fit = calibration.widened(e, std::move(finding.fit), study_.effects[e].bounds);
             finding.parameters = settingOf({}, finding.fit.parameters).parameters;
-            finding.probability = std::exp(odds.effects(i));
-            finding.logOdds = odds.effects(i) + odds.logOdds;
-            finding.threshold = std::exp(calibration.membership(i));
+            finding.probability = std::exp(odds.effects(e));
+            finding.logOdds = odds.effects(e) + odds.logOdds;
+            finding.threshold = std::exp(calibration.membership(e));
             answer_.effects.push_back(std::move(finding));
         }
         const auto& said = answer_.emulator->remarks();
@@ -335,7 +335,7 @@ private:
             answer_.decision = Decision::unknown;
             answer_.somethingElseInSet = true;
         }
-        else if (sole && marginOf(study_, odds, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole)))
+        else if (sole && marginOf(study_, odds, *sole) >= calibration.naming(*sole))
         {
             answer_.decision = Decision::named;
             answer_.family = answer_.set.size() > 1 ? study_.effects[*sole].family : "";
@@ -355,10 +355,7 @@ private:
         Explanation found;
         found.fits = fits;
         found.probability = probability;
-        for (const auto& one : present)
-        {
-            found.effects.push_back(one.effect);
-        }
+        found.effects = mapped(present, [](const Present& one) { return one.effect; });
         found.setting = settingOf(present, fits.front().parameters);
         found.logOdds = logOdds;
         found.misfit = fits.front().misfit;
@@ -366,9 +363,8 @@ private:
         {
             const auto on = (run.setting.amplitudes.array() != 0.0).count();
             const bool same = on == static_cast<Eigen::Index>(present.size())
-                              && std::all_of(present.begin(), present.end(), [&](const Present& one) {
-                                     return run.setting.amplitudes(static_cast<Eigen::Index>(one.effect)) != 0.0;
-                                 });
+                              && std::all_of(present.begin(), present.end(),
+                                  [&](const Present& one) { return run.setting.amplitudes(one.effect) != 0.0; });
             if (same && !run.simulation.failed && &run >= runs_.data() + librarySize_)
             {
                 found.simulations.push_back(run.simulation);

@@ -4,7 +4,6 @@
 #include "report/numbers.h"
 
 #include <cmath>
-#include <map>
 
 namespace clepsydra::identification
 {
@@ -35,56 +34,45 @@ std::size_t shownCondition(const Study& study, const Effect* effect)
     return trained.front();
 }
 
-/// A fit: where it is, and the standard errors of its parameters (physical) and, by effect of the study, amplitudes.
-struct Fitted
+/// Standard errors of the physical values of an explanation's parameters.
+Eigen::VectorXd parameterErrors(const Study& study, const Explanation& explanation)
 {
-    Setting setting;
-    Eigen::VectorXd parameterErrors;
-    std::map<std::size_t, double> amplitudeErrors;
-};
-
-Eigen::VectorXd physicalErrors(const Study& study, const Eigen::MatrixXd& covariance)
-{
-    Eigen::VectorXd errors(static_cast<Eigen::Index>(study.parameters.size()));
-    for (Eigen::Index i = 0; i < errors.size(); ++i)
+    const Eigen::MatrixXd& covariance = explanation.fits.front().covariance;
+    Eigen::VectorXd errors = Eigen::VectorXd::Zero(study.parameters.size());
+    for (Eigen::Index i = 0; i < covariance.rows(); ++i)
     {
-        const bool known = i < covariance.rows();
-        errors(i) = known ? std::sqrt(covariance(i, i)) * study.parameters[static_cast<std::size_t>(i)].sd : 0.0;
+        errors(i) = std::sqrt(covariance(i, i)) * study.parameters[i].sd;
     }
     return errors;
 }
 
-Fitted fittedOf(const Study& study, const Explanation& explanation)
+/// An amplitude moved by its error, inwards: formulas hold there.
+double movedInwards(double amplitude, double error)
 {
-    Fitted fitted{explanation.setting, physicalErrors(study, explanation.fits.front().covariance), {}};
-    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
-    {
-        fitted.amplitudeErrors[explanation.effects[k]] = explanation.fits[k].sd;
-    }
-    return fitted;
+    return amplitude > 0.0 ? amplitude - error : amplitude + error;
 }
 
-/// An entry at a fit, its error to first order from those of parameters and amplitude.
-Estimate entryAt(const Simulator& simulator, std::size_t condition, const Fitted& fitted, const std::string& entry,
-    const Explanation& explanation)
+/// An entry where an explanation fits, its error to first order from those of parameters and amplitudes.
+Estimate entryAt(
+    const Simulator& simulator, std::size_t condition, const std::string& entry, const Explanation& explanation)
 {
     const auto value = [&](const Setting& setting) { return numbersAt(simulator, condition, setting).at(entry); };
-    Estimate estimate{value(fitted.setting), 0.0};
+    Estimate estimate{value(explanation.setting), 0.0};
     const auto add = [&](const Setting& moved) {
         estimate.standardError = std::hypot(estimate.standardError, value(moved) - estimate.value);
     };
-    for (Eigen::Index i = 0; i < fitted.parameterErrors.size(); ++i)
+    const Eigen::VectorXd errors = parameterErrors(simulator.study(), explanation);
+    for (Eigen::Index i = 0; i < errors.size(); ++i)
     {
-        Setting moved = fitted.setting;
-        moved.parameters(i) += fitted.parameterErrors(i);
+        Setting moved = explanation.setting;
+        moved.parameters(i) += errors(i);
         add(moved);
     }
-    for (const auto e : explanation.effects)
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        Setting moved = fitted.setting;
-        double& amplitude = moved.amplitudes(static_cast<Eigen::Index>(e));
-        const double error = fitted.amplitudeErrors.at(e);
-        amplitude += amplitude > 0.0 ? -error : error; // inwards: formulas hold there
+        Setting moved = explanation.setting;
+        double& amplitude = moved.amplitudes(explanation.effects[k]);
+        amplitude = movedInwards(amplitude, explanation.fits[k].sd);
         add(moved);
     }
     return estimate;
@@ -100,59 +88,51 @@ double sizeOfChain(const Effect& effect, double amplitude)
 std::vector<FittedNumber> fittedNumbers(const Findings& findings)
 {
     const Study& study = *findings.study;
-    const Answer& answer = *findings.answer;
-    const Fitted null = fittedOf(study, answer.null);
-    std::optional<Fitted> best;
-    if (!answer.set.empty())
-    {
-        best = fittedOf(study, answer.set.front());
-    }
+    const Explanation& null = findings.answer->null;
+    const Explanation* best = findings.answer->set.empty() ? nullptr : &findings.answer->set.front();
     std::vector<FittedNumber> all;
-    const auto addEntry = [&](const std::string& entry, std::size_t condition) {
-        const auto at = [&](const Fitted& fitted, const Explanation& explanation) {
-            return entryAt(*findings.simulator, condition, fitted, entry, explanation);
-        };
-        FittedNumber number{entry, "", {}, at(null, answer.null), {}};
-        if (best)
+    const auto add = [&](const std::string& name, const std::string& unit, const std::optional<Estimate>& independent,
+                         auto estimateAt) {
+        all.push_back({name, unit, independent, estimateAt(null), {}});
+        if (best != nullptr)
         {
-            number.after = at(*best, answer.set.front());
+            all.back().after = estimateAt(*best);
         }
-        all.push_back(number);
+    };
+    const auto addEntry = [&](const std::string& entry, const Effect* effect) {
+        add(entry, "", {}, [&](const Explanation& explanation) {
+            return entryAt(*findings.simulator, shownCondition(study, effect), entry, explanation);
+        });
     };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         const Parameter& parameter = study.parameters[p];
-        const auto i = static_cast<Eigen::Index>(p);
-        FittedNumber number{parameter.name, parameter.unit, Estimate{parameter.mean, parameter.sd},
-            {null.setting.parameters(i), null.parameterErrors(i)}, {}};
-        if (best)
-        {
-            number.after = Estimate{best->setting.parameters(i), best->parameterErrors(i)};
-        }
-        all.push_back(number);
+        add(parameter.name, parameter.unit, Estimate{parameter.mean, parameter.sd},
+            [&](const Explanation& explanation) {
+                return Estimate{explanation.setting.parameters(p), parameterErrors(study, explanation)(p)};
+            });
         for (const auto& [entry, formula] : parameter.entries)
         {
             if (formula.text() != parameter.name)
             {
-                addEntry(entry, shownCondition(study, nullptr));
+                addEntry(entry, nullptr);
             }
         }
     }
-    for (const auto e : best ? answer.set.front().effects : std::vector<std::size_t>{})
+    for (std::size_t k = 0; best != nullptr && k < best->effects.size(); ++k)
     {
-        const Effect& effect = study.effects[e];
-        const double amplitude = best->setting.amplitudes(static_cast<Eigen::Index>(e));
+        const Effect& effect = study.effects[best->effects[k]];
         if (effect.isOfChain())
         {
+            const double amplitude = best->setting.amplitudes(best->effects[k]);
             const double size = sizeOfChain(effect, amplitude);
-            const double error = best->amplitudeErrors.at(e);
-            const double inwards = amplitude > 0.0 ? -error : error;
+            const double moved = sizeOfChain(effect, movedInwards(amplitude, best->fits[k].sd));
             all.push_back({effect.chainOperation, chainOperations().at(effect.chainOperation).unit, {}, {0.0, 0.0},
-                Estimate{size, std::abs(sizeOfChain(effect, amplitude + inwards) - size)}});
+                Estimate{size, std::abs(moved - size)}});
         }
         for (const auto& [entry, formula] : effect.entries)
         {
-            addEntry(entry, shownCondition(study, &effect));
+            addEntry(entry, &effect);
         }
     }
     return all;
@@ -165,8 +145,8 @@ std::string sizeInWords(const Findings& findings, const Explanation& explanation
     {
         return "";
     }
-    const Effect& effect = study.effects[explanation.effects.front()];
-    const auto e = static_cast<Eigen::Index>(explanation.effects.front());
+    const std::size_t e = explanation.effects.front();
+    const Effect& effect = study.effects[e];
     if (effect.isOfChain())
     {
         const std::string& unit = chainOperations().at(effect.chainOperation).unit;

@@ -1,5 +1,6 @@
 #include "report/html.h"
 
+#include "lists.h"
 #include "report/numbers.h"
 #include "report/svg.h"
 #include "report/text.h"
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <numeric>
 #include <sstream>
 
 namespace clepsydra::identification
@@ -94,21 +96,12 @@ Bundle bundleOf(const std::vector<Simulation>& simulations, std::size_t conditio
     for (int i = 0; i < points; ++i)
     {
         const double t = begin + (end - begin) * i / (points - 1);
-        std::vector<double> values;
-        values.reserve(curves.size());
-        for (const auto* curve : curves)
-        {
-            values.push_back(valueAt(*curve, t));
-        }
-        double sum = 0.0;
-        for (const double value : values)
-        {
-            sum += value;
-        }
+        const auto values = mapped(curves, [&](const Curve* curve) { return valueAt(*curve, t); });
+        const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
         bundle.time.push_back(t);
-        bundle.mean.push_back(sum / static_cast<double>(values.size()));
-        bundle.lower.push_back(*std::min_element(values.begin(), values.end()));
-        bundle.upper.push_back(*std::max_element(values.begin(), values.end()));
+        bundle.mean.push_back(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
+        bundle.lower.push_back(*lower);
+        bundle.upper.push_back(*upper);
     }
     return bundle;
 }
@@ -143,28 +136,30 @@ std::string curvePlot(const Study& study, std::size_t condition, const std::vect
     return plot.svg();
 }
 
+std::string curvePlots(const Study& study, const std::vector<std::size_t>& conditions,
+    const std::vector<Simulation>& before, const std::vector<Simulation>& after,
+    const std::vector<MeasuredCondition>& measured)
+{
+    std::string html = "<div class=\"plots\">";
+    for (const auto c : conditions)
+    {
+        html += curvePlot(study, c, before, after, measured[c].curves);
+    }
+    return html + "</div>\n";
+}
+
 std::string trainingCurves(const Findings& findings)
 {
     const auto& set = findings.answer->set;
-    std::string html = "<div class=\"plots\">";
-    for (const auto c : findings.study->conditionsOf(Role::training))
-    {
-        html += curvePlot(*findings.study, c, findings.answer->null.simulations,
-            set.empty() ? std::vector<Simulation>{} : set.front().simulations, (*findings.data)[c].curves);
-    }
-    return html + "</div>\n";
+    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training), findings.answer->null.simulations,
+        set.empty() ? std::vector<Simulation>{} : set.front().simulations, *findings.data);
 }
 
 std::string heldOutCurves(const Findings& findings)
 {
     const HeldOutResult& heldOut = *findings.heldOut;
-    std::string html = "<div class=\"plots\">";
-    for (const auto c : heldOut.conditions)
-    {
-        html += curvePlot(*findings.study, c, heldOut.simulations.front(),
-            heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, (*findings.heldOutData)[c].curves);
-    }
-    return html + "</div>\n";
+    return curvePlots(*findings.study, heldOut.conditions, heldOut.simulations.front(),
+        heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, *findings.heldOutData);
 }
 
 //--- Tables ---------------------------------------------------------------------------------------------------------

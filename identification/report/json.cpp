@@ -1,5 +1,6 @@
 #include "report/json.h"
 
+#include "lists.h"
 #include "report/fitted.h"
 #include "report/residual.h"
 #include "report/text.h"
@@ -26,17 +27,17 @@ Json number(double value)
 
 Json numbers(const Eigen::VectorXd& values)
 {
-    Json list = Json::array();
-    for (const double value : values)
-    {
-        list.push_back(number(value));
-    }
-    return list;
+    return mapped(values, number);
 }
 
 Json estimate(const Estimate& value)
 {
     return {{"value", number(value.value)}, {"standardError", number(value.standardError)}};
+}
+
+Json estimateOrNull(const std::optional<Estimate>& value)
+{
+    return value ? estimate(*value) : Json(nullptr);
 }
 
 Json heldOutScore(const HeldOutScore& score)
@@ -50,7 +51,7 @@ Json parametersOf(const Study& study, const Eigen::VectorXd& values)
     Json json = Json::object();
     for (std::size_t i = 0; i < study.parameters.size(); ++i)
     {
-        json[study.parameters[i].name] = values(static_cast<Eigen::Index>(i));
+        json[study.parameters[i].name] = values(i);
     }
     return json;
 }
@@ -60,7 +61,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     Json amplitudes = Json::object();
     for (const auto e : explanation.effects)
     {
-        amplitudes[study.effects[e].name] = explanation.setting.amplitudes(static_cast<Eigen::Index>(e));
+        amplitudes[study.effects[e].name] = explanation.setting.amplitudes(e);
     }
     return {{"name", nameOf(study, explanation)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
@@ -95,7 +96,6 @@ Json effectsJson(const Findings& findings)
     {
         const Effect& effect = study.effects[e];
         const EffectFinding& finding = answer.effects[e];
-        const auto i = static_cast<Eigen::Index>(e);
         list.push_back({{"name", effect.name}, {"meaning", effect.meaning}, {"family", effect.family},
             {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
             {"amplitude", number(finding.fit.amplitude)}, {"standardError", number(finding.fit.sd)},
@@ -104,8 +104,8 @@ Json effectsJson(const Findings& findings)
             {"misfit", number(finding.fit.misfit)}, {"logOdds", number(finding.logOdds)},
             {"probability", number(finding.probability)}, {"probabilityNeeded", number(finding.threshold)},
             {"judged", finding.known}, {"parameters", parametersOf(study, finding.parameters)},
-            {"smallestDetectable", number(answer.visibility.detected(i))},
-            {"smallestNamed", number(answer.visibility.named(i))}, {"howToMeasure", effect.hint}});
+            {"smallestDetectable", number(answer.visibility.detected(e))},
+            {"smallestNamed", number(answer.visibility.named(e))}, {"howToMeasure", effect.hint}});
     }
     std::stable_sort(list.begin(), list.end(),
         [](const Json& a, const Json& b) { return a["probability"].get<double>() > b["probability"].get<double>(); });
@@ -130,15 +130,10 @@ Json residualJson(const Findings& findings)
 
 Json fittedJson(const Findings& findings)
 {
-    Json list = Json::array();
-    for (const auto& number : fittedNumbers(findings))
-    {
-        list.push_back({{"name", number.name}, {"unit", number.unit},
-            {"independent", number.independent ? estimate(*number.independent) : Json(nullptr)},
-            {"withoutEffect", estimate(number.before)},
-            {"withEffect", number.after ? estimate(*number.after) : Json(nullptr)}});
-    }
-    return list;
+    return mapped(fittedNumbers(findings), [](const FittedNumber& number) -> Json {
+        return {{"name", number.name}, {"unit", number.unit}, {"independent", estimateOrNull(number.independent)},
+            {"withoutEffect", estimate(number.before)}, {"withEffect", estimateOrNull(number.after)}};
+    });
 }
 
 /// What was measured on the held-out conditions, and what was predicted: logarithms as what they are of.
@@ -154,8 +149,7 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
                 .cwiseSqrt();
         for (std::size_t f = 0; f < study.features.size(); ++f)
         {
-            const auto k = static_cast<Eigen::Index>(f);
-            if (!std::isfinite(measured(k)))
+            if (!std::isfinite(measured(f)))
             {
                 continue;
             }
@@ -164,11 +158,11 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
                 return isLog ? estimate({std::exp(value), std::exp(value) * sd}) : estimate({value, sd});
             };
             const auto predicted = [&](const Prediction& prediction) {
-                return plain(prediction.mean(k), std::sqrt(prediction.variance(k)));
+                return plain(prediction.mean(f), std::sqrt(prediction.variance(f)));
             };
             list.push_back(
                 {{"condition", study.conditions[result.conditions[i]].name}, {"feature", study.features[f].name},
-                    {"measured", plain(measured(k), error(k))}, {"before", predicted(result.predictedBefore[i])},
+                    {"measured", plain(measured(f), error(f))}, {"before", predicted(result.predictedBefore[i])},
                     {"after", result.after ? predicted(result.predictedAfter[i]) : Json(nullptr)}});
         }
     }
@@ -183,18 +177,12 @@ Json heldOutJson(const Findings& findings)
     }
     const Study& study = *findings.study;
     const HeldOutResult& result = *findings.heldOut;
-    Json names = Json::array();
-    for (const auto c : result.conditions)
-    {
-        names.push_back(study.conditions[c].name);
-    }
-    Json members = Json::array();
-    for (const auto& member : result.members)
-    {
+    const Json names = mapped(result.conditions, [&](std::size_t c) { return study.conditions[c].name; });
+    const Json members = mapped(result.members, [&](const MemberScore& member) {
         Json json = heldOutScore(member.score);
         json["name"] = nameOf(study, findings.answer->set[member.member]);
-        members.push_back(json);
-    }
+        return json;
+    });
     if (result.conditions.empty())
     {
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
@@ -214,12 +202,10 @@ Json heldOutJson(const Findings& findings)
 
 Json runsJson(const Simulator& simulator)
 {
-    Json failures = Json::array();
-    for (const auto& failure : simulator.failures())
-    {
-        failures.push_back({{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
-            {"reason", fromStudy(simulator.study(), failure.reason)}, {"repeatedWithAnotherSeed", failure.repeated}});
-    }
+    const Json failures = mapped(simulator.failures(), [&](const Failure& failure) -> Json {
+        return {{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
+            {"reason", fromStudy(simulator.study(), failure.reason)}, {"repeatedWithAnotherSeed", failure.repeated}};
+    });
     int all = 0;
     for (const auto& [purpose, count] : simulator.runsByPurpose())
     {
@@ -245,9 +231,8 @@ Json nextJson(const Findings& findings)
             Json features = Json::object();
             for (std::size_t f = 0; f < findings.study->features.size(); ++f)
             {
-                const auto i = static_cast<Eigen::Index>(f);
                 features[findings.study->features[f].name] = {
-                    {"value", number(outcome.features(i))}, {"sd", number(outcome.sd(i))}};
+                    {"value", number(outcome.features(f))}, {"sd", number(outcome.sd(f))}};
             }
             outcomes.push_back({{"if", outcome.name}, {"probability", outcome.probability}, {"features", features}});
         }
@@ -283,11 +268,9 @@ Json calibrationJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    Json pairs = Json::array();
-    for (const auto& [i, j] : answer.visibility.alike)
-    {
-        pairs.push_back({study.effects[i].name, study.effects[j].name});
-    }
+    const Json pairs = mapped(answer.visibility.alike, [&](const auto& pair) {
+        return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
+    });
     return {{"critical", number(answer.calibration.critical)}, {"level", study.settings.level},
         {"draws", study.settings.draws}, {"coverage", study.settings.coverage},
         {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfFoils", answer.calibration.wrongNames},
@@ -301,14 +284,6 @@ Json jsonOf(const Findings& findings)
 {
     const Study& study = *findings.study;
     const Answer& answer = *findings.answer;
-    const auto listed = [&](const std::vector<Explanation>& explanations) {
-        Json list = Json::array();
-        for (const auto& explanation : explanations)
-        {
-            list.push_back(explanationJson(study, explanation));
-        }
-        return list;
-    };
     Json json;
     json["study"] = study.name;
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
@@ -318,7 +293,7 @@ Json jsonOf(const Findings& findings)
     json["details"] = detailsOf(findings);
     json["fitted"] = fittedJson(findings);
     json["measureNext"] = nextOf(findings);
-    json["set"] = listed(answer.set);
+    json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.somethingElseInSet;
     json["somethingElse"] = {{"probability", answer.otherProbability}, {"probabilityNeeded", answer.otherThreshold}};

@@ -22,61 +22,39 @@ std::string amplitude(double value, const Effect& effect)
     return std::isfinite(value) && value <= effect.bounds.reach() ? text.str() : "not in range";
 }
 
-/// What an effect leaves of itself when the parameters are fitted without it: the root mean square over conditions, of the
-/// features that are logarithms.
-class ResidualSize
+Eigen::VectorXd meanAt(const Emulator& emulator, const Layout& layout, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters)
 {
-public:
-    ResidualSize(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
-        const Evidence& evidence)
-        : study_(study),
-          emulator_(emulator),
-          layout_(layout),
-          planned_(planned),
-          evidence_(evidence)
-    {}
-
-    double operator()(std::size_t effect, double amplitude) const
+    Eigen::VectorXd mean(layout.rows);
+    for (const auto& block : layout.blocks)
     {
-        const auto parameters = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
-        Measured exact = planned_;
-        exact.mean = meanAt({{effect, amplitude}}, parameters);
-        const Eigen::VectorXd left = exact.mean - meanAt({}, evidence_.fitNull(exact).parameters);
-        double squares = 0.0;
-        double count = 0.0;
-        for (const auto& block : layout_.blocks)
+        mean.segment(block.first, block.size()) = emulator[block.condition]->at(parameters, present)(block.places);
+    }
+    return mean;
+}
+
+/// What effects that are on leave of themselves when the parameters are fitted without them: the root mean square over
+/// conditions, of the features that are logarithms. \param planned  all but its means
+double residualSize(const Study& study, const Emulator& emulator, const Layout& layout, Measured planned,
+    const Evidence& evidence, const std::vector<Present>& present)
+{
+    planned.mean = meanAt(emulator, layout, present, Eigen::VectorXd::Zero(study.parameters.size()));
+    const Eigen::VectorXd left = planned.mean - meanAt(emulator, layout, {}, evidence.fitNull(planned).parameters);
+    double squares = 0.0;
+    double count = 0.0;
+    for (const auto& block : layout.blocks)
+    {
+        for (Eigen::Index k = 0; k < block.size(); ++k)
         {
-            const auto& features = emulator_[block.condition]->features;
-            for (Eigen::Index k = 0; k < block.size(); ++k)
+            if (study.features[emulator[block.condition]->features[block.places[k]]].kind->isLog())
             {
-                const auto f = features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])];
-                if (study_.features[static_cast<std::size_t>(f)].kind->isLog())
-                {
-                    squares += left(block.first + k) * left(block.first + k);
-                    count += 1.0;
-                }
+                squares += left(block.first + k) * left(block.first + k);
+                count += 1.0;
             }
         }
-        return std::sqrt(squares / count);
     }
-
-private:
-    Eigen::VectorXd meanAt(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
-    {
-        Eigen::VectorXd mean(layout_.rows);
-        for (const auto& block : layout_.blocks)
-        {
-            mean.segment(block.first, block.size()) = emulator_[block.condition]->at(parameters, present)(block.places);
-        }
-        return mean;
-    }
-
-    const Study& study_;
-    const Emulator& emulator_;
-    const Layout& layout_;
-    const Measured& planned_;
-    const Evidence& evidence_;
-};
+    return std::sqrt(squares / count);
+}
 
 std::string percentOf(double share)
 {
@@ -88,25 +66,25 @@ std::string percentOf(double share)
 void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
     const Evidence& evidence, const Calibration& calibration, const Visibility& visibility, std::ostream& out)
 {
-    const ResidualSize residualSize(study, emulator, layout, planned, evidence);
     std::vector<double> sizes; // of residuals that get a name
     std::ostringstream table;
     bool someShow = false;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        const auto i = static_cast<Eigen::Index>(e);
         const Effect& effect = study.effects[e];
-        const double named = visibility.named(i);
-        const double size = std::isfinite(named) ? residualSize(e, named) : std::numeric_limits<double>::quiet_NaN();
+        const double named = visibility.named(e);
+        const double size = std::isfinite(named)
+                                ? residualSize(study, emulator, layout, planned, evidence, {{e, named}})
+                                : std::numeric_limits<double>::quiet_NaN();
         if (std::isfinite(size))
         {
             sizes.push_back(size);
         }
-        someShow = someShow || std::isfinite(visibility.detected(i));
+        someShow = someShow || std::isfinite(visibility.detected(e));
         table << std::left << std::setw(24) << effect.name << std::right << std::setw(14)
-              << (emulator.knows(e) ? amplitude(visibility.detected(i), effect) : "its runs failed") << std::setw(14)
+              << (emulator.knows(e) ? amplitude(visibility.detected(e), effect) : "its runs failed") << std::setw(14)
               << amplitude(named, effect) << std::setw(16) << percentOf(size) << std::setw(17)
-              << std::lround(100.0 * visibility.atFullSize(i)) << " %\n";
+              << std::lround(100.0 * visibility.atFullSize(e)) << " %\n";
     }
     std::sort(sizes.begin(), sizes.end());
     out << '\n';
@@ -123,7 +101,7 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
     out << "noise of one measurement:";
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
     {
-        out << ' ' << study.features[static_cast<std::size_t>(f)].name << ' ' << rounded(std::sqrt(layout.noise(f, f)));
+        out << ' ' << study.features[f].name << ' ' << rounded(std::sqrt(layout.noise(f, f)));
     }
     out << " (" << layout.noiseFreedom << " degrees of freedom)\n\n"
         << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "seen from" << std::setw(14)
@@ -141,7 +119,7 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
     }
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
-        if (!std::isfinite(visibility.named(static_cast<Eigen::Index>(e))) && !study.effects[e].hint.empty())
+        if (!std::isfinite(visibility.named(e)) && !study.effects[e].hint.empty())
         {
             out << "  to be measured by itself: " << study.effects[e].name << ": " << study.effects[e].hint << '\n';
         }

@@ -1,5 +1,6 @@
 #include "report/words.h"
 
+#include "lists.h"
 #include "report/fitted.h"
 #include "report/numbers.h"
 #include "report/residual.h"
@@ -44,37 +45,51 @@ std::string meaningOf(const Findings& findings, const Explanation& explanation)
 
 std::vector<std::string> membersOf(const Findings& findings)
 {
-    std::vector<std::string> members;
-    for (const auto& explanation : findings.answer->set)
-    {
-        members.push_back(meaningOf(findings, explanation));
-    }
-    return members;
+    return mapped(findings.answer->set, [&](const Explanation& each) { return meaningOf(findings, each); });
 }
 
-/// Errors of logarithms are shares.
-bool areShares(const Study& study)
+/// Differences of logarithms are shares, which people read in percent.
+struct Scale
 {
-    return std::any_of(
-        study.features.begin(), study.features.end(), [](const Feature& feature) { return feature.kind->isLog(); });
+    explicit Scale(bool isLog)
+        : factor(isLog ? 100.0 : 1.0),
+          unit(isLog ? " %" : "")
+    {}
+
+    std::string operator()(double value) const
+    {
+        return rounded(factor * value) + unit;
+    }
+    std::string operator()(const Estimate& estimate) const
+    {
+        return withError({factor * estimate.value, factor * estimate.standardError}) + unit;
+    }
+
+    double factor;
+    std::string unit;
+};
+
+Scale scaleOf(const Study& study)
+{
+    return Scale(std::any_of(
+        study.features.begin(), study.features.end(), [](const Feature& feature) { return feature.kind->isLog(); }));
 }
 
 std::string errorOf(const Study& study, const HeldOutScore& score)
 {
-    const auto& [value, error] = score.rmsLogError;
-    return areShares(study) ? withError({100.0 * value, 100.0 * error}) + " %" : withError(score.rmsLogError);
+    return scaleOf(study)(score.rmsLogError);
 }
 
 /// "falls from 35 to 2.1 %"
 std::string changeOf(const Study& study, const HeldOutResult& heldOut)
 {
-    const double unit = areShares(study) ? 100.0 : 1.0;
+    const Scale scale = scaleOf(study);
     const double sure = 2.0 * heldOut.improvement.standardError;
     return std::string(heldOut.improvement.value > sure    ? "falls from "
                        : heldOut.improvement.value < -sure ? "rises from "
                                                            : "stays about the same: ")
-           + rounded(unit * heldOut.before.rmsLogError.value) + " to "
-           + rounded(unit * heldOut.after->rmsLogError.value) + (areShares(study) ? " %" : "");
+           + rounded(scale.factor * heldOut.before.rmsLogError.value) + " to "
+           + scale(heldOut.after->rmsLogError.value);
 }
 
 bool isHeldOut(const HeldOutResult* heldOut)
@@ -131,7 +146,7 @@ std::vector<std::string> strained(const Findings& findings)
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         const Parameter& parameter = study.parameters[p];
-        const double value = findings.answer->null.setting.parameters(static_cast<Eigen::Index>(p));
+        const double value = findings.answer->null.setting.parameters(p);
         const double sds = std::abs(value - parameter.mean) / parameter.sd;
         if (sds > far)
         {
@@ -150,11 +165,8 @@ std::string chanceInWords(const Answer& answer)
 std::string probabilitiesInWords(const Findings& findings)
 {
     const Answer& answer = *findings.answer;
-    std::vector<std::string> shares;
-    for (const auto& explanation : answer.set)
-    {
-        shares.push_back(meaningOf(findings, explanation) + ' ' + percent(explanation.probability));
-    }
+    auto shares = mapped(answer.set,
+        [&](const Explanation& each) { return meaningOf(findings, each) + ' ' + percent(each.probability); });
     shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherProbability));
     return "How likely: " + joined(shares, ", ") + '.';
 }
@@ -170,8 +182,8 @@ std::string heldOutInWords(const Findings& findings)
         text += errorOf(study, *heldOut.after) + " with the likeliest effect, ";
     }
     return text + errorOf(study, heldOut.oneMoreParameter)
-           + " with one more free parameter in its place; noise alone gives "
-           + rounded((areShares(study) ? 100.0 : 1.0) * heldOut.noiseFloor) + (areShares(study) ? " %." : ".");
+           + " with one more free parameter in its place; noise alone gives " + scaleOf(study)(heldOut.noiseFloor)
+           + '.';
 }
 
 } // namespace
@@ -260,14 +272,13 @@ std::vector<std::string> nextOf(const Findings& findings)
         const Eigen::ArrayXd apart = (outcomes[0].features - outcomes[1].features).array()
                                      / (outcomes[0].sd.array().square() + outcomes[1].sd.array().square()).sqrt();
         apart.isFinite().select(apart.abs(), 0.0).maxCoeff(&best);
-        const Feature& feature = study.features[static_cast<std::size_t>(best)];
+        const Feature& feature = study.features[best];
         const double difference = outcomes[0].features(best) - outcomes[1].features(best);
-        const double unit = feature.kind->isLog() ? 100.0 : 1.0;
-        const std::string percentSign = feature.kind->isLog() ? " %" : "";
-        all.push_back("Measure " + candidate->name + ": '" + feature.name + "' there is "
-                      + rounded(unit * std::abs(difference)) + percentSign + (difference > 0.0 ? " larger" : " smaller")
-                      + " with " + outcomes[0].name + " than with " + outcomes[1].name + "; one measurement is good to "
-                      + rounded(unit * std::max(outcomes[0].sd(best), outcomes[1].sd(best))) + percentSign + '.');
+        const Scale scale(feature.kind->isLog());
+        all.push_back("Measure " + candidate->name + ": '" + feature.name + "' there is " + scale(std::abs(difference))
+                      + (difference > 0.0 ? " larger" : " smaller") + " with " + outcomes[0].name + " than with "
+                      + outcomes[1].name + "; one measurement is good to "
+                      + scale(std::max(outcomes[0].sd(best), outcomes[1].sd(best))) + '.');
     }
     if (findings.answer->decision == Decision::unknown)
     {
@@ -278,11 +289,8 @@ std::vector<std::string> nextOf(const Findings& findings)
                        < std::abs(b.estimate.value) / b.estimate.standardError;
             });
         const Feature& feature = study.features[largest->feature];
-        const double unit = feature.kind->isLog() ? 100.0 : 1.0;
         all.push_back("It shows most in " + study.conditions[largest->condition].name + ", '" + feature.name
-                      + "': measured minus simulated is "
-                      + withError({unit * largest->estimate.value, unit * largest->estimate.standardError})
-                      + (feature.kind->isLog() ? " %." : "."));
+                      + "': measured minus simulated is " + Scale(feature.kind->isLog())(largest->estimate) + '.');
     }
     for (const auto& explanation : findings.answer->set)
     {

@@ -57,10 +57,9 @@ bool isLaterTime(const std::string& name)
 /// What git would not carry: results of earlier runs in the case are no part of it.
 bool isOutput(const std::string& name)
 {
-    static const std::vector<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "checkpoints"};
-    return std::find(outputs.begin(), outputs.end(), name) != outputs.end() || isLaterTime(name)
-           || name.rfind("log.", 0) == 0 || name.rfind("processor", 0) == 0
-           || (name.size() > 5 && name.substr(name.size() - 5) == ".work");
+    static const std::set<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "checkpoints"};
+    return outputs.count(name) > 0 || isLaterTime(name) || name.rfind("log.", 0) == 0 || name.rfind("processor", 0) == 0
+           || fs::path(name).extension() == ".work";
 }
 
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)

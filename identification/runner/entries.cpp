@@ -52,15 +52,21 @@ std::optional<EntryLine> entryLine(const std::string& line)
         stripped(line.substr(value, valueEnd - value)), line.substr(valueEnd)};
 }
 
-} // namespace
-
-Entries readEntries(const std::filesystem::path& file)
+std::ifstream opened(const std::filesystem::path& file)
 {
     std::ifstream lines(file);
     if (!lines)
     {
         throw std::runtime_error(file.string() + ": cannot be read");
     }
+    return lines;
+}
+
+} // namespace
+
+Entries readEntries(const std::filesystem::path& file)
+{
+    std::ifstream lines = opened(file);
     Entries entries;
     for (std::string line; std::getline(lines, line);)
     {
@@ -74,11 +80,7 @@ Entries readEntries(const std::filesystem::path& file)
 
 void replaceEntries(const std::filesystem::path& file, const Entries& changes)
 {
-    std::ifstream lines(file);
-    if (!lines)
-    {
-        throw std::runtime_error(file.string() + ": cannot be read");
-    }
+    std::ifstream lines = opened(file);
     std::ostringstream changed;
     std::set<std::string> done;
     for (std::string line; std::getline(lines, line);)

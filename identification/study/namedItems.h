@@ -1,5 +1,6 @@
 #pragma once
 
+#include "lists.h"
 #include "study/yaml.h"
 
 #include <algorithm>
@@ -14,9 +15,7 @@ namespace clepsydra::identification
 template<class Item>
 std::vector<std::string> namesOfItems(const std::vector<Item>& items)
 {
-    std::vector<std::string> names(items.size());
-    std::transform(items.begin(), items.end(), names.begin(), [](const Item& item) { return item.name; });
-    return names;
+    return mapped(items, [](const Item& item) { return item.name; });
 }
 
 /// Which item a place names. \throws StudyError that lists them
@@ -24,7 +23,7 @@ template<class Item>
 std::size_t indexOf(const YamlPlace& place, const std::vector<Item>& items)
 {
     const auto names = namesOfItems(items);
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), place.oneOf(names)) - names.begin());
+    return std::find(names.begin(), names.end(), place.oneOf(names)) - names.begin();
 }
 
 /// \throws StudyError where an item before the last has the last one's name. \param kind  as "effects"
@@ -37,6 +36,19 @@ void requireOwnName(const YamlPlace& place, const std::vector<Item>& items, cons
         (place.has("name") ? place.at("name") : place)
             .fail("there are two " + kind + " named '" + name + "': give them names of their own");
     }
+}
+
+/// The items of a list, each with a name of its own. \param read  makes one item of its place
+template<class Read>
+auto readNamed(const YamlPlace& list, const std::string& kind, Read read)
+{
+    std::vector<decltype(read(list))> items;
+    for (const auto& place : list.list())
+    {
+        items.push_back(read(place));
+        requireOwnName(place, items, kind);
+    }
+    return items;
 }
 
 } // namespace clepsydra::identification

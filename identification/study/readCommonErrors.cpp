@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <tuple>
 
 namespace clepsydra::identification
 {
@@ -17,13 +17,11 @@ namespace
 
 std::vector<std::size_t> readConditions(const YamlPlace& place, const Study& study)
 {
-    std::vector<std::size_t> chosen;
     if (!place.has("conditions"))
     {
-        chosen.resize(study.conditions.size());
-        std::iota(chosen.begin(), chosen.end(), std::size_t{0});
-        return chosen;
+        return numbersWhere(study.conditions.size(), [](std::size_t) { return true; });
     }
+    std::vector<std::size_t> chosen;
     for (const auto& each : place.at("conditions").oneOrMore())
     {
         chosen.push_back(indexOf(each, study.conditions));
@@ -112,10 +110,8 @@ CommonError readError(const YamlPlace& place, const Study& study)
     }
     else if (place.has("chain"))
     {
-        const auto [operation, size] = readChain(place.at("chain"));
-        error.chainOperation = operation;
-        error.chainSize = size;
-        checkAtZero(place.at("chain"), size, {}, 0.0);
+        std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
+        checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0);
     }
     else
     {

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace clepsydra::identification
 {
@@ -59,13 +60,7 @@ ColumnSpecification readColumn(const YamlPlace& place)
     column.offset = place.numberOr("offset", 0.0);
     if (place.has("valid"))
     {
-        const auto ends = place.at("valid").list();
-        if (ends.size() != 2 || ends[0].number() >= ends[1].number())
-        {
-            place.at("valid").fail("must be [lowest, highest], in SI units");
-        }
-        column.lowest = ends[0].number();
-        column.highest = ends[1].number();
+        std::tie(column.lowest, column.highest) = place.at("valid").range("[lowest, highest], in SI units");
     }
     return column;
 }
@@ -103,22 +98,14 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
             }
         }
         const auto column = [&](const std::string& key) {
-            if (!place.has(key) && root.has("measured") && root.at("measured").has(key))
-            {
-                return readColumn(root.at("measured").at(key));
-            }
-            return readColumn(place.at(key));
+            const auto ofAll = root.optional("measured");
+            return readColumn(!place.has(key) && ofAll.has(key) ? ofAll.at(key) : place.at(key));
         };
         measured.time = column("time");
         measured.value = column("value");
     }
-    if (place.has("numbers"))
-    {
-        for (const auto& number : place.at("numbers").list())
-        {
-            measured.numbers.push_back(readNumber(number, study));
-        }
-    }
+    measured.numbers =
+        mapped(place.optional("numbers").list(), [&](const YamlPlace& number) { return readNumber(number, study); });
     if (measured.empty())
     {
         place.fail("needs 'files' or 'numbers'");
@@ -136,14 +123,11 @@ Role roleOf(const YamlPlace& place)
 ObservableScale readScale(
     const YamlPlace& root, const YamlPlace& place, const RigSpecification& rig, const Condition& condition)
 {
-    if (place.has("observable"))
-    {
-        place.at("observable").allow({"factor", "offset"});
-    }
+    const auto own = place.optional("observable");
+    own.allow({"factor", "offset"});
     const auto numbers = numbersOf(plainEntries(rig, condition));
     const auto read = [&](const std::string& key, Expression& formula) {
-        const bool isOwn = place.has("observable") && place.at("observable").has(key);
-        const YamlPlace parent = isOwn ? place.at("observable") : root.at("observable");
+        const YamlPlace parent = own.has(key) ? own : root.at("observable");
         if (parent.has(key))
         {
             formula = readFormula(parent.at(key));
@@ -167,25 +151,16 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     condition.role = roleOf(place.at("role"));
     condition.command = place.textOr("command", "");
     condition.file = place.textOr("file", root.at("observable").at("file").text());
-    condition.cost = place.has("cost") ? place.at("cost").positive() : 1.0;
-    if (place.has("set"))
-    {
-        condition.entries = readValues(place.at("set"), study.rig);
-    }
+    condition.cost = place.positiveOr("cost", 1.0);
+    condition.entries = readValues(place.optional("set"), study.rig);
     condition.observable = readScale(root, place, study.rig, condition);
-    if (place.has("tags"))
+    for (const auto& [tag, value] : place.optional("tags").map())
     {
-        for (const auto& [tag, value] : place.at("tags").map())
-        {
-            condition.tags[tag] = value.text();
-        }
+        condition.tags[tag] = value.text();
     }
-    if (place.has("coordinates"))
+    for (const auto& [name, value] : place.optional("coordinates").map())
     {
-        for (const auto& [name, value] : place.at("coordinates").map())
-        {
-            condition.coordinates[name] = value.number();
-        }
+        condition.coordinates[name] = value.number();
     }
     if (place.has("measured"))
     {
@@ -208,30 +183,22 @@ void readObservable(const YamlPlace& place, Study& study)
     study.timeColumn = place.textOr("time", "time");
     study.valueColumn = place.at("value").text();
     std::vector<double> errors;
-    for (const auto& each : place.at("features").list())
-    {
+    study.features = readNamed(place.at("features"), "features", [&](const YamlPlace& each) {
         errors.push_back(place.numberOr("modelError", 0.0));
-        study.features.push_back(readFeature(each, errors.back()));
-        requireOwnName(each, study.features, "features");
-    }
+        return readFeature(each, errors.back());
+    });
     if (study.features.empty())
     {
         place.at("features").fail("needs at least one");
     }
-    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), static_cast<Eigen::Index>(errors.size()));
+    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), errors.size());
 }
 
 void readConditions(const YamlPlace& root, Study& study)
 {
-    if (root.has("measured"))
-    {
-        root.at("measured").allow({"time", "value"});
-    }
-    for (const auto& place : root.at("conditions").list())
-    {
-        study.conditions.push_back(readCondition(place, study, root));
-        requireOwnName(place, study.conditions, "conditions");
-    }
+    root.optional("measured").allow({"time", "value"});
+    study.conditions = readNamed(
+        root.at("conditions"), "conditions", [&](const YamlPlace& place) { return readCondition(place, study, root); });
     if (study.conditionsOf(Role::training).empty())
     {
         root.at("conditions").fail("at least one condition needs 'role: training'");

@@ -3,8 +3,9 @@
 #include "study/readFormula.h"
 #include "study/readStudy.h"
 
-#include <algorithm>
+#include <functional>
 #include <stdexcept>
+#include <tuple>
 
 namespace clepsydra::identification
 {
@@ -76,7 +77,7 @@ Effect readEffect(const YamlPlace& place)
     effect.family = place.textOr("family", "");
     effect.isSwitch = place.flagOr("switch", false);
     effect.raisesScatter = place.flagOr("scatter", false);
-    effect.prior = place.has("prior") ? place.at("prior").positive() : 1.0;
+    effect.prior = place.positiveOr("prior", 1.0);
     if (place.has("set") == place.has("chain"))
     {
         place.fail("needs either 'set' (entries of the case) or 'chain' (the measuring chain)");
@@ -87,9 +88,7 @@ Effect readEffect(const YamlPlace& place)
     }
     else
     {
-        const auto [operation, size] = readChain(place.at("chain"));
-        effect.chainOperation = operation;
-        effect.chainSize = size;
+        std::tie(effect.chainOperation, effect.chainSize) = readChain(place.at("chain"));
     }
     if (effect.raisesScatter && effect.isOfChain())
     {
@@ -104,15 +103,9 @@ Effect readEffect(const YamlPlace& place)
         }
         effect.bounds = readBounds(place.at("amplitude"));
     }
-    if (place.has("actsIn"))
+    for (const auto& [tag, values] : place.optional("actsIn").map())
     {
-        for (const auto& [tag, values] : place.at("actsIn").map())
-        {
-            for (const auto& value : values.oneOrMore())
-            {
-                effect.actsIn[tag].push_back(value.text());
-            }
-        }
+        effect.actsIn[tag] = mapped(values.oneOrMore(), std::mem_fn(&YamlPlace::text));
     }
     return effect;
 }
@@ -121,13 +114,7 @@ Effect readEffect(const YamlPlace& place)
 
 std::vector<Effect> readEffects(const YamlPlace& list)
 {
-    std::vector<Effect> effects;
-    for (const auto& place : list.list())
-    {
-        effects.push_back(readEffect(place));
-        requireOwnName(place, effects, "effects");
-    }
-    return effects;
+    return readNamed(list, "effects", readEffect);
 }
 
 } // namespace clepsydra::identification

@@ -10,6 +10,8 @@
 #include "words/didYouMean.h"
 
 #include <algorithm>
+#include <functional>
+#include <tuple>
 
 namespace clepsydra::identification
 {
@@ -28,17 +30,14 @@ RigSpecification readRig(const YamlPlace& place)
     rig.seedEntry = place.at("seed").text() == "none" ? "" : place.at("seed").text();
     rig.version = place.textOr("version", "");
     rig.keepRuns = place.flagOr("keepRuns", false);
-    rig.costPerRun = place.has("costPerRun") ? place.at("costPerRun").positive() : rig.costPerRun;
-    rig.timeLimit = place.has("timeLimit") ? place.at("timeLimit").positive() : 0.0;
-    if (place.has("dependsOn"))
+    rig.costPerRun = place.positiveOr("costPerRun", rig.costPerRun);
+    rig.timeLimit = place.positiveOr("timeLimit", 0.0);
+    for (const auto& file : place.optional("dependsOn").oneOrMore())
     {
-        for (const auto& file : place.at("dependsOn").oneOrMore())
+        rig.dependsOn.push_back(file.path());
+        if (!std::filesystem::exists(rig.dependsOn.back()))
         {
-            rig.dependsOn.push_back(file.path());
-            if (!std::filesystem::exists(rig.dependsOn.back()))
-            {
-                file.fail("no such file: " + rig.dependsOn.back().string());
-            }
+            file.fail("no such file: " + rig.dependsOn.back().string());
         }
     }
     if (!std::filesystem::is_regular_file(rig.caseFolder / rig.entriesFile))
@@ -49,10 +48,7 @@ RigSpecification readRig(const YamlPlace& place)
     {
         requireEntry(place.at("seed"), rig.seedEntry, rig);
     }
-    if (place.has("set"))
-    {
-        rig.entries = readValues(place.at("set"), rig);
-    }
+    rig.entries = readValues(place.optional("set"), rig);
     return rig;
 }
 
@@ -70,13 +66,7 @@ Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
     place.at("prior").allow({"mean", "sd"});
     parameter.mean = place.at("prior").at("mean").number();
     parameter.sd = place.at("prior").at("sd").positive();
-    const auto range = place.at("range").list();
-    if (range.size() != 2 || range[0].number() >= range[1].number())
-    {
-        place.at("range").fail("must be [lowest, highest]");
-    }
-    parameter.lower = range[0].number();
-    parameter.upper = range[1].number();
+    std::tie(parameter.lower, parameter.upper) = place.at("range").range("[lowest, highest]");
     if (parameter.mean <= parameter.lower || parameter.mean >= parameter.upper)
     {
         place.at("prior").at("mean").fail("must lie within the range");
@@ -123,41 +113,30 @@ void readAllEffects(const YamlPlace& root, Study& study)
             }
         }
     };
-    if (root.has("effectsFrom"))
+    for (const auto& file : root.optional("effectsFrom").oneOrMore())
     {
-        for (const auto& file : root.at("effectsFrom").oneOrMore())
+        const auto library = YamlPlace::fileAt(file.path());
+        library.allow({"about", "effects"});
+        add(possible(readEffects(library.at("effects")), study));
+    }
+    const auto own = readEffects(root.optional("effects"));
+    for (std::size_t i = 0; i < own.size(); ++i)
+    {
+        for (const auto& entry : missingEntries(own[i], ownEntries(study.rig)))
         {
-            const auto library = YamlPlace::fileAt(file.path());
-            library.allow({"about", "effects"});
-            add(possible(readEffects(library.at("effects")), study));
+            requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.rig);
         }
     }
-    if (root.has("effects"))
-    {
-        const auto own = readEffects(root.at("effects"));
-        for (std::size_t i = 0; i < own.size(); ++i)
-        {
-            for (const auto& entry : missingEntries(own[i], ownEntries(study.rig)))
-            {
-                requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.rig);
-            }
-        }
-        add(own);
-    }
+    add(own);
     const auto chosen = [&](const std::string& key, bool keepListed) {
         if (!root.has(key))
         {
             return;
         }
-        std::vector<std::string> names;
-        for (const auto& name : root.at(key).oneOrMore())
-        {
-            names.push_back(name.oneOf(namesOfItems(all)));
-        }
+        const auto names =
+            mapped(root.at(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(namesOfItems(all)); });
         all.erase(std::remove_if(all.begin(), all.end(),
-                      [&](const Effect& effect) {
-                          return (std::find(names.begin(), names.end(), effect.name) != names.end()) != keepListed;
-                      }),
+                      [&](const Effect& effect) { return contains(names, effect.name) != keepListed; }),
             all.end());
     };
     chosen("onlyEffects", true);
@@ -167,49 +146,38 @@ void readAllEffects(const YamlPlace& root, Study& study)
 
 void readSettings(const YamlPlace& root, Settings& settings)
 {
-    if (root.has("budget"))
-    {
-        root.at("budget").allow({"runs"});
-        settings.budget = root.at("budget").countOr("runs", settings.budget, 1);
-    }
+    const auto budget = root.optional("budget");
+    budget.allow({"runs"});
+    settings.budget = budget.countOr("runs", settings.budget, 1);
     settings.seed = static_cast<unsigned>(root.countOr("seed", static_cast<int>(settings.seed), 0));
-    if (root.has("repeats"))
-    {
-        const auto place = root.at("repeats");
-        place.allow({"base", "alone", "deciding", "heldOut"});
-        settings.repeatsBase = place.countOr("base", settings.repeatsBase, 2);
-        settings.repeatsAlone = place.countOr("alone", settings.repeatsAlone, 1);
-        settings.decidingRuns = place.countOr("deciding", settings.decidingRuns, 0);
-        settings.repeatsHeldOut = place.countOr("heldOut", settings.repeatsHeldOut, 1);
-    }
-    if (root.has("failures"))
-    {
-        const auto place = root.at("failures");
-        place.allow({"attempts", "then"});
-        settings.attempts = place.countOr("attempts", settings.attempts, 1);
-        settings.onFailure = place.has("then") ? place.at("then").oneOf({"exclude", "stop"}) : settings.onFailure;
-    }
-    if (root.has("inference"))
-    {
-        const auto place = root.at("inference");
-        place.allow({"level", "draws", "coverage", "wrongNames", "otherWeight", "oneMoreParameter"});
-        const auto share = [&](const std::string& key, double byDefault, const std::string& example) {
-            const double value = place.has(key) ? place.at(key).positive() : byDefault;
-            if (value >= 1.0)
-            {
-                place.at(key).fail("must be below 1, not " + place.at(key).text() + ": " + example);
-            }
-            return value;
-        };
-        settings.level = share("level", settings.level, ".05 for 5 %");
-        settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
-        settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
-        settings.draws = place.countOr("draws", settings.draws, 100);
-        settings.otherWeight = place.has("otherWeight") ? place.at("otherWeight").positive() : settings.otherWeight;
-        if (place.has("oneMoreParameter"))
+    const auto repeats = root.optional("repeats");
+    repeats.allow({"base", "alone", "deciding", "heldOut"});
+    settings.repeatsBase = repeats.countOr("base", settings.repeatsBase, 2);
+    settings.repeatsAlone = repeats.countOr("alone", settings.repeatsAlone, 1);
+    settings.decidingRuns = repeats.countOr("deciding", settings.decidingRuns, 0);
+    settings.repeatsHeldOut = repeats.countOr("heldOut", settings.repeatsHeldOut, 1);
+    const auto failures = root.optional("failures");
+    failures.allow({"attempts", "then"});
+    settings.attempts = failures.countOr("attempts", settings.attempts, 1);
+    settings.onFailure = failures.has("then") ? failures.at("then").oneOf({"exclude", "stop"}) : settings.onFailure;
+    const auto inference = root.optional("inference");
+    inference.allow({"level", "draws", "coverage", "wrongNames", "otherWeight", "oneMoreParameter"});
+    const auto share = [&](const std::string& key, double byDefault, const std::string& example) {
+        const double value = inference.positiveOr(key, byDefault);
+        if (value >= 1.0)
         {
-            settings.oneMoreParameter = place.at("oneMoreParameter").oneOf(namesOf(chainOperations()));
+            inference.at(key).fail("must be below 1, not " + inference.at(key).text() + ": " + example);
         }
+        return value;
+    };
+    settings.level = share("level", settings.level, ".05 for 5 %");
+    settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
+    settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
+    settings.draws = inference.countOr("draws", settings.draws, 100);
+    settings.otherWeight = inference.positiveOr("otherWeight", settings.otherWeight);
+    if (inference.has("oneMoreParameter"))
+    {
+        settings.oneMoreParameter = inference.at("oneMoreParameter").oneOf(namesOf(chainOperations()));
     }
 }
 
@@ -219,16 +187,13 @@ ExecutorSpecification readExecutor(const YamlPlace& place)
     ExecutorSpecification executor;
     executor.kind = place.has("kind") ? place.at("kind").oneOf({"pool", "slurm"}) : executor.kind;
     executor.processes = place.countOr("processes", 0, 1);
-    if (place.has("options"))
+    for (const auto& word : place.optional("options").oneOrMore())
     {
-        for (const auto& word : place.at("options").oneOrMore())
+        executor.options.push_back(word.text());
+        if (executor.options.back().find_first_of(" \t\n") != std::string::npos)
         {
-            executor.options.push_back(word.text());
-            if (executor.options.back().find_first_of(" \t\n") != std::string::npos)
-            {
-                word.fail("holds blanks; allowed: a list of words, each given to sbatch as it is: "
-                          "[--partition=short, --mem=4G]");
-            }
+            word.fail("holds blanks; allowed: a list of words, each given to sbatch as it is: "
+                      "[--partition=short, --mem=4G]");
         }
     }
     return executor;
@@ -248,14 +213,8 @@ Study readStudy(const std::filesystem::path& file)
     study.rig = readRig(root.at("rig"));
     readObservable(root.at("observable"), study);
     readConditions(root, study);
-    if (root.has("parameters"))
-    {
-        for (const auto& place : root.at("parameters").list())
-        {
-            study.parameters.push_back(readParameter(place, study.rig));
-            requireOwnName(place, study.parameters, "parameters");
-        }
-    }
+    study.parameters = readNamed(root.optional("parameters"), "parameters",
+        [&](const YamlPlace& place) { return readParameter(place, study.rig); });
     readAllEffects(root, study);
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
@@ -265,24 +224,12 @@ Study readStudy(const std::filesystem::path& file)
             study.parameters[p].effect = indexOf(place.at("of"), study.effects);
         }
     }
-    if (root.has("commonErrors"))
-    {
-        study.commonErrors = readCommonErrors(root.at("commonErrors"), study);
-    }
+    study.commonErrors = readCommonErrors(root.optional("commonErrors"), study);
     readSettings(root, study.settings);
-    if (root.has("executor"))
-    {
-        study.executor = readExecutor(root.at("executor"));
-    }
+    study.executor = readExecutor(root.optional("executor"));
     study.work = root.has("work") ? root.at("work").path()
                                   : std::filesystem::absolute(file).parent_path() / (study.name + ".work");
-    if (root.has("assumptions"))
-    {
-        for (const auto& place : root.at("assumptions").list())
-        {
-            study.assumptions.push_back(place.text());
-        }
-    }
+    study.assumptions = mapped(root.optional("assumptions").list(), std::mem_fn(&YamlPlace::text));
     study.magnitudeLimit = root.numberOr("magnitudeLimit", study.magnitudeLimit);
     if (study.magnitudeLimit <= 1.0)
     {

@@ -1,7 +1,9 @@
 #include "study/units.h"
 
+#include "lists.h"
 #include "words/didYouMean.h"
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 
@@ -15,32 +17,33 @@ struct Unit
 {
     double si;
     std::string quantity;
+    std::vector<std::string> otherNames = {};
 };
 
 const std::map<std::string, Unit>& units()
 {
     static const std::map<std::string, Unit> all = {
-        {"s", {1.0, "time"}},
-        {"ms", {1e-3, "time"}},
-        {"min", {60.0, "time"}},
+        {"s", {1.0, "time", {"sec", "secs", "second", "seconds"}}},
+        {"ms", {1e-3, "time", {"msec"}}},
+        {"min", {60.0, "time", {"minutes"}}},
         {"h", {3600.0, "time"}},
         {"kg", {1.0, "mass"}},
-        {"g", {1e-3, "mass"}},
+        {"g", {1e-3, "mass", {"gram", "grams", "gr"}}},
         {"mg", {1e-6, "mass"}},
-        {"m", {1.0, "length"}},
+        {"m", {1.0, "length", {"meter", "metre"}}},
         {"cm", {1e-2, "length"}},
         {"mm", {1e-3, "length"}},
-        {"um", {1e-6, "length"}},
-        {"kg/s", {1.0, "mass rate"}},
-        {"g/s", {1e-3, "mass rate"}},
+        {"um", {1e-6, "length", {"\xC2\xB5m"}}},
+        {"kg/s", {1.0, "mass rate", {"kg_s"}}},
+        {"g/s", {1e-3, "mass rate", {"g_s"}}},
         {"g/min", {1e-3 / 60.0, "mass rate"}},
-        {"m/s", {1.0, "speed"}},
-        {"cm/s", {1e-2, "speed"}},
-        {"mm/s", {1e-3, "speed"}},
+        {"m/s", {1.0, "speed", {"m_s"}}},
+        {"cm/s", {1e-2, "speed", {"cm_s"}}},
+        {"mm/s", {1e-3, "speed", {"mm_s"}}},
         {"Pa", {1.0, "pressure"}},
         {"kPa", {1e3, "pressure"}},
         {"1", {1.0, "share"}},
-        {"%", {1e-2, "share"}},
+        {"%", {1e-2, "share", {"percent"}}},
     };
     return all;
 }
@@ -65,32 +68,9 @@ std::string quantityOf(const std::string& unit)
 
 std::string unitMeant(const std::string& text)
 {
-    static const std::map<std::string, std::string> otherNames = {
-        {"sec", "s"},
-        {"secs", "s"},
-        {"second", "s"},
-        {"seconds", "s"},
-        {"msec", "ms"},
-        {"minutes", "min"},
-        {"gram", "g"},
-        {"grams", "g"},
-        {"gr", "g"},
-        {"meter", "m"},
-        {"metre", "m"},
-        {"\xC2\xB5m", "um"},
-        {"percent", "%"},
-        {"m_s", "m/s"},
-        {"cm_s", "cm/s"},
-        {"mm_s", "mm/s"},
-        {"g_s", "g/s"},
-        {"kg_s", "kg/s"},
-    };
-    if (units().count(text) > 0)
-    {
-        return text;
-    }
-    const auto found = otherNames.find(text);
-    return found == otherNames.end() ? "" : found->second;
+    const auto isMeant = [&](const auto& unit) { return unit.first == text || contains(unit.second.otherNames, text); };
+    const auto found = std::find_if(units().begin(), units().end(), isMeant);
+    return found == units().end() ? "" : found->first;
 }
 
 } // namespace clepsydra::identification

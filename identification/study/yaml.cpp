@@ -1,11 +1,12 @@
 #include "study/yaml.h"
 
+#include "lists.h"
 #include "words/didYouMean.h"
 
-#include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <utility>
 
 namespace clepsydra::identification
@@ -66,19 +67,13 @@ std::string YamlPlace::toBeFilledIn() const
     {
         places = where() + node_.Scalar() + '\n';
     }
-    if (node_.IsSequence())
+    for (const auto& each : node_.IsSequence() ? list() : std::vector<YamlPlace>{})
     {
-        for (const auto& each : list())
-        {
-            places += each.toBeFilledIn();
-        }
+        places += each.toBeFilledIn();
     }
-    if (node_.IsMap())
+    for (const auto& [key, value] : node_.IsMap() ? map() : decltype(map()){})
     {
-        for (const auto& [key, value] : map())
-        {
-            places += value.toBeFilledIn();
-        }
+        places += value.toBeFilledIn();
     }
     return places;
 }
@@ -112,19 +107,12 @@ void YamlPlace::checkKeys(int depth, int& places) const
     {
         fail("the file is nested too deeply, too large, or holds itself by way of an anchor");
     }
-    if (node_.IsSequence())
+    for (const auto& each : node_.IsSequence() ? list() : std::vector<YamlPlace>{})
     {
-        for (const auto& each : list())
-        {
-            each.checkKeys(depth + 1, places);
-        }
-    }
-    if (!node_.IsMap())
-    {
-        return;
+        each.checkKeys(depth + 1, places);
     }
     std::map<std::string, int> lines;
-    for (const auto& [key, value] : map())
+    for (const auto& [key, value] : node_.IsMap() ? map() : decltype(map()){})
     {
         const auto [first, isNew] = lines.emplace(key, value.node_.Mark().line + 1);
         if (!isNew)
@@ -155,7 +143,7 @@ void YamlPlace::allow(const std::vector<std::string>& allowed) const
 {
     for (const auto& [key, value] : map())
     {
-        if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
+        if (!contains(allowed, key))
         {
             value.fail("unknown key" + didYouMean(key, allowed) + "; allowed here: " + listed(allowed));
         }
@@ -176,8 +164,17 @@ YamlPlace YamlPlace::at(const std::string& key) const
     return {node_[key], file_, name_.empty() ? key : name_ + '.' + key};
 }
 
+YamlPlace YamlPlace::optional(const std::string& key) const
+{
+    return has(key) ? at(key) : YamlPlace(YAML::Node(YAML::NodeType::Undefined), file_, name_);
+}
+
 std::vector<YamlPlace> YamlPlace::list() const
 {
+    if (!node_.IsDefined())
+    {
+        return {};
+    }
     if (!node_.IsSequence())
     {
         fail("must be a list");
@@ -192,11 +189,15 @@ std::vector<YamlPlace> YamlPlace::list() const
 
 std::vector<YamlPlace> YamlPlace::oneOrMore() const
 {
-    return node_.IsSequence() ? list() : std::vector<YamlPlace>{*this};
+    return node_.IsSequence() || !node_.IsDefined() ? list() : std::vector<YamlPlace>{*this};
 }
 
 std::vector<std::pair<std::string, YamlPlace>> YamlPlace::map() const
 {
+    if (!node_.IsDefined())
+    {
+        return {};
+    }
     if (!node_.IsMap())
     {
         fail("must be a map of 'key: value'");
@@ -266,12 +267,22 @@ bool YamlPlace::flag() const
 std::string YamlPlace::oneOf(const std::vector<std::string>& words) const
 {
     std::string word = text();
-    if (std::find(words.begin(), words.end(), word) == words.end())
+    if (!contains(words, word))
     {
         fail("must be " + (words.empty() ? "left out" : listed(words)) + ", not '" + word + "'"
              + didYouMean(word, words));
     }
     return word;
+}
+
+std::pair<double, double> YamlPlace::range(const std::string& what) const
+{
+    const auto ends = list();
+    if (ends.size() != 2 || ends[0].number() >= ends[1].number())
+    {
+        fail("must be " + what);
+    }
+    return {ends[0].number(), ends[1].number()};
 }
 
 std::filesystem::path YamlPlace::path() const
@@ -287,6 +298,11 @@ std::string YamlPlace::textOr(const std::string& key, const std::string& byDefau
 double YamlPlace::numberOr(const std::string& key, double byDefault) const
 {
     return has(key) ? at(key).number() : byDefault;
+}
+
+double YamlPlace::positiveOr(const std::string& key, double byDefault) const
+{
+    return has(key) ? at(key).positive() : byDefault;
 }
 
 int YamlPlace::countOr(const std::string& key, int byDefault, int smallest) const

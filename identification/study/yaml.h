@@ -3,11 +3,10 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clepsydra::identification
@@ -40,6 +39,8 @@ public:
     bool has(const std::string& key) const;
     /// \throws StudyError if there is no such key
     YamlPlace at(const std::string& key) const;
+    /// The same; where there is no such key, a place that holds nothing: an empty list and an empty map.
+    YamlPlace optional(const std::string& key) const;
 
     std::vector<YamlPlace> list() const;
     /// A list, or a lone value as a list of one.
@@ -53,11 +54,14 @@ public:
     bool flag() const;
     /// One of a few words.
     std::string oneOf(const std::vector<std::string>& words) const;
+    /// Two numbers, the second above the first. \param what  they must be, for the error
+    std::pair<double, double> range(const std::string& what) const;
     /// Relative to the file's folder.
     std::filesystem::path path() const;
 
     std::string textOr(const std::string& key, const std::string& byDefault) const;
     double numberOr(const std::string& key, double byDefault) const;
+    double positiveOr(const std::string& key, double byDefault) const;
     int countOr(const std::string& key, int byDefault, int smallest) const;
     bool flagOr(const std::string& key, bool byDefault) const;
 

@@ -85,6 +85,11 @@ bool varies(const std::vector<double>& values)
 
 } // namespace
 
+double GuessedColumn::siUnits() const
+{
+    return unit.empty() ? 1.0 : siUnitsPer(unit);
+}
+
 GuessedColumns guessColumns(const Table& table)
 {
     std::vector<Meaning> meanings(table.columns.size());
@@ -107,8 +112,7 @@ GuessedColumns guessColumns(const Table& table)
     const auto rises = [](const auto& values) { return std::is_sorted(values.begin(), values.end()); };
     choose(time, [&](const Meaning& m, const auto& values) { return m.quantity == "time" && rises(values); });
     choose(time, [&](const Meaning& m, const auto& values) { return m.quantity.empty() && rises(values); });
-    choose(
-        value, [&](const Meaning& m, const auto& /*unused*/) { return !m.quantity.empty() && m.quantity != "time"; });
+    choose(value, [](const Meaning& m, const auto& /*unused*/) { return !m.quantity.empty() && m.quantity != "time"; });
     choose(value, [&](const Meaning& m, const auto& /*unused*/) { return m.quantity != "time"; });
     if (!time || !value)
     {

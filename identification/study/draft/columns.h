@@ -12,6 +12,9 @@ struct GuessedColumn
 {
     std::string column;
     std::string unit; // empty: the file does not name one that is known
+
+    /// How many SI units its unit is; 1 where that is not known.
+    double siUnits() const;
 };
 
 /// What the titles of a measured file say of its columns.

@@ -1,12 +1,12 @@
 #include "study/draft/conditions.h"
 
+#include "lists.h"
+
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <iterator>
 #include <map>
-#include <numeric>
 #include <optional>
+#include <regex>
 #include <tuple>
 
 namespace clepsydra::identification
@@ -16,16 +16,6 @@ namespace
 {
 
 namespace fs = std::filesystem;
-
-bool isDigit(char c)
-{
-    return std::isdigit(static_cast<unsigned char>(c)) != 0;
-}
-
-bool isLetter(char c)
-{
-    return std::isalpha(static_cast<unsigned char>(c)) != 0;
-}
 
 std::string withoutSeparator(std::string text)
 {
@@ -48,42 +38,24 @@ struct Mark
     int ordinal;
 };
 
-/// "bead3_trial" and "bead3t" end with a word that says that a repeat's number follows.
-std::optional<std::string> stemBeforeWord(const std::string& text)
-{
-    static const std::array<std::string, 12> words = {
-        "trial", "repeat", "test", "take", "run", "rep", "try", "no", "nr", "t", "r", "n"};
-    for (const auto& word : words)
-    {
-        const bool ends = text.size() >= word.size()
-                          && std::equal(word.rbegin(), word.rend(), text.rbegin(),
-                              [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-        const std::string before = ends ? text.substr(0, text.size() - word.size()) : "";
-        if (ends && (before.empty() || !isLetter(before.back())))
-        {
-            return withoutSeparator(before);
-        }
-    }
-    return {};
-}
-
 std::optional<Mark> markOf(const std::string& name)
 {
-    constexpr std::size_t mostDigits = 4;
-    const auto end = name.find_last_not_of("0123456789");
-    const std::string before = end == std::string::npos ? "" : name.substr(0, end + 1);
-    const std::string digits = name.substr(before.size());
-    if (!digits.empty() && digits.size() <= mostDigits && (before.empty() || before.back() != '.'))
+    static const std::regex numbered("(|.*[^0-9.])([0-9]{1,4})");
+    static const std::regex lettered("(.*[^a-z])([a-z])", std::regex::icase);
+    // "bead3_trial" and "bead3t" end with a word that says that a repeat's number follows.
+    static const std::regex before("(|.*[^a-z])(trial|repeat|test|take|run|rep|try|no|nr|t|r|n)", std::regex::icase);
+    std::smatch parts;
+    if (std::regex_match(name, parts, numbered))
     {
-        const auto stem = stemBeforeWord(withoutSeparator(before));
-        return Mark{
-            stem.value_or(withoutSeparator(before)), stem ? MarkKind::word : MarkKind::number, std::stoi(digits)};
+        const int number = std::stoi(parts[2]);
+        const std::string stem = withoutSeparator(parts[1]);
+        return std::regex_match(stem, parts, before) ? Mark{withoutSeparator(parts[1]), MarkKind::word, number}
+                                                     : Mark{stem, MarkKind::number, number};
     }
-    const std::string rest = name.empty() ? "" : name.substr(0, name.size() - 1);
-    if (!rest.empty() && isLetter(name.back()) && !isLetter(rest.back()))
+    if (std::regex_match(name, parts, lettered))
     {
         return Mark{
-            withoutSeparator(rest), MarkKind::letter, std::tolower(static_cast<unsigned char>(name.back())) - 'a'};
+            withoutSeparator(parts[1]), MarkKind::letter, std::tolower(static_cast<unsigned char>(name.back())) - 'a'};
     }
     return {};
 }
@@ -107,18 +79,11 @@ struct Place
 
 Place placeOf(const std::string& name)
 {
-    const auto last = name.find_last_of("0123456789");
-    if (last == std::string::npos)
-    {
-        return {name, 0.0, ""};
-    }
-    std::size_t first = last;
-    while (first > 0 && (isDigit(name[first - 1]) || (name[first - 1] == '.' && first > 1 && isDigit(name[first - 2]))))
-    {
-        --first;
-    }
-    const std::string number = name.substr(first, last + 1 - first);
-    return {name.substr(0, first) + '*' + name.substr(last + 1), std::strtod(number.c_str(), nullptr), number};
+    static const std::regex numbered(R"((.*?)([0-9]+(?:\.[0-9]+)*)([^0-9]*))");
+    std::smatch parts;
+    return std::regex_match(name, parts, numbered)
+               ? Place{parts.str(1) + '*' + parts.str(3), std::stod(parts[2]), parts[2]}
+               : Place{name, 0.0, ""};
 }
 
 void proposeHeldOut(std::vector<DraftedCondition>& conditions)
@@ -139,8 +104,7 @@ void proposeHeldOut(std::vector<DraftedCondition>& conditions)
     std::vector<std::size_t> other;
     if (range.size() < fewest)
     {
-        range.resize(conditions.size());
-        std::iota(range.begin(), range.end(), std::size_t{0});
+        range = numbersWhere(conditions.size(), [](std::size_t) { return true; });
     }
     else
     {

@@ -4,15 +4,14 @@
 #include "files/wholeFile.h"
 #include "study/draft/draftedRig.h"
 #include "study/draft/measuredFiles.h"
-#include "study/units.h"
 #include "study/yaml.h"
 #include "words/didYouMean.h"
 
 #include <yaml-cpp/emitter.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -33,11 +32,8 @@ std::string fillIn(const std::string& what)
 /// A word as YAML takes it for one, also between brackets.
 std::string yamlWord(const std::string& word)
 {
-    const bool isPlain = !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0
-                         && std::all_of(word.begin(), word.end(), [](unsigned char c) {
-                                return std::isalnum(c) != 0 || c == '_' || c == '.' || c == '/' || c == '-';
-                            });
-    if (isPlain || word.rfind("../", 0) == 0)
+    static const std::regex plain("[a-z][a-z0-9_./-]*", std::regex::icase);
+    if (std::regex_match(word, plain) || word.rfind("../", 0) == 0)
     {
         return word;
     }
@@ -93,18 +89,15 @@ private:
     /// The entry that is most likely to differ from condition to condition.
     std::string varied() const
     {
-        const bool isHopper = rig_.has("orificeDiameter");
         return measured_.conditions.size() < 2 ? ""
-               : isHopper                      ? "orificeDiameter"
+               : rig_.has("orificeDiameter")   ? "orificeDiameter"
                : rig_.has("beadDiameter")      ? "beadDiameter"
                                                : "";
     }
     bool isUnderWater(const DraftedCondition& condition) const
     {
-        std::string name = condition.name;
-        std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
-        const auto holds = [&](const char* word) { return name.find(word) != std::string::npos; };
-        return holds("wet") || holds("water") || holds("subm");
+        static const std::regex water("wet|water|subm", std::regex::icase);
+        return std::regex_search(condition.name, water);
     }
 
     DraftedRig rig_;
@@ -184,8 +177,7 @@ void Draft::writeRig()
             text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + rig_.entries.at(entry)) << '\n';
         }
     }
-    const double seconds = 1.5 * measured_.shape.duration
-                           * (measured_.columns.time.unit.empty() ? 1.0 : siUnitsPer(measured_.columns.time.unit));
+    const double seconds = 1.5 * measured_.shape.duration * measured_.columns.time.siUnits();
     for (const std::string entry : {"dryTime", "submergedTime", "endTime"})
     {
         if (rig_.has(entry) && (isWet || entry != "submergedTime"))
@@ -297,7 +289,7 @@ void Draft::writeWindows(double last)
 
 void Draft::writePositions()
 {
-    const double unit = measured_.columns.value.unit.empty() ? 1.0 : siUnitsPer(measured_.columns.value.unit);
+    const double unit = measured_.columns.value.siUnits();
     const double way = (measured_.shape.highest - measured_.shape.lowest) * unit;
     for (int bounce = 1; bounce <= measured_.shape.bounces && bounce <= 3; ++bounce)
     {
@@ -360,7 +352,7 @@ void Draft::writeMeasured()
         measured_.shape.hasBlanks && measured_.shape.smallestSeen > 0.0 && !measured_.columns.value.unit.empty();
     if (isValidKnown)
     {
-        const double si = siUnitsPer(measured_.columns.value.unit);
+        const double si = measured_.columns.value.siUnits();
         text_ << ", valid: [" << rounded(0.5 * measured_.shape.smallestSeen * si) << ", "
               << rounded(2.0 * measured_.shape.largest * si) << ']';
     }
@@ -414,13 +406,10 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
               << " }\n";
     }
     text_ << "    measured:\n      files:\n";
-    for (const auto& file : condition.files)
-    {
-        text_ << "        - " << relative(file) << '\n';
-    }
     std::string names;
     for (const auto& file : condition.files)
     {
+        text_ << "        - " << relative(file) << '\n';
         names += ' ' + file.filename().string();
     }
     say("condition " + condition.name + (condition.isHeldOut ? ", proposed to be held out:" : ":") + names

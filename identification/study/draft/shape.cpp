@@ -1,10 +1,11 @@
 #include "study/draft/shape.h"
 
+#include "lists.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <utility>
 
 namespace clepsydra::identification
 {
@@ -23,16 +24,9 @@ bool dropBlanks(Curve& curve)
     {
         return false;
     }
-    Curve seen;
-    for (std::size_t i = 0; i < curve.value.size(); ++i)
-    {
-        if (isSeen(curve.value[i]))
-        {
-            seen.time.push_back(curve.time[i]);
-            seen.value.push_back(curve.value[i]);
-        }
-    }
-    curve = std::move(seen);
+    const auto seen = numbersWhere(curve.value.size(), [&](std::size_t i) { return isSeen(curve.value[i]); });
+    curve = {mapped(seen, [&](std::size_t i) { return curve.time[i]; }),
+        mapped(seen, [&](std::size_t i) { return curve.value[i]; })};
     return true;
 }
 
