@@ -41,7 +41,7 @@ double valueAt(const Curve& curve, double time)
     {
         return curve.value.back();
     }
-    const auto i = static_cast<std::size_t>(next - curve.time.begin());
+    const std::size_t i = next - curve.time.begin();
     const double share = (time - curve.time[i - 1]) / (curve.time[i] - curve.time[i - 1]);
     return curve.value[i - 1] + share * (curve.value[i] - curve.value[i - 1]);
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string_view>
@@ -115,33 +116,31 @@ std::vector<Title> titlesOf(const std::string& line)
 /// Larger ones are no measurement, and their squares would be no numbers.
 constexpr double largest = 1e30;
 
-/// Neither inf nor nan, nor a number so large that it must be a mistake; nor hexadecimal, which strtod would take.
-bool isNumber(const std::string& text, double& number)
+/// The number that is all of a text, as strtod takes it.
+std::optional<double> numberOfAll(const std::string& text)
+{
+    char* end = nullptr;
+    const double number = std::strtod(text.c_str(), &end);
+    return end == text.c_str() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+/// NaN for a missing one. Neither inf nor nan, nor a number so large that it must be a mistake; nor hexadecimal.
+std::optional<double> numberOf(const std::string& text)
 {
     if (text.empty() || text == "NA" || text == "na" || text == "-")
     {
-        number = missing;
-        return true;
+        return missing;
     }
-    if (text.find_first_not_of("0123456789+-.eE") != std::string::npos)
-    {
-        return false;
-    }
-    char* end = nullptr;
-    number = std::strtod(text.c_str(), &end);
-    return end == text.c_str() + text.size() && std::abs(number) <= largest;
+    const auto number = numberOfAll(text);
+    const bool isPlain = text.find_first_not_of("0123456789+-.eE") == std::string::npos;
+    return isPlain && number && std::abs(*number) <= largest ? number : std::nullopt;
 }
 
 /// A row of which one field is a number, and every other one or what should have been one: inf, nan, 1e308.
 bool isNearlyNumbers(const std::vector<std::string>& words)
 {
-    double value = 0.0;
-    const auto isFinite = [&](const std::string& word) { return isNumber(word, value) && std::isfinite(value); };
-    const auto wasMeant = [&](const std::string& word) {
-        char* end = nullptr;
-        std::strtod(word.c_str(), &end);
-        return end == word.c_str() + word.size();
-    };
+    const auto isFinite = [](const std::string& word) { return std::isfinite(numberOf(word).value_or(missing)); };
+    const auto wasMeant = [](const std::string& word) { return numberOfAll(word).has_value(); };
     return std::any_of(words.begin(), words.end(), isFinite) && std::all_of(words.begin(), words.end(), wasMeant);
 }
 
@@ -151,10 +150,9 @@ std::string shortened(const std::string& text)
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-double number(const std::filesystem::path& path)
+double numberOf(const std::filesystem::path& path)
 {
-    double value = 0.0;
-    return isNumber(path.filename().string(), value) ? value : 0.0;
+    return numberOf(path.filename().string()).value_or(0.0);
 }
 
 } // namespace
@@ -169,9 +167,8 @@ std::size_t Table::index(const std::string& column) const
             return i;
         }
     }
-    double position = 0.0;
-    if (!column.empty() && isNumber(column, position) && position >= 1.0
-        && position <= static_cast<double>(columns.size()))
+    const double position = column.empty() ? 0.0 : numberOf(column).value_or(0.0);
+    if (position >= 1.0 && position <= static_cast<double>(columns.size()))
     {
         return static_cast<std::size_t>(position) - 1;
     }
@@ -207,10 +204,8 @@ Table readTable(const std::filesystem::path& file)
             continue;
         }
         const auto words = fields(line);
-        std::vector<double> row(words.size());
-        const auto wrong = std::mismatch(words.begin(), words.end(), row.begin(), [](auto& w, double& r) {
-            return isNumber(w, r);
-        }).first;
+        const auto row = mapped(words, [](const std::string& word) { return numberOf(word); });
+        const auto wrong = words.begin() + (std::find(row.begin(), row.end(), std::nullopt) - row.begin());
         // Above the numbers there may be names and other text, but no row of numbers of which one is none.
         if (wrong != words.end() && table.columns.empty() && !isNearlyNumbers(words))
         {
@@ -233,7 +228,7 @@ Table readTable(const std::filesystem::path& file)
         table.columns.resize(row.size());
         for (std::size_t i = 0; i < row.size(); ++i)
         {
-            table.columns[i].push_back(row[i]);
+            table.columns[i].push_back(*row[i]);
         }
     }
     if (table.columns.empty())
@@ -269,7 +264,7 @@ std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pa
                 }
             }
         }
-        std::sort(next.begin(), next.end(), [](const auto& a, const auto& b) { return number(a) < number(b); });
+        std::sort(next.begin(), next.end(), [](const auto& a, const auto& b) { return numberOf(a) < numberOf(b); });
         found = std::move(next);
     }
     found.erase(std::remove_if(found.begin(), found.end(),

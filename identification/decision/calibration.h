@@ -65,7 +65,6 @@ double upperQuantile(std::vector<double> values, double share);
 class Calibrator
 {
 public:
-    /// \param odds  prior weights of effects and of something else
     Calibrator(const Study& study, const Evidence& evidence, Replicas& replicas, const Measured& measured,
         std::mt19937_64& random);
 

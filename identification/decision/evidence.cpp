@@ -1,5 +1,7 @@
 #include "decision/evidence.h"
 
+#include "lists.h"
+
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 
@@ -117,7 +119,7 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
       parts_(partsOf(layout)),
       around_(around),
       workspace_{Eigen::VectorXd(layout.rows), Eigen::VectorXd(layout.rows), Eigen::ArrayXd(layout.rows),
-          Eigen::MatrixXd(layout.rows, static_cast<Eigen::Index>(study.parameters.size()))},
+          Eigen::MatrixXd(layout.rows, study.parameters.size())},
       null_(nodeAt({})),
       effects_(study.effects.size())
 {
@@ -135,12 +137,7 @@ std::vector<Evidence::Part> Evidence::partsOf(const Layout& layout)
     {
         return {{0, layout.rows}};
     }
-    std::vector<Part> parts;
-    for (const auto& block : layout.blocks)
-    {
-        parts.push_back({block.first, block.size()});
-    }
-    return parts;
+    return mapped(layout.blocks, [](const Layout::Block& block) { return Part{block.first, block.size()}; });
 }
 
 void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const
@@ -154,12 +151,12 @@ void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eige
 
 void Evidence::prepare()
 {
-    const auto q = static_cast<Eigen::Index>(study_.parameters.size());
+    const Eigen::Index q = study_.parameters.size();
     lower_.resize(q);
     upper_.resize(q);
     for (Eigen::Index i = 0; i < q; ++i)
     {
-        const Parameter& parameter = study_.parameters[static_cast<std::size_t>(i)];
+        const Parameter& parameter = study_.parameters[i];
         lower_(i) = (parameter.lower - parameter.mean) / parameter.sd;
         upper_(i) = (parameter.upper - parameter.mean) / parameter.sd;
     }
@@ -231,15 +228,14 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
     Node node;
     node.present = present;
     node.extra.resize(layout_.rows);
-    node.terms.resize(layout_.rows, parameterTerms(static_cast<Eigen::Index>(study_.parameters.size())));
+    node.terms.resize(layout_.rows, parameterTerms(study_.parameters.size()));
     Eigen::MatrixXd allNoise = Eigen::MatrixXd::Zero(layout_.rows, layout_.rows);
     Eigen::MatrixXd allExtra = allNoise;
     for (const auto& block : layout_.blocks)
     {
         const ConditionEmulator& emulator = *emulator_[block.condition];
         const auto& places = block.places;
-        const Eigen::MatrixXd single =
-            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noiseOf(present)(places, places));
+        const Eigen::MatrixXd single = block.ofOne(emulator, present);
         allNoise.block(block.first, block.first, block.size(), block.size()) = single.cwiseProduct(block.meanShare);
         allExtra.block(block.first, block.first, block.size(), block.size()) =
             Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
@@ -306,10 +302,7 @@ Evidence::Explanation Evidence::explanationOf(const std::vector<std::size_t>& ef
             }
         }
     }
-    for (const auto& setting : settings)
-    {
-        explanation.nodes.push_back(nodeAt(setting));
-    }
+    explanation.nodes = mapped(settings, [&](const std::vector<Present>& setting) { return nodeAt(setting); });
     return explanation;
 }
 
@@ -357,7 +350,7 @@ double Evidence::otherSpread(const Measured& measured) const
 
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
 {
-    const auto q = static_cast<Eigen::Index>(study_.parameters.size());
+    const Eigen::Index q = study_.parameters.size();
     // This runs a million times for one data set: no memory is asked for.
     Eigen::VectorXd& y = workspace_.data;
     Eigen::VectorXd& r = workspace_.residual;
@@ -470,7 +463,7 @@ Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measur
     AtNodes found{Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns)};
     for (Eigen::Index i = 0; i < found.misfits.size(); ++i)
     {
-        const Node& node = explanation.nodes[static_cast<std::size_t>(i)];
+        const Node& node = explanation.nodes[i];
         const Spread spread = node.scattersAnywhere ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
         found.misfits(i) = solution.misfit;
@@ -550,11 +543,7 @@ Evidence::Posterior Evidence::posterior(
     const Explanation& explanation, const Measured& measured, const Spread& usual) const
 {
     const AtNodes nodes = atNodes(explanation, measured, usual);
-    std::vector<Bounds> ranges;
-    for (const auto e : explanation.effects)
-    {
-        ranges.push_back(study_.effects[e].bounds);
-    }
+    const auto ranges = mapped(explanation.effects, [&](std::size_t e) { return study_.effects[e].bounds; });
     return over(explanation, nodes, likelyPart(over(explanation, nodes, ranges), ranges));
 }
 
@@ -569,7 +558,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
     evidences.null = logLikelihood(null.misfit, null.logVolume) + usual.logLikelihood;
-    evidences.effects.setConstant(static_cast<Eigen::Index>(effects_.size()), -std::numeric_limits<double>::infinity());
+    evidences.effects.setConstant(effects_.size(), -std::numeric_limits<double>::infinity());
     evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
     evidences.scatterMisfits = evidences.misfits;
     evidences.peaks = evidences.effects;
@@ -578,10 +567,10 @@ Evidences Evidence::operator()(const Measured& measured) const
         if (!effects_[e].nodes.empty())
         {
             const Judgement found = posterior(effects_[e], measured, usual).judgement;
-            evidences.effects(static_cast<Eigen::Index>(e)) = found.logEvidence;
-            evidences.misfits(static_cast<Eigen::Index>(e)) = found.misfit;
-            evidences.scatterMisfits(static_cast<Eigen::Index>(e)) = found.scatterMisfit;
-            evidences.peaks(static_cast<Eigen::Index>(e)) = found.peak;
+            evidences.effects(e) = found.logEvidence;
+            evidences.misfits(e) = found.misfit;
+            evidences.scatterMisfits(e) = found.scatterMisfit;
+            evidences.peaks(e) = found.peak;
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
@@ -599,11 +588,11 @@ double Evidence::otherEvidence(const Measured& measured) const
 void Evidence::prepareOther()
 {
     const Eigen::Index n = layout_.rows;
-    const auto q = static_cast<Eigen::Index>(study_.parameters.size());
+    const Eigen::Index q = study_.parameters.size();
     // What the library's effects do to each feature at full size, root mean square over effects and conditions.
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
     Eigen::VectorXd counts = squares;
-    const Eigen::VectorXd prior = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.parameters.size()));
+    const Eigen::VectorXd prior = Eigen::VectorXd::Zero(study_.parameters.size());
     for (const auto& block : layout_.blocks)
     {
         const ConditionEmulator& emulator = *emulator_[block.condition];
@@ -615,7 +604,7 @@ void Evidence::prepareOther()
                 const Eigen::VectorXd change = emulator.at(prior, {{e, study_.effects[e].bounds.upper}}) - base;
                 for (const auto place : block.places)
                 {
-                    const auto f = emulator.features[static_cast<std::size_t>(place)];
+                    const auto f = emulator.features[place];
                     squares(f) += change(place) * change(place);
                     counts(f) += 1.0;
                 }
@@ -638,10 +627,8 @@ void Evidence::prepareOther()
             {
                 for (Eigen::Index j = 0; j < other.size(); ++j)
                 {
-                    const auto f = emulator_[one.condition]
-                                       ->features[static_cast<std::size_t>(one.places[static_cast<std::size_t>(i)])];
-                    const auto g = emulator_[other.condition]
-                                       ->features[static_cast<std::size_t>(other.places[static_cast<std::size_t>(j)])];
+                    const auto f = emulator_[one.condition]->features[one.places[i]];
+                    const auto g = emulator_[other.condition]->features[other.places[j]];
                     pattern(one.first + i, other.first + j) =
                         typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
                         * (one.condition == other.condition ? 1.0 : alikeConditions);
@@ -672,7 +659,7 @@ void Evidence::prepareOther()
 
 double Evidence::otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const
 {
-    const auto q = static_cast<Eigen::Index>(study_.parameters.size());
+    const Eigen::Index q = study_.parameters.size();
     // Linear in the parameters from where the null fits.
     Eigen::VectorXd& r = workspace_.data;
     transformTo(null_, measured.mean, r);
@@ -681,10 +668,10 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
     const double nu = layout_.noiseFreedom;
     const double rows = static_cast<double>(layout_.rows);
     // A set that scatters in a way of its own has a noise of its own; the means are then known as well as its repeats say.
-    Eigen::VectorXd logs(static_cast<Eigen::Index>(other_.size()));
+    Eigen::VectorXd logs(other_.size());
     for (Eigen::Index i = 0; i < logs.size(); ++i)
     {
-        const Discrepancy& one = other_[static_cast<std::size_t>(i)];
+        const Discrepancy& one = other_[i];
         const double misfit = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
         logs(i) = -0.5 * (nu + rows) * std::log1p(misfit / nu)
                   - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
@@ -699,22 +686,23 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
 
 std::vector<double> Evidence::amplitudes(std::size_t effect) const
 {
-    std::vector<double> all;
-    for (const auto& node : effects_[effect].nodes)
-    {
-        all.push_back(node.present.front().amplitude);
-    }
-    return all;
+    return mapped(effects_[effect].nodes, [](const Node& node) { return node.present.front().amplitude; });
 }
 
 Fit Evidence::fitNull(const Measured& measured) const
 {
-    const Solution solution = solve(null_, spreadOf(null_, measured).factor, measured);
     Fit fit;
+    fitParameters(null_, measured, fit);
+    return fit;
+}
+
+/// All of a fit but its amplitude.
+void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fit) const
+{
+    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
     fit.parameters = solution.parameters;
     fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
     fit.misfit = solution.misfit;
-    return fit;
 }
 
 Fit Evidence::fit(std::size_t effect, const Measured& measured) const
@@ -735,13 +723,9 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
         present.push_back({explanation.effects[k], all.back().amplitude});
     }
     const Node node = nodeAt(present);
-    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
     for (auto& fit : all)
     {
-        fit.parameters = solution.parameters;
-        fit.covariance =
-            solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
-        fit.misfit = solution.misfit;
+        fitParameters(node, measured, fit);
     }
     return all;
 }

@@ -183,6 +183,7 @@ private:
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
+    void fitParameters(const Node& node, const Measured& measured, Fit& fit) const;
     double logLikelihood(double misfit, double logVolume) const;
     /// Over amplitudes of the first effect, and of the second if there is one, where they are likely.
     struct Posterior

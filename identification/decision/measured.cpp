@@ -53,6 +53,11 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
 
 } // namespace
 
+Eigen::MatrixXd Layout::Block::ofOne(const ConditionEmulator& here, const std::vector<Present>& present) const
+{
+    return noise.size() > 0 ? noise : Eigen::MatrixXd(here.noiseOf(present)(places, places));
+}
+
 std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, const std::vector<MeasuredCondition>& data)
 {
     std::vector<std::vector<Eigen::Index>> features(study.conditions.size());
@@ -78,8 +83,7 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     {
         const ConditionEmulator& here = *world[block.condition];
         const auto& places = block.places;
-        const Eigen::MatrixXd single =
-            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(here.noiseOf(present)(places, places));
+        const Eigen::MatrixXd single = block.ofOne(here, present);
         Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
         if (doubted)
         {
@@ -117,8 +121,8 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         Layout::Block block;
         block.condition = c;
         block.first = layout.rows;
-        block.places = numbersWhere(
-            static_cast<Eigen::Index>(known.size()), [&](Eigen::Index k) { return std::isfinite(all(known[k])); });
+        block.places =
+            numbersWhere<Eigen::Index>(known.size(), [&](Eigen::Index k) { return std::isfinite(all(known[k])); });
         if (block.places.empty())
         {
             continue;

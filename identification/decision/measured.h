@@ -28,8 +28,11 @@ struct Layout
 
         Eigen::Index size() const
         {
-            return static_cast<Eigen::Index>(places.size());
+            return places.size();
         }
+
+        /// Covariance of one measurement. \param here  emulator of its condition
+        Eigen::MatrixXd ofOne(const ConditionEmulator& here, const std::vector<Present>& present) const;
 
         /// Covariance of the mean that repeats do not show, common errors included.
         Eigen::MatrixXd unshown() const

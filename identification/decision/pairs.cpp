@@ -67,7 +67,7 @@ public:
         for (std::size_t i = 0; i < explanations_.size(); ++i)
         {
             verdict.judgements.push_back(evidence_.judge(explanations_[i], data));
-            logs(static_cast<Eigen::Index>(i)) = verdict.judgements.back().logEvidence + logPriors_[i];
+            logs(i) = verdict.judgements.back().logEvidence + logPriors_[i];
         }
         logs.tail<1>()(0) = evidence_.otherEvidence(data) + std::log(study_.settings.otherWeight);
         verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
@@ -202,7 +202,6 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         PairFinding& pair = pairs[i];
-        const auto place = static_cast<Eigen::Index>(i);
         std::vector<double> misfits;
         std::vector<double> scatterMisfits;
         std::vector<double> improbabilities;
@@ -213,12 +212,12 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
             const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
             misfits.push_back(own.judgements[i].misfit);
             scatterMisfits.push_back(own.judgements[i].scatterMisfit);
-            improbabilities.push_back(1.0 - own.probabilities(place));
+            improbabilities.push_back(1.0 - own.probabilities(i));
         }
         const auto fitsWithin = [&](double sds) {
             return verdict.judgements[i].misfit <= std::min(misfitLimit(misfits, sds), evidence.largestMisfit(sds));
         };
-        pair.probability = verdict.probabilities(place);
+        pair.probability = verdict.probabilities(i);
         pair.inSet = fitsWithin(meansStillFit)
                      && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
                      && 1.0 - pair.probability <= std::max(

@@ -38,7 +38,7 @@ Waves::Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index ef
     : frequencies(count, static_cast<Eigen::Index>(moves.size()) + effects),
       phases(count)
 {
-    const auto parameters = static_cast<Eigen::Index>(moves.size());
+    const Eigen::Index parameters = moves.size();
     // Lengths over which the function changes: prior sd of parameters, ranges of amplitudes
     constexpr double ofParameters = 3.0;
     constexpr double ofAmplitudes = 1.0;
@@ -49,24 +49,26 @@ Waves::Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index ef
     {
         for (Eigen::Index i = 0; i < parameters + effects; ++i)
         {
-            const bool isIn = i >= parameters || moves[static_cast<std::size_t>(i)];
+            const bool isIn = i >= parameters || moves[i];
             frequencies(k, i) = isIn ? normal(random) / (i < parameters ? ofParameters : ofAmplitudes) : 0.0;
         }
         phases(k) = anywhere(random);
     }
 }
 
+Eigen::VectorXd Waves::anglesAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
+{
+    return frequencies.leftCols(t.size()) * t + frequencies.rightCols(amplitudes.size()) * amplitudes + phases;
+}
+
 Eigen::VectorXd Waves::at(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
 {
-    const Eigen::VectorXd angles =
-        frequencies.leftCols(t.size()) * t + frequencies.rightCols(amplitudes.size()) * amplitudes + phases;
-    return std::sqrt(2.0 / static_cast<double>(size())) * angles.array().cos();
+    return std::sqrt(2.0 / static_cast<double>(size())) * anglesAt(t, amplitudes).array().cos();
 }
 
 Eigen::MatrixXd Waves::linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const
 {
-    const Eigen::VectorXd angles =
-        frequencies.leftCols(t.size()) * t + frequencies.rightCols(amplitudes.size()) * amplitudes + phases;
+    const Eigen::VectorXd angles = anglesAt(t, amplitudes);
     const double scale = std::sqrt(2.0 / static_cast<double>(size()));
     Eigen::MatrixXd both(size(), 1 + t.size());
     both.rightCols(t.size()) = (-scale * angles.array().sin()).matrix().asDiagonal() * frequencies.leftCols(t.size());
@@ -76,7 +78,7 @@ Eigen::MatrixXd Waves::linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd&
 
 Eigen::Index Basis::firstWave() const
 {
-    const auto count = static_cast<Eigen::Index>(effects.size());
+    const Eigen::Index count = effects.size();
     return parameterTerms(parameters) + count * (2 + parameters) + count * (count - 1) / 2;
 }
 
@@ -125,9 +127,9 @@ Eigen::Index Basis::effectTerm(std::size_t place) const
 
 Eigen::Index Basis::pairTerm(std::size_t one, std::size_t other) const
 {
-    const auto count = static_cast<Eigen::Index>(effects.size());
-    const auto low = static_cast<Eigen::Index>(std::min(one, other));
-    const auto high = static_cast<Eigen::Index>(std::max(one, other));
+    const Eigen::Index count = effects.size();
+    const Eigen::Index low = std::min(one, other);
+    const Eigen::Index high = std::max(one, other);
     return effectTerm(effects.size()) + low * count - low * (low + 1) / 2 + (high - low - 1);
 }
 
@@ -142,14 +144,14 @@ Eigen::VectorXd Basis::at(const Eigen::VectorXd& t, const Eigen::VectorXd& ampli
     terms.head(parameterTerms(parameters)) = parameterTermsAt(t);
     for (std::size_t k = 0; k < effects.size(); ++k)
     {
-        const double a = amplitudes(static_cast<Eigen::Index>(k));
+        const double a = amplitudes(k);
         const Eigen::Index first = effectTerm(k);
         terms(first) = a;
         terms(first + 1) = a * a;
         terms.segment(first + 2, parameters) = a * t;
         for (std::size_t other = 0; other < k; ++other)
         {
-            terms(pairTerm(other, k)) = a * amplitudes(static_cast<Eigen::Index>(other));
+            terms(pairTerm(other, k)) = a * amplitudes(other);
         }
     }
     if (waves.size() > 0)

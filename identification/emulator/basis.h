@@ -35,6 +35,9 @@ struct Waves
     Eigen::VectorXd at(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const;
     /// waves x (1, t_i): near some parameters, as 1, t_i
     Eigen::MatrixXd linearAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const;
+
+private:
+    Eigen::VectorXd anglesAt(const Eigen::VectorXd& t, const Eigen::VectorXd& amplitudes) const;
 };
 
 /// Terms of the regression: those of the parameters t; for each effect a, a^2, a t_i; for each pair of effects a b; waves.

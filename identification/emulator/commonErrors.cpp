@@ -1,9 +1,8 @@
 #include "emulator/commonErrors.h"
 
+#include "lists.h"
 #include "emulator/settings.h"
 #include "study/measurements.h"
-
-#include <algorithm>
 
 namespace clepsydra::identification
 {
@@ -20,16 +19,11 @@ double stepOf(const Study& study)
     return study.rig.seedEntry.empty() ? usualStep : farStep;
 }
 
-bool concerns(const CommonError& error, std::size_t condition)
-{
-    return std::find(error.conditions.begin(), error.conditions.end(), condition) != error.conditions.end();
-}
-
 Setting moved(const Simulator& simulator, std::size_t error, double z)
 {
     Setting setting = simulator.plainSetting();
-    setting.errors = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(simulator.study().commonErrors.size()));
-    setting.errors(static_cast<Eigen::Index>(error)) = z;
+    setting.errors = Eigen::VectorXd::Zero(simulator.study().commonErrors.size());
+    setting.errors(error) = z;
     return setting;
 }
 
@@ -55,13 +49,10 @@ std::vector<SimulationOrder> commonErrorOrders(const Simulator& simulator, std::
     std::vector<SimulationOrder> all;
     for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
     {
-        if (concerns(study.commonErrors[i], condition) && !study.commonErrors[i].entries.empty())
+        if (contains(study.commonErrors[i].conditions, condition) && !study.commonErrors[i].entries.empty())
         {
-            for (const double side : {-1.0, 1.0})
-            {
-                const auto more = ordersOf(simulator, condition, i, side * stepOf(study));
-                all.insert(all.end(), more.begin(), more.end());
-            }
+            append(all, ordersOf(simulator, condition, i, -stepOf(study)));
+            append(all, ordersOf(simulator, condition, i, stepOf(study)));
         }
     }
     return all;
@@ -91,16 +82,15 @@ Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, c
         }
         return meanFeatures(featureRows(simulations, condition, study.featureCount()));
     };
-    Eigen::MatrixXd slopes =
-        Eigen::MatrixXd::Zero(study.featureCount(), static_cast<Eigen::Index>(study.commonErrors.size()));
+    Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(study.featureCount(), study.commonErrors.size());
     for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
     {
         const CommonError& error = study.commonErrors[i];
-        if (!concerns(error, condition))
+        if (!contains(error.conditions, condition))
         {
             continue;
         }
-        auto slope = slopes.col(static_cast<Eigen::Index>(i));
+        auto slope = slopes.col(i);
         slope = error.featureErrors.isZero() ? Eigen::VectorXd((meanAt(i, step) - meanAt(i, -step)) / (2.0 * step))
                                              : error.featureErrors;
         slope = slope.array().isFinite().select(slope, 0.0);

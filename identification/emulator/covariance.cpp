@@ -53,19 +53,12 @@ void Scatter::add(const Eigen::MatrixXd& repeats)
     nu_ += std::max(most - 1.0, 0.0);
 }
 
-void Scatter::add(const Scatter& other)
-{
-    deviations_.insert(deviations_.end(), other.deviations_.begin(), other.deviations_.end());
-    nu_ += other.nu_;
-}
-
 Eigen::MatrixXd Scatter::deviations() const
 {
-    Eigen::MatrixXd all(
-        static_cast<Eigen::Index>(deviations_.size()), deviations_.empty() ? 0 : deviations_.front().size());
+    Eigen::MatrixXd all(deviations_.size(), deviations_.empty() ? 0 : deviations_.front().size());
     for (Eigen::Index row = 0; row < all.rows(); ++row)
     {
-        all.row(row) = deviations_[static_cast<std::size_t>(row)];
+        all.row(row) = deviations_[row];
     }
     return all;
 }

@@ -15,7 +15,6 @@ class Scatter
 public:
     /// Adds repeats (one per row, NaN = missing) of one setting. Fewer than two say nothing.
     void add(const Eigen::MatrixXd& repeats);
-    void add(const Scatter& other);
 
     /// Degrees of freedom: repeats minus settings.
     double degreesOfFreedom() const

@@ -88,25 +88,6 @@ Eigen::VectorXd priorSds(const Basis& basis, const std::array<double, Basis::kin
     return Eigen::VectorXd::NullaryExpr(basis.size(), [&](Eigen::Index term) { return scales[basis.kind(term)]; });
 }
 
-/// Conditions that have an emulator.
-std::vector<std::size_t> learnt(const std::vector<std::optional<ConditionEmulator>>& conditions)
-{
-    return numbersWhere(conditions.size(), [&](std::size_t c) { return conditions[c].has_value(); });
-}
-
-std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition)
-{
-    std::vector<const Run*> good;
-    for (const auto& run : runs)
-    {
-        if (run.simulation.condition == condition && !run.simulation.failed)
-        {
-            good.push_back(&run);
-        }
-    }
-    return good;
-}
-
 /// Effects of a run that raise its scatter.
 std::vector<Present> scatteringOf(const ConditionEmulator& emulator, const Setting& setting)
 {
@@ -302,14 +283,14 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
 {
     std::normal_distribution<double> normal;
     Emulator other = *this;
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         const ConditionEmulator& here = *world.conditions_[c];
         Rows& rows = other.rows_[c];
         Eigen::MatrixXd whitened = rows.terms * here.coefficients;
         for (Eigen::Index row = 0; row < whitened.rows(); ++row)
         {
-            const double missed = rows.severalOn[row] ? lackOfFit_ : 0.0;
+            const double missed = rows.hasSeveral(row) ? lackOfFit_ : 0.0;
             whitened.row(row) =
                 whitened.row(row).unaryExpr([&](double mean) { return mean + missed * normal(random); }).eval();
             const Eigen::MatrixXd root = here.noiseOf(rows.scattering[row]).llt().matrixL();
@@ -318,7 +299,7 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
         }
     }
     other.learnNoiseAndScatter();
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         other.solve(c);
     }
@@ -337,25 +318,34 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
 {
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
-        choose(c, runs, features[c]);
+        choose(c, goodRuns(runs, c), features[c]);
         if (conditions_[c])
         {
-            append(c, simulator, runs);
+            learnt_.push_back(c);
+            append(c, simulator, goodRuns(runs, c));
         }
     }
     learnNoiseAndScatter();
-    learnChain(simulator, runs);
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        for (const auto c : learnt_)
+        {
+            if (study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[c]))
+            {
+                learnChain(e, c, simulator, goodRuns(runs, c));
+            }
+        }
+    }
     chooseScales();
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         solve(c);
     }
 }
 
 /// Features and effects of a condition, from what its runs have.
-void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted)
+void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted)
 {
-    const auto good = goodRuns(runs, c);
     ConditionEmulator emulator;
     for (const auto f : wanted)
     {
@@ -407,11 +397,11 @@ void Emulator::choose(std::size_t c, const std::vector<Run>& runs, const std::ve
     conditions_[c] = std::move(emulator);
 }
 
-void Emulator::append(std::size_t c, const Simulator& simulator, const std::vector<Run>& runs)
+void Emulator::append(std::size_t c, const Simulator& simulator, const std::vector<const Run*>& runs)
 {
     const ConditionEmulator& emulator = *conditions_[c];
     Rows& rows = rows_[c];
-    for (const auto* run : goodRuns(runs, c))
+    for (const auto* run : runs)
     {
         const auto [setting, all] = beforeChain(*study_, simulator, *run);
         const Eigen::VectorXd values = all(emulator.features);
@@ -430,18 +420,11 @@ void Emulator::append(std::size_t c, const Simulator& simulator, const std::vect
         rows.terms.conservativeResize(row + 1, emulator.basis.size());
         rows.terms.row(row) = emulator.terms(inSds(*study_, setting.parameters), present).transpose();
         rows.settings.push_back(setting);
-        rows.severalOn.push_back((setting.amplitudes(emulator.basis.effects).array() != 0.0).count() > 1);
-        rows.terms(row, emulator.basis.designTerm()) = rows.severalOn.back() ? 1.0 : 0.0;
+        const auto on = (setting.amplitudes(emulator.basis.effects).array() != 0.0).count();
+        rows.terms(row, emulator.basis.designTerm()) = on > 1 ? 1.0 : 0.0;
         rows.scattering.push_back(scatteringOf(emulator, setting));
     }
-    conditions_[c]->runs = static_cast<int>(rows.settings.size());
     conditions_[c]->centre = rows.values.colwise().mean().transpose();
-}
-
-void Emulator::setNoise(std::size_t c, const Eigen::MatrixXd& noise)
-{
-    conditions_[c]->noise = noise;
-    conditions_[c]->root = noise.llt().matrixL();
 }
 
 
@@ -468,7 +451,7 @@ void Emulator::learnNoise(bool ofPlainRuns)
     std::vector<Eigen::MatrixXd> deviations(conditions_.size());
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(features);
     Eigen::VectorXd weight = squares;
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         const auto& kept = conditions_[c]->features;
         const Rows& rows = rows_[c];
@@ -506,7 +489,7 @@ void Emulator::learnNoise(bool ofPlainRuns)
     double between = 0.0;
     double count = 0.0;
     degreesOfFreedom_ = 0.0;
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         if (freedom[c] > 0.0)
         {
@@ -517,7 +500,7 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     between = std::max(leastBetween, between / std::max(count, 1.0));
     Eigen::MatrixXd standardised(0, features);
-    for (const auto c : degreesOfFreedom_ > 0.0 ? learnt(conditions_) : std::vector<std::size_t>{})
+    for (const auto c : degreesOfFreedom_ > 0.0 ? learnt_ : std::vector<std::size_t>{})
     {
         const auto& kept = conditions_[c]->features;
         const Eigen::VectorXd common = pooled(kept).cwiseMax(smallest[c].array().log().matrix());
@@ -550,11 +533,12 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     const Eigen::VectorXd typical = (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
     noise_ = typical.asDiagonal() * correlation * typical.asDiagonal();
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
-        const auto& kept = conditions_[c]->features;
+        ConditionEmulator& here = *conditions_[c];
         const Eigen::VectorXd sds = logSds[c].array().exp();
-        setNoise(c, sds.asDiagonal() * Eigen::MatrixXd(correlation(kept, kept)) * sds.asDiagonal());
+        here.noise = sds.asDiagonal() * Eigen::MatrixXd(correlation(here.features, here.features)) * sds.asDiagonal();
+        here.root = here.noise.llt().matrixL();
     }
 }
 
@@ -573,7 +557,7 @@ Eigen::ArrayXXd Emulator::variances(std::size_t c) const
             const Eigen::MatrixXd wide = emulator.noiseOf(scattering).llt().matrixL();
             all.row(row) = lower.solve(wide).rowwise().squaredNorm().transpose().array();
         }
-        if (rows.severalOn[row])
+        if (rows.hasSeveral(row))
         {
             all.row(row) += lackOfFit_ * lackOfFit_;
         }
@@ -593,7 +577,7 @@ Eigen::MatrixXd Emulator::whitened(std::size_t c) const
 double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
 {
     double sum = 0.0;
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         const Eigen::MatrixXd scaled = rows_[c].terms * priorSds(conditions_[c]->basis, scales).asDiagonal();
         Eigen::MatrixXd covariance = scaled * scaled.transpose();
@@ -708,7 +692,7 @@ void Emulator::learnScatter()
         std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // by condition: the same, degrees of freedom
         double statistic = 0.0;
         double statisticFreedom = 0.0;
-        for (const auto c : learnt(conditions_))
+        for (const auto c : learnt_)
         {
             const auto& kept = conditions_[c]->features;
             for (const auto& group : repeatsOf(rows_[c].settings))
@@ -761,29 +745,15 @@ void Emulator::learnScatter()
             conditions_[c]->logScatter[e] = logs;
         }
     }
-    for (const auto c : learnt(conditions_))
+    for (const auto c : learnt_)
     {
         rows_[c].scattering =
             mapped(rows_[c].settings, [&](const Setting& setting) { return scatteringOf(*conditions_[c], setting); });
     }
 }
 
-void Emulator::learnChain(const Simulator& simulator, const std::vector<Run>& runs)
-{
-    for (std::size_t e = 0; e < study_->effects.size(); ++e)
-    {
-        for (const auto c : learnt(conditions_))
-        {
-            if (study_->effects[e].isOfChain() && acts(study_->effects[e], study_->conditions[c]))
-            {
-                learnChain(e, c, simulator, runs);
-            }
-        }
-    }
-}
-
 /// The curves of runs without effects, once more through the chain.
-void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<Run>& runs)
+void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<const Run*>& runs)
 {
     const Effect& effect = study_->effects[e];
     const auto& kept = conditions_[c]->features;
@@ -791,7 +761,7 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
     std::vector<const Curve*> curves;
     std::vector<Setting> settings;
     std::vector<Eigen::VectorXd> features;
-    for (const auto* run : goodRuns(runs, c))
+    for (const auto* run : runs)
     {
         const auto [setting, all] = beforeChain(*study_, simulator, *run);
         if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())

@@ -48,7 +48,6 @@ public:
     std::vector<Eigen::MatrixXd> covariances;          // of these, by feature
     std::map<std::size_t, Chain> chain;                // by effect
     std::map<std::size_t, Eigen::VectorXd> logScatter; // by simulated effect: log sd that amplitude 1 adds, by feature
-    int runs = 0;
 
     /// Mean of the features at some parameters.
     Eigen::VectorXd at(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
@@ -82,7 +81,6 @@ class Emulator
 {
 public:
     /// \param features  by condition of the study, those that are wanted; of these, what too many runs lack is left out
-    /// \param plain  runs whose curves show what the measuring chain does
     Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,
         const std::vector<std::vector<Eigen::Index>>& features);
 
@@ -115,12 +113,6 @@ public:
         return degreesOfFreedom_;
     }
 
-    /// Sd of the coefficients' priors by kind of term, in units of one run's noise.
-    const std::array<double, Basis::kinds>& scales() const
-    {
-        return scales_;
-    }
-
     double lackOfFit() const
     {
         return lackOfFit_;
@@ -145,29 +137,33 @@ private:
         Eigen::MatrixXd values; // of the features that the emulator has
         Eigen::MatrixXd terms;
         std::vector<std::vector<Present>> scattering; // effects of each run that raise its scatter
-        std::vector<bool> severalOn;                  // whether it has several effects at once
+
+        /// Whether a run has several effects at once.
+        bool hasSeveral(Eigen::Index run) const
+        {
+            return terms(run, terms.cols() - 1) != 0.0;
+        }
     };
 
-    void choose(std::size_t condition, const std::vector<Run>& runs, const std::vector<Eigen::Index>& wanted);
-    void append(std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
+    void choose(std::size_t condition, const std::vector<const Run*>& runs, const std::vector<Eigen::Index>& wanted);
+    void append(std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& runs);
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();
     void solve(std::size_t condition);
     void learnNoiseAndScatter();
     void learnNoise(bool ofPlainRuns);
     void learnScatter();
-    void setNoise(std::size_t condition, const Eigen::MatrixXd& noise);
-    void learnChain(const Simulator& simulator, const std::vector<Run>& runs);
     void learnChain(
-        std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<Run>& runs);
+        std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
     Eigen::MatrixXd whitened(std::size_t condition) const;
 
     const Study* study_;
     std::vector<Rows> rows_;
     std::vector<std::optional<ConditionEmulator>> conditions_;
+    std::vector<std::size_t> learnt_; // conditions that have an emulator
     std::vector<bool> known_;
-    std::array<double, Basis::kinds> scales_{};
+    std::array<double, Basis::kinds> scales_{}; // sd of the coefficients' priors, in units of one run's noise
     /// Sd of what terms of second order miss where several effects are on, in units of noise: without it the design's
     /// runs, which are many, would carry the base setting with them.
     double lackOfFit_ = 0.0;

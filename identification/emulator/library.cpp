@@ -1,5 +1,6 @@
 #include "emulator/library.h"
 
+#include "lists.h"
 #include "emulator/commonErrors.h"
 #include "emulator/plackettBurman.h"
 
@@ -45,10 +46,8 @@ public:
         // In the design all parameters are at their ends, as are the effects: how a parameter bends is seen without them.
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
-            for (const double side : {-1.0, 1.0})
-            {
-                add(at(p, side * axialStep), study_.parameters[p].name + " alone", axialRepeats);
-            }
+            add(at(p, -axialStep), study_.parameters[p].name + " alone", axialRepeats);
+            add(at(p, axialStep), study_.parameters[p].name + " alone", axialRepeats);
         }
         std::vector<std::size_t> designed;
         for (const auto e : simulatedEffects(study_, condition_))
@@ -64,7 +63,9 @@ public:
                 // The design has no middle: whether an effect grows as its amplitude is seen where it acts alone.
                 const auto [lower, upper] = effect.bounds;
                 if (lower >= 0.0)
+                {
                     add(with(e, upper / 2.0), effect.name + " alone", 1);
+                }
             }
         }
         addDesign(designed);
@@ -76,10 +77,8 @@ public:
         add(simulator_.plainSetting(), "base", 1);
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
-            for (const double side : {-1.0, 1.0})
-            {
-                add(at(p, side * parameterStep), "design", 1);
-            }
+            add(at(p, -parameterStep), "design", 1);
+            add(at(p, parameterStep), "design", 1);
         }
         for (const auto e : simulatedEffects(study_, condition_))
         {
@@ -101,7 +100,7 @@ private:
     Setting with(std::size_t effect, double amplitude) const
     {
         Setting setting = simulator_.plainSetting();
-        setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+        setting.amplitudes(effect) = amplitude;
         return setting;
     }
 
@@ -111,7 +110,7 @@ private:
         const Parameter& own = study_.parameters[parameter];
         Setting setting =
             own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : simulator_.plainSetting();
-        setting.parameters(static_cast<Eigen::Index>(parameter)) = moved(own, sds);
+        setting.parameters(parameter) = moved(own, sds);
         return setting;
     }
 
@@ -128,7 +127,7 @@ private:
 
     void addDesign(const std::vector<std::size_t>& effects)
     {
-        const auto parameters = static_cast<Eigen::Index>(study_.parameters.size());
+        const Eigen::Index parameters = study_.parameters.size();
         const auto factors = parameters + static_cast<Eigen::Index>(effects.size());
         if (factors == 0)
         {
@@ -140,13 +139,13 @@ private:
             Setting setting = simulator_.plainSetting();
             for (Eigen::Index p = 0; p < parameters; ++p)
             {
-                setting.parameters(p) = moved(study_.parameters[static_cast<std::size_t>(p)], parameterStep * row(p));
+                setting.parameters(p) = moved(study_.parameters[p], parameterStep * row(p));
             }
             for (std::size_t k = 0; k < effects.size(); ++k)
             {
                 const Bounds& bounds = study_.effects[effects[k]].bounds;
                 const bool high = row(parameters + static_cast<Eigen::Index>(k)) > 0.0;
-                setting.amplitudes(static_cast<Eigen::Index>(effects[k])) = high ? bounds.upper : bounds.lower;
+                setting.amplitudes(effects[k]) = high ? bounds.upper : bounds.lower;
             }
             add(setting, "design", 1);
         }
@@ -169,15 +168,33 @@ Eigen::MatrixXd foldover(const Eigen::MatrixXd& design)
 
 std::vector<std::size_t> simulatedEffects(const Study& study, std::size_t condition)
 {
-    std::vector<std::size_t> found;
-    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    return numbersWhere(study.effects.size(), [&](std::size_t e) {
+        return !study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[condition]);
+    });
+}
+
+std::vector<Run> makeRuns(Simulator& simulator, const std::vector<SimulationOrder>& orders)
+{
+    auto simulations = simulator.run(orders);
+    std::vector<Run> runs;
+    for (std::size_t i = 0; i < orders.size(); ++i)
     {
-        if (!study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[condition]))
+        runs.push_back({orders[i].setting, std::move(simulations[i])});
+    }
+    return runs;
+}
+
+std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition)
+{
+    std::vector<const Run*> good;
+    for (const auto& run : runs)
+    {
+        if (run.simulation.condition == condition && !run.simulation.failed)
         {
-            found.push_back(e);
+            good.push_back(&run);
         }
     }
-    return found;
+    return good;
 }
 
 std::vector<SimulationOrder> libraryOrders(const Simulator& simulator)
@@ -187,10 +204,8 @@ std::vector<SimulationOrder> libraryOrders(const Simulator& simulator)
     for (const auto condition : study.conditionsOf(Role::training))
     {
         Orders orders(simulator, condition);
-        const auto more = study.rig.seedEntry.empty() ? orders.exact() : orders.scattering();
-        all.insert(all.end(), more.begin(), more.end());
-        const auto errors = commonErrorOrders(simulator, condition);
-        all.insert(all.end(), errors.begin(), errors.end());
+        append(all, study.rig.seedEntry.empty() ? orders.exact() : orders.scattering());
+        append(all, commonErrorOrders(simulator, condition));
     }
     return all;
 }
@@ -209,31 +224,18 @@ Library makeLibrary(Simulator& simulator)
             (order.purpose == "base" ? first : rest).push_back(order);
         }
     }
-    Library library;
-    const auto run = [&](const std::vector<SimulationOrder>& some) {
-        auto simulations = simulator.run(some);
-        for (std::size_t i = 0; i < some.size(); ++i)
-        {
-            library.runs.push_back({some[i].setting, std::move(simulations[i])});
-        }
-    };
-    run(first);
+    Library library{makeRuns(simulator, first), {}};
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        if (std::none_of(library.runs.begin(), library.runs.end(),
-                [&](const Run& one) { return one.simulation.condition == condition && !one.simulation.failed; }))
+        if (goodRuns(library.runs, condition).empty())
         {
-            throw std::runtime_error("condition '" + study.conditions[condition].name
-                                     + "': all runs at the base setting have failed"
-                                     + (simulator.failures().empty() ? "" : ": " + simulator.failures().back().reason));
+            throw std::runtime_error(
+                "condition '" + study.conditions[condition].name + "': all runs at the base setting have failed"
+                + (simulator.effort().failures.empty() ? "" : ": " + simulator.effort().failures.back().reason));
         }
     }
-    run(rest);
-    std::vector<Simulation> base;
-    for (std::size_t i = 0; i < first.size(); ++i)
-    {
-        base.push_back(library.runs[i].simulation);
-    }
+    const auto base = mapped(library.runs, [](const Run& run) { return run.simulation; });
+    append(library.runs, makeRuns(simulator, rest));
     library.errorSlopes.resize(study.conditions.size());
     for (const auto condition : study.conditionsOf(Role::training))
     {

@@ -15,11 +15,18 @@ struct Run
     Simulation simulation;
 };
 
+/// The orders and what came of them.
+std::vector<Run> makeRuns(Simulator& simulator, const std::vector<SimulationOrder>& orders);
+
+/// Runs of one condition that have not failed.
+std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition);
+
 /// Runs of all training conditions. Made once per rig, used for every data set.
 ///
-/// Where runs scatter: repeats at the base setting, and with each parameter alone at either end; switches and effects that raise the scatter alone, at amplitude 1;
-/// all others, and the parameters, in a Plackett-Burman design and its foldover (Box & Wilson 1951; resolution IV: no
-/// interaction of two looks like an effect). Without scatter nothing is averaged out: one thing is changed at a time.
+/// Where runs scatter: repeats at the base setting, and with each parameter alone at either end; switches and effects that
+/// raise the scatter alone, at amplitude 1; all others, and the parameters, in a Plackett-Burman design and its foldover (Box
+/// & Wilson 1951; resolution IV: no interaction of two looks like an effect). Without scatter nothing is averaged out: one
+/// thing is changed at a time.
 struct Library
 {
     std::vector<Run> runs;

@@ -14,13 +14,13 @@ constexpr Eigen::Index largest = 32;
 /// Every row but the last is the generator, turned by one place more.
 Eigen::MatrixXd cyclic(const std::string& generator)
 {
-    const auto factors = static_cast<Eigen::Index>(generator.size());
+    const Eigen::Index factors = generator.size();
     Eigen::MatrixXd design = Eigen::MatrixXd::Constant(factors + 1, factors, -1.0);
     for (Eigen::Index row = 0; row < factors; ++row)
     {
         for (Eigen::Index column = 0; column < factors; ++column)
         {
-            const auto place = static_cast<std::size_t>((column - row + factors) % factors);
+            const std::size_t place = (column - row + factors) % factors;
             design(row, column) = generator[place] == '+' ? 1.0 : -1.0;
         }
     }

@@ -1,5 +1,7 @@
 #include "emulator/settings.h"
 
+#include "lists.h"
+
 #include <algorithm>
 
 namespace clepsydra::identification
@@ -7,38 +9,26 @@ namespace clepsydra::identification
 
 Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters)
 {
-    Eigen::VectorXd result(parameters.size());
-    for (Eigen::Index i = 0; i < result.size(); ++i)
-    {
-        const Parameter& parameter = study.parameters[static_cast<std::size_t>(i)];
-        result(i) = (parameters(i) - parameter.mean) / parameter.sd;
-    }
-    return result;
+    return Eigen::VectorXd::NullaryExpr(parameters.size(),
+        [&](Eigen::Index i) { return (parameters(i) - study.parameters[i].mean) / study.parameters[i].sd; });
 }
 
 Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds)
 {
-    Eigen::VectorXd result(inSds.size());
-    for (Eigen::Index i = 0; i < result.size(); ++i)
-    {
-        const Parameter& parameter = study.parameters[static_cast<std::size_t>(i)];
-        result(i) = std::clamp(parameter.mean + inSds(i) * parameter.sd, parameter.lower, parameter.upper);
-    }
-    return result;
+    return Eigen::VectorXd::NullaryExpr(inSds.size(), [&](Eigen::Index i) {
+        const Parameter& parameter = study.parameters[i];
+        return std::clamp(parameter.mean + inSds(i) * parameter.sd, parameter.lower, parameter.upper);
+    });
 }
 
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features)
 {
-    Eigen::MatrixXd rows(std::count_if(simulations.begin(), simulations.end(),
-                             [&](const Simulation& simulation) { return simulation.condition == condition; }),
-        features);
-    Eigen::Index row = 0;
-    for (const auto& simulation : simulations)
+    const auto own =
+        numbersWhere(simulations.size(), [&](std::size_t i) { return simulations[i].condition == condition; });
+    Eigen::MatrixXd rows(own.size(), features);
+    for (Eigen::Index row = 0; row < rows.rows(); ++row)
     {
-        if (simulation.condition == condition)
-        {
-            rows.row(row++) = simulation.features.transpose();
-        }
+        rows.row(row) = simulations[own[row]].features.transpose();
     }
     return rows;
 }

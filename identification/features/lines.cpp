@@ -16,12 +16,12 @@ Eigen::VectorXd polynomial(const Curve& curve, double from, double to, int degre
 {
     const auto begin = std::lower_bound(curve.time.begin(), curve.time.end(), from);
     const auto end = std::upper_bound(begin, curve.time.end(), to);
-    const auto count = static_cast<Eigen::Index>(end - begin);
+    const Eigen::Index count = end - begin;
     if (count < degree + 2)
     {
         return Eigen::VectorXd::Constant(degree + 1, std::numeric_limits<double>::quiet_NaN());
     }
-    const auto first = static_cast<std::size_t>(begin - curve.time.begin());
+    const std::size_t first = begin - curve.time.begin();
     const Eigen::Map<const Eigen::ArrayXd> time(&curve.time[first], count);
     const Eigen::Map<const Eigen::VectorXd> value(&curve.value[first], count);
     const Eigen::ArrayXd scaled = (time - (from + to) / 2) / ((to - from) / 2);
@@ -45,7 +45,7 @@ Parabola parabolaBetween(const Curve& curve, double from, double to)
 {
     const Eigen::VectorXd c = polynomial(curve, from, to, 2);
     const double half = (to - from) / 2;
-    return {(from + to) / 2, c(0), c(1) / half, c(2) / (half * half)};
+    return {c(1) / half, c(2) / (half * half)};
 }
 
 } // namespace clepsydra::identification

@@ -5,11 +5,9 @@
 namespace clepsydra::identification
 {
 
-/// A parabola c0 + c1 (t - tm) + c2 (t - tm)^2 through a part of a curve by least squares, tm the middle of the part.
+/// Of c0 + c1 (t - tm) + c2 (t - tm)^2, a parabola through a part of a curve by least squares, tm the middle of the part.
 struct Parabola
 {
-    double middle;
-    double c0;
     double c1;
     double c2;
 };

@@ -3,7 +3,6 @@
 #include "lists.h"
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
-#include "heldOut/draws.h"
 #include "emulator/commonErrors.h"
 #include "emulator/settings.h"
 
@@ -26,6 +25,14 @@ std::vector<Eigen::Index> logFeatures(const Study& study)
     const auto logs =
         numbersWhere(study.featureCount(), [&](Eigen::Index f) { return study.features[f].kind->isLog(); });
     return logs.empty() ? numbersWhere(study.featureCount(), [](Eigen::Index) { return true; }) : logs;
+}
+
+/// The smallest of the values that has at least this share of them at or below it.
+double quantile(std::vector<double> values, double share)
+{
+    std::sort(values.begin(), values.end());
+    const auto index = static_cast<std::size_t>(std::ceil(share * static_cast<double>(values.size()))) - 1;
+    return values[std::min(index, values.size() - 1)];
 }
 
 Prediction predictionOf(const Eigen::MatrixXd& features, const Study& study, const Answer& answer)
@@ -228,10 +235,10 @@ private:
     {
         for (std::size_t member = 0; member < answer_.set.size(); ++member)
         {
-            const auto after = simulated(answer_.set[member].setting, nameOf(study_, answer_.set[member]));
+            const auto after = simulated(answer_.set[member].setting, nameOf(study_, answer_.set[member].effects));
             const auto predicted = predictionsOf(after);
             Scored one = scored(predicted);
-            result_.members.push_back({member, one.score});
+            result_.members.push_back(one.score);
             if (member == 0)
             {
                 result_.after = one.score;
@@ -327,7 +334,7 @@ private:
     std::mt19937_64& random_;
     const std::vector<Eigen::Index> logs_;               // the features that are scored
     std::map<std::size_t, Eigen::MatrixXd> errorSlopes_; // by condition
-    DataNoise noise_;
+    std::vector<Eigen::MatrixXd> noise_;                 // of the measurements
     Scored before_;
     Scored after_;
     Scored oneMore_;

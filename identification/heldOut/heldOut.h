@@ -13,13 +13,6 @@
 namespace clepsydra::identification
 {
 
-/// One member of the set, on the held-out conditions.
-struct MemberScore
-{
-    std::size_t member; // of Answer::set
-    HeldOutScore score;
-};
-
 /// Before and after on conditions that no fit has seen.
 struct HeldOutResult
 {
@@ -27,12 +20,12 @@ struct HeldOutResult
     std::optional<HeldOutScore> after; // the best explanation; none where there is none
     HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
     HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
-    std::vector<MemberScore> members;
-    Estimate improvement;          // of the rms error, before minus after, with the noise they share
-    Estimate overOneMore;          // the same, control 1 minus after
-    double noiseFloor = 0.0;       // rms error that noise alone would give
-    double noiseLimit = 0.0;       // 99 % of right predictions have a smaller one
-    double oneMoreAmplitude = 0.0; // what control 1 fitted
+    std::vector<HeldOutScore> members; // of Answer::set
+    Estimate improvement;              // of the rms error, before minus after, with the noise they share
+    Estimate overOneMore;              // the same, control 1 minus after
+    double noiseFloor = 0.0;           // rms error that noise alone would give
+    double noiseLimit = 0.0;           // 99 % of right predictions have a smaller one
+    double oneMoreAmplitude = 0.0;     // what control 1 fitted
     std::vector<std::string> notAcceptedBecause;
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;

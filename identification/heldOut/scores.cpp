@@ -1,10 +1,11 @@
 #include "heldOut/scores.h"
 
-#include "heldOut/draws.h"
+#include "lists.h"
 #include "study/measurements.h"
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 
 namespace clepsydra::identification
@@ -15,9 +16,18 @@ namespace
 
 constexpr double pi = 3.14159265358979323846;
 
+/// Independent standard normal numbers.
+Eigen::VectorXd normals(Eigen::Index count, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd draws(count);
+    std::generate(draws.begin(), draws.end(), [&] { return normal(random); });
+    return draws;
+}
+
 double sdOf(const std::vector<double>& values)
 {
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), static_cast<Eigen::Index>(values.size()));
+    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), values.size());
     return std::sqrt((all - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
 }
 
@@ -72,10 +82,10 @@ double crpsOfNormal(double mean, double sd, double observed)
     return sd * (z * (2.0 * cumulative - 1.0) + 2.0 * density - 1.0 / std::sqrt(pi));
 }
 
-DataNoise drawDataNoise(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions, int draws,
-    std::mt19937_64& random)
+std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
+    const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random)
 {
-    DataNoise noise;
+    std::vector<Eigen::MatrixXd> noise;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         Eigen::MatrixXd covariance = predictions[c].dataCovariance.cwiseProduct(data[c].meanShare);
@@ -86,32 +96,28 @@ DataNoise drawDataNoise(const std::vector<HeldOutData>& data, const std::vector<
         {
             row = (root * normals(covariance.rows(), random)).transpose();
         }
-        noise.draws.push_back(rows);
+        noise.push_back(rows);
     }
     return noise;
 }
 
 HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& logFeatures, const DataNoise& noise, std::mt19937_64& random,
+    const std::vector<Eigen::Index>& logFeatures, const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random,
     std::vector<double>* samples)
 {
-    std::vector<Eigen::VectorXd> none;
-    none.reserve(predictions.size());
-    for (const auto& prediction : predictions)
-    {
-        none.emplace_back(Eigen::VectorXd::Zero(prediction.mean.size()));
-    }
+    const auto none = mapped(
+        predictions, [](const Prediction& one) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(one.mean.size()); });
     HeldOutScore score;
     std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, logFeatures, none, none);
     std::vector<double> errors;
     std::vector<double> crps;
-    for (Eigen::Index draw = 0; draw < noise.draws.front().rows(); ++draw)
+    for (Eigen::Index draw = 0; draw < noise.front().rows(); ++draw)
     {
         std::vector<Eigen::VectorXd> dataShift;
         std::vector<Eigen::VectorXd> predictionShift;
         for (std::size_t c = 0; c < data.size(); ++c)
         {
-            dataShift.emplace_back(noise.draws[c].row(draw).transpose());
+            dataShift.emplace_back(noise[c].row(draw).transpose());
             predictionShift.emplace_back(
                 predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), random)));
         }

@@ -37,23 +37,18 @@ struct HeldOutData
     Eigen::VectorXd declaredVariance; // of each value and of the mean, beyond repeats
 };
 
-/// Draws of measurement noise, common to all predictions that are compared.
-struct DataNoise
-{
-    std::vector<Eigen::MatrixXd> draws; // by condition: one draw of the mean's error per row
-};
-
 /// CRPS of a normal prediction: Gneiting & Raftery, J. Am. Stat. Assoc. 102, 359 (2007), eq. 21.
 double crpsOfNormal(double mean, double sd, double observed);
 
-DataNoise drawDataNoise(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions, int draws,
-    std::mt19937_64& random);
+/// Draws of measurement noise, common to all predictions that are compared. By condition: one of the mean's error per row.
+std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
+    const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random);
 
 /// Score of a prediction with standard errors by redrawing what is uncertain: the measured means and the simulated ones.
 /// \param logFeatures  features that enter the error
 /// \param samples  if given, the draws of the rms error, to compare predictions draw by draw
 HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& logFeatures, const DataNoise& noise, std::mt19937_64& random,
+    const std::vector<Eigen::Index>& logFeatures, const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random,
     std::vector<double>* samples = nullptr);
 
 } // namespace clepsydra::identification

@@ -27,12 +27,10 @@ public:
         const auto& places = block.places;
         for (const auto& contender : contenders)
         {
-            const Eigen::MatrixXd run = here.noiseOf(contender.present)(places, places);
-            const Eigen::MatrixXd single = block.noise.size() > 0 ? block.noise : run;
             means_.emplace_back(here.at(contender.parameters, contender.present)(places));
             unknown_.emplace_back(here.uncertainty(contender.parameters, contender.present)(places, places));
-            runs_.push_back(run);
-            data_.emplace_back(single.cwiseProduct(block.meanShare) + block.unshown());
+            runs_.emplace_back(here.noiseOf(contender.present)(places, places));
+            data_.emplace_back(block.ofOne(here, contender.present).cwiseProduct(block.meanShare) + block.unshown());
         }
         differences_ = unknown_;
     }
@@ -103,7 +101,7 @@ std::optional<std::vector<Present>> simulatedAs(
     Eigen::VectorXd others = setting.amplitudes;
     for (auto& one : own)
     {
-        const auto effect = static_cast<Eigen::Index>(one.effect);
+        const Eigen::Index effect = one.effect;
         if (here.basis.placeOf(one.effect) < here.basis.effects.size())
         {
             one.amplitude = setting.amplitudes(effect);
@@ -167,20 +165,17 @@ std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, co
     for (const auto& block : layout.blocks)
     {
         const Expectation expectation(emulator, block, contenders);
+        const auto good = goodRuns(runs, block.condition);
         const ConditionEmulator& here = *emulator[block.condition];
         for (std::size_t i = 0; i < contenders.size(); ++i)
         {
-            const auto isNear = [&](const Run& run) {
-                if (run.simulation.condition != block.condition || run.simulation.failed)
-                {
-                    return false;
-                }
-                const auto own = simulatedAs(contenders[i].present, here, run.setting);
+            const auto isNear = [&](const Run* run) {
+                const auto own = simulatedAs(contenders[i].present, here, run->setting);
                 return own
-                       && expectation.distance(i, here.at(inSds(study, run.setting.parameters), *own)(block.places))
+                       && expectation.distance(i, here.at(inSds(study, run->setting.parameters), *own)(block.places))
                               < 1.0;
             };
-            if (expectation.openShare(i) > worthARun || std::none_of(runs.begin(), runs.end(), isNear))
+            if (expectation.openShare(i) > worthARun || std::none_of(good.begin(), good.end(), isNear))
             {
                 wanted.push_back({i, block.condition});
             }

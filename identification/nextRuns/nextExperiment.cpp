@@ -33,7 +33,7 @@ Setting drawn(const Study& study, const Explanation& explanation, std::mt19937_6
         if (!effect.isSwitch)
         {
             const Fit& fit = explanation.fits[k];
-            setting.amplitudes(static_cast<Eigen::Index>(explanation.effects[k])) =
+            setting.amplitudes(explanation.effects[k]) =
                 std::clamp(fit.amplitude + fit.sd * normal(random), effect.bounds.lower, effect.bounds.upper);
         }
     }
@@ -80,7 +80,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
         const Eigen::VectorXd variances = block.unshown().diagonal();
         for (Eigen::Index k = 0; k < block.size(); ++k)
         {
-            double& largest = common(features[static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)])]);
+            double& largest = common(features[block.places[k]]);
             largest = std::max(largest, variances(k));
         }
     }
@@ -91,7 +91,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
         next.condition = condition;
         for (const auto& explanation : left)
         {
-            const std::string name = nameOf(study, explanation);
+            const std::string name = nameOf(study, explanation.effects);
             std::vector<SimulationOrder> orders;
             for (int number = 0; number < draws; ++number)
             {

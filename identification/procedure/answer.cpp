@@ -19,10 +19,10 @@ std::string nameOf(Decision decision)
     return "unknown";
 }
 
-std::string nameOf(const Study& study, const Explanation& explanation)
+std::string nameOf(const Study& study, const std::vector<std::size_t>& effects)
 {
     std::string name;
-    for (const auto e : explanation.effects)
+    for (const auto e : effects)
     {
         name += (name.empty() ? "" : " with ") + study.effects[e].name;
     }

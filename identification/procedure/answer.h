@@ -44,8 +44,8 @@ struct Explanation
     std::vector<Simulation> simulations; // with it switched on, nearest to the last fit; empty: it was not simulated
 };
 
-/// "effect" or "effect with other effect"
-std::string nameOf(const Study& study, const Explanation& explanation);
+/// "effect" or "effect with other effect", or "no effect"
+std::string nameOf(const Study& study, const std::vector<std::size_t>& effects);
 
 /// All that the training data say. Held-out data have no part in it.
 struct Answer

@@ -79,12 +79,12 @@ std::vector<MeasuredCondition> plannedData(
     for (const auto c : study.conditionsOf(Role::training))
     {
         Eigen::MatrixXd rows(0, study.featureCount());
-        for (const auto& run : library.runs)
+        for (const auto* run : goodRuns(library.runs, c))
         {
-            if (run.simulation.condition == c && run.setting.amplitudes.isZero() && !run.simulation.failed)
+            if (run->setting.amplitudes.isZero())
             {
                 rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-                rows.bottomRows<1>() = run.simulation.features.transpose();
+                rows.bottomRows<1>() = run->simulation.features.transpose();
             }
         }
         const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
@@ -127,8 +127,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     const auto planned = plannedData(study, library, measured);
     const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, planned));
     const auto [layout, numbers] = arrange(study, emulator, planned, library.errorSlopes);
-    const Evidence evidence(
-        study, emulator, layout, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.parameters.size())));
+    const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(study.parameters.size()));
     Replicas replicas(emulator, layout, evidence, random);
     const Calibration calibration = Calibrator(study, evidence, replicas, numbers, random).calibrate();
     writePlan(study, emulator, layout, numbers, evidence, calibration,

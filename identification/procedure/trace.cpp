@@ -49,8 +49,7 @@ public:
         const int last = answer_.emulator->scatters() ? rounds : roundsOfExact;
         for (int round = 0; round < last; ++round)
         {
-            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
-            evidence.refine(answer_.measured);
+            const Evidence evidence = evidenceNear(around);
             around = evidence.fitNull(answer_.measured).parameters;
             const bool libraryAlone = study_.settings.decidingRuns == 0;
             if (libraryAlone || !(round == 0 ? simulateNull(around) : simulateContenders(evidence, round)))
@@ -59,11 +58,7 @@ public:
             }
             learn();
         }
-        {
-            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
-            evidence.refine(answer_.measured);
-            decide(evidence);
-        }
+        decide(evidenceNear(around));
         if (answer_.decision == Decision::unknown)
         {
             tryPairs(around);
@@ -77,6 +72,16 @@ private:
     {
         answer_.emulator = std::make_shared<Emulator>(study_, simulator_, runs_, features_);
         std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_, errorSlopes_);
+    }
+
+    Evidence evidenceNear(const Eigen::VectorXd& parameters, bool refined = true) const
+    {
+        Evidence evidence(study_, *answer_.emulator, answer_.layout, parameters);
+        if (refined)
+        {
+            evidence.refine(answer_.measured);
+        }
+        return evidence;
     }
 
     Setting settingOf(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
@@ -97,14 +102,9 @@ private:
 
     bool simulate(const std::vector<SimulationOrder>& orders)
     {
-        auto simulations = simulator_.run(orders);
-        bool any = false;
-        for (std::size_t i = 0; i < orders.size(); ++i)
-        {
-            any = any || !simulations[i].failed;
-            runs_.push_back({orders[i].setting, std::move(simulations[i])});
-        }
-        return any;
+        const auto more = makeRuns(simulator_, orders);
+        append(runs_, more);
+        return std::any_of(more.begin(), more.end(), [](const Run& run) { return !run.simulation.failed; });
     }
 
     bool simulateNull(const Eigen::VectorXd& parameters)
@@ -122,7 +122,7 @@ private:
         {
             throw std::runtime_error(
                 "all runs at the null fit have failed"
-                + (simulator_.failures().empty() ? "" : ": " + simulator_.failures().back().reason));
+                + (simulator_.effort().failures.empty() ? "" : ": " + simulator_.effort().failures.back().reason));
         }
         return true;
     }
@@ -192,13 +192,8 @@ private:
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
-            std::string what = present.empty() ? "no effect" : "";
-            for (const auto& [effect, amplitude] : present)
-            {
-                what += (what.empty() ? "" : " with ") + study_.effects[effect].name;
-            }
-            orders.push_back(
-                {condition, settingOf(present, parameters), purpose + ": " + what, numbers[{contender, condition}]++});
+            orders.push_back({condition, settingOf(present, parameters),
+                purpose + ": " + nameOf(study_, effectsOf(present)), numbers[{contender, condition}]++});
         }
         return !orders.empty() && simulate(orders);
     }
@@ -207,17 +202,9 @@ private:
     void tryPairs(const Eigen::VectorXd& around)
     {
         const bool isExact = !answer_.emulator->scatters();
-        const auto evidenceNow = [&] {
-            Evidence evidence(study_, *answer_.emulator, answer_.layout, around);
-            if (isExact)
-            {
-                evidence.refine(answer_.measured);
-            }
-            return evidence;
-        };
         for (int round = 0; round < (isExact ? pairRoundsOfExact : 1); ++round)
         {
-            Evidence evidence = evidenceNow();
+            Evidence evidence = evidenceNear(around, isExact);
             const auto leading = leadingPairs(study_, evidence, answer_.measured);
             std::vector<Contender> contenders;
             for (const auto& pair : leading)
@@ -239,7 +226,7 @@ private:
             }
             learn();
         }
-        Evidence evidence = evidenceNow();
+        Evidence evidence = evidenceNear(around, isExact);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
@@ -259,7 +246,7 @@ private:
             else
             {
                 answer_.remarks.push_back(
-                    nameOf(study_, found)
+                    nameOf(study_, found.effects)
                     + " might make what was measured, but no run near its fit shows it: the runs that were made "
                       "have led on to other fits");
             }
@@ -271,6 +258,11 @@ private:
             answer_.somethingElseInSet = !isName;
             answer_.family = isName && answer_.set.size() > 1 ? sharedName(study_, pairs) : "";
         }
+    }
+
+    static std::vector<std::size_t> effectsOf(const std::vector<Present>& present)
+    {
+        return mapped(present, [](const Present& one) { return one.effect; });
     }
 
     static std::vector<Present> presentOf(const PairFinding& pair)
@@ -355,7 +347,7 @@ private:
         Explanation found;
         found.fits = fits;
         found.probability = probability;
-        found.effects = mapped(present, [](const Present& one) { return one.effect; });
+        found.effects = effectsOf(present);
         found.setting = settingOf(present, fits.front().parameters);
         found.logOdds = logOdds;
         found.misfit = fits.front().misfit;

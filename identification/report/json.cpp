@@ -63,7 +63,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     {
         amplitudes[study.effects[e].name] = explanation.setting.amplitudes(e);
     }
-    return {{"name", nameOf(study, explanation)}, {"amplitudes", amplitudes},
+    return {{"name", nameOf(study, explanation.effects)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
         {"misfit", explanation.misfit}, {"simulated", !explanation.simulations.empty()}};
 }
@@ -178,11 +178,12 @@ Json heldOutJson(const Findings& findings)
     const Study& study = *findings.study;
     const HeldOutResult& result = *findings.heldOut;
     const Json names = mapped(result.conditions, [&](std::size_t c) { return study.conditions[c].name; });
-    const Json members = mapped(result.members, [&](const MemberScore& member) {
-        Json json = heldOutScore(member.score);
-        json["name"] = nameOf(study, findings.answer->set[member.member]);
-        return json;
-    });
+    Json members = Json::array();
+    for (std::size_t i = 0; i < result.members.size(); ++i)
+    {
+        members.push_back(heldOutScore(result.members[i]));
+        members.back()["name"] = nameOf(study, findings.answer->set[i].effects);
+    }
     if (result.conditions.empty())
     {
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
@@ -202,18 +203,18 @@ Json heldOutJson(const Findings& findings)
 
 Json runsJson(const Simulator& simulator)
 {
-    const Json failures = mapped(simulator.failures(), [&](const Failure& failure) -> Json {
+    const Json failures = mapped(simulator.effort().failures, [&](const Failure& failure) -> Json {
         return {{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
             {"reason", fromStudy(simulator.study(), failure.reason)}, {"repeatedWithAnotherSeed", failure.repeated}};
     });
     int all = 0;
-    for (const auto& [purpose, count] : simulator.runsByPurpose())
+    for (const auto& [purpose, count] : simulator.effort().runsByPurpose)
     {
         all += count;
     }
-    return {{"used", all}, {"executed", simulator.executed()}, {"fromCache", all - simulator.executed()},
-        {"seconds", simulator.seconds()}, {"secondsOfStored", simulator.secondsOfStored()},
-        {"byPurpose", simulator.runsByPurpose()}, {"failures", failures}};
+    return {{"used", all}, {"executed", simulator.effort().executed}, {"fromCache", all - simulator.effort().executed},
+        {"seconds", simulator.effort().seconds}, {"secondsOfStored", simulator.effort().secondsOfStored},
+        {"byPurpose", simulator.effort().runsByPurpose}, {"failures", failures}};
 }
 
 Json nextJson(const Findings& findings)
@@ -308,7 +309,7 @@ Json jsonOf(const Findings& findings)
     json["nextExperiment"] = nextJson(findings);
     json["emulator"] = emulatorJson(findings);
     json["runs"] = runsJson(*findings.simulator);
-    json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.simulator->seedsByPurpose()}};
+    json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.simulator->effort().seedsByPurpose}};
     json["assumptions"] = assumptionsOf(findings);
     json["remarks"] = answer.remarks;
     return json;

@@ -16,14 +16,13 @@ std::vector<Residual> residualsOf(const Findings& findings)
     {
         const ConditionEmulator& emulator = *(*answer.emulator)[block.condition];
         const Eigen::VectorXd expected = emulator.at(parameters, {})(block.places);
-        const Eigen::MatrixXd single =
-            block.noise.size() > 0 ? block.noise : Eigen::MatrixXd(emulator.noise(block.places, block.places));
         const Eigen::MatrixXd unknown = emulator.uncertainty(parameters, {})(block.places, block.places);
-        const Eigen::VectorXd variance = (single.cwiseProduct(block.meanShare) + block.unshown() + unknown).diagonal();
+        const Eigen::VectorXd variance =
+            (block.ofOne(emulator, {}).cwiseProduct(block.meanShare) + block.unshown() + unknown).diagonal();
         for (Eigen::Index k = 0; k < block.size(); ++k)
         {
-            const auto place = static_cast<std::size_t>(block.places[static_cast<std::size_t>(k)]);
-            all.push_back({block.condition, static_cast<std::size_t>(emulator.features[place]),
+            const std::size_t feature = emulator.features[block.places[k]];
+            all.push_back({block.condition, feature,
                 {answer.measured.mean(block.first + k) - expected(k), std::sqrt(variance(k))}});
         }
     }

@@ -91,9 +91,9 @@ void Plot::line(
 }
 
 void Plot::band(const std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper,
-    const std::string& style, const std::string& label)
+    const std::string& style)
 {
-    Shape shape{x, lower, style, label, true};
+    Shape shape{x, lower, style, "", true};
     shape.x.insert(shape.x.end(), x.rbegin(), x.rend());
     shape.y.insert(shape.y.end(), upper.rbegin(), upper.rend());
     shapes_.push_back(std::move(shape));

@@ -15,7 +15,7 @@ public:
     void line(const std::vector<double>& x, const std::vector<double>& y, const std::string& style,
         const std::string& label = "");
     void band(const std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper,
-        const std::string& style, const std::string& label = "");
+        const std::string& style);
 
     std::string svg() const;
 

@@ -31,13 +31,11 @@ std::string joined(const std::vector<std::string>& parts, const std::string& las
 /// What it does, in the library's own words, and how much of it there is.
 std::string meaningOf(const Findings& findings, const Explanation& explanation)
 {
-    std::vector<std::string> meanings;
-    for (const auto e : explanation.effects)
-    {
+    const auto meanings = mapped(explanation.effects, [&](std::size_t e) {
         const Effect& effect = findings.study->effects[e];
-        meanings.push_back(effect.meaning.empty() ? effect.name : effect.meaning);
-        meanings.back().erase(meanings.back().find_last_not_of(" \n.") + 1);
-    }
+        std::string own = effect.meaning.empty() ? effect.name : effect.meaning;
+        return own.erase(own.find_last_not_of(" \n.") + 1);
+    });
     const std::string meaning = joined(meanings, ", together with ");
     const std::string size = sizeInWords(findings, explanation);
     return size.empty() ? meaning : size.rfind(meaning + ' ', 0) == 0 ? size : meaning + " (" + size + ')';
@@ -190,7 +188,7 @@ std::string heldOutInWords(const Findings& findings)
 
 std::string namedBy(const Study& study, const Answer& answer)
 {
-    return answer.family.empty() ? nameOf(study, answer.set.front()) : answer.family;
+    return answer.family.empty() ? nameOf(study, answer.set.front().effects) : answer.family;
 }
 
 std::string sentenceOf(const Findings& findings)

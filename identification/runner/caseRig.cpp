@@ -302,12 +302,8 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         std::map<std::string, std::vector<std::size_t>> missing;
         for (std::size_t i = 0; i < orders.size(); ++i)
         {
-            if (results[i].cached)
-            {
-                continue;
-            }
             const std::string key = keyOf(orders[i]);
-            if (!load(orders[i], cache_ / key, results[i]))
+            if (!results[i].cached && !load(orders[i], cache_ / key, results[i]))
             {
                 missing[key].push_back(i);
             }

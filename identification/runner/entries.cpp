@@ -39,8 +39,8 @@ std::optional<EntryLine> entryLine(const std::string& line)
 {
     const auto isOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const auto name = std::min(line.find_first_not_of(blanks), line.size());
-    const auto nameEnd = static_cast<std::size_t>(
-        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(name), line.end(), isOfWord) - line.begin());
+    const std::size_t nameEnd =
+        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(name), line.end(), isOfWord) - line.begin();
     const auto value = line.find_first_not_of(blanks, nameEnd);
     const auto valueEnd = line.find_first_of(";/{}", nameEnd);
     if (name == nameEnd || value == nameEnd || valueEnd == std::string::npos || line[valueEnd] != ';'

@@ -1,12 +1,12 @@
 #include "runner/simulator.h"
 
+#include "lists.h"
 #include "runner/seeds.h"
 #include "effects/measuringChain.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -66,14 +66,11 @@ Simulator::Simulator(const Study& study, Rig& rig)
 
 Setting Simulator::plainSetting(const Eigen::VectorXd& parameters) const
 {
-    Setting setting{parameters, Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study_.effects.size())), {}};
+    Setting setting{parameters, Eigen::VectorXd::Zero(study_.effects.size()), {}};
     if (parameters.size() == 0)
     {
-        setting.parameters.resize(static_cast<Eigen::Index>(study_.parameters.size()));
-        for (Eigen::Index i = 0; i < setting.parameters.size(); ++i)
-        {
-            setting.parameters(i) = study_.parameters[static_cast<std::size_t>(i)].mean;
-        }
+        setting.parameters = Eigen::VectorXd::NullaryExpr(
+            study_.parameters.size(), [&](Eigen::Index i) { return study_.parameters[i].mean; });
     }
     return setting;
 }
@@ -86,14 +83,14 @@ Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) cons
     for (std::size_t i = 0; i < study_.parameters.size(); ++i)
     {
         const Parameter& parameter = study_.parameters[i];
-        const double value = setting.parameters(static_cast<Eigen::Index>(i));
+        const double value = setting.parameters(i);
         assign(
             entries, defaults_, parameter.entries, parameter.name, std::clamp(value, parameter.lower, parameter.upper));
     }
     for (std::size_t i = 0; i < study_.effects.size(); ++i)
     {
         const Effect& effect = study_.effects[i];
-        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(i));
+        const double amplitude = setting.amplitudes(i);
         if (amplitude == 0.0 || effect.isOfChain() || !acts(effect, c))
         {
             continue;
@@ -112,8 +109,7 @@ Entries Simulator::entriesOf(std::size_t condition, const Setting& setting) cons
     {
         if (setting.errors(i) != 0.0)
         {
-            assign(
-                entries, defaults_, study_.commonErrors[static_cast<std::size_t>(i)].entries, "z", setting.errors(i));
+            assign(entries, defaults_, study_.commonErrors[i].entries, "z", setting.errors(i));
         }
     }
     return entries;
@@ -127,7 +123,7 @@ Curve Simulator::throughChain(Curve curve, std::size_t condition, const Setting&
     for (std::size_t i = 0; i < study_.effects.size(); ++i)
     {
         const Effect& effect = study_.effects[i];
-        const double amplitude = setting.amplitudes(static_cast<Eigen::Index>(i));
+        const double amplitude = setting.amplitudes(i);
         if (effect.isOfChain() && amplitude != 0.0 && acts(effect, study_.conditions[condition]))
         {
             operate(effect.chainOperation, *effect.chainSize, "a", amplitude);
@@ -135,7 +131,7 @@ Curve Simulator::throughChain(Curve curve, std::size_t condition, const Setting&
     }
     for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
     {
-        const CommonError& error = study_.commonErrors[static_cast<std::size_t>(i)];
+        const CommonError& error = study_.commonErrors[i];
         if (error.chainSize && setting.errors(i) != 0.0)
         {
             operate(error.chainOperation, *error.chainSize, "z", setting.errors(i));
@@ -150,7 +146,7 @@ Eigen::VectorXd Simulator::featuresOf(const Curve& curve) const
         Eigen::VectorXd::Constant(study_.featureCount(), std::numeric_limits<double>::quiet_NaN());
     for (Eigen::Index i = 0; i < features.size() && curve.time.size() >= 2; ++i)
     {
-        const double value = study_.features[static_cast<std::size_t>(i)](curve);
+        const double value = study_.features[i](curve);
         features(i) = std::isfinite(value) ? value : features(i);
     }
     return features;
@@ -192,35 +188,23 @@ RunOrder Simulator::runOrder(const SimulationOrder& order, int attempt) const
 
 int Simulator::missing(const std::vector<SimulationOrder>& orders)
 {
-    std::vector<RunOrder> runs;
-    runs.reserve(orders.size());
-    for (const auto& order : orders)
-    {
-        runs.push_back(runOrder(order, 0));
-    }
-    return rig_.missing(runs);
+    return rig_.missing(mapped(orders, [&](const SimulationOrder& order) { return runOrder(order, 0); }));
 }
 
 std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& orders)
 {
     std::vector<Simulation> done(orders.size());
-    std::vector<std::size_t> open(orders.size());
-    std::iota(open.begin(), open.end(), std::size_t{0});
+    auto open = numbersWhere(orders.size(), [](std::size_t) { return true; });
     // Without a seed a second attempt would fail in the same way.
     const int attempts = study_.rig.seedEntry.empty() ? 1 : study_.settings.attempts;
     for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
     {
-        std::vector<RunOrder> runs;
-        runs.reserve(open.size());
-        for (const auto i : open)
-        {
-            runs.push_back(runOrder(orders[i], attempt));
-        }
+        const auto runs = mapped(open, [&](std::size_t i) { return runOrder(orders[i], attempt); });
         const int toExecute = rig_.missing(runs);
-        if (executed_ + toExecute > study_.settings.budget)
+        if (effort_.executed + toExecute > study_.settings.budget)
         {
             throw std::runtime_error(study_.file.string() + ": budget.runs is " + std::to_string(study_.settings.budget)
-                                     + "; " + std::to_string(executed_) + " have been made, and '"
+                                     + "; " + std::to_string(effort_.executed) + " have been made, and '"
                                      + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more");
         }
         const auto results = rig_.run(runs);
@@ -236,22 +220,22 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
                                    ? simulation.plain
                                    : throughChain(simulation.plain, order.condition, order.setting);
             simulation.features = featuresOf(simulation.curve);
-            ++runs_[order.purpose];
-            seeds_[order.purpose].push_back(runs[k].seed);
-            executed_ += results[k].cached ? 0 : 1;
-            (results[k].cached ? secondsOfStored_ : seconds_) += results[k].seconds;
+            ++effort_.runsByPurpose[order.purpose];
+            effort_.seedsByPurpose[order.purpose].push_back(runs[k].seed);
+            effort_.executed += results[k].cached ? 0 : 1;
+            (results[k].cached ? effort_.secondsOfStored : effort_.seconds) += results[k].seconds;
             const std::string reason = failureOf(simulation, results[k]);
             simulation.failed = !reason.empty();
             if (simulation.failed)
             {
                 simulation.features.setConstant(std::numeric_limits<double>::quiet_NaN());
-                failures_.push_back(
+                effort_.failures.push_back(
                     {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
                 failed.push_back(open[k]);
             }
             else if (attempt > 0)
             {
-                for (auto& failure : failures_)
+                for (auto& failure : effort_.failures)
                 {
                     failure.repeated = failure.repeated || failure.seed == runOrder(order, attempt - 1).seed;
                 }
@@ -261,8 +245,9 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
     }
     if (!open.empty() && study_.settings.onFailure == "stop")
     {
-        throw std::runtime_error("a run failed and the study says onFailure: stop; " + failures_.back().purpose
-                                 + ", condition " + failures_.back().condition + ": " + failures_.back().reason);
+        throw std::runtime_error("a run failed and the study says onFailure: stop; " + effort_.failures.back().purpose
+                                 + ", condition " + effort_.failures.back().condition + ": "
+                                 + effort_.failures.back().reason);
     }
     return done;
 }

@@ -50,6 +50,17 @@ struct Failure
     bool repeated = false; // a later attempt with another seed succeeded
 };
 
+/// What simulations took.
+struct Effort
+{
+    std::map<std::string, int> runsByPurpose;
+    std::map<std::string, std::vector<long>> seedsByPurpose;
+    std::vector<Failure> failures;
+    int executed = 0; // of the runs; the others were stored
+    double seconds = 0.0;
+    double secondsOfStored = 0.0; // what they took when they were made
+};
+
 /// Turns settings into entries of the case, lets the rig run them, applies the measuring chain and takes the features.
 class Simulator
 {
@@ -84,32 +95,9 @@ public:
     {
         return study_;
     }
-
-    //--- What it took ---
-    const std::map<std::string, int>& runsByPurpose() const
+    const Effort& effort() const
     {
-        return runs_;
-    }
-    const std::map<std::string, std::vector<long>>& seedsByPurpose() const
-    {
-        return seeds_;
-    }
-    const std::vector<Failure>& failures() const
-    {
-        return failures_;
-    }
-    int executed() const
-    {
-        return executed_;
-    }
-    double seconds() const
-    {
-        return seconds_;
-    }
-    /// Of the runs that were stored: what they took when they were made.
-    double secondsOfStored() const
-    {
-        return secondsOfStored_;
+        return effort_;
     }
 
 private:
@@ -119,12 +107,7 @@ private:
     const Study& study_;
     Rig& rig_;
     Entries defaults_;
-    std::map<std::string, int> runs_;
-    std::map<std::string, std::vector<long>> seeds_;
-    std::vector<Failure> failures_;
-    int executed_ = 0;
-    double seconds_ = 0.0;
-    double secondsOfStored_ = 0.0;
+    Effort effort_;
 };
 
 } // namespace clepsydra::identification

@@ -1,5 +1,6 @@
 #include "study/checkEffects.h"
 
+#include "lists.h"
 #include "study/entriesOfRuns.h"
 #include "words/didYouMean.h"
 
@@ -34,37 +35,29 @@ void checkTags(const YamlPlace& root, const Study& study)
             {
                 without.push_back(condition.name);
             }
-            const auto tags = namesOf(condition.tags);
-            known.insert(known.end(), tags.begin(), tags.end());
+            append(known, namesOf(condition.tags));
         }
         if (!without.empty() && without.size() < study.conditions.size())
         {
             root.at("conditions")
                 .fail("effects act by the tag '" + tag + "', which some conditions have, but not " + listed(without));
         }
-        if (!without.empty())
+        if (const std::string near = without.empty() ? "" : didYouMean(tag, known); !near.empty())
         {
-            const std::string near = didYouMean(tag, known);
-            if (!near.empty())
-            {
-                root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
-            }
+            root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
         }
     }
     for (const auto& condition : study.conditions)
     {
         for (const auto& [tag, value] : condition.tags)
         {
-            const auto values = asked.find(tag);
-            if (values != asked.end() && values->second.count(value) == 0)
+            const auto& values = asked[tag];
+            const std::string near = values.count(value) == 0 ? didYouMean(value, {values.begin(), values.end()}) : "";
+            if (!near.empty())
             {
-                const std::string near = didYouMean(value, {values->second.begin(), values->second.end()});
-                if (!near.empty())
-                {
-                    root.at("conditions")
-                        .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '"
-                              + value + "'" + near);
-                }
+                root.at("conditions")
+                    .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '" + value
+                          + "'" + near);
             }
         }
     }

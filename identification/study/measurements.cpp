@@ -126,26 +126,22 @@ MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
         repeats = std::max(repeats, number.values.size());
     }
     MeasuredCondition result;
-    result.features = Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(repeats), study.featureCount(), missing);
+    result.features = Eigen::MatrixXd::Constant(repeats, study.featureCount(), missing);
     result.declaredError = Eigen::VectorXd::Zero(study.featureCount());
     for (std::size_t repeat = 0; repeat < measured.files.size(); ++repeat)
     {
         result.curves.push_back(readFile(measured.files[repeat], measured));
-        for (std::size_t f = 0; f < study.features.size(); ++f)
-        {
-            result.features(static_cast<Eigen::Index>(repeat), static_cast<Eigen::Index>(f)) =
-                study.features[f](result.curves.back());
-        }
+        result.features.row(repeat) = Eigen::RowVectorXd::NullaryExpr(
+            study.featureCount(), [&](Eigen::Index f) { return study.features[f](result.curves.back()); });
     }
     for (const auto& number : measured.numbers)
     {
-        const auto f = static_cast<Eigen::Index>(number.feature);
-        result.features.col(f).setConstant(missing);
+        result.features.col(number.feature).setConstant(missing);
         for (std::size_t repeat = 0; repeat < number.values.size(); ++repeat)
         {
-            result.features(static_cast<Eigen::Index>(repeat), f) = number.values[repeat];
+            result.features(repeat, number.feature) = number.values[repeat];
         }
-        result.declaredError(f) = number.standardError;
+        result.declaredError(number.feature) = number.standardError;
     }
     return result;
 }

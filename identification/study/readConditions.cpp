@@ -7,7 +7,6 @@
 #include "words/didYouMean.h"
 
 #include <cmath>
-#include <stdexcept>
 #include <tuple>
 
 namespace clepsydra::identification
@@ -20,10 +19,7 @@ Feature readFeature(const YamlPlace& place, double& modelError)
 {
     const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
     std::vector<std::string> allowed = {"name", "kind", "modelError"};
-    for (const auto& parameter : kind.parameters)
-    {
-        allowed.push_back(parameter.name);
-    }
+    append(allowed, namesOfItems(kind.parameters));
     place.allow(allowed);
     Feature feature{place.textOr("name", kind.name), &kind, {}};
     for (const auto& parameter : kind.parameters)
@@ -40,14 +36,7 @@ Feature readFeature(const YamlPlace& place, double& modelError)
 
 double unitOf(const YamlPlace& place)
 {
-    try
-    {
-        return siUnitsPer(place.at("unit").text());
-    }
-    catch (const std::invalid_argument& error)
-    {
-        place.at("unit").fail(error.what());
-    }
+    return checkedAt(place.at("unit"), [&] { return siUnitsPer(place.at("unit").text()); });
 }
 
 /// The unit must be stated; `factor` (of sign or scale) and `offset`, in SI units, come after it.

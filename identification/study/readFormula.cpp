@@ -4,38 +4,23 @@
 #include "words/didYouMean.h"
 
 #include <cmath>
-#include <stdexcept>
 
 namespace clepsydra::identification
 {
 
 Expression readFormula(const YamlPlace& place)
 {
-    try
-    {
-        return Expression(place.text());
-    }
-    catch (const std::invalid_argument& error)
-    {
-        place.fail(error.what());
-    }
+    return checkedAt(place, [&] { return Expression(place.text()); });
 }
 
 double valueOf(const YamlPlace& place, const Expression& formula, const Expression::Variables& variables)
 {
-    try
+    const double value = checkedAt(place, [&] { return formula(variables); });
+    if (!std::isfinite(value))
     {
-        const double value = formula(variables);
-        if (!std::isfinite(value))
-        {
-            place.fail("the formula '" + formula.text() + "' gives no finite number");
-        }
-        return value;
+        place.fail("the formula '" + formula.text() + "' gives no finite number");
     }
-    catch (const std::invalid_argument& error)
-    {
-        place.fail(error.what());
-    }
+    return value;
 }
 
 std::pair<std::string, Expression> readChain(const YamlPlace& place)

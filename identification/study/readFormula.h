@@ -3,11 +3,26 @@
 #include "study/expression.h"
 #include "study/yaml.h"
 
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 namespace clepsydra::identification
 {
+
+/// What a function gives; what it finds wrong with its argument is told with file and line.
+template<class Function>
+auto checkedAt(const YamlPlace& place, Function function)
+{
+    try
+    {
+        return function();
+    }
+    catch (const std::invalid_argument& error)
+    {
+        place.fail(error.what());
+    }
+}
 
 /// \throws StudyError with file and line, like the others
 Expression readFormula(const YamlPlace& place);

@@ -192,8 +192,8 @@ TEST(Emulator, FailedRunsAreToldAndExcluded)
     EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - emulator[0]->at(none, {})(0), .06, 1e-3);
     ASSERT_EQ(emulator.remarks().size(), 1U);
     EXPECT_NE(emulator.remarks().front().find('y'), std::string::npos);
-    ASSERT_EQ(simulator.failures().size(), 2U);
-    EXPECT_EQ(simulator.failures().back().reason, "y is not possible");
+    ASSERT_EQ(simulator.effort().failures.size(), 2U);
+    EXPECT_EQ(simulator.effort().failures.back().reason, "y is not possible");
 }
 
 /// Emulators learnt from runs with known coefficients and noise of .1, other noise each time.

@@ -47,7 +47,7 @@ HeldOutScore scoreWith(double declared)
     predictions[0].mean = Eigen::VectorXd::Constant(1, -.3);
     predictions[0].variance = Eigen::VectorXd::Constant(1, .0003);
     predictions[0].dataCovariance = Eigen::MatrixXd::Constant(1, 1, .0004);
-    const DataNoise noise = drawDataNoise(data, predictions, 4000, random);
+    const auto noise = drawDataNoise(data, predictions, 4000, random);
     return heldOutScore(data, predictions, {0}, noise, random);
 }
 

@@ -219,12 +219,12 @@ TEST(HeldOut, NothingWithoutMeasurements)
     Answer answer;
     answer.decision = Decision::named;
     answer.set = {explanationBy(0, bench.simulator.plainSetting())};
-    const int before = bench.simulator.executed();
+    const int before = bench.simulator.effort().executed;
     const HeldOutResult result =
         evaluateHeldOut(bench.simulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);
     EXPECT_THAT(result.conditions, IsEmpty());
     EXPECT_FALSE(result.accepted());
-    EXPECT_EQ(bench.simulator.executed(), before);
+    EXPECT_EQ(bench.simulator.effort().executed, before);
 }
 
 /// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.
