@@ -21,9 +21,9 @@ struct LiggghtsSetup
     std::filesystem::path logFile;
     /// Leaves out the script's commands that write files.
     bool writesNothing = false;
-    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was told its name; empty: the script's own beginning. With a checkpoint the script's first
-    /// `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or changes beads
-    /// (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
+    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was told its name; empty: the script's own beginning. With a
+    /// checkpoint the script's first `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or
+    /// changes beads (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
     std::filesystem::path resumeFrom;
     /// Between two intervals, in this order.
     std::vector<GroupChange> groupChanges;
