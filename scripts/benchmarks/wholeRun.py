@@ -9,7 +9,7 @@ from .hopper import REPOSITORY, Hopper, ledger
 from .twoRanks import loopSeconds
 
 DURATION = 1    # [s] of flow, of both versions
-ADAPTIVE = "adjustableInterval yes;\nmaxInterval 4e-3;\n"
+ADAPTIVE = "adjustableInterval yes;\nmaxCo 0.5;\nminInterval 4e-4;\nmaxInterval 4e-3;\n"
 
 
 def quickHopperSubmerged(hopper, repetitions):
@@ -44,7 +44,7 @@ def submerged(folder, checkout, entries):
     Hopper.setParameters(case / "parameters", {"submergedTime": DURATION})
     with open(case / "constant/couplingProperties", "a") as settings:
         settings.write(entries)
-    own = f"unset CLEPSYDRA; . {checkout}/scripts/environment; export CLEPSYDRA_BUILD={checkout}/build"
+    own = f"export CLEPSYDRA_BUILD={checkout}/build; . {checkout}/scripts/environment"
     Hopper.inFolder(case, f"{own}; ./Allrun mesh pour")
     stage = case / "stages/submerged"
     return timing.Run(["bash", "-c", f"{own}; ./Allrun -np 2 submerged"], case,
