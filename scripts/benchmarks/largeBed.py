@@ -31,18 +31,19 @@ def millionCells(hopper, repetitions):
 
 def growth(hopper, repetitions, fluid, phases, said, unit):
     times = measured(hopper, repetitions, fluid)
-    seconds = {name: [{phase: of.result["phaseSeconds"][phase] * scale(size, unit) for phase in phases if phase in of.result["phaseSeconds"]}
-                      for of in times[name]] for name, size in (("large", LARGE), ("small", SMALL))}
+    seconds = {name: [perUnit(time.result["phaseSeconds"], phases, size, unit) for time in times[name]]
+               for name, size in (("large", LARGE), ("small", SMALL))}
     return timing.Figure(
         [sum(large.values()) / sum(small.values()) for large, small in zip(seconds["large"], seconds["small"])], target="<= 1.3",
         meaning=f"wall time of {said} on two ranks, a million of each over 20,000 ({', '.join(phases)})",
-        details={"seconds": seconds, "peakMemoryOfARank": {name: [of.peakMemory for of in times[name]] for name in times}})
+        details={"seconds": seconds, "peakMemoryOfARank": {name: [time.peakMemory for time in times[name]] for name in times}})
 
 
-def scale(size, unit):
-    """Seconds of a run to seconds of one bead and DEM step, or of one cell and step of the fluid."""
+def perUnit(seconds, phases, size, unit):
+    """Seconds of each phase, of which there are fewer without fluid, for one bead and DEM step or one cell and step of the fluid."""
     (across, up), (cellsAcross, cellsUp), intervals = size
-    return 1 / ((across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp) * intervals)
+    units = intervals * (across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp)
+    return {phase: seconds[phase] / units for phase in phases if phase in seconds}
 
 
 @functools.cache
@@ -60,6 +61,8 @@ def bed(hopper, name, fluid, beads, cells, intervals):
     folder.rename(bed)
     for name in ("fvSolution", "decomposeParDict"):
         shutil.copy(REPOSITORY / "cases/hopperQuick/system" / name, bed / "system")
+    script = bed / "DEM/in.column"
+    script.write_text(f"processors {RANKS} 1 1\n" + script.read_text())     # the same boxes as the mesh's
     (bed / "stage").write_text("".join(f"{name} {value:g};\n" for name, value in {
         **{name: hopper.parameters[name] for name in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
                                                       "pressureCorrectors", "nonOrthogonalCorrectors")},
