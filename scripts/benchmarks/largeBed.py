@@ -7,11 +7,12 @@ from . import memory, timing
 from .hopper import REPOSITORY, Hopper, forgetResults, ledger, solver
 
 RANKS = 2
+INTERVALS = 40
 DEM_STEPS = 20      # in an interval
 
-# Beads along a side and up, cells along a side and up, and coupling intervals.
-SMALL = (20, 50), (20, 50), 150
-LARGE = (100, 100), (100, 100), 15
+# Beads along a side and up, cells along a side and up. As many coupling intervals of both: the first finds all beads anew.
+SMALL = (20, 50), (20, 50)
+LARGE = (100, 100), (100, 100)
 
 OF_BEADS = ("DEM", "locate", "distribute", "exchange", "forces")
 OF_CELLS = ("momentum", "pressure", "smooth")
@@ -41,8 +42,8 @@ def growth(hopper, repetitions, fluid, phases, said, unit):
 
 def perUnit(seconds, phases, size, unit):
     """Seconds of each phase, of which there are fewer without fluid, for one bead and DEM step or one cell and step of the fluid."""
-    (across, up), (cellsAcross, cellsUp), intervals = size
-    units = intervals * (across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp)
+    (across, up), (cellsAcross, cellsUp) = size
+    units = INTERVALS * (across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp)
     return {phase: seconds[phase] / units for phase in phases if phase in seconds}
 
 
@@ -52,10 +53,10 @@ def measured(hopper, repetitions, fluid):
     return timing.interleaved(beds, repetitions)
 
 
-def bed(hopper, name, fluid, beads, cells, intervals):
+def bed(hopper, name, fluid, beads, cells):
     """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
     folder = memory.column(hopper, beads, cells, fluid=fluid, couplingInterval=DEM_STEPS * 1e-5,
-                           endTime=intervals * DEM_STEPS * 1e-5).folder
+                           endTime=INTERVALS * DEM_STEPS * 1e-5).folder
     bed = folder.with_name(f"{name}Bed.{fluid}")
     shutil.rmtree(bed, ignore_errors=True)
     folder.rename(bed)
