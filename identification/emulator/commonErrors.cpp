@@ -33,6 +33,7 @@ std::vector<SimulationOrder> ordersOf(const Simulator& simulator, std::size_t co
     const Study& study = simulator.study();
     const int repeats = study.rig.seedEntry.empty() ? 1 : study.settings.repeatsAlone;
     std::vector<SimulationOrder> orders;
+    orders.reserve(static_cast<std::size_t>(repeats));
     for (int number = 0; number < repeats; ++number)
     {
         orders.push_back(

@@ -145,7 +145,7 @@ private:
         }
     };
 
-    void choose(std::size_t condition, const std::vector<const Run*>& runs, const std::vector<Eigen::Index>& wanted);
+    void choose(std::size_t condition, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted);
     void append(std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& runs);
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();

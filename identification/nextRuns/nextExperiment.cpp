@@ -93,6 +93,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
         {
             const std::string name = nameOf(study, explanation.effects);
             std::vector<SimulationOrder> orders;
+            orders.reserve(draws);
             for (int number = 0; number < draws; ++number)
             {
                 orders.push_back({condition, drawn(study, explanation, random), "next experiment, " + name, number});
