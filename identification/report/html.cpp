@@ -249,7 +249,9 @@ std::string heldOutBars(const Json& heldOut)
 /// Words, and numbers with their errors. \param columns  keys of the rows, and titles; what no row has is left out
 std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& columns)
 {
-    const auto isThere = [](const Json& value) { return value.is_object() || (value.is_string() && !value.get<std::string>().empty()); };
+    const auto isThere = [](const Json& value) {
+        return value.is_object() || (value.is_string() && !value.get<std::string>().empty());
+    };
     std::vector<std::string> kept;
     std::string html = "<table><tr>";
     for (const auto& column : columns)
