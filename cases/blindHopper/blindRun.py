@@ -28,22 +28,18 @@ class RunFailed(Exception):
 
 def conditions(*roles):
     """The declared experiment, from study.yaml: {condition: (stage, entries, repeats)}; of these roles or all."""
-    return {name: (*experiment(one), len(one["measured"]["files"]))
-            for name, one in declared("study.yaml").items() if not roles or one["role"] in roles}
+    return experiments("study.yaml", lambda one: len(one["measured"]["files"]), roles)
 
 
 def candidates():
     """The same of what could be measured beside it, from candidates.yaml."""
-    return {name: (*experiment(one), CANDIDATE_REPEATS) for name, one in declared("candidates.yaml").items()}
+    return experiments("candidates.yaml", lambda one: CANDIDATE_REPEATS)
 
 
-def declared(file):
-    return {condition["name"]: condition for condition in yaml.safe_load((HERE / file).read_text())["conditions"]}
-
-
-def experiment(condition):
+def experiments(file, repeatsOf, roles=()):
     rig = yaml.safe_load((HERE / "study.yaml").read_text())["rig"]
-    return condition.get("command", rig["command"]).split()[-1], {**rig["set"], **condition["set"]}
+    return {one["name"]: (one.get("command", rig["command"]).split()[-1], {**rig["set"], **one["set"]}, repeatsOf(one))
+            for one in yaml.safe_load((HERE / file).read_text())["conditions"] if not roles or one["role"] in roles}
 
 
 def acts(effect, stage):
@@ -65,6 +61,13 @@ def measureTo(target, folder, truth, label, run):
         print(label, flush=True)
         return True
     return False
+
+
+def measureMissing(truth, data, work, label=""):
+    """All files of a set that are not there. SystemExit where one has failed in all attempts."""
+    for run in truth["seeds"]:
+        if not (data / f"{run}.csv").exists() and not measureTo(data / f"{run}.csv", work / run, truth, label + run, run):
+            sys.exit(f"{label}{run} has failed {ATTEMPTS} times")
 
 
 def seedsOf(conditions, random):

@@ -1,6 +1,8 @@
 """study.yaml with other files, further conditions, or nothing held out. As text: numbers keep the form that stored runs know."""
 
+import json
 import re
+import subprocess
 from pathlib import Path
 
 import yaml
@@ -18,6 +20,14 @@ def study(replaced, further="", heldOut=True):
     for old, new in replaced.items():
         text = text.replace(old, new)
     return text
+
+
+def report(traceResidual, results, file, text):
+    """What traceResidual says of a study; from the report, where there is one. file: a name for the study."""
+    if not (results / "report.json").exists():
+        (HERE / file).write_text(text)
+        subprocess.run([traceResidual, "run", "--output", results, HERE / file], check=True)
+    return json.loads((results / "report.json").read_text())
 
 
 def conditions(file):
