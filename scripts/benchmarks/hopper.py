@@ -22,14 +22,14 @@ FUNCTIONS = "sed '$d' Allrun > functions; . ./functions; ranks=1"
 
 
 class Hopper:
-    def __init__(self, folder, quick, **parameters):
+    def __init__(self, folder, quick, repository=REPOSITORY, **parameters):
         self.folder = folder
         self.case = folder / "cases" / "hopperQuick"
         self.quick = quick
-        shutil.copytree(REPOSITORY / "cases" / "hopperQuick", self.case,
+        shutil.copytree(repository / "cases" / "hopperQuick", self.case,
                         ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
         for name in ("meshes", "scripts"):
-            (folder / name).symlink_to(REPOSITORY / name)
+            (folder / name).symlink_to(repository / name)
         self.setParameters(self.case / "parameters", parameters if quick else {**FULL_SIZE, **parameters})
         self.parameters = caseFiles.parameters(self.case / "parameters")
         self._poured = False

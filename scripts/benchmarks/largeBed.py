@@ -57,16 +57,16 @@ def bed(hopper, name, fluid, beads, cells):
     """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
     folder = memory.column(hopper, beads, cells, fluid=fluid, couplingInterval=DEM_STEPS * 1e-5,
                            endTime=INTERVALS * DEM_STEPS * 1e-5).folder
-    bed = folder.with_name(f"{name}Bed.{fluid}")
-    shutil.rmtree(bed, ignore_errors=True)
-    folder.rename(bed)
-    for name in ("fvSolution", "decomposeParDict"):
-        shutil.copy(REPOSITORY / "cases/hopperQuick/system" / name, bed / "system")
-    script = bed / "DEM/in.column"
+    case = folder.with_name(f"{name}Bed.{fluid}")
+    shutil.rmtree(case, ignore_errors=True)
+    folder.rename(case)
+    for file in ("fvSolution", "decomposeParDict"):
+        shutil.copy(REPOSITORY / "cases/hopperQuick/system" / file, case / "system")
+    script = case / "DEM/in.column"
     script.write_text(f"processors {RANKS} 1 1\n" + script.read_text())     # the same boxes as the mesh's
-    (bed / "stage").write_text("".join(f"{name} {value:g};\n" for name, value in {
-        **{name: hopper.parameters[name] for name in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
-                                                      "pressureCorrectors", "nonOrthogonalCorrectors")},
+    (case / "stage").write_text("".join(f"{entry} {value:g};\n" for entry, value in {
+        **{entry: hopper.parameters[entry] for entry in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
+                                                         "pressureCorrectors", "nonOrthogonalCorrectors")},
         "ranks": RANKS, "ranksAlongX": RANKS, "ranksAlongY": 1, "ranksAlongZ": 1}.items()))
-    Hopper.inFolder(bed, "decomposePar > log.decomposePar 2>&1")
-    return timing.Run(solver(RANKS), bed, prepare=lambda: forgetResults(bed), result=lambda: ledger(bed))
+    Hopper.inFolder(case, "decomposePar > log.decomposePar 2>&1")
+    return timing.Run(solver(RANKS), case, prepare=lambda: forgetResults(case), result=lambda: ledger(case))

@@ -37,11 +37,7 @@ def quickHopperOverLast(hopper, repetitions):
 
 def submerged(folder, checkout, entries):
     """The submerged stage by a version's own Allrun."""
-    case = folder / "cases/hopperQuick"
-    shutil.copytree(checkout / "cases/hopperQuick", case, ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
-    for part in ("meshes", "scripts"):
-        (folder / part).symlink_to(checkout / part)
-    Hopper.setParameters(case / "parameters", {"submergedTime": DURATION})
+    case = Hopper(folder, quick=True, repository=checkout, submergedTime=DURATION).case
     with open(case / "constant/couplingProperties", "a") as settings:
         settings.write(entries)
     own = f"export CLEPSYDRA_BUILD={checkout}/build; . {checkout}/scripts/environment"
