@@ -11,10 +11,8 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
 endif()
 
 # No -ffast-math: it lets the compiler assume that NaN does not occur, and our checks look for NaN.
-# Release is CMake's -O3 -DNDEBUG.
-if(CLEPSYDRA_NATIVE)
-    add_compile_options(-march=native)
-endif()
+# No -march=native: loops that gain by wide vectors are compiled for several processors (vectorUnits.h), the rest gains little
+# (scripts/benchmarks/README.md, "Contacts"). Release is CMake's -O3 -DNDEBUG.
 
 # Messages name our sources from the repository's root on (OpenFOAM's errors quote __FILE__), wherever it was built. Debug
 # information keeps whole paths, by which a debugger finds the sources.
