@@ -50,8 +50,9 @@ def coupledOverLiggghtsAndFluid(hopper, repetitions):
     duration = 0.2 if hopper.quick else 0.1
     run = hopper.run("submerged", "besideLiggghts", duration)
     steps = round(duration / hopper.parameters["demStep"])
-    variables = "".join(f"variable {name} equal {value}\n" for name, value in hopper.parameters.items()
-                        if isinstance(value, (int, float)))
+    numbers = {name: value for name, value in hopper.parameters.items() if isinstance(value, (int, float))}
+    numbers |= {f"ranksAlong{axis}": 1 for axis in "XYZ"}
+    variables = "".join(f"variable {name} equal {value}\n" for name, value in numbers.items())
     for name, count in (("alone", steps), ("start", 0)):
         (run.folder / f"in.{name}").write_text(f"{variables}variable packing string {hopper.packing}\n"
                                                f"include DEM/in.discharge\nrun {count}\n")
