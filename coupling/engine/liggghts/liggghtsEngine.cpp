@@ -1,28 +1,24 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
+#include "engine/liggghts/beadChecks.h"
 #include "engine/liggghts/floatingPointTraps.h"
 #include "engine/liggghts/hertzPairStyle.h"
-#include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/restartFiles.h"
+#include "engine/liggghts/rows.h"
 #include "engine/liggghts/script.h"
-#include "files/wholeFile.h"
 
 #include <atom.h>
 #include <atom_vec.h>
-#include <comm.h>
-#include <domain.h>
-#include <error.h>
 #include <fix_external.h>
 #include <fix_gravity.h>
-#include <fix_insert_pack.h>
 #include <fix_property_atom.h>
 #include <fix_property_global.h>
 #include <force.h>
-#include <input.h>
 #include <lammps.h>
 #include <modify.h>
 #include <neigh_list.h>
 #include <neighbor.h>
-#include <output.h>
 #include <pair.h>
 #include <universe.h>
 #include <update.h>
@@ -30,12 +26,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <exception>
-#include <fstream>
-#include <list>
-#include <sstream>
 #include <unordered_set>
 
 namespace clepsydra
@@ -52,20 +43,6 @@ constexpr const char* lastForceFixId = "clepsydraLastForces";
 constexpr const char* memoryFixId = "clepsydraMemory";
 constexpr const char* introducedFixId = "clepsydraIntroduced";
 
-std::string placeText(const double* place)
-{
-    std::ostringstream text;
-    text << '(' << place[0] << ' ' << place[1] << ' ' << place[2] << ") m";
-    return text.str();
-}
-
-/// First element of a LIGGGHTS array of rows, which its memory manager allocates in one piece.
-template<class T>
-T* firstElement(T** rows)
-{
-    return rows ? rows[0] : nullptr;
-}
-
 bool isNumber(const std::string& text)
 {
     std::size_t used = 0;
@@ -80,57 +57,6 @@ bool isNumber(const std::string& text)
     return used == text.size();
 }
 
-/// A restart file begins with two numbers of four bytes and the text "Version LIGGGHTS-...". False for one that cannot be
-/// read: LIGGGHTS says that.
-bool isOtherThanRestart(const std::string& file)
-{
-    const std::string begin = "Version LIGGGHTS";
-    constexpr std::size_t numbers = 8;
-    std::ifstream stream(file, std::ios::binary);
-    std::string found(numbers + begin.size(), ' ');
-    return stream
-           && (!stream.read(found.data(), static_cast<std::streamsize>(found.size()))
-               || found.substr(numbers) != begin);
-}
-
-/// A restart's name with something in place of its `%`.
-std::filesystem::path restartFile(std::string name, const std::string& part)
-{
-    return name.replace(name.find('%'), 1, part);
-}
-
-bool isInParts(const std::filesystem::path& restart)
-{
-    return restart.string().find('%') != std::string::npos;
-}
-
-/// What LIGGGHTS' write_restart writes on one rank.
-std::vector<std::filesystem::path> filesWritten(const std::filesystem::path& restart, int rank)
-{
-    std::vector<std::filesystem::path> files;
-    if (rank == 0)
-    {
-        files.push_back(isInParts(restart) ? restartFile(restart, "base") : restart);
-    }
-    if (isInParts(restart))
-    {
-        files.push_back(restartFile(restart, std::to_string(rank)));
-    }
-    return files;
-}
-
-/// What LIGGGHTS' read_restart reads on one of so many ranks. Before that it reads the base, for all.
-std::vector<std::filesystem::path> filesRead(const std::filesystem::path& restart, int rank, int ranks)
-{
-    std::vector<std::filesystem::path> files{isInParts(restart) ? restartFile(restart, "base") : restart};
-    const auto part = [&] { return restartFile(restart, std::to_string(rank)); };
-    for (; isInParts(restart) && std::filesystem::exists(part()); rank += ranks)
-    {
-        files.push_back(part());
-    }
-    return files;
-}
-
 /// By the forces on its beads, not as the script states or not at all.
 bool movesByForces(const lmp::Fix& fix)
 {
@@ -138,16 +64,6 @@ bool movesByForces(const lmp::Fix& fix)
     const bool isMultisphere = style.rfind("multisphere", 0) == 0; // does not say that it integrates
     return (fix.time_integrate == 1 && style != "move" && style.find("noforce") == std::string::npos) || isMultisphere;
 }
-
-/// Measures an insertion's region by random numbers, the same ones that then place the beads: what LIGGGHTS does once in each
-/// process.
-struct InsertionRegion : lmp::FixInsertPack
-{
-    static void measure(lmp::FixInsertPack& fix)
-    {
-        (fix.*&InsertionRegion::calc_region_volume_local)();
-    }
-};
 
 lmp::Fix* findFixOfStyle(const lmp::Modify& modify, const std::string& style)
 {
@@ -162,15 +78,13 @@ class LiggghtsEngine::Implementation
 {
 public:
     explicit Implementation(const LiggghtsSetup& setup)
-        : communicator_(setup.communicator)
+        : program_(setup.logFile, setup.communicator)
     {
-        requireLiggghtsErrorReplacements();
-        start(setup.logFile);
         registerHertzPairStyle();
         for (const auto& [name, value] : setup.variables)
         {
             const std::string style = isNumber(value) ? "equal" : "string";
-            execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
+            program_.execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
         runScript(setup);
         fresh_ = setup.resumeFrom.empty();
@@ -180,118 +94,23 @@ public:
         }
     }
 
-    ~Implementation()
-    {
-        // After an error LIGGGHTS is in the middle of a command: its destructors may wait for other ranks.
-        if (failed_)
-        {
-            static_cast<void>(program_.release());
-        }
-    }
-
-    /// One LIGGGHTS command; \param where  named in the error.
-    void execute(const std::string& command, const std::string& where)
-    {
-        const FloatingPointTraps none(0);
-        trapsOutside_ = none.before();
-        try
-        {
-            program_->input->one(command.c_str());
-        }
-        catch (const DemEngineError&)
-        {
-            failed_ = true;
-            throw;
-        }
-        catch (const LiggghtsStopped& stopped)
-        {
-            failed_ = true;
-            std::string message =
-                where + ": LIGGGHTS stopped at '" + command + "'" + valuesIn(command) + ": " + stopped.what();
-            if (stopped.onOneRankOnly())
-            {
-                message += " (reported by one rank)";
-            }
-            throw DemEngineError(message);
-        }
-    }
-
     /// A command of the script. LIGGGHTS makes no bead that is outside the box, and says nothing.
     void executeOfScript(const ScriptCommand& command)
     {
         const auto before = program_->atom->natoms;
-        execute(command.text, command.where);
+        program_.execute(command.text, command.where);
         if (isCommand(command.text, "create_atoms") && program_->atom->natoms == before)
         {
-            throw DemEngineError(command.where + ": '" + command.text + "'" + valuesIn(command.text)
-                                 + " made no bead; allowed: places in " + boxText());
+            throw DemEngineError(command.where + ": '" + command.text + "'" + program_.valuesIn(command.text)
+                                 + " made no bead; allowed: places in " + boxText(*program_));
         }
     }
 
-    /// LIGGGHTS forgets beads outside the box without a word.
-    void checkBeadsAreInBox() const
+    void checkStart()
     {
-        const lmp::Domain& domain = *program_->domain;
-        const lmp::Atom& atom = *program_->atom;
-        for (int bead = 0; bead < atom.nlocal; ++bead)
+        if (fresh_)
         {
-            for (int axis = 0; axis < 3; ++axis)
-            {
-                const double x = atom.x[bead][axis];
-                if (domain.periodicity[axis] == 0 && !(x >= domain.boxlo[axis] && x <= domain.boxhi[axis]))
-                {
-                    throw DemEngineError("Bead " + std::to_string(atom.tag[bead]) + " at " + placeText(atom.x[bead])
-                                         + " lies outside the DEM box; allowed: places in " + boxText());
-                }
-            }
-        }
-    }
-
-    /// Beads that start deep in each other fly apart as from an explosion.
-    void checkOverlaps()
-    {
-        constexpr double largestPart = 0.1;
-        const BeadPairs near = pairs();
-        for (Eigen::Index pair = 0; fresh_ && pair < near.list.cols(); ++pair)
-        {
-            const int i = near.list(0, pair);
-            const int j = near.list(1, pair);
-            const double smaller = 2 * std::min(near.radius[i], near.radius[j]);
-            const double overlap =
-                near.radius[i] + near.radius[j] - (near.position.col(i) - near.position.col(j)).norm();
-            if (overlap > largestPart * smaller)
-            {
-                const lmp::Atom& atom = *program_->atom;
-                std::ostringstream message;
-                message << "Beads " << atom.tag[i] << " and " << atom.tag[j] << " at " << placeText(atom.x[i])
-                        << " and " << placeText(atom.x[j]) << " overlap by " << overlap << " m, " << overlap / smaller
-                        << " of the smaller one's diameter; allowed at the start: at most " << largestPart;
-                throw DemEngineError(message.str());
-            }
-        }
-    }
-
-    /// Where all else but the fluid has given a bead a force (or a place) that is no number.
-    void checkFinite() const
-    {
-        const lmp::Atom& atom = *program_->atom;
-        const FloatingPointTraps none(0);
-        const Eigen::Index count = 3L * atom.nlocal;
-        if (atom.nlocal == 0
-            || std::isfinite(ConstView<double>(firstElement(atom.f), count).sum()
-                             + ConstView<double>(firstElement(atom.x), count).sum()))
-        {
-            return;
-        }
-        for (int bead = 0; bead < atom.nlocal; ++bead)
-        {
-            const double* const x = atom.x[bead];
-            const double* const f = atom.f[bead];
-            if (!std::isfinite(f[0] + f[1] + f[2] + x[0] + x[1] + x[2]))
-            {
-                throw DemEngineError("The force on bead " + std::to_string(atom.tag[bead]) + " at " + placeText(x)
-                                     + " is not a finite number" + causeOf(bead));
-            }
+            requireNoDeepOverlap(*program_, pairs());
         }
     }
 
@@ -300,8 +119,8 @@ public:
         const int before = program_->atom->nlocal;
         try
         {
-            execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
-            checkFinite();
+            program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+            requireFiniteForces(*program_);
         }
         catch (const DemEngineError& error)
         {
@@ -335,7 +154,7 @@ public:
         {
             command += ' ' + std::to_string(value);
         }
-        execute(command, "coupling state");
+        program_.execute(command, "coupling state");
         stateFix_ = program_->modify->find_fix_property(
             stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewBead_.size()), 0, "coupling");
     }
@@ -343,29 +162,11 @@ public:
     /// Part of LIGGGHTS' restart files. 1 of beads in files that do not have it.
     void addIntroduced()
     {
-        execute(
+        program_.execute(
             std::string("fix ") + introducedFixId + " all property/atom " + introducedFixId + " scalar yes no no 1.",
             "beads that come in");
         introducedFix_ =
             program_->modify->find_fix_property(introducedFixId, "property/atom", "scalar", 0, 0, "coupling");
-    }
-
-    /// LIGGGHTS takes a negative friction without complaint.
-    void checkMaterials() const
-    {
-        auto* const friction = static_cast<lmp::FixPropertyGlobal*>(program_->modify->find_fix_property(
-            "coefficientFriction", "property/global", "peratomtypepair", 0, 0, "coupling", false));
-        const int materialCount = program_->atom->ntypes;
-        for (int pair = 0; friction && pair < materialCount * materialCount; ++pair)
-        {
-            const double value = friction->compute_array(pair / materialCount, pair % materialCount);
-            if (value < 0)
-            {
-                throw DemEngineError("coefficientFriction of the materials " + std::to_string(pair / materialCount + 1)
-                                     + " and " + std::to_string(pair % materialCount + 1) + " is "
-                                     + std::to_string(value) + "; allowed: a number >= 0");
-            }
-        }
     }
 
     void addGroupChanges()
@@ -375,7 +176,7 @@ public:
             const std::string command = changer.propertyCommand();
             if (!command.empty())
             {
-                execute(command, "group changes");
+                program_.execute(command, "group changes");
             }
         }
     }
@@ -391,7 +192,7 @@ public:
     void addFluidForce(FluidForces* forces)
     {
         forces_ = forces;
-        execute(std::string("fix ") + forceFixId + " all external pf/callback 1 1", "fluid force");
+        program_.execute(std::string("fix ") + forceFixId + " all external pf/callback 1 1", "fluid force");
         lmp::Modify& modify = *program_->modify;
         auto* external = static_cast<lmp::FixExternal*>(modify.fix[modify.find_fix(forceFixId)]);
         external->set_callback(&Implementation::fluidForceCallback, this);
@@ -404,8 +205,8 @@ public:
     /// Part of LIGGGHTS' restart files.
     void addLastForces()
     {
-        execute(std::string("fix ") + lastForceFixId + " all property/atom " + lastForceFixId
-                    + " vector yes no no 0. 0. 0. 0. 0. 0.",
+        program_.execute(std::string("fix ") + lastForceFixId + " all property/atom " + lastForceFixId
+                             + " vector yes no no 0. 0. 0. 0. 0. 0.",
             "forces of the last step");
         lastForceFix_ =
             program_->modify->find_fix_property(lastForceFixId, "property/atom", "vector", 6, 0, "coupling");
@@ -430,8 +231,8 @@ public:
 
     void prepare()
     {
-        execute("run 0 post no", "preparing");
-        checkFinite();
+        program_.execute("run 0 post no", "preparing");
+        requireFiniteForces(*program_);
         if (lastForcesKnown_)
         {
             const lmp::Atom& atom = *program_->atom;
@@ -477,20 +278,6 @@ public:
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
 
-    /// A fix that has inserted all its beads has no next insertion, which LIGGGHTS writes as step 0. When it is read
-    /// again, 0 is taken for "not known", and the fix tries at once and then stands in the way of every `run`.
-    void keepFinishedInsertionsFinished()
-    {
-        constexpr lmp::bigint never = lmp::bigint(1) << 52;
-        lmp::Modify& modify = *program_->modify;
-        std::for_each(modify.fix, modify.fix + modify.nfix, [](lmp::Fix* fix) {
-            if (std::string(fix->style).rfind("insert/", 0) == 0 && fix->next_reneighbor == 0)
-            {
-                fix->next_reneighbor = never;
-            }
-        });
-    }
-
     /// LIGGGHTS looks among beads and fixes for the first material, and stops where it finds none, as when all beads have
     /// left. A template has it; its radius matters to no bead, for there is none.
     void allowNoBeads()
@@ -502,11 +289,12 @@ public:
         {
             return;
         }
-        execute(
+        program_.execute(
             "fix clepsydraTemplate all particletemplate/sphere 10007 atom_type 1 density constant 1. radius constant "
                 + std::to_string(program_->neighbor->skin),
             "no beads");
-        execute("fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no beads");
+        program_.execute(
+            "fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no beads");
     }
 
     /// As LIGGGHTS' own fixes delete atoms.
@@ -539,25 +327,6 @@ public:
         allowNoBeads();
     }
 
-    /// A resumed process gets other random numbers from these fixes and their regions than one that goes on: what is
-    /// written is less than the state. So they read it here, too.
-    void restartInsertions()
-    {
-        lmp::Modify& modify = *program_->modify;
-        std::for_each(modify.fix, modify.fix + modify.nfix, [&](lmp::Fix* fix) {
-            const std::string style = fix->style;
-            const bool inserts = style.rfind("insert/", 0) == 0 || style.rfind("particle", 0) == 0;
-            if (inserts && fix->restart_global)
-            {
-                restartFix(*fix);
-            }
-            if (auto* const inRegion = dynamic_cast<lmp::FixInsertPack*>(fix))
-            {
-                InsertionRegion::measure(*inRegion);
-            }
-        });
-    }
-
     void keepMemory(int numbers)
     {
         memorySize_ = numbers;
@@ -576,7 +345,7 @@ public:
         {
             command += " 0.";
         }
-        execute(command, "memory of forces");
+        program_.execute(command, "memory of forces");
         memoryFix_ =
             program_->modify->find_fix_property(memoryFixId, "property/atom", "vector", memorySize_, 0, "coupling");
     }
@@ -615,68 +384,16 @@ public:
                 static_cast<Eigen::Index>(pairList_.size()))};
     }
 
-    lmp::LAMMPS& program()
+    LiggghtsProgram& program()
     {
-        return *program_;
-    }
-
-    const lmp::LAMMPS& program() const
-    {
-        return *program_;
+        return program_;
     }
 
 private:
-    void start(const std::filesystem::path& logFile)
-    {
-        // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
-        std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
-        std::vector<char*> arguments;
-        arguments.reserve(words.size());
-        for (std::string& word : words)
-        {
-            arguments.push_back(word.data());
-        }
-        try
-        {
-            program_ =
-                std::make_unique<lmp::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator_);
-        }
-        catch (const LiggghtsStopped& stopped)
-        {
-            throw DemEngineError(std::string("LIGGGHTS did not start: ") + stopped.what());
-        }
-    }
-
-    /// The same command with its variables' values, for its error; nothing where it has none.
-    std::string valuesIn(const std::string& command) const
-    {
-        const std::string text = withVariables(command);
-        return text == command ? std::string() : " (" + text + ')';
-    }
-
-    std::string boxText() const
-    {
-        return "the box, " + placeText(program_->domain->boxlo) + " to " + placeText(program_->domain->boxhi);
-    }
-
-    /// Why a bead may have a force that is no number.
-    std::string causeOf(int bead) const
-    {
-        const lmp::Atom& atom = *program_->atom;
-        for (int other = 0; other < atom.nlocal + atom.nghost; ++other)
-        {
-            if (other != bead && std::equal(atom.x[bead], atom.x[bead] + 3, atom.x[other]))
-            {
-                return ": bead " + std::to_string(atom.tag[other]) + " is at the same place; allowed: beads apart";
-            }
-        }
-        return ": as where a bead's centre lies exactly on a wall, on an edge or a corner of one, or where the DEM "
-               "step is too long; allowed: beads beside walls, at most touching them";
-    }
-
     void runScript(const LiggghtsSetup& setup)
     {
         const std::filesystem::path& resumeFrom = setup.resumeFrom;
+        bool boxMade = false;
         for (const ScriptCommand& command : readScript(setup.script, setup.variables))
         {
             if (setup.writesNothing && writesFiles(command.text))
@@ -685,95 +402,22 @@ private:
             }
             if (resumeFrom.empty() || !makesBeads(command.text))
             {
-                requireUndamagedInput(command);
+                requireUndamagedInput(program_, command);
                 executeOfScript(command);
             }
-            else if (!boxMade_)
+            else if (!boxMade)
             {
-                execute("read_restart " + resumeFrom.string(), command.where + ", resumed");
-                boxMade_ = true;
+                program_.execute("read_restart " + resumeFrom.string(), command.where + ", resumed");
+                boxMade = true;
             }
-        }
-    }
-
-    /// LIGGGHTS goes round for ever in a restart file that has been cut, or is none.
-    void requireUndamagedInput(const ScriptCommand& command)
-    {
-        if (!isCommand(command.text, "read_restart"))
-        {
-            return;
-        }
-        std::istringstream words(withVariables(command.text));
-        std::string name;
-        std::string file;
-        if (!(words >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
-        {
-            return;
-        }
-        const std::vector<std::filesystem::path> files = filesRead(file, program_->comm->me, program_->comm->nprocs);
-        try
-        {
-            std::for_each(files.begin(), files.end(), requireUndamaged);
-        }
-        catch (const FileError& error)
-        {
-            throw DemEngineError(command.where + ": " + error.what());
-        }
-        if (isOtherThanRestart(files.front()))
-        {
-            throw DemEngineError(command.where + ": '" + command.text + "': " + files.front().string()
-                                 + " is no restart file; allowed: what LIGGGHTS' write_restart has written");
-        }
-    }
-
-    /// A command as LIGGGHTS reads it, the values of its variables put in.
-    std::string withVariables(const std::string& command) const
-    {
-        constexpr int flagOfScripts = 0;
-        int size = static_cast<int>(command.size()) + 1;
-        int workSize = size;
-        auto* text = static_cast<char*>(std::malloc(command.size() + 1));
-        auto* work = static_cast<char*>(std::malloc(command.size() + 1));
-        std::copy_n(command.c_str(), command.size() + 1, text);
-        try
-        {
-            program_->input->substitute(text, work, size, workSize, flagOfScripts);
-        }
-        catch (const LiggghtsStopped&)
-        {
-            // A variable that is not there: LIGGGHTS says so when it executes the command.
-        }
-        std::string result = text;
-        std::free(text);
-        std::free(work);
-        return result;
-    }
-
-    /// By the very bytes that the first rank writes to LIGGGHTS' restart files: their number and the state.
-    void restartFix(lmp::Fix& fix) const
-    {
-        char* text = nullptr;
-        std::size_t size = 0;
-        FILE* const stream = open_memstream(&text, &size);
-        fix.write_restart(stream);
-        std::fclose(stream);
-        std::vector<char> state(text, text + size);
-        std::free(text);
-        auto count = static_cast<int>(size);
-        MPI_Bcast(&count, 1, MPI_INT, 0, program_->world);
-        state.resize(static_cast<std::size_t>(count));
-        MPI_Bcast(state.data(), count, MPI_CHAR, 0, program_->world);
-        if (state.size() > sizeof(int))
-        {
-            fix.restart(state.data() + sizeof(int));
         }
     }
 
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
     {
         auto& engine = *static_cast<Implementation*>(self);
-        engine.checkFinite();
-        const FloatingPointTraps asOutside(engine.trapsOutside_);
+        requireFiniteForces(*engine.program_);
+        const FloatingPointTraps asOutside(engine.program_.trapsOutside());
         const BeadsView own = engine.beads();
         Vectors ofFluid(firstElement(force), 3, own.size());
         const bool preparing = engine.program_->update->setupflag != 0;
@@ -791,8 +435,7 @@ private:
         engine.clearForceOnHeldBeads(ofFluid);
     }
 
-    MPI_Comm communicator_;
-    std::unique_ptr<lmp::LAMMPS> program_;
+    LiggghtsProgram program_;
     lmp::Fix* stateFix_ = nullptr;
     std::vector<double> stateOfNewBead_;
     FluidForces* forces_ = nullptr;
@@ -809,10 +452,7 @@ private:
     lmp::Fix* introducedFix_ = nullptr;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
-    int trapsOutside_ = 0;
     bool fresh_ = true;
-    bool boxMade_ = false;
-    bool failed_ = false;
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
@@ -847,13 +487,13 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     {
         implementation_->addFluidForce(forces);
     }
-    implementation_->checkMaterials();
+    requireNoNegativeFriction(*implementation_->program());
     // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
-    implementation_->execute("thermo_modify lost ignore flush yes", "initialise");
-    implementation_->checkBeadsAreInBox();
+    implementation_->program().execute("thermo_modify lost ignore flush yes", "initialise");
+    requireBeadsInBox(*implementation_->program());
     implementation_->allowNoBeads();
     prepare();
-    implementation_->checkOverlaps();
+    implementation_->checkStart();
 }
 
 void LiggghtsEngine::prepare()
@@ -885,13 +525,13 @@ BeadsView LiggghtsEngine::beads()
 
 double LiggghtsEngine::timeStep() const
 {
-    return implementation_->program().update->dt;
+    return implementation_->program()->update->dt;
 }
 
 Vector3d LiggghtsEngine::gravity() const
 {
     Vector3d acceleration = Vector3d::Zero();
-    if (lmp::Fix* fix = findFixOfStyle(*implementation_->program().modify, "gravity"))
+    if (lmp::Fix* fix = findFixOfStyle(*implementation_->program()->modify, "gravity"))
     {
         // The fix works out its components in init(), which LIGGGHTS itself calls before the first step only.
         fix->init();
@@ -902,8 +542,8 @@ Vector3d LiggghtsEngine::gravity() const
 
 std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 {
-    lmp::Modify& modify = *implementation_->program().modify;
-    const int materialCount = implementation_->program().atom->ntypes;
+    lmp::Modify& modify = *implementation_->program()->modify;
+    const int materialCount = implementation_->program()->atom->ntypes;
     const auto property = [&](const char* name) {
         return static_cast<lmp::FixPropertyGlobal*>(
             modify.find_fix_property(name, "property/global", "peratomtype", materialCount, 0, "coupling", false));
@@ -923,47 +563,12 @@ std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 
 std::vector<std::filesystem::path> LiggghtsEngine::writeCheckpoint(const std::filesystem::path& name)
 {
-    implementation_->keepFinishedInsertionsFinished();
-    const lmp::LAMMPS& program = implementation_->program();
-    std::vector<std::filesystem::path> files = filesWritten(name, program.comm->me);
-    std::list<FileThroughPipe> pipes;
-    std::exception_ptr failure;
-    const auto attempt = [&](const auto& step) {
-        try
-        {
-            step();
-        }
-        catch (const FileError&)
-        {
-            failure = std::current_exception();
-        }
-    };
-    attempt([&] {
-        for (const std::filesystem::path& file : files)
-        {
-            pipes.emplace_back(file);
-        }
-    });
-    // All write or none does: the others would wait for one that has no file.
-    int ready = failure ? 0 : 1;
-    MPI_Allreduce(MPI_IN_PLACE, &ready, 1, MPI_INT, MPI_MIN, program.world);
-    if (ready != 0)
-    {
-        implementation_->execute("write_restart " + FileThroughPipe::entrance(name).string(), "checkpoint");
-        attempt([&] { std::for_each(pipes.begin(), pipes.end(), [](FileThroughPipe& pipe) { pipe.finish(); }); });
-        implementation_->restartInsertions();
-    }
-    MPI_Barrier(program.world);
-    if (failure)
-    {
-        std::rethrow_exception(failure);
-    }
-    return files;
+    return writeRestart(implementation_->program(), name);
 }
 
 std::string LiggghtsEngine::version() const
 {
-    return std::string("LIGGGHTS ") + implementation_->program().universe->version;
+    return std::string("LIGGGHTS ") + implementation_->program()->universe->version;
 }
 
 } // namespace clepsydra

@@ -1,0 +1,102 @@
+#include "engine/liggghts/liggghtsProgram.h"
+
+#include "engine/demEngine.h"
+#include "engine/liggghts/floatingPointTraps.h"
+#include "engine/liggghts/liggghtsErrors.h"
+
+#include <input.h>
+#include <lammps.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <vector>
+
+namespace clepsydra
+{
+
+LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator)
+{
+    requireLiggghtsErrorReplacements();
+    // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
+    std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
+    std::vector<char*> arguments;
+    arguments.reserve(words.size());
+    for (std::string& word : words)
+    {
+        arguments.push_back(word.data());
+    }
+    try
+    {
+        program_ =
+            std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator);
+    }
+    catch (const LiggghtsStopped& stopped)
+    {
+        throw DemEngineError(std::string("LIGGGHTS did not start: ") + stopped.what());
+    }
+}
+
+LiggghtsProgram::~LiggghtsProgram()
+{
+    // After an error LIGGGHTS is in the middle of a command: its destructors may wait for other ranks.
+    if (failed_)
+    {
+        static_cast<void>(program_.release());
+    }
+}
+
+void LiggghtsProgram::execute(const std::string& command, const std::string& where)
+{
+    const FloatingPointTraps none(0);
+    trapsOutside_ = none.before();
+    try
+    {
+        program_->input->one(command.c_str());
+    }
+    catch (const DemEngineError&)
+    {
+        failed_ = true;
+        throw;
+    }
+    catch (const LiggghtsStopped& stopped)
+    {
+        failed_ = true;
+        std::string message =
+            where + ": LIGGGHTS stopped at '" + command + "'" + valuesIn(command) + ": " + stopped.what();
+        if (stopped.onOneRankOnly())
+        {
+            message += " (reported by one rank)";
+        }
+        throw DemEngineError(message);
+    }
+}
+
+std::string LiggghtsProgram::withVariables(const std::string& command) const
+{
+    constexpr int flagOfScripts = 0;
+    int size = static_cast<int>(command.size()) + 1;
+    int workSize = size;
+    auto* text = static_cast<char*>(std::malloc(command.size() + 1));
+    auto* work = static_cast<char*>(std::malloc(command.size() + 1));
+    std::copy_n(command.c_str(), command.size() + 1, text);
+    try
+    {
+        program_->input->substitute(text, work, size, workSize, flagOfScripts);
+    }
+    catch (const LiggghtsStopped&)
+    {
+        // A variable that is not there: LIGGGHTS says so when it executes the command.
+    }
+    std::string result = text;
+    std::free(text);
+    std::free(work);
+    return result;
+}
+
+std::string LiggghtsProgram::valuesIn(const std::string& command) const
+{
+    const std::string text = withVariables(command);
+    return text == command ? std::string() : " (" + text + ')';
+}
+
+} // namespace clepsydra
