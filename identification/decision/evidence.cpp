@@ -1,5 +1,7 @@
 #include "decision/evidence.h"
 
+#include "decision/spread.h"
+
 #include "lists.h"
 
 #include <boost/math/distributions/fisher_f.hpp>
@@ -24,10 +26,6 @@ namespace
 /// Measurements scatter as simulations do within some 12 %: degrees of freedom of the prior of their common factor.
 constexpr double spreadFreedom = 30.0;
 
-/// The same for something else, each condition by itself, and how likely that is to scatter in a way of its own.
-constexpr double otherSpreadFreedom = 3.0;
-constexpr double otherSpreadShare = 0.3;
-
 /// Amplitudes that are integrated over, by effect: first from end to end, then where they are not unlikely (log of the
 /// likelihood over its maximum).
 constexpr Eigen::Index fineSteps = 64;
@@ -42,24 +40,6 @@ constexpr double worthAStep = 1e-3;
 /// How often the place of an effect's fit is found anew, where the emulator is no polynomial.
 constexpr int refinements = 3;
 
-/// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
-constexpr double alikeFeatures = 0.5;
-constexpr double alikeConditions = 0.3;
-
-/// Log density of sums of squares about a common factor of the variance with an inverse gamma prior; what all
-/// explanations share is left out.
-double logSpread(double trace, double numbers, double freedom)
-{
-    return std::lgamma((freedom + numbers) / 2.0) - std::lgamma(freedom / 2.0) + freedom / 2.0 * std::log(freedom / 2.0)
-           - (freedom + numbers) / 2.0 * std::log((freedom + trace) / 2.0);
-}
-
-/// Trace of w s w'.
-double traceOf(const Eigen::MatrixXd& w, const Eigen::MatrixXd& s)
-{
-    return w.lazyProduct(s).cwiseProduct(w).sum();
-}
-
 /// Sum of the logs of positive numbers, with few calls of the logarithm.
 double logProduct(const Eigen::ArrayXd& values)
 {
@@ -70,32 +50,6 @@ double logProduct(const Eigen::ArrayXd& values)
         sum += std::log(values.segment(first, std::min(atOnce, values.size() - first)).prod());
     }
     return sum;
-}
-
-/// What a distribution over evenly spaced amplitudes says. Linear within a step.
-Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
-{
-    constexpr double tail = 0.025;
-    const auto& a = amplitudes.array();
-    const double half = a.size() > 1 ? (a(1) - a(0)) / 2.0 : 0.0;
-    Fit fit;
-    fit.amplitude = (share * a).sum();
-    fit.sd = std::sqrt(std::max(0.0, (share * (a - fit.amplitude).square()).sum()));
-    const auto quantile = [&](double level) {
-        double below = 0.0;
-        for (Eigen::Index i = 0; i < a.size(); ++i)
-        {
-            if (below + share(i) >= level)
-            {
-                return a(i) - half + 2.0 * half * (level - below) / share(i);
-            }
-            below += share(i);
-        }
-        return a(a.size() - 1) + half;
-    };
-    fit.lower = quantile(tail);
-    fit.upper = quantile(1.0 - tail);
-    return fit;
 }
 
 } // namespace
@@ -333,21 +287,6 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
         logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
 }
 
-double Evidence::otherSpread(const Measured& measured) const
-{
-    double sum = -0.5 * null_.spreadLogDeterminant;
-    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
-    {
-        const Layout::Block& block = layout_.blocks[b];
-        if (block.freedom > 0.0)
-        {
-            const double trace = traceOf(null_.whiten[b], measured.scatter[b]);
-            sum += logSpread(trace, block.freedom * static_cast<double>(block.size()), otherSpreadFreedom);
-        }
-    }
-    return sum;
-}
-
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
 {
     const Eigen::Index q = study_.parameters.size();
@@ -575,172 +514,6 @@ Evidences Evidence::operator()(const Measured& measured) const
     }
     evidences.other = otherEvidence(measured, usual, null);
     return evidences;
-}
-
-double Evidence::otherEvidence(const Measured& measured) const
-{
-    const Spread usual = spreadOf(null_, measured);
-    return otherEvidence(measured, usual, solve(null_, usual.factor, measured));
-}
-
-//--- Something else -------------------------------------------------------------------------------------------------
-
-void Evidence::prepareOther()
-{
-    const Eigen::Index n = layout_.rows;
-    const Eigen::Index q = study_.parameters.size();
-    // What the library's effects do to each feature at full size, root mean square over effects and conditions.
-    Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
-    Eigen::VectorXd counts = squares;
-    const Eigen::VectorXd prior = Eigen::VectorXd::Zero(study_.parameters.size());
-    for (const auto& block : layout_.blocks)
-    {
-        const ConditionEmulator& emulator = *emulator_[block.condition];
-        const Eigen::VectorXd base = emulator.at(prior, {});
-        for (std::size_t e = 0; e < study_.effects.size(); ++e)
-        {
-            if (emulator_.knows(e) && acts(study_.effects[e], study_.conditions[block.condition]))
-            {
-                const Eigen::VectorXd change = emulator.at(prior, {{e, study_.effects[e].bounds.upper}}) - base;
-                for (const auto place : block.places)
-                {
-                    const auto f = emulator.features[place];
-                    squares(f) += change(place) * change(place);
-                    counts(f) += 1.0;
-                }
-            }
-        }
-    }
-    const Eigen::VectorXd typical = squares.cwiseQuotient(counts.cwiseMax(1.0)).cwiseSqrt();
-    Eigen::MatrixXd pattern(n, n);
-    Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(n, n);
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-    {
-        const auto [first, size] = parts_[p];
-        transform.block(first, first, size, size) = null_.transform[p];
-    }
-    for (const auto& one : layout_.blocks)
-    {
-        for (const auto& other : layout_.blocks)
-        {
-            for (Eigen::Index i = 0; i < one.size(); ++i)
-            {
-                for (Eigen::Index j = 0; j < other.size(); ++j)
-                {
-                    const auto f = emulator_[one.condition]->features[one.places[i]];
-                    const auto g = emulator_[other.condition]->features[other.places[j]];
-                    pattern(one.first + i, other.first + j) =
-                        typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
-                        * (one.condition == other.condition ? 1.0 : alikeConditions);
-                }
-            }
-        }
-    }
-    pattern = transform * pattern * transform.transpose();
-    const Eigen::VectorXd usual = null_.extra.array() + 1.0;
-    const Eigen::MatrixXd slope = null_.terms.middleCols(1, q);
-    if (q > 0)
-    {
-        const Eigen::MatrixXd weighted = usual.cwiseInverse().asDiagonal() * slope;
-        const Eigen::MatrixXd projection =
-            Eigen::MatrixXd::Identity(n, n) - slope * (slope.transpose() * weighted).ldlt().solve(weighted.transpose());
-        pattern = projection * pattern * projection.transpose();
-    }
-    const double rounding = 1e-9 * std::max(pattern.diagonal().maxCoeff(), 1e-12);
-    otherRoot_ = (pattern + rounding * Eigen::MatrixXd::Identity(n, n)).llt().matrixL();
-    for (const double size : sizes())
-    {
-        Eigen::MatrixXd covariance = size * size * pattern + slope * slope.transpose();
-        covariance.diagonal() += usual;
-        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
-        other_.push_back({factor.matrixL(), 2.0 * factor.matrixLLT().diagonal().array().log().sum()});
-    }
-}
-
-double Evidence::otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const
-{
-    const Eigen::Index q = study_.parameters.size();
-    // Linear in the parameters from where the null fits.
-    Eigen::VectorXd& r = workspace_.data;
-    transformTo(null_, measured.mean, r);
-    r -= null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters));
-    r += null_.terms.middleCols(1, q) * Eigen::VectorXd(null.parameters);
-    const double nu = layout_.noiseFreedom;
-    const double rows = static_cast<double>(layout_.rows);
-    // A set that scatters in a way of its own has a noise of its own; the means are then known as well as its repeats say.
-    Eigen::VectorXd logs(other_.size());
-    for (Eigen::Index i = 0; i < logs.size(); ++i)
-    {
-        const Discrepancy& one = other_[i];
-        const double misfit = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
-        logs(i) = -0.5 * (nu + rows) * std::log1p(misfit / nu)
-                  - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
-    }
-    const double pattern = logSumExp(logs) - std::log(static_cast<double>(other_.size()));
-    const Eigen::Vector2d spread(
-        std::log(1.0 - otherSpreadShare) + usual.logLikelihood, std::log(otherSpreadShare) + otherSpread(measured));
-    return pattern + logSumExp(spread);
-}
-
-//--- Fits -----------------------------------------------------------------------------------------------------------
-
-std::vector<double> Evidence::amplitudes(std::size_t effect) const
-{
-    return mapped(effects_[effect].nodes, [](const Node& node) { return node.present.front().amplitude; });
-}
-
-Fit Evidence::fitNull(const Measured& measured) const
-{
-    Fit fit;
-    fitParameters(null_, measured, fit);
-    return fit;
-}
-
-/// All of a fit but its amplitude.
-void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fit) const
-{
-    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
-    fit.parameters = solution.parameters;
-    fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
-    fit.misfit = solution.misfit;
-}
-
-Fit Evidence::fit(std::size_t effect, const Measured& measured) const
-{
-    return effects_[effect].nodes.empty() ? Fit{} : fits(effects_[effect], measured).front();
-}
-
-std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& measured) const
-{
-    const Posterior found = posterior(explanation, measured, spreadOf(null_, measured));
-    const Eigen::ArrayXXd share = (found.logs.array() - found.judgement.logEvidence).exp();
-    std::vector<Fit> all;
-    std::vector<Present> present;
-    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
-    {
-        all.push_back(marginal(found.amplitudes[k],
-            k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
-        present.push_back({explanation.effects[k], all.back().amplitude});
-    }
-    const Node node = nodeAt(present);
-    for (auto& fit : all)
-    {
-        fitParameters(node, measured, fit);
-    }
-    return all;
-}
-
-Eigen::VectorXd Evidence::drawOther(double size, std::mt19937_64& random) const
-{
-    std::normal_distribution<double> normal;
-    Eigen::VectorXd pattern =
-        size * otherRoot_ * Eigen::VectorXd::NullaryExpr(layout_.rows, [&] { return normal(random); });
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-    {
-        auto own = pattern.segment(parts_[p].first, parts_[p].size);
-        own = null_.transform[p].partialPivLu().solve(Eigen::VectorXd(own)).eval();
-    }
-    return pattern;
 }
 
 } // namespace clepsydra::identification

@@ -7,6 +7,16 @@
 namespace clepsydra::identification
 {
 
+namespace
+{
+
+bool sameSetting(const Setting& a, const Setting& b)
+{
+    return a.parameters == b.parameters && a.amplitudes == b.amplitudes;
+}
+
+} // namespace
+
 Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters)
 {
     return Eigen::VectorXd::NullaryExpr(parameters.size(),
@@ -31,6 +41,40 @@ Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::siz
         rows.row(row) = simulations[own[row]].features.transpose();
     }
     return rows;
+}
+
+std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& settings)
+{
+    std::vector<std::vector<Eigen::Index>> groups;
+    for (std::size_t i = 0; i < settings.size(); ++i)
+    {
+        const auto group = std::find_if(groups.begin(), groups.end(),
+            [&](const auto& one) { return sameSetting(settings[one.front()], settings[i]); });
+        if (group == groups.end())
+        {
+            groups.push_back({static_cast<Eigen::Index>(i)});
+        }
+        else
+        {
+            group->push_back(i);
+        }
+    }
+    return groups;
+}
+
+BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Run& run)
+{
+    BeforeChain before{run.setting, run.simulation.features};
+    for (std::size_t e = 0; e < study.effects.size(); ++e)
+    {
+        double& amplitude = before.setting.amplitudes(e);
+        if (study.effects[e].isOfChain() && amplitude != 0.0)
+        {
+            amplitude = 0.0;
+            before.features = simulator.featuresOf(run.simulation.plain);
+        }
+    }
+    return before;
 }
 
 } // namespace clepsydra::identification

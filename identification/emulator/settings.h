@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runner/simulator.h"
+#include "emulator/library.h"
 
 #include <Eigen/Core>
 
@@ -15,5 +15,17 @@ Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds);
 
 /// Features of the simulations of one condition, a row each.
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features);
+
+/// Repeats of one setting, as lists of numbers in `settings`.
+std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& settings);
+
+/// What was simulated, before the measuring chain.
+struct BeforeChain
+{
+    Setting setting;
+    Eigen::VectorXd features;
+};
+
+BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Run& run);
 
 } // namespace clepsydra::identification

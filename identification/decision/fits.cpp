@@ -1,0 +1,90 @@
+#include "decision/evidence.h"
+
+#include "lists.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// What a distribution over evenly spaced amplitudes says. Linear within a step.
+Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
+{
+    constexpr double tail = 0.025;
+    const auto& a = amplitudes.array();
+    const double half = a.size() > 1 ? (a(1) - a(0)) / 2.0 : 0.0;
+    Fit fit;
+    fit.amplitude = (share * a).sum();
+    fit.sd = std::sqrt(std::max(0.0, (share * (a - fit.amplitude).square()).sum()));
+    const auto quantile = [&](double level) {
+        double below = 0.0;
+        for (Eigen::Index i = 0; i < a.size(); ++i)
+        {
+            if (below + share(i) >= level)
+            {
+                return a(i) - half + 2.0 * half * (level - below) / share(i);
+            }
+            below += share(i);
+        }
+        return a(a.size() - 1) + half;
+    };
+    fit.lower = quantile(tail);
+    fit.upper = quantile(1.0 - tail);
+    return fit;
+}
+
+} // namespace
+
+std::vector<double> Evidence::amplitudes(std::size_t effect) const
+{
+    return mapped(effects_[effect].nodes, [](const Node& node) { return node.present.front().amplitude; });
+}
+
+Fit Evidence::fitNull(const Measured& measured) const
+{
+    Fit fit;
+    fitParameters(null_, measured, fit);
+    return fit;
+}
+
+/// All of a fit but its amplitude.
+void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fit) const
+{
+    const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
+    fit.parameters = solution.parameters;
+    fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
+    fit.misfit = solution.misfit;
+}
+
+Fit Evidence::fit(std::size_t effect, const Measured& measured) const
+{
+    return effects_[effect].nodes.empty() ? Fit{} : fits(effects_[effect], measured).front();
+}
+
+std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& measured) const
+{
+    const Posterior found = posterior(explanation, measured, spreadOf(null_, measured));
+    const Eigen::ArrayXXd share = (found.logs.array() - found.judgement.logEvidence).exp();
+    std::vector<Fit> all;
+    std::vector<Present> present;
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
+    {
+        all.push_back(marginal(found.amplitudes[k],
+            k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
+        present.push_back({explanation.effects[k], all.back().amplitude});
+    }
+    const Node node = nodeAt(present);
+    for (auto& fit : all)
+    {
+        fitParameters(node, measured, fit);
+    }
+    return all;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,159 @@
+#include "decision/evidence.h"
+
+#include "decision/spread.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Each condition scatters by itself: degrees of freedom of the prior of its factor, and how likely something else is to scatter
+/// in a way of its own.
+constexpr double otherSpreadFreedom = 3.0;
+constexpr double otherSpreadShare = 0.3;
+
+/// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
+constexpr double alikeFeatures = 0.5;
+constexpr double alikeConditions = 0.3;
+
+} // namespace
+
+void Evidence::prepareOther()
+{
+    const Eigen::Index n = layout_.rows;
+    const Eigen::Index q = study_.parameters.size();
+    // What the library's effects do to each feature at full size, root mean square over effects and conditions.
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
+    Eigen::VectorXd counts = squares;
+    const Eigen::VectorXd prior = Eigen::VectorXd::Zero(study_.parameters.size());
+    for (const auto& block : layout_.blocks)
+    {
+        const ConditionEmulator& emulator = *emulator_[block.condition];
+        const Eigen::VectorXd base = emulator.at(prior, {});
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
+        {
+            if (emulator_.knows(e) && acts(study_.effects[e], study_.conditions[block.condition]))
+            {
+                const Eigen::VectorXd change = emulator.at(prior, {{e, study_.effects[e].bounds.upper}}) - base;
+                for (const auto place : block.places)
+                {
+                    const auto f = emulator.features[place];
+                    squares(f) += change(place) * change(place);
+                    counts(f) += 1.0;
+                }
+            }
+        }
+    }
+    const Eigen::VectorXd typical = squares.cwiseQuotient(counts.cwiseMax(1.0)).cwiseSqrt();
+    Eigen::MatrixXd pattern(n, n);
+    Eigen::MatrixXd transform = Eigen::MatrixXd::Zero(n, n);
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+        const auto [first, size] = parts_[p];
+        transform.block(first, first, size, size) = null_.transform[p];
+    }
+    for (const auto& one : layout_.blocks)
+    {
+        for (const auto& other : layout_.blocks)
+        {
+            for (Eigen::Index i = 0; i < one.size(); ++i)
+            {
+                for (Eigen::Index j = 0; j < other.size(); ++j)
+                {
+                    const auto f = emulator_[one.condition]->features[one.places[i]];
+                    const auto g = emulator_[other.condition]->features[other.places[j]];
+                    pattern(one.first + i, other.first + j) =
+                        typical(f) * typical(g) * (f == g ? 1.0 : alikeFeatures)
+                        * (one.condition == other.condition ? 1.0 : alikeConditions);
+                }
+            }
+        }
+    }
+    pattern = transform * pattern * transform.transpose();
+    const Eigen::VectorXd usual = null_.extra.array() + 1.0;
+    const Eigen::MatrixXd slope = null_.terms.middleCols(1, q);
+    if (q > 0)
+    {
+        const Eigen::MatrixXd weighted = usual.cwiseInverse().asDiagonal() * slope;
+        const Eigen::MatrixXd projection =
+            Eigen::MatrixXd::Identity(n, n) - slope * (slope.transpose() * weighted).ldlt().solve(weighted.transpose());
+        pattern = projection * pattern * projection.transpose();
+    }
+    const double rounding = 1e-9 * std::max(pattern.diagonal().maxCoeff(), 1e-12);
+    otherRoot_ = (pattern + rounding * Eigen::MatrixXd::Identity(n, n)).llt().matrixL();
+    for (const double size : sizes())
+    {
+        Eigen::MatrixXd covariance = size * size * pattern + slope * slope.transpose();
+        covariance.diagonal() += usual;
+        const Eigen::LLT<Eigen::MatrixXd> factor(covariance);
+        other_.push_back({factor.matrixL(), 2.0 * factor.matrixLLT().diagonal().array().log().sum()});
+    }
+}
+
+double Evidence::otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const
+{
+    const Eigen::Index q = study_.parameters.size();
+    // Linear in the parameters from where the null fits.
+    Eigen::VectorXd& r = workspace_.data;
+    transformTo(null_, measured.mean, r);
+    r -= null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters));
+    r += null_.terms.middleCols(1, q) * Eigen::VectorXd(null.parameters);
+    const double nu = layout_.noiseFreedom;
+    const double rows = static_cast<double>(layout_.rows);
+    // A set that scatters in a way of its own has a noise of its own; the means are then known as well as its repeats say.
+    Eigen::VectorXd logs(other_.size());
+    for (Eigen::Index i = 0; i < logs.size(); ++i)
+    {
+        const Discrepancy& one = other_[i];
+        const double misfit = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
+        logs(i) = -0.5 * (nu + rows) * std::log1p(misfit / nu)
+                  - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
+    }
+    const double pattern = logSumExp(logs) - std::log(static_cast<double>(other_.size()));
+    const Eigen::Vector2d spread(
+        std::log(1.0 - otherSpreadShare) + usual.logLikelihood, std::log(otherSpreadShare) + otherSpread(measured));
+    return pattern + logSumExp(spread);
+}
+
+double Evidence::otherEvidence(const Measured& measured) const
+{
+    const Spread usual = spreadOf(null_, measured);
+    return otherEvidence(measured, usual, solve(null_, usual.factor, measured));
+}
+
+double Evidence::otherSpread(const Measured& measured) const
+{
+    double sum = -0.5 * null_.spreadLogDeterminant;
+    for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
+    {
+        const Layout::Block& block = layout_.blocks[b];
+        if (block.freedom > 0.0)
+        {
+            const double trace = traceOf(null_.whiten[b], measured.scatter[b]);
+            sum += logSpread(trace, block.freedom * static_cast<double>(block.size()), otherSpreadFreedom);
+        }
+    }
+    return sum;
+}
+
+Eigen::VectorXd Evidence::drawOther(double size, std::mt19937_64& random) const
+{
+    std::normal_distribution<double> normal;
+    Eigen::VectorXd pattern =
+        size * otherRoot_ * Eigen::VectorXd::NullaryExpr(layout_.rows, [&] { return normal(random); });
+    for (std::size_t p = 0; p < parts_.size(); ++p)
+    {
+        auto own = pattern.segment(parts_[p].first, parts_[p].size);
+        own = null_.transform[p].partialPivLu().solve(Eigen::VectorXd(own)).eval();
+    }
+    return pattern;
+}
+
+} // namespace clepsydra::identification

@@ -1,0 +1,226 @@
+#include "emulator/covariance.h"
+#include "emulator/emulator.h"
+#include "emulator/settings.h"
+
+#include "lists.h"
+
+#include <boost/math/distributions/fisher_f.hpp>
+#include <boost/math/special_functions/digamma.hpp>
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Without scatter a run is as good as exact: noise of this share of what a feature varies over the runs.
+constexpr double exactShare = 1e-3;
+
+/// Repeats of an effect that is not declared to raise the scatter do so all the same where chance alone would in fewer
+/// cases than this.
+constexpr double otherScatter = 1e-2;
+
+/// The variance, between conditions, of the log of a feature's scatter is at least this: 10 %.
+constexpr double leastBetween = 0.01;
+
+/// Scatter of an effect in one condition counts against that of all conditions as much as this many degrees of freedom.
+constexpr double sharedScatter = 8.0;
+
+/// The log of a mean square is too small by this on average.
+double biasOfLog(double degreesOfFreedom)
+{
+    return boost::math::digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
+}
+
+} // namespace
+
+/// Effects that raise the scatter without being declared to are found by the noise of runs without effects.
+void Emulator::learnNoiseAndScatter()
+{
+    if (scatters_)
+    {
+        learnNoise(true);
+        learnScatter();
+    }
+    learnNoise(false);
+}
+
+/// Noise from repeats at equal settings, and from nothing else: what a regression leaves is too small by what it has taken
+/// up. Correlations are those of all conditions together; the variances of a condition are drawn towards those of all by as
+/// much as chance explains.
+void Emulator::learnNoise(bool ofPlainRuns)
+{
+    const Eigen::Index features = study_->featureCount();
+    std::vector<Eigen::VectorXd> logSds(conditions_.size());
+    std::vector<Eigen::VectorXd> smallest(conditions_.size());
+    std::vector<double> freedom(conditions_.size(), 0.0);
+    std::vector<Eigen::MatrixXd> deviations(conditions_.size());
+    Eigen::VectorXd squares = Eigen::VectorXd::Zero(features);
+    Eigen::VectorXd weight = squares;
+    for (const auto c : learnt_)
+    {
+        const auto& kept = conditions_[c]->features;
+        const Rows& rows = rows_[c];
+        Scatter own;
+        for (const auto& group : repeatsOf(rows.settings))
+        {
+            const std::size_t first = group.front();
+            const bool isPlain = rows.settings[first].amplitudes.isZero() || !ofPlainRuns;
+            if (scatters_ && rows.scattering[first].empty() && isPlain)
+            {
+                own.add(rows.values(group, Eigen::all));
+            }
+        }
+        const Eigen::RowVectorXd mean = rows.values.colwise().mean();
+        smallest[c] = exactShare
+                      * ((rows.values.rowwise() - mean).colwise().squaredNorm().transpose()
+                          / static_cast<double>(rows.values.rows()))
+                            .cwiseSqrt()
+                            .cwiseMax(1e-9);
+        freedom[c] = own.degreesOfFreedom();
+        logSds[c] = smallest[c].array().log();
+        if (freedom[c] > 0.0)
+        {
+            deviations[c] = own.deviations();
+            const Eigen::VectorXd meanSquare = deviations[c].cwiseAbs2().colwise().mean();
+            logSds[c] = meanSquare.cwiseSqrt().cwiseMax(smallest[c]).array().log() - 0.5 * biasOfLog(freedom[c]);
+            squares(kept) += freedom[c] * meanSquare;
+            weight(kept).array() += freedom[c];
+        }
+    }
+    const Eigen::VectorXd pooled =
+        0.5 * squares.cwiseQuotient(weight.cwiseMax(1e-9)).cwiseMax(1e-30).array().log().matrix();
+    // Variance between conditions beyond that of chance, 1/(2 nu) for the log of a standard deviation. It is that of all
+    // features together: a feature's own would follow the one condition whose few repeats happen to lie close.
+    double between = 0.0;
+    double count = 0.0;
+    degreesOfFreedom_ = 0.0;
+    for (const auto c : learnt_)
+    {
+        if (freedom[c] > 0.0)
+        {
+            between += ((logSds[c] - pooled(conditions_[c]->features)).array().square() - 0.5 / freedom[c]).sum();
+            count += static_cast<double>(logSds[c].size());
+            degreesOfFreedom_ += freedom[c];
+        }
+    }
+    between = std::max(leastBetween, between / std::max(count, 1.0));
+    Eigen::MatrixXd standardised(0, features);
+    for (const auto c : degreesOfFreedom_ > 0.0 ? learnt_ : std::vector<std::size_t>{})
+    {
+        const auto& kept = conditions_[c]->features;
+        const Eigen::VectorXd common = pooled(kept).cwiseMax(smallest[c].array().log().matrix());
+        if (freedom[c] == 0.0)
+        {
+            logSds[c] = common;
+            conditions_[c]->logSdError = std::sqrt(between);
+            continue;
+        }
+        const double own = between / (between + 0.5 / freedom[c]);
+        logSds[c] = common + (logSds[c] - common) * own;
+        conditions_[c]->logSdError = std::sqrt(0.5 * own / freedom[c]);
+        const Eigen::Index first = standardised.rows();
+        standardised.conservativeResize(first + deviations[c].rows(), Eigen::NoChange);
+        standardised.bottomRows(deviations[c].rows()).setConstant(std::nan(""));
+        for (std::size_t k = 0; k < kept.size(); ++k)
+        {
+            const Eigen::Index place = k;
+            standardised.col(kept[k]).tail(deviations[c].rows()) =
+                deviations[c].col(place) * std::exp(-logSds[c](place));
+        }
+    }
+    Eigen::MatrixXd correlation = Eigen::MatrixXd::Identity(features, features);
+    if (standardised.rows() > 0)
+    {
+        correlation = pooledCovariance(standardised, degreesOfFreedom_).matrix;
+        const Eigen::VectorXd scale = correlation.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+        correlation = scale.asDiagonal() * correlation * scale.asDiagonal();
+        correlation.diagonal().setOnes();
+    }
+    const Eigen::VectorXd typical = (weight.array() > 0.0).select(pooled.array().exp(), 0.0).matrix();
+    noise_ = typical.asDiagonal() * correlation * typical.asDiagonal();
+    for (const auto c : learnt_)
+    {
+        ConditionEmulator& here = *conditions_[c];
+        const Eigen::VectorXd sds = logSds[c].array().exp();
+        here.noise = sds.asDiagonal() * Eigen::MatrixXd(correlation(here.features, here.features)) * sds.asDiagonal();
+        here.root = here.noise.llt().matrixL();
+    }
+}
+
+/// How much effects raise the scatter: from repeats of runs with one effect alone.
+void Emulator::learnScatter()
+{
+    for (std::size_t e = 0; e < study_->effects.size(); ++e)
+    {
+        Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // over the usual variance
+        Eigen::VectorXd freedom = squares;
+        std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // by condition: the same, degrees of freedom
+        double statistic = 0.0;
+        double statisticFreedom = 0.0;
+        for (const auto c : learnt_)
+        {
+            const auto& kept = conditions_[c]->features;
+            for (const auto& group : repeatsOf(rows_[c].settings))
+            {
+                const Setting& setting = rows_[c].settings[group.front()];
+                Eigen::VectorXd others = setting.amplitudes;
+                others(e) = 0.0;
+                if (group.size() < 2 || setting.amplitudes(e) == 0.0 || !others.isZero())
+                {
+                    continue;
+                }
+                const Eigen::MatrixXd values = rows_[c].values(group, Eigen::all);
+                const Eigen::MatrixXd deviations = values.rowwise() - Eigen::RowVectorXd(values.colwise().mean());
+                const double nu = static_cast<double>(group.size()) - 1.0;
+                const Eigen::VectorXd ratio =
+                    deviations.colwise().squaredNorm().transpose().cwiseQuotient(conditions_[c]->noise.diagonal());
+                squares(kept) += ratio;
+                freedom(kept).array() += nu;
+                own[c] = {ratio, nu};
+                statistic +=
+                    conditions_[c]->root.triangularView<Eigen::Lower>().solve(deviations.transpose()).squaredNorm();
+                statisticFreedom += nu * static_cast<double>(kept.size());
+            }
+        }
+        if (own.empty())
+        {
+            continue;
+        }
+        // The noise is an estimate itself.
+        const boost::math::fisher_f chance(statisticFreedom,
+            std::max(
+                1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));
+        if (!study_->effects[e].raisesScatter
+            && boost::math::cdf(boost::math::complement(chance, statistic / statisticFreedom)) > otherScatter)
+        {
+            continue;
+        }
+        for (const auto& [c, ratioAndFreedom] : own)
+        {
+            const auto& [ratio, nu] = ratioAndFreedom;
+            const auto& kept = conditions_[c]->features;
+            Eigen::VectorXd logs(ratio.size());
+            for (Eigen::Index k = 0; k < ratio.size(); ++k)
+            {
+                const auto f = kept[k];
+                const double all = 0.5 * (std::log(squares(f) / freedom(f)) - biasOfLog(freedom(f)));
+                const double here = 0.5 * (std::log(ratio(k) / nu) - biasOfLog(nu));
+                logs(k) = all + (here - all) * nu / (nu + sharedScatter);
+            }
+            conditions_[c]->logScatter[e] = logs;
+        }
+    }
+    for (const auto c : learnt_)
+    {
+        rows_[c].scattering =
+            mapped(rows_[c].settings, [&](const Setting& setting) { return conditions_[c]->scatteringIn(setting); });
+    }
+}
+
+} // namespace clepsydra::identification
