@@ -52,7 +52,7 @@ def measureTo(target, folder, truth, label, run):
     for attempt, seed in enumerate(truth["seeds"][run]):
         random = np.random.default_rng([truth["noise"], seed])
         try:
-            time, mass = measure(folder, run.rsplit("_", 1)[0], truth["friction"], effects, seed, random)
+            time, mass = measure(folder, run.rsplit("_", 1)[0], truth["friction"], effects, seed, random, truth.get("numerics", NUMERICS))
         except RunFailed:
             print(f"{label}: attempt {attempt + 1} failed", flush=True)
             continue
@@ -85,11 +85,11 @@ def prime(random):
     return number
 
 
-def measure(folder, condition, friction, effects, seed, random):
+def measure(folder, condition, friction, effects, seed, random, numerics=NUMERICS):
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
     stage, entries, _ = (conditions() | candidates())[condition]
     acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], stage)]
-    makeCase(folder, {**entries, **NUMERICS, "friction": friction, "seed": seed}, acting)
+    makeCase(folder, {**entries, **numerics, "friction": friction, "seed": seed}, acting)
     allrun(folder, "mesh")
     for effect, a in acting:
         if effect.mesh:
