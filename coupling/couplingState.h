@@ -26,7 +26,7 @@ struct FluidAtBead
     Vector3d velocity = Vector3d::Zero();
     /// Gradient of the pressure without its hydrostatic part [Pa/m].
     Vector3d pressureGradient = Vector3d::Zero();
-    /// Divergence of the viscous stress [Pa/m].
+    /// Divergence of the viscous stress [Pa/m]; zero unless a force asks for it.
     Vector3d viscousStressDivergence = Vector3d::Zero();
     /// What a force on the fluid at the bead's place adds to velocityInCells there [m/(N s)]; 0: not to be taken away.
     double selfMobility = 0;

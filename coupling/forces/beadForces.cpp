@@ -72,6 +72,7 @@ ForceNeeds BeadForces::needs() const
     {
         needs.acceleration = needs.acceleration || model.needs().acceleration;
         needs.vorticity = needs.vorticity || model.needs().vorticity;
+        needs.viscousStress = needs.viscousStress || model.needs().viscousStress;
         needs.pairReach = std::max(needs.pairReach, model.needs().pairReach);
         needs.memory = std::max(needs.memory, model.needs().memory);
     }

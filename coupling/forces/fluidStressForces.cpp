@@ -58,6 +58,13 @@ public:
         }
     }
 
+    ForceNeeds needs() const override
+    {
+        ForceNeeds needs;
+        needs.viscousStress = true;
+        return needs;
+    }
+
     bool onlyInModelA() const override
     {
         return true;

@@ -14,6 +14,8 @@ struct ForceNeeds
     bool acceleration = false;
     /// curl U
     bool vorticity = false;
+    /// div(tau)
+    bool viscousStress = false;
     /// BeadsView::pairs up to this gap, in units of the sum of the two radii; 0: none.
     double pairReach = 0;
     /// BeadsView::memory: numbers per bead kept from step to step; 0: none. One force of a run may ask for it.

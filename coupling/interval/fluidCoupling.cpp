@@ -377,8 +377,11 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
         fluid.velocityInCells = fluid.velocity;
     });
     sampleVector(pascalPerMetre, &FluidAtBead::pressureGradient);
-    sampleVector(fluid_.density * columns(viscousStress_.divergence(U)().primitiveField()),
-        &FluidAtBead::viscousStressDivergence);
+    if (needs_.viscousStress)
+    {
+        sampleVector(fluid_.density * columns(viscousStress_.divergence(U)().primitiveField()),
+            &FluidAtBead::viscousStressDivergence);
+    }
     if (needs_.acceleration)
     {
         sampleVector(columns(acceleration_->primitiveField()), &FluidAtBead::acceleration);
