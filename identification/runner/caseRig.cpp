@@ -258,19 +258,34 @@ void CaseRig::prepare(const RunOrder& order, const fs::path& folder) const
     replaceEntries(folder / study_.rig.entriesFile, order.entries);
 }
 
-/// Into a folder of another name first: a record is there wholly or not at all.
-void CaseRig::store(const RunOrder& order, const fs::path& folder, const fs::path& stored, double seconds) const
+/// Into a folder of another name first: a record is there wholly or not at all. What other orders have had stored of an equal
+/// run stays.
+void CaseRig::store(const RunOrder& order, const std::set<std::string>& patterns, const fs::path& folder,
+    const fs::path& stored, double seconds) const
 {
     const fs::path unfinished = stored.string() + ".unfinished";
     fs::remove_all(unfinished);
-    nlohmann::json checksums;
-    for (const auto& file : filesMatching(folder / order.file))
-    {
-        const fs::path name = fs::relative(file, folder);
-        const std::string content = textOf(file);
+    fs::create_directories(unfinished);
+    nlohmann::json checksums = nlohmann::json::object();
+    const auto add = [&](const fs::path& from, const fs::path& name) {
+        const std::string content = textOf(from / name);
         fs::create_directories((unfinished / name).parent_path());
         writeWhole(unfinished / name, content);
         checksums[name.string()] = sha256(content);
+    };
+    if (const auto before = readRecord(stored); damageOf(stored, before).empty())
+    {
+        for (const auto& [name, checksum] : before.at("files").items())
+        {
+            add(stored, name);
+        }
+    }
+    for (const auto& pattern : patterns)
+    {
+        for (const auto& file : filesMatching(folder / pattern))
+        {
+            add(folder, fs::relative(file, folder));
+        }
     }
     nlohmann::json record = {{"key", stored.filename().string()}, {"purpose", order.purpose},
         {"command", order.command}, {"seed", order.seed}, {"entries", order.entries}, {"case", caseFolder_.string()},
@@ -339,33 +354,39 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         const fs::path folder = copyOf(key);
         // Programs seldom look whether what they wrote was written.
         requireRoom(tree_, "the run of " + order.purpose + " does not count");
-        RunResult result;
-        if (end.status != 0)
+        const bool isGood = end.status == 0;
+        if (isGood)
         {
-            result.failure = "'" + order.command + "' ended with status " + std::to_string(end.status) + " in "
-                             + folder.string() + endOfLog(folder / jobLog);
-        }
-        else if (filesMatching(folder / order.file).empty())
-        {
-            result.failure = "the run has not written " + (folder / order.file).string();
-        }
-        else
-        {
-            store(order, folder, cache_ / key, end.seconds);
-            load(order, cache_ / key, result);
-            result.cached = false;
-            if (!study_.rig.keepRuns)
+            // Conditions that differ by what they look at share a run.
+            std::set<std::string> patterns;
+            for (const auto place : places)
             {
-                fs::remove_all(folder);
+                patterns.insert(orders[place].file);
             }
+            store(order, patterns, folder, cache_ / key, end.seconds);
         }
-        result.seconds = end.seconds;
-        progress.ended(order.purpose, result.failure);
+        std::string failure;
         for (const auto place : places)
         {
-            results[place] = result;
-            results[place].cached = result.cached || place != places.front();
+            RunResult& result = results[place];
+            if (!isGood)
+            {
+                result.failure = "'" + order.command + "' ended with status " + std::to_string(end.status) + " in "
+                                 + folder.string() + endOfLog(folder / jobLog);
+            }
+            else if (!load(orders[place], cache_ / key, result))
+            {
+                result.failure = "the run has not written " + (folder / orders[place].file).string();
+            }
+            result.seconds = end.seconds;
+            result.cached = place != places.front();
+            failure = failure.empty() ? result.failure : failure;
         }
+        if (failure.empty() && !study_.rig.keepRuns)
+        {
+            fs::remove_all(folder);
+        }
+        progress.ended(order.purpose, failure);
     });
     return results;
 }

@@ -48,8 +48,8 @@ private:
     std::filesystem::path copyOf(const std::string& key) const;
     void prepare(const RunOrder& order, const std::filesystem::path& folder) const;
     bool load(const RunOrder& order, const std::filesystem::path& stored, RunResult& result) const;
-    void store(const RunOrder& order, const std::filesystem::path& folder, const std::filesystem::path& stored,
-        double seconds) const;
+    void store(const RunOrder& order, const std::set<std::string>& patterns, const std::filesystem::path& folder,
+        const std::filesystem::path& stored, double seconds) const;
     void mirrorSurroundings() const;
 
     const Study& study_;

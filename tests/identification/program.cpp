@@ -414,6 +414,34 @@ TEST(Runner, DamagedStore)
     }
 }
 
+/// Orders that differ by the file of the observable alone share a run, and each gets its own file's curve; another study of
+/// the store that wants a third file makes the run anew and takes none away. Told apart by nothing, the second order got
+/// the first one's curve.
+TEST(Runner, SeveralFilesOfOneRun)
+{
+    const TemporaryFolder folder;
+    folder.write("case/parameters", "x 0;\n");
+    const Study study = readStudy(
+        folder.write("study.yaml", "study: s\nrig: { case: case, seed: none }\n"
+                                   "observable: { file: a, time: t, value: m, features: [ { kind: residue } ] }\n"
+                                   "conditions: [ { name: only, role: training } ]\n"));
+    std::ostringstream progress;
+    CaseRig rig(study, progress);
+    const auto orderOf = [](const std::string& file) {
+        return RunOrder{"for i in 1 2 3; do printf \"# t m\\n0 $i\\n1 $i\\n\" > $(printf abc | cut -c$i); done", file,
+            {}, 0, "test"};
+    };
+    const auto results = rig.run({orderOf("a"), orderOf("b"), orderOf("d")});
+    EXPECT_EQ(results[0].curve.value.at(0), 1);
+    EXPECT_EQ(results[1].curve.value.at(0), 2);
+    EXPECT_FALSE(results[0].cached);
+    EXPECT_TRUE(results[1].cached);
+    EXPECT_THAT(results[2].failure, HasSubstr("has not written"));
+    EXPECT_EQ(rig.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 1);
+    EXPECT_EQ(rig.run({orderOf("c")})[0].curve.value.at(0), 3);
+    EXPECT_EQ(rig.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 0);
+}
+
 /// Two studies of one store that want the same run at the same time: one makes it, the other waits and finds it there.
 /// Without a lock both make it in the same folder, each under the other's feet.
 TEST(Runner, TwoAtOnceInOneStore)
