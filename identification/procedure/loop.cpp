@@ -38,12 +38,13 @@ std::vector<MeasuredCondition> measurementsOf(const Study& study, Role role)
 
 void requireMeasurements(const Study& study)
 {
-    for (const auto c : study.conditionsOf(Role::training))
+    for (const auto& condition : study.conditions)
     {
-        if (study.conditions[c].measured.empty())
+        if (condition.role != Role::candidate && condition.measured.empty())
         {
-            throw std::runtime_error(study.file.string() + ": training condition '" + study.conditions[c].name
-                                     + "' has no 'measured': 'traceResidual plan' is for studies without data");
+            throw std::runtime_error(study.file.string() + ": condition '" + condition.name
+                                     + "' has no 'measured': 'traceResidual plan' is for studies without data, "
+                                       "'role: candidate' for what is not measured yet");
         }
     }
 }

@@ -7,6 +7,8 @@
 #include "words/didYouMean.h"
 
 #include <cmath>
+#include <map>
+#include <set>
 #include <tuple>
 
 namespace clepsydra::identification
@@ -64,7 +66,8 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     {
         number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
     }
-    number.standardError = isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0);
+    number.standardError =
+        isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * unitOf(place);
     if (place.has(isLog ? "standardError" : "relativeError"))
     {
         place.fail(isLog ? "the feature is a logarithm: state a relativeError" : "state a standardError");
@@ -93,8 +96,15 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
         measured.time = column("time");
         measured.value = column("value");
     }
-    measured.numbers =
-        mapped(place.optional("numbers").list(), [&](const YamlPlace& number) { return readNumber(number, study); });
+    std::set<std::size_t> features;
+    for (const auto& number : place.optional("numbers").list())
+    {
+        measured.numbers.push_back(readNumber(number, study));
+        if (!features.insert(measured.numbers.back().feature).second)
+        {
+            number.at("feature").fail("given twice: one entry holds all values of a feature");
+        }
+    }
     if (measured.empty())
     {
         place.fail("needs 'files' or 'numbers'");
@@ -164,6 +174,48 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     return condition;
 }
 
+/// The same numbers twice would halve the noise, or be held out and seen.
+void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
+{
+    std::map<std::tuple<std::filesystem::path, std::string, double>, std::string> owners;
+    for (std::size_t c = 0; c < study.conditions.size(); ++c)
+    {
+        const auto& [name, measured] = std::tie(study.conditions[c].name, study.conditions[c].measured);
+        for (const auto& file : measured.files)
+        {
+            // Parts of one record are told apart by the valid times.
+            const auto [owner, isNew] = owners.emplace(
+                std::tuple(std::filesystem::canonical(file), measured.value.column, measured.time.lowest), name);
+            if (!isNew)
+            {
+                root.at("conditions")
+                    .list()[c]
+                    .at("measured")
+                    .at("files")
+                    .fail("condition '" + name + "' has " + file.string() + " with its column " + measured.value.column
+                          + ", which condition '" + owner->second + "' has already: a measurement counts once");
+            }
+        }
+    }
+}
+
+/// Control 2 compares them number by number.
+void requireEqualCoordinates(const YamlPlace& root, const Study& study)
+{
+    const Condition* first = nullptr;
+    for (const auto& condition : study.conditions)
+    {
+        const auto names = namesOf(condition.coordinates);
+        first = first == nullptr && !names.empty() ? &condition : first;
+        if (!names.empty() && names != namesOf(first->coordinates))
+        {
+            root.at("conditions")
+                .fail("condition '" + condition.name + "' has the coordinates " + listed(names) + ", condition '"
+                      + first->name + "' " + listed(namesOf(first->coordinates)) + "; allowed are the same in all");
+        }
+    }
+}
+
 } // namespace
 
 void readObservable(const YamlPlace& place, Study& study)
@@ -192,6 +244,8 @@ void readConditions(const YamlPlace& root, Study& study)
     {
         root.at("conditions").fail("at least one condition needs 'role: training'");
     }
+    requireDifferentMeasurements(root, study);
+    requireEqualCoordinates(root, study);
 }
 
 } // namespace clepsydra::identification

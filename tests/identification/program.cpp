@@ -279,6 +279,20 @@ TEST(Program, DoubtsFilesWithoutFeatures)
     EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work"));
 }
 
+/// A condition that is held out and has no measurements is told before a run is made, not as "none was held out" after all.
+TEST(Program, WantsMeasurementsOfWhatIsHeldOut)
+{
+    Workshop workshop;
+    workshop.measure({});
+    const std::string right = contentOf(workshop.path() / "study.yaml");
+    std::ofstream(workshop.path() / "study.yaml")
+        << std::regex_replace(right, std::regex("    measured: \\{ files: \\[wetBeyond0.*\n"), "");
+    EXPECT_NE(workshop.run("run"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("condition 'wetBeyond' has no 'measured'"));
+    EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work"));
+    EXPECT_EQ(workshop.run("plan"), 0) << workshop.output;
+}
+
 /// A plan names its cost and runs nothing unless told to; then it says what can be seen.
 TEST(Program, PlansBeforeItRuns)
 {

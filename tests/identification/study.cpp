@@ -257,6 +257,14 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:2:", "not 'wet'"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, chain: { gain: z } }, { name: e, chain: { lag: z } } ]",
             "study.yaml:2:", "two common errors"},
+        {"role: training",
+            "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s }, "
+            "{ feature: logMeanRate, values: [2], unit: g/s } ] }",
+            "study.yaml:9:", "feature: given twice"},
+        {"conditions:\n",
+            "conditions:\n  - { name: a, role: training, coordinates: { d: 1 } }\n"
+            "  - { name: b, role: heldOut, coordinates: { D: 2 } }\n",
+            "study.yaml:9:", "condition 'b' has the coordinates D, condition 'a' d"},
     };
     for (const auto& mistake : mistakes)
     {
@@ -272,6 +280,50 @@ TEST(StudyFile, MistakesNameTheirLine)
             EXPECT_NE(std::string(error.what()).find(mistake.what), std::string::npos) << error.what();
         }
     }
+}
+
+/// A column of a file is one measurement: not two repeats, and not one that a fit has seen and one that it has not. Another
+/// column, or another part of the record, is another measurement.
+TEST(StudyFile, MeasurementsGivenTwice)
+{
+    const TemporaryFolder folder;
+    folder.write("a.csv", "t,m,n\n0,1,1\n");
+    const auto studyWith = [&](const std::string& files, const std::string& heldOut) {
+        return replaced(replaced(goodStudy, "role: training", "role: training, measured: { files: [" + files + "] }"),
+            "conditions:\n",
+            "measured: { time: { column: t, unit: s }, value: { column: m, unit: g } }\n"
+            "conditions:\n  - { name: wet, role: heldOut, measured: { files: a.csv"
+                + heldOut + " } }\n");
+    };
+    for (const auto& [files, heldOut] :
+        std::map<std::string, std::string>{{"a.csv, ./a.csv", ", value: { column: n, unit: g }"},
+            {"../" + folder.path().filename().string() + "/a.csv", ""}})
+    {
+        try
+        {
+            studyOf(folder, studyWith(files, heldOut));
+            ADD_FAILURE() << "accepted: " << files;
+        }
+        catch (const StudyError& error)
+        {
+            EXPECT_NE(std::string(error.what()).find("condition 'dry' has"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("a.csv"), std::string::npos) << error.what();
+        }
+    }
+    EXPECT_NO_THROW(studyOf(folder, studyWith("a.csv", ", value: { column: n, unit: g }")));
+    EXPECT_NO_THROW(studyOf(folder, studyWith("a.csv", ", time: { column: t, unit: s, valid: [1, 2] }")));
+}
+
+/// A standard error is in the unit of the values: 1 % of a residue of 12 %, not 100 %.
+TEST(StudyFile, StandardErrorInTheUnitOfTheValues)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(folder,
+        replaced(replaced(goodStudy, "kind: logMeanRate, from: 0.9, to: 0.3", "kind: residue"), "role: training",
+            "role: training, measured: { numbers: [ { feature: residue, values: [12], unit: '%', standardError: 1 } ] "
+            "}"));
+    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].values[0], .12);
+    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].standardError, .01);
 }
 
 /// A misspelt tag would switch an effect off without a word.
