@@ -128,11 +128,42 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     }
 }
 
+/// Parameters come after what the rig and conditions set.
+void checkOverridden(const YamlPlace& root, const Study& study)
+{
+    for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    {
+        const Parameter& parameter = study.parameters[p];
+        for (const auto& [entry, formula] : parameter.entries)
+        {
+            // Where entry and parameter have one name, it means the parameter.
+            const bool keeps = entry != parameter.name && formula.holds(entry);
+            const auto refuse = [&, &entry = entry](const Entries& set, const std::string& whose) {
+                if (!keeps && set.count(entry) > 0)
+                {
+                    root.at("parameters")
+                        .list()[p]
+                        .at("set")
+                        .at(entry)
+                        .fail(
+                            "what " + whose + " sets for the entry would do nothing, for the formula does not hold it");
+                }
+            };
+            refuse(study.rig.entries, "rig.set");
+            for (const auto& condition : study.conditions)
+            {
+                refuse(condition.entries, "condition '" + condition.name + "'");
+            }
+        }
+    }
+}
+
 } // namespace
 
 void checkEffects(const YamlPlace& root, const Study& study)
 {
     checkFormulas(root, study);
+    checkOverridden(root, study);
     checkTags(root, study);
     checkFamilies(root, study);
 }

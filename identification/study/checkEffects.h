@@ -7,7 +7,7 @@ namespace clepsydra::identification
 {
 
 /// What would be found only when runs have begun, or never: names in formulas of effects and parameters that are no
-/// entries, tags and families that are misspelt.
+/// entries, entries that a parameter overrides, tags and families that are misspelt.
 /// \throws StudyError
 void checkEffects(const YamlPlace& root, const Study& study);
 

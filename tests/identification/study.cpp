@@ -151,7 +151,7 @@ TEST(PlackettBurman, IsOrthogonalAndBalanced)
 //--- The study file ---------------------------------------------------------------------------------------------------
 
 const std::string goodStudy = R"yaml(study: s
-rig: { case: case, seed: seed }
+rig: { case: case, seed: seed, set: { wall: 0.3 } }
 observable:
   file: post/m.dat
   value: mass
@@ -160,14 +160,14 @@ observable:
 conditions:
   - { name: dry, role: training, set: { friction: 0.2 } }
 parameters:
-  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
+  - { name: rough, set: { friction: friction + rough }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
 effects:
   - { name: size, set: { beadDiameter: "beadDiameter*(1 + a)" }, amplitude: [-1, 1] }
 )yaml";
 
 Study studyOf(const TemporaryFolder& folder, const std::string& text)
 {
-    folder.write("case/parameters", "friction 0.15;\nbeadDiameter 2e-3;\nseed 1;\n");
+    folder.write("case/parameters", "friction 0.15;\nwall 0.3;\nbeadDiameter 2e-3;\nseed 1;\n");
     return readStudy(folder.write("study.yaml", text));
 }
 
@@ -257,6 +257,12 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:2:", "not 'wet'"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, chain: { gain: z } }, { name: e, chain: { lag: z } } ]",
             "study.yaml:2:", "two common errors"},
+        {"friction + rough", "0.2 + rough", "study.yaml:11:", "condition 'dry' sets"},
+        {"name: rough, set: { friction: friction + rough }", "name: friction, set: { friction: friction }",
+            "study.yaml:11:", "condition 'dry' sets"},
+        {"parameters:\n",
+            "parameters:\n  - { name: w, set: { wall: w }, prior: { mean: 0.3, sd: 0.1 }, range: [0, 1] }\n",
+            "study.yaml:11:", "rig.set sets"},
         {"role: training",
             "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s }, "
             "{ feature: logMeanRate, values: [2], unit: g/s } ] }",
