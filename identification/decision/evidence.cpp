@@ -77,11 +77,6 @@ Evidence::Evidence(const Study& study, const Emulator& emulator, const Layout& l
       null_(nodeAt({})),
       effects_(study.effects.size())
 {
-    if (static_cast<Eigen::Index>(study.parameters.size()) > FewNumbers::MaxRowsAtCompileTime)
-    {
-        throw std::runtime_error(study.file.string() + ": there are " + std::to_string(study.parameters.size())
-                                 + " parameters; allowed: " + std::to_string(FewNumbers::MaxRowsAtCompileTime));
-    }
     prepare();
 }
 

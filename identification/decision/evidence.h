@@ -145,9 +145,8 @@ private:
         double misfit = 0.0; // deviance, too small or too large, where the scatter is not that of runs without effects
     };
 
-    /// Parameters are few: their vectors need no memory of their own.
-    using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 12, 1>;
-    using FewSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 12, 12>;
+    using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, mostParameters, 1>;
+    using FewSquare = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, mostParameters, mostParameters>;
 
     struct Workspace
     {

@@ -1,7 +1,6 @@
 #include "decision/measured.h"
 
 #include "lists.h"
-#include "emulator/covariance.h"
 
 #include <Eigen/Cholesky>
 
@@ -23,32 +22,6 @@ Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
     const auto complete =
         numbersWhere(features.rows(), [&](Eigen::Index row) { return features.row(row).array().isFinite().all(); });
     return features(complete, Eigen::all);
-}
-
-/// Of measurements where the simulator has no noise: from their own repeats, or what was declared.
-Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data, const Emulator& emulator)
-{
-    Scatter repeats;
-    bool declared = true;
-    for (std::size_t c = 0; c < data.size(); ++c)
-    {
-        if (emulator[c])
-        {
-            repeats.add(data[c].features);
-            declared = declared && hasDeclaredErrors(data[c]);
-        }
-    }
-    if (repeats.degreesOfFreedom() >= 2.0)
-    {
-        return pooledCovariance(repeats.deviations(), repeats.degreesOfFreedom());
-    }
-    if (!declared)
-    {
-        throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
-                                 "(at least two more measurements than conditions are needed, or a relativeError or "
-                                 "standardError of every number measured)");
-    }
-    return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
 }
 
 } // namespace
@@ -102,20 +75,40 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     return drawn;
 }
 
+Covariance ownNoise(
+    const Study& study, const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions)
+{
+    Scatter repeats;
+    bool declared = true;
+    for (const auto c : conditions)
+    {
+        repeats.add(data[c].features);
+        declared = declared && hasDeclaredErrors(data[c]);
+    }
+    if (repeats.degreesOfFreedom() >= 2.0)
+    {
+        return pooledCovariance(repeats.deviations(), repeats.degreesOfFreedom());
+    }
+    if (!declared)
+    {
+        throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
+                                 "(at least two more measurements than conditions are needed, or a relativeError or "
+                                 "standardError of every number measured)");
+    }
+    return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
+}
+
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
     const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes)
 {
     Layout layout;
     Measured measured;
-    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, emulator);
+    const auto learnt = numbersWhere(data.size(), [&](std::size_t c) { return emulator[c].has_value(); });
+    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, learnt);
     layout.noiseFreedom = emulator.scatters() ? emulator.degreesOfFreedom() : own.nu;
     layout.noise = emulator.scatters() ? emulator.noise() : own.matrix;
-    for (std::size_t c = 0; c < data.size(); ++c)
+    for (const auto c : learnt)
     {
-        if (!emulator[c])
-        {
-            continue;
-        }
         const auto& known = emulator[c]->features;
         const Eigen::VectorXd all = meanFeatures(data[c].features);
         Layout::Block block;

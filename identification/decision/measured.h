@@ -1,5 +1,6 @@
 #pragma once
 
+#include "emulator/covariance.h"
 #include "emulator/emulator.h"
 #include "study/measurements.h"
 
@@ -54,6 +55,11 @@ struct Measured
     Eigen::VectorXd mean;                 // of the repeats
     std::vector<Eigen::MatrixXd> scatter; // by block: sum of squares and products of deviations from the mean
 };
+
+/// Noise of measurements where the simulator has none: from their own repeats, or what was declared.
+/// \throws std::runtime_error where there is neither
+Covariance ownNoise(
+    const Study& study, const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions);
 
 /// \param data  by condition of the study; only those that the emulator has are looked at
 /// \param errorSlopes  as in Library; empty: there are no common errors

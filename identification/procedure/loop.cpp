@@ -49,6 +49,17 @@ void requireMeasurements(const Study& study)
     }
 }
 
+/// What would be told only when the whole library has run.
+void requireNoise(const Study& study, const std::vector<MeasuredCondition>& training)
+{
+    const auto conditions = study.conditionsOf(Role::training);
+    const auto isMeasured = [&](std::size_t c) { return !study.conditions[c].measured.empty(); };
+    if (study.rig.seedEntry.empty() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
+    {
+        ownNoise(study, training, conditions);
+    }
+}
+
 /// Runs after the library: where they decide, held-out conditions, candidates.
 int runsPerDataSet(const Study& study)
 {
@@ -109,6 +120,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     const Study study = readStudy(studyFile);
     checkMeasurements(study, out);
     const auto measured = measurementsOf(study, Role::training);
+    requireNoise(study, measured);
     CaseRig rig(study, out);
     Simulator simulator(study, rig);
     if (time && !rig.measuredSecondsPerRun())
@@ -143,6 +155,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     requireMeasurements(study);
     checkMeasurements(study, progress);
     const auto training = measurementsOf(study, Role::training);
+    requireNoise(study, training);
     CaseRig rig(study, progress);
     Simulator simulator(study, rig);
     sayCost(study, rig, simulator, progress);

@@ -144,8 +144,9 @@ void readAllEffects(const YamlPlace& root, Study& study)
     study.effects = std::move(all);
 }
 
-void readSettings(const YamlPlace& root, Settings& settings)
+void readSettings(const YamlPlace& root, Study& study)
 {
+    Settings& settings = study.settings;
     const auto budget = root.optional("budget");
     budget.allow({"runs"});
     settings.budget = budget.countOr("runs", settings.budget, 1);
@@ -174,6 +175,11 @@ void readSettings(const YamlPlace& root, Settings& settings)
     settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
     settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
     settings.draws = inference.countOr("draws", settings.draws, 100);
+    if (!study.rig.seedEntry.empty() && settings.level * (settings.draws + 1) <= 1.0)
+    {
+        inference.at("level").fail(
+            "of " + std::to_string(settings.draws) + " draws no data are that rare: raise level or draws");
+    }
     settings.otherWeight = inference.positiveOr("otherWeight", settings.otherWeight);
     if (inference.has("oneMoreParameter"))
     {
@@ -215,6 +221,12 @@ Study readStudy(const std::filesystem::path& file)
     readConditions(root, study);
     study.parameters = readNamed(root.optional("parameters"), "parameters",
         [&](const YamlPlace& place) { return readParameter(place, study.rig); });
+    if (study.parameters.size() > mostParameters)
+    {
+        root.at("parameters")
+            .fail("there are " + std::to_string(study.parameters.size()) + "; allowed: up to "
+                  + std::to_string(mostParameters));
+    }
     readAllEffects(root, study);
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
@@ -225,7 +237,7 @@ Study readStudy(const std::filesystem::path& file)
         }
     }
     study.commonErrors = readCommonErrors(root.optional("commonErrors"), study);
-    readSettings(root, study.settings);
+    readSettings(root, study);
     study.executor = readExecutor(root.optional("executor"));
     study.work = root.has("work") ? root.at("work").path()
                                   : std::filesystem::absolute(file).parent_path() / (study.name + ".work");

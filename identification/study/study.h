@@ -59,6 +59,9 @@ struct Parameter
         effect; // of which it is a part, as the height of a layer's edge: without it, it does nothing
 };
 
+/// Vectors of them need no memory of their own.
+constexpr int mostParameters = 12;
+
 /// What the model may lack, or the measuring chain may add. Data, not code.
 struct Effect
 {

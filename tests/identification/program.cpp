@@ -329,25 +329,56 @@ TEST(Program, PlansByTheTimeOfOneRun)
     EXPECT_TRUE(std::regex_search(workshop.output, found, said) && found[2] == std::to_string(std::stoi(found[1]) - 1));
 }
 
+/// A study whose case writes one and the same table always. \param condition  what it is beside its name, role and commas
+struct QuietStudy
+{
+    explicit QuietStudy(const std::string& condition)
+    {
+        folder.write("case/parameters", "x 0;\n");
+        fs::permissions(folder.write("case/Allrun", "#!/bin/sh\nprintf '# t m\\n0 1\\n1 0.5\\n2 0\\n' > table\n"),
+            fs::perms::owner_all);
+        folder.write("study.yaml", "study: s\n"
+                                   "rig: { case: case, seed: none }\n"
+                                   "observable: { file: table, time: t, value: m, features: "
+                                   "[ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }\n"
+                                   "conditions: [ { name: only, role: training"
+                                       + condition
+                                       + " } ]\n"
+                                         "effects: [ { name: nothing, set: { x: a } } ]\n");
+    }
+
+    int run(const std::string& command)
+    {
+        const auto file = folder.path() / "out";
+        const int status = std::system((std::string(TRACE_RESIDUAL) + ' ' + command + ' '
+                                        + (folder.path() / "study.yaml").string() + " > " + file.string() + " 2>&1")
+                                           .c_str());
+        output = contentOf(file);
+        return WEXITSTATUS(status);
+    }
+
+    TemporaryFolder folder;
+    std::string output;
+};
+
 /// Where nothing scatters and no effect does anything, a plan says that nothing shows; it ended with SIGSEGV.
 TEST(Program, PlansWhereNothingShows)
 {
-    const TemporaryFolder folder;
-    folder.write("case/parameters", "x 0;\n");
-    fs::permissions(folder.write("case/Allrun", "#!/bin/sh\nprintf '# t m\\n0 1\\n1 0.5\\n2 0\\n' > table\n"),
-        fs::perms::owner_all);
-    const auto study = folder.write("study.yaml", "study: s\n"
-                                                  "rig: { case: case, seed: none }\n"
-                                                  "observable: { file: table, time: t, value: m, features: "
-                                                  "[ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }\n"
-                                                  "conditions: [ { name: only, role: training } ]\n"
-                                                  "effects: [ { name: nothing, set: { x: a } } ]\n");
-    const auto output = folder.path() / "out";
-    const int status = std::system(
-        (std::string(TRACE_RESIDUAL) + " plan --execute " + study.string() + " > " + output.string() + " 2>&1")
-            .c_str());
-    EXPECT_EQ(status, 0) << contentOf(output);
-    EXPECT_THAT(contentOf(output), HasSubstr("no effect shows"));
+    QuietStudy study("");
+    EXPECT_EQ(study.run("plan --execute"), 0) << study.output;
+    EXPECT_THAT(study.output, HasSubstr("no effect shows"));
+}
+
+/// A number without repeats or a declared error, where runs do not scatter either, is told before a run is made.
+TEST(Program, WantsNoiseBeforeItRuns)
+{
+    QuietStudy study(", measured: { numbers: [ { feature: logMeanRate, unit: g/s, values: [0.5] } ] }");
+    for (const std::string command : {"run", "plan"})
+    {
+        EXPECT_NE(study.run(command), 0);
+        EXPECT_THAT(study.output, HasSubstr("noise cannot be estimated"));
+        EXPECT_FALSE(fs::exists(study.folder.path() / "s.work"));
+    }
 }
 
 TEST(Program, SaysWhatIsWrongAndWritesNothing)

@@ -263,6 +263,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"parameters:\n",
             "parameters:\n  - { name: w, set: { wall: w }, prior: { mean: 0.3, sd: 0.1 }, range: [0, 1] }\n",
             "study.yaml:11:", "rig.set sets"},
+        {"study: s", "study: s\ninference: { level: 0.002, draws: 499 }", "study.yaml:2:", "499 draws"},
         {"role: training",
             "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s }, "
             "{ feature: logMeanRate, values: [2], unit: g/s } ] }",
@@ -286,6 +287,20 @@ TEST(StudyFile, MistakesNameTheirLine)
             EXPECT_NE(std::string(error.what()).find(mistake.what), std::string::npos) << error.what();
         }
     }
+}
+
+/// More parameters than the vectors of the evidence hold.
+TEST(StudyFile, TooManyParameters)
+{
+    const TemporaryFolder folder;
+    std::string more = "parameters:\n";
+    for (int p = 1; p <= mostParameters; ++p)
+    {
+        EXPECT_NO_THROW(studyOf(folder, replaced(goodStudy, "parameters:\n", more)));
+        more += "  - { name: p" + std::to_string(p) + ", set: { wall: wall + p" + std::to_string(p)
+                + " }, prior: { mean: 0, sd: 1 }, range: [-1, 1] }\n";
+    }
+    EXPECT_THROW(studyOf(folder, replaced(goodStudy, "parameters:\n", more)), StudyError);
 }
 
 /// A column of a file is one measurement: not two repeats, and not one that a fit has seen and one that it has not. Another
