@@ -1,11 +1,14 @@
 #include "runner/slurmArray.h"
 
+#include "lists.h"
 #include "runner/processTree.h"
 #include "runner/stopSignals.h"
 #include "runner/storedFiles.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -21,6 +24,7 @@ namespace
 constexpr const char* statusFile = "status.run";
 constexpr int statusOfNoReport = 125; // the task never came to its end
 constexpr std::chrono::milliseconds betweenLooks{200};
+constexpr int looksBetweenReports = 5;
 constexpr std::chrono::seconds grace{5};
 
 std::string quoted(const std::string& text)
@@ -53,15 +57,29 @@ void writeScript(const std::filesystem::path& script, const std::vector<Job>& jo
     writeWhole(script, text.str());
 }
 
-/// Waits for a command of Slurm. No shell reads its words. \return its status
-int waitFor(const std::vector<std::string>& words, const std::filesystem::path& log, bool untilStopped)
+/// Waits for a command of Slurm. No shell reads its words. \param meanwhile  is done now and then until it has ended or this
+/// program is to stop; without it, nothing stops the waiting \return its status
+int waitFor(const std::vector<std::string>& words, const std::filesystem::path& log,
+    const std::function<void()>& meanwhile = nullptr)
 {
     ProcessTree command(words, log.parent_path(), log, grace);
-    while (!command.status() && !(untilStopped && StopSignals::noted() != 0))
+    for (int look = 0; !command.status() && !(meanwhile && StopSignals::noted() != 0); ++look)
     {
+        if (meanwhile && look % looksBetweenReports == 0)
+        {
+            meanwhile();
+        }
         std::this_thread::sleep_for(betweenLooks);
     }
     return command.status().value_or(statusOfNoReport);
+}
+
+/// How a job says that it has ended, where it has said so to the end of the line.
+std::optional<JobEnd> reportOf(const std::vector<Job>& jobs, std::size_t job)
+{
+    std::ifstream file(jobs[job].folder / statusFile);
+    JobEnd end{job, statusOfNoReport, 0.0};
+    return file >> end.status >> end.seconds && file.get() == '\n' ? std::optional(end) : std::nullopt;
 }
 
 /// The array that sbatch has told of, if it came that far.
@@ -71,7 +89,7 @@ void cancel(const std::filesystem::path& logOfSbatch)
     std::smatch parts;
     if (std::regex_search(said, parts, std::regex(R"(Submitted batch job (\d+))")))
     {
-        waitFor({"scancel", parts[1]}, logOfSbatch.string() + ".scancel", false);
+        waitFor({"scancel", parts[1]}, logOfSbatch.string() + ".scancel");
     }
 }
 
@@ -98,20 +116,40 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     words.insert(words.end(), options_.begin(), options_.end());
     words.push_back(script.string());
     StopSignals signals;
-    // sbatch --wait ends with the largest status of all tasks: each task's own tells more.
-    const int status = waitFor(words, log, true);
+    // What has ended is told at once: what stops this program loses only what still runs.
+    auto open = numbersWhere(jobs.size(), [](std::size_t) { return true; });
+    const auto tell = [&] {
+        const auto isTold = [&](std::size_t job) {
+            const auto end = reportOf(jobs, job);
+            if (end)
+            {
+                onEnd(*end);
+            }
+            return end.has_value();
+        };
+        open.erase(std::remove_if(open.begin(), open.end(), isTold), open.end());
+    };
+    int status = 0;
+    try
+    {
+        // sbatch --wait ends with the largest status of all tasks: each task's own tells more.
+        status = waitFor(words, log, tell);
+    }
+    catch (...)
+    {
+        cancel(log);
+        throw;
+    }
     if (StopSignals::noted() != 0)
     {
         cancel(log);
         signals.passOn();
     }
-    bool anyReport = false;
-    for (std::size_t i = 0; i < jobs.size(); ++i)
+    tell();
+    const bool anyReport = open.size() < jobs.size();
+    for (const auto job : open)
     {
-        JobEnd end{i, statusOfNoReport, 0.0};
-        std::ifstream report(jobs[i].folder / statusFile);
-        anyReport = static_cast<bool>(report >> end.status >> end.seconds) || anyReport;
-        onEnd(end);
+        onEnd({job, statusOfNoReport, 0.0});
     }
     if (status != 0 && !anyReport)
     {

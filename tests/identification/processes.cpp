@@ -206,6 +206,32 @@ TEST(Slurm, OptionsAreNoShell)
     EXPECT_FALSE(fs::exists("executed"));
 }
 
+/// A run of an array that has ended is told while another still runs, once: this one ends when the first has been told. An
+/// error while it is told cancels the array.
+TEST(Slurm, TellsWhatHasEndedAtOnce)
+{
+    const TemporaryFolder folder;
+    const PlayedSlurm slurm(folder,
+        "echo Submitted batch job 4711; for task in 0 1; do SLURM_ARRAY_TASK_ID=$task bash ${@: -1}; done",
+        "echo \"$@\" > " + (folder.path() / "cancelled").string());
+    const auto first = folder.write("first/x", "").parent_path();
+    const auto second = folder.write("second/x", "").parent_path();
+    std::vector<std::size_t> told;
+    SlurmArray array(0, {}, folder.path(), 0);
+    array.run({{first, "exit 3"}, {second, "for i in $(seq 200); do [ -e told ] && exit 4; sleep 0.1; done"}},
+        [&](const JobEnd& end) {
+            told.push_back(end.job);
+            EXPECT_EQ(end.status, end.job == 0 ? 3 : 4);
+            folder.write("second/told", "");
+        });
+    EXPECT_THAT(told, ElementsAre(0, 1));
+    fs::remove(first / "status.run");
+    fs::remove(second / "status.run");
+    const auto fails = [](const JobEnd&) { throw std::runtime_error("the disk is full"); };
+    EXPECT_THROW(array.run({{first, "exit 3"}, {second, "sleep 1000"}}, fails), std::runtime_error);
+    EXPECT_EQ(contentOf(folder.path() / "cancelled"), "4711\n");
+}
+
 /// A job array does not go on when nobody waits for it any more.
 TEST(Slurm, IsCancelledWhenStopped)
 {
