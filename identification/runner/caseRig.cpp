@@ -12,7 +12,7 @@
 #include <fstream>
 #include <map>
 #include <optional>
-#include <sstream>
+#include <regex>
 #include <utility>
 
 namespace clepsydra::identification
@@ -47,19 +47,13 @@ std::string endOfLog(const fs::path& file)
     return text;
 }
 
-/// A folder of OpenFOAM's for a time after the start; a run that found it would go on from there.
-bool isLaterTime(const std::string& name)
-{
-    char* end = nullptr;
-    return std::strtod(name.c_str(), &end) > 0.0 && *end == '\0';
-}
-
-/// What git would not carry: results of earlier runs in the case are no part of it.
+/// What git would not carry: results of earlier runs in the case are no part of it. Of OpenFOAM's, as folders of a time after
+/// the start: a run that found them would go on from there.
 bool isOutput(const std::string& name)
 {
-    static const std::set<std::string> outputs = {"stages", "results", "postProcessing", "VTK", "checkpoints"};
-    return outputs.count(name) > 0 || isLaterTime(name) || name.rfind("log.", 0) == 0 || name.rfind("processor", 0) == 0
-           || fs::path(name).extension() == ".work";
+    static const std::regex outputs("stages|results|postProcessing|VTK|checkpoints|log\\..*|processor\\d+|.*\\.work");
+    char* end = nullptr;
+    return std::regex_match(name, outputs) || (std::strtod(name.c_str(), &end) > 0.0 && *end == '\0');
 }
 
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
@@ -68,7 +62,8 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     std::vector<fs::path> names;
     for (const auto& entry : fs::directory_iterator(caseFolder))
     {
-        if (!isOutput(entry.path().filename().string()) && entry.path() != fs::absolute(study.file))
+        std::error_code dangles;
+        if (!isOutput(entry.path().filename().string()) && !fs::equivalent(entry.path(), study.file, dangles))
         {
             names.push_back(entry.path());
         }
@@ -226,17 +221,30 @@ bool CaseRig::load(const RunOrder& order, const fs::path& stored, RunResult& res
         }
         return false;
     }
-    if (filesMatching(stored / order.file).empty())
+    const auto failures = record.value("failures", nlohmann::json::object());
+    if (failures.contains(order.file))
+    {
+        // Tried anew, but by who may run nothing: a report is made of what there was.
+        if (study_.settings.budget > 0)
+        {
+            return false;
+        }
+        result.failure = failures.at(order.file);
+    }
+    else if (filesMatching(stored / order.file).empty())
     {
         return false;
     }
-    try
+    else
     {
-        result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
-    }
-    catch (const std::exception& error)
-    {
-        result.failure = error.what();
+        try
+        {
+            result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
+        }
+        catch (const std::exception& error)
+        {
+            result.failure = error.what();
+        }
     }
     result.seconds = record.at("seconds");
     result.cached = true;
@@ -260,7 +268,7 @@ void CaseRig::prepare(const RunOrder& order, const fs::path& folder) const
 
 /// Into a folder of another name first: a record is there wholly or not at all. What other orders have had stored of an equal
 /// run stays.
-void CaseRig::store(const RunOrder& order, const std::set<std::string>& patterns, const fs::path& folder,
+void CaseRig::store(const RunOrder& order, const std::map<std::string, std::string>& failures, const fs::path& folder,
     const fs::path& stored, double seconds) const
 {
     const fs::path unfinished = stored.string() + ".unfinished";
@@ -280,8 +288,14 @@ void CaseRig::store(const RunOrder& order, const std::set<std::string>& patterns
             add(stored, name);
         }
     }
-    for (const auto& pattern : patterns)
+    nlohmann::json failed = nlohmann::json::object();
+    for (const auto& [pattern, failure] : failures)
     {
+        if (!failure.empty())
+        {
+            failed[pattern] = failure;
+            continue;
+        }
         for (const auto& file : filesMatching(folder / pattern))
         {
             add(folder, fs::relative(file, folder));
@@ -289,7 +303,7 @@ void CaseRig::store(const RunOrder& order, const std::set<std::string>& patterns
     }
     nlohmann::json record = {{"key", stored.filename().string()}, {"purpose", order.purpose},
         {"command", order.command}, {"seed", order.seed}, {"entries", order.entries}, {"case", caseFolder_.string()},
-        {"fingerprint", fingerprint_}, {"seconds", seconds}, {"files", checksums}};
+        {"fingerprint", fingerprint_}, {"seconds", seconds}, {"files", checksums}, {"failures", failed}};
     record["checksum"] = checksumOf(record);
     writeWhole(unfinished / recordFile, record.dump(1) + '\n');
     renameWhole(unfinished, stored);
@@ -354,35 +368,31 @@ std::vector<RunResult> CaseRig::run(const std::vector<RunOrder>& orders)
         const fs::path folder = copyOf(key);
         // Programs seldom look whether what they wrote was written.
         requireRoom(tree_, "the run of " + order.purpose + " does not count");
-        const bool isGood = end.status == 0;
-        if (isGood)
+        // By what orders look at: those that differ by it alone share a run.
+        std::map<std::string, std::string> failures;
+        for (const auto place : places)
         {
-            // Conditions that differ by what they look at share a run.
-            std::set<std::string> patterns;
-            for (const auto place : places)
-            {
-                patterns.insert(orders[place].file);
-            }
-            store(order, patterns, folder, cache_ / key, end.seconds);
+            const std::string& file = orders[place].file;
+            failures[file] = end.status != 0 ? "'" + order.command + "' ended with status " + std::to_string(end.status)
+                                                   + " in " + folder.string() + endOfLog(folder / jobLog)
+                             : filesMatching(folder / file).empty()
+                                 ? "the run has not written " + (folder / file).string()
+                                 : "";
         }
+        store(order, failures, folder, cache_ / key, end.seconds);
         std::string failure;
         for (const auto place : places)
         {
             RunResult& result = results[place];
-            if (!isGood)
+            load(orders[place], cache_ / key, result);
+            if (const std::string& own = failures.at(orders[place].file); !own.empty())
             {
-                result.failure = "'" + order.command + "' ended with status " + std::to_string(end.status) + " in "
-                                 + folder.string() + endOfLog(folder / jobLog);
-            }
-            else if (!load(orders[place], cache_ / key, result))
-            {
-                result.failure = "the run has not written " + (folder / orders[place].file).string();
+                result.failure = failure = own;
             }
             result.seconds = end.seconds;
             result.cached = place != places.front();
-            failure = failure.empty() ? result.failure : failure;
         }
-        if (failure.empty() && !study_.rig.keepRuns)
+        if (failure.empty())
         {
             fs::remove_all(folder);
         }
@@ -398,7 +408,8 @@ std::optional<double> CaseRig::measuredSecondsPerRun() const
     for (const auto& entry : fs::directory_iterator(cache_))
     {
         const auto record = readRecord(entry.path());
-        if (!record.is_null() && record.at("fingerprint") == fingerprint_)
+        if (!record.is_null() && record.at("fingerprint") == fingerprint_
+            && record.value("failures", nlohmann::json::object()).empty())
         {
             sum += record.at("seconds").get<double>();
             count += 1.0;

@@ -5,6 +5,7 @@
 #include "study/study.h"
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <ostream>
@@ -17,7 +18,8 @@ namespace clepsydra::identification
 /// A case directory and its command. A run is a copy of the directory with other entries; what it has written is kept
 /// under a key of everything that entered it, and never computed twice:
 ///
-///     work/cache/<key>/    entries, observable, and how it went, with checksums: what is damaged is made anew
+///     work/cache/<key>/    entries, observable, and how it went, with checksums: what is damaged is made anew, and what
+///                          failed, unless the study's budget is 0
 ///     work/tree/<...>      copies while they run; those that failed stay for people to look at
 ///
 /// Relative paths that lead out of the case (../../scripts) work in a copy as well: the folders round it are mirrored
@@ -48,8 +50,9 @@ private:
     std::filesystem::path copyOf(const std::string& key) const;
     void prepare(const RunOrder& order, const std::filesystem::path& folder) const;
     bool load(const RunOrder& order, const std::filesystem::path& stored, RunResult& result) const;
-    void store(const RunOrder& order, const std::set<std::string>& patterns, const std::filesystem::path& folder,
-        const std::filesystem::path& stored, double seconds) const;
+    /// \param failures  by pattern of files that are wanted; empty: there they are
+    void store(const RunOrder& order, const std::map<std::string, std::string>& failures,
+        const std::filesystem::path& folder, const std::filesystem::path& stored, double seconds) const;
     void mirrorSurroundings() const;
 
     const Study& study_;

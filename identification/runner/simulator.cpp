@@ -233,11 +233,12 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
                     {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
                 failed.push_back(open[k]);
             }
-            else if (attempt > 0)
+            for (int earlier = 0; !simulation.failed && earlier < attempt; ++earlier)
             {
+                const long seed = runOrder(order, earlier).seed;
                 for (auto& failure : effort_.failures)
                 {
-                    failure.repeated = failure.repeated || failure.seed == runOrder(order, attempt - 1).seed;
+                    failure.repeated = failure.repeated || failure.seed == seed;
                 }
             }
         }
@@ -245,9 +246,9 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
     }
     if (!open.empty() && study_.settings.onFailure == "stop")
     {
-        throw std::runtime_error("a run failed and the study says onFailure: stop; " + effort_.failures.back().purpose
-                                 + ", condition " + effort_.failures.back().condition + ": "
-                                 + effort_.failures.back().reason);
+        throw std::runtime_error("a run failed and the study says failures.then: stop; "
+                                 + effort_.failures.back().purpose + ", condition " + effort_.failures.back().condition
+                                 + ": " + effort_.failures.back().reason);
     }
     return done;
 }

@@ -24,6 +24,7 @@ public:
     bool scatters = false;
     bool failsWithY = false;
     bool failsAlways = false;
+    int failuresFirst = 0;
     double curvature = 0.0;
 
     Entries defaults() const override
@@ -43,7 +44,7 @@ public:
             const auto own = defaults();
             all.insert(own.begin(), own.end());
             const auto p = numbersOf(all);
-            if (failsAlways || (failsWithY && p.at("y") != 0.0))
+            if (failsAlways || failuresFirst-- > 0 || (failsWithY && p.at("y") != 0.0))
             {
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});
                 continue;

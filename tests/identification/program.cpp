@@ -538,6 +538,11 @@ TEST(Runner, FailuresCacheAndSlurm)
         const auto failed = rig.run({failing});
         EXPECT_THAT(failed[0].failure, HasSubstr("asked to fail with seed 10009"));
         EXPECT_EQ(rig.missing({failing}), 1) << "a failure is not a result";
+        Study reported = study;
+        reported.settings.budget = 0;
+        CaseRig reports(reported, progress);
+        EXPECT_EQ(reports.missing({failing}), 0) << "but it is reported once more, without a run";
+        EXPECT_EQ(reports.run({failing})[0].failure, failed[0].failure);
         RunOrder strange = orderOf(10037);
         strange.command = "true";
         EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("has not written"));
@@ -547,12 +552,24 @@ TEST(Runner, FailuresCacheAndSlurm)
     }
     // What an earlier run of the case has left, fields of a later time and checkpoints, is no part of it: a copy that had
     // them would go on from there.
-    for (const char* left : {"case/0.36", "case/2", "case/checkpoints"})
+    for (const char* left : {"case/0.36", "case/2", "case/checkpoints", "case/processor12"})
     {
         fs::create_directories(workshop.path() / left);
         std::ofstream(workshop.path() / left / "U") << "fields\n";
     }
     EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
+    // Nor is the study, however its file is called; all else is, whatever it begins with.
+    writeWhole(workshop.path() / "case/study.yaml", "study: s\n");
+    {
+        Study within = study;
+        within.file = workshop.path() / "results/../case/../case/study.yaml";
+        fs::create_directories(workshop.path() / "results");
+        EXPECT_EQ(CaseRig(within, progress).missing({orderOf(10007)}), 0);
+    }
+    fs::remove(workshop.path() / "case/study.yaml");
+    writeWhole(workshop.path() / "case/processors", "2\n");
+    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);
+    fs::remove(workshop.path() / "case/processors");
     // A store that was made in a checkout that is no more: its runs' surroundings are those of this one.
     const auto sibling = study.work / "tree" / workshop.path().filename() / "study.yaml";
     fs::remove(sibling);

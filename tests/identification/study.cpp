@@ -467,6 +467,20 @@ TEST(Simulator, ScaleOfTheObservable)
     EXPECT_EQ(done[1].plain.value, done[1].curve.value);
 }
 
+/// The third attempt succeeds: both that failed are told as repeated, not as excluded.
+TEST(Simulator, TellsEveryFailureAsRepeated)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    rig.failuresFirst = 2;
+    Simulator simulator(study, rig);
+    EXPECT_FALSE(simulator.run({{0, simulator.plainSetting(), "base"}}).front().failed);
+    ASSERT_EQ(simulator.effort().failures.size(), 2U);
+    EXPECT_TRUE(simulator.effort().failures[0].repeated);
+    EXPECT_TRUE(simulator.effort().failures[1].repeated);
+}
+
 TEST(Simulator, StopsAtTheBudget)
 {
     const TemporaryFolder folder;
