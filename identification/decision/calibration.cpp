@@ -89,7 +89,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
         all(e) = evidences.effects(e) + weight;
         peaks(e) = evidences.peaks(e) + weight;
     }
-    all(count) = peaks(count) = evidences.other + std::log(study.settings.otherWeight);
+    all(count) = peaks(count) = evidences.other;
     const double sum = logSumExp(all);
     return {sum - evidences.null, logSumExp(peaks) - evidences.null, (all.head(count).array() - sum).matrix(),
         all(count) - sum, evidences.misfits, evidences.scatterMisfits};

@@ -69,7 +69,7 @@ public:
             verdict.judgements.push_back(evidence_.judge(explanations_[i], data));
             logs(i) = verdict.judgements.back().logEvidence + logPriors_[i];
         }
-        logs.tail<1>()(0) = evidence_.otherEvidence(data) + std::log(study_.settings.otherWeight);
+        logs.tail<1>()(0) = evidence_.otherEvidence(data);
         verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
         return verdict;
     }

@@ -47,19 +47,6 @@ double rateSlope(const Curve& curve, const Parameters& p)
     return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
 }
 
-double logTimeBetween(const Curve& curve, const Parameters& p)
-{
-    const double fill = curve.value.front();
-    return logOfPositive(timeAtLevel(curve, p.at("to") * fill) - timeAtLevel(curve, p.at("from") * fill));
-}
-
-/// What a scale goes on showing after the flow has ended, as a share of the fill per second.
-double tailSlope(const Curve& curve, const Parameters& p)
-{
-    const double end = curve.time.back();
-    return slopeBetween(curve, end - p.at("duration"), end) / curve.value.front();
-}
-
 //--- Positions of a bead --------------------------------------------------------------------------------------------
 
 double speedBetweenLevels(const Curve& curve, double from, double to)
@@ -190,25 +177,6 @@ double logReboundSpeed(const Curve& curve, const Parameters& p)
 
 //--- Any curve ------------------------------------------------------------------------------------------------------
 
-double meanBetween(const Curve& curve, const Parameters& p)
-{
-    double area = 0.0;
-    double before = p.at("from");
-    double last = valueAt(curve, before);
-    for (std::size_t i = 0; i < curve.time.size(); ++i)
-    {
-        const double t = curve.time[i];
-        if (t > before && t < p.at("to"))
-        {
-            area += (t - before) * (last + curve.value[i]) / 2;
-            before = t;
-            last = curve.value[i];
-        }
-    }
-    area += (p.at("to") - before) * (last + valueAt(curve, p.at("to"))) / 2;
-    return area / (p.at("to") - p.at("from"));
-}
-
 /// Time at which the curve passes a share of its largest value on the way to it, or after it; none where it does
 /// not.
 double timeAtShare(const Curve& curve, double share, bool after)
@@ -247,11 +215,8 @@ std::map<std::string, FeatureKind> makeKinds()
                 return logOfPositive(
                     timeAtLevel(curve, (1.0 - p.at("share")) * curve.value.front()) - curve.time.front());
             }},
-        {"logTimeBetween", "log of the time between two shares of the first value", {from, to}, logTimeBetween},
         {"residue", "last value over first value (not a log)", {},
             [](const Curve& curve, const Parameters& /*unused*/) { return curve.value.back() / curve.value.front(); }},
-        {"tailSlope", "slope at the end over the first value [1/s] (not a log)",
-            {{"duration", none, "of the part at the end [s]"}}, tailSlope},
         {"logSpeed", "log of the speed between two positions, by least squares", {start, end},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
@@ -272,15 +237,12 @@ std::map<std::string, FeatureKind> makeKinds()
         {"logReboundSpeed", "log of the speed after the first contact",
             {level, {"from", none, "begin of the part, after contact [s]"}, {"after", none, "its end [s]"}},
             logReboundSpeed},
-        {"valueAtTime", "value at a time over a scale (not a log)",
-            {{"time", none, "[s]"}, {"scale", none, "a typical value, SI units"}},
-            [](const Curve& curve, const Parameters& p) { return valueAt(curve, p.at("time")) / p.at("scale"); }},
-        {"logValueAtTime", "log of the value at a time", {{"time", none, "[s]"}},
-            [](const Curve& curve, const Parameters& p) { return logOfPositive(valueAt(curve, p.at("time"))); }},
-        {"logMeanBetween", "log of the mean between two times", {{"from", none, "[s]"}, {"to", none, "[s]"}},
-            [](const Curve& curve, const Parameters& p) { return logOfPositive(meanBetween(curve, p)); }},
-        {"logFinalValue", "log of the last value", {},
-            [](const Curve& curve, const Parameters& /*unused*/) { return logOfPositive(curve.value.back()); }},
+        {"logValueAtTime", "log of the value at a time of the record", {{"time", none, "[s]"}},
+            [](const Curve& curve, const Parameters& p) {
+                const double time = p.at("time");
+                return time < curve.time.front() || time > curve.time.back() ? none
+                                                                             : logOfPositive(valueAt(curve, time));
+            }},
         {"logMaximum", "log of the largest value", {},
             [](const Curve& curve, const Parameters& /*unused*/) {
                 return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));

@@ -21,15 +21,13 @@ namespace
 
 RigSpecification readRig(const YamlPlace& place)
 {
-    place.allow({"case", "command", "entriesFile", "set", "seed", "dependsOn", "version", "costPerRun", "timeLimit",
-        "keepRuns"});
+    place.allow({"case", "command", "entriesFile", "set", "seed", "dependsOn", "version", "costPerRun", "timeLimit"});
     RigSpecification rig;
     rig.caseFolder = place.at("case").path();
     rig.command = place.textOr("command", rig.command);
     rig.entriesFile = place.textOr("entriesFile", rig.entriesFile);
     rig.seedEntry = place.at("seed").text() == "none" ? "" : place.at("seed").text();
     rig.version = place.textOr("version", "");
-    rig.keepRuns = place.flagOr("keepRuns", false);
     rig.costPerRun = place.positiveOr("costPerRun", rig.costPerRun);
     rig.timeLimit = place.positiveOr("timeLimit", 0.0);
     for (const auto& file : place.optional("dependsOn").oneOrMore())
@@ -162,7 +160,7 @@ void readSettings(const YamlPlace& root, Study& study)
     settings.attempts = failures.countOr("attempts", settings.attempts, 1);
     settings.onFailure = failures.has("then") ? failures.at("then").oneOf({"exclude", "stop"}) : settings.onFailure;
     const auto inference = root.optional("inference");
-    inference.allow({"level", "draws", "coverage", "wrongNames", "otherWeight", "oneMoreParameter"});
+    inference.allow({"level", "draws", "coverage", "wrongNames", "oneMoreParameter"});
     const auto share = [&](const std::string& key, double byDefault, const std::string& example) {
         const double value = inference.positiveOr(key, byDefault);
         if (value >= 1.0)
@@ -180,7 +178,6 @@ void readSettings(const YamlPlace& root, Study& study)
         inference.at("level").fail(
             "of " + std::to_string(settings.draws) + " draws no data are that rare: raise level or draws");
     }
-    settings.otherWeight = inference.positiveOr("otherWeight", settings.otherWeight);
     if (inference.has("oneMoreParameter"))
     {
         settings.oneMoreParameter = inference.at("oneMoreParameter").oneOf(namesOf(chainOperations()));

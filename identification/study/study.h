@@ -42,7 +42,6 @@ struct RigSpecification
     std::string version;                          // text that enters it as well
     double costPerRun = 60.0;                     // [s], until runs have been timed
     double timeLimit = 0.0;                       // [s]; 0: none
-    bool keepRuns = false;
 };
 
 /// A parameter that all conditions share and that is fitted.
@@ -191,10 +190,9 @@ struct Settings
     int repeatsHeldOut = 3;
     int attempts = 3; // of a run that fails, each with another seed
     double level = 0.05;
-    int draws = 1000;         // of the test's null distribution
-    double coverage = 0.9;    // of sets, for each effect
-    double wrongNames = 0.05; // of what is detected and not in the library
-    double otherWeight = 1.0; // prior weight of something outside the library, beside 1 for a usual effect
+    int draws = 1000;                            // of the test's null distribution
+    double coverage = 0.9;                       // of sets, for each effect
+    double wrongNames = 0.05;                    // of what is detected and not in the library
     std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve
     std::string onFailure = "exclude";           // or stop
 };

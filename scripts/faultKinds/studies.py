@@ -71,7 +71,7 @@ def measured(bench):
             measured = f"    measured: {{ files: [{', '.join(files)}] }}\n"
             text = text.replace(f"- name: {name}\n", f"- name: {name}\n{measured}")
         text += ("measured:\n  time: { column: t, unit: s }\n  value: { column: m, unit: kg }\n"
-                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200, pairs: false }\n"
+                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200 }\n"
                  "executor: { kind: pool, processes: 1 }\n")
         (folder / "study.yaml").write_text(text)
         bench.keep(folder)

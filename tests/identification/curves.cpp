@@ -116,6 +116,15 @@ TEST(Features, SlopeOfTheRateOverTheMass)
     EXPECT_NEAR(feature("rateSlope", curve, {{"from", .55}, {"to", .45}}), 1, 1e-2);
 }
 
+/// A time of the record has a value; beyond it there is none, not the last one.
+TEST(Features, ValueAtATime)
+{
+    const Curve curve = sampled(5, 501, [](double t) { return 1 + .03 * t; });
+    EXPECT_NEAR(feature("logValueAtTime", curve, {{"time", 5}}), std::log(1.15), 1e-12);
+    EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", 5.01}})));
+    EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", -.01}})));
+}
+
 TEST(Features, OfAFallingBead)
 {
     const Curve curve = sampled(5, 501, [](double t) { return .03 * t; });
