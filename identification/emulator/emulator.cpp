@@ -269,10 +269,7 @@ double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) con
 /// Scales of largest evidence, one after the other, twice round.
 void Emulator::chooseScales()
 {
-    if (scales_[Basis::linear] == 0.0)
-    {
-        scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, scatters_ ? 0.0 : 1.0};
-    }
+    scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, scatters_ ? 0.0 : 1.0};
     constexpr int bits = 8;
     constexpr int sweeps = 2;
     constexpr std::uintmax_t mostEvaluations = 16;

@@ -61,13 +61,18 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
 }
 
 /// Runs after the library: where they decide, held-out conditions, candidates.
-int runsPerDataSet(const Study& study)
+/// \param rounds, ofPairs  where runs do not scatter: each makes, in each condition, a fit and its neighbours
+int runsPerDataSet(const Study& study, int rounds, int ofPairs)
 {
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
     constexpr int predictions = 3; // of the null, of the best explanation, of one more parameter
     constexpr int outcomes = 8;    // of two explanations, four draws each
-    return count(Role::training) * study.settings.decidingRuns
-           + count(Role::heldOut) * predictions * study.settings.repeatsHeldOut + count(Role::candidate) * outcomes;
+    const bool isExact = study.rig.seedEntry.empty();
+    const int fit = 2 + static_cast<int>(study.parameters.size());
+    const int deciding = study.settings.decidingRuns;
+    return count(Role::training) * (isExact && deciding > 0 ? 1 + rounds * fit + ofPairs * (fit + 1) : deciding)
+           + count(Role::heldOut) * predictions * (isExact ? 1 : study.settings.repeatsHeldOut)
+           + count(Role::candidate) * outcomes;
 }
 
 void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostream& out)
@@ -75,11 +80,14 @@ void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostrea
     const auto orders = libraryOrders(simulator);
     const int missing = simulator.missing(orders);
     const double seconds = rig.secondsPerRun();
-    const int perData = study.rig.seedEntry.empty() ? runsPerDataSet(study) / 3 : runsPerDataSet(study);
+    const int usual = runsPerDataSet(study, 2, 0);
+    const int most = runsPerDataSet(study, 8, 4);
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
         << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s a run"
         << (rig.measuredSecondsPerRun() ? "" : ", assumed: 'traceResidual plan --time' makes one and times it") << ")\n"
-        << "each data set: up to about " << perData << " runs more, " << clockTime(perData * seconds) << '\n'
+        << "each data set: about " << usual << " runs more, " << clockTime(usual * seconds)
+        << (most > usual ? ", up to some " + std::to_string(most) + " where no single effect explains the data" : "")
+        << '\n'
         << "budget: " << study.settings.budget << " runs" << std::endl;
 }
 

@@ -58,7 +58,7 @@ void checkMagnitudes(Simulator& simulator, const std::vector<MeasuredCondition>&
     for (const auto c : study.conditionsOf(Role::training))
     {
         // The same run as the library's first.
-        const SimulationOrder order{c, simulator.plainSetting(), "check of units", 0, "base"};
+        const SimulationOrder order{c, simulator.plainSetting(), checkOfUnits, 0, "base"};
         if (data[c].features.rows() > 0 && (execute || simulator.missing({order}) == 0))
         {
             orders.push_back(order);

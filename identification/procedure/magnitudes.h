@@ -8,6 +8,9 @@
 namespace clepsydra::identification
 {
 
+/// The purpose of its runs, which are the library's first: they count there.
+inline constexpr const char* checkOfUnits = "check of units";
+
 /// Compares measured curves, and features that are logarithms, with the first run of the bare model in each training
 /// condition: what is further apart than study.magnitudeLimit has a wrong unit or column, and all that the many other runs
 /// would tell.

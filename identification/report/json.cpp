@@ -1,6 +1,7 @@
 #include "report/json.h"
 
 #include "lists.h"
+#include "procedure/magnitudes.h"
 #include "report/fitted.h"
 #include "report/residual.h"
 #include "report/text.h"
@@ -210,7 +211,7 @@ Json runsJson(const Simulator& simulator)
     int all = 0;
     for (const auto& [purpose, count] : simulator.effort().runsByPurpose)
     {
-        all += count;
+        all += purpose == checkOfUnits ? 0 : count;
     }
     return {{"used", all}, {"executed", simulator.effort().executed}, {"fromCache", all - simulator.effort().executed},
         {"seconds", simulator.effort().seconds}, {"secondsOfStored", simulator.effort().secondsOfStored},

@@ -148,6 +148,12 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     {
         EXPECT_GT(report["heldOut"][key]["standardError"].get<double>(), 0) << key;
     }
+    int used = 0;
+    for (const auto& [purpose, count] : report["runs"]["byPurpose"].items())
+    {
+        used += count.get<int>();
+    }
+    EXPECT_EQ(report["runs"]["used"], used - 6) << "the first runs, with which units are checked, are the library's";
     for (const std::string key : {"effects", "runs", "seeds", "assumptions", "calibration", "emulator", "residual"})
     {
         EXPECT_FALSE(report[key].empty()) << key;
@@ -366,6 +372,8 @@ TEST(Program, PlansWhereNothingShows)
 {
     QuietStudy study("");
     EXPECT_EQ(study.run("plan --execute"), 0) << study.output;
+    EXPECT_THAT(study.output, HasSubstr("each data set: about 5 runs more"));
+    EXPECT_THAT(study.output, HasSubstr("up to some 29 where")) << "8 rounds of a fit and a neighbour, 4 of pairs";
     EXPECT_THAT(study.output, HasSubstr("no effect shows"));
 }
 
