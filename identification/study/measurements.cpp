@@ -45,27 +45,6 @@ void requireOrder(const Table& table, const std::vector<double>& time)
     }
 }
 
-Curve readFile(const std::filesystem::path& file, const Measurement& measured)
-{
-    try
-    {
-        const Table table = readTable(file);
-        std::vector<double> time = converted(table, measured.time);
-        requireOrder(table, time);
-        Curve curve = tidied({std::move(time), converted(table, measured.value)});
-        if (curve.time.size() < 3)
-        {
-            throw std::runtime_error("fewer than three rows with a time and a value");
-        }
-        return curve;
-    }
-    catch (const std::exception& error)
-    {
-        const std::string text = error.what();
-        throw std::runtime_error(text.rfind(file.string(), 0) == 0 ? text : file.string() + ": " + text);
-    }
-}
-
 /// Of a training condition: what people look at to see that columns and units are right.
 std::string rangesOf(const Curve& curve)
 {
@@ -90,6 +69,28 @@ bool sayFeatures(const Study& study, const Curve& curve, std::ostream& out)
 
 } // namespace
 
+Curve readMeasured(
+    const std::filesystem::path& file, const ColumnSpecification& timeColumn, const ColumnSpecification& valueColumn)
+{
+    try
+    {
+        const Table table = readTable(file);
+        std::vector<double> time = converted(table, timeColumn);
+        requireOrder(table, time);
+        Curve curve = tidied({std::move(time), converted(table, valueColumn)});
+        if (curve.time.size() < 3)
+        {
+            throw std::runtime_error("fewer than three rows with a time and a value");
+        }
+        return curve;
+    }
+    catch (const std::exception& error)
+    {
+        const std::string text = error.what();
+        throw std::runtime_error(text.rfind(file.string(), 0) == 0 ? text : file.string() + ": " + text);
+    }
+}
+
 void checkMeasurements(const Study& study, std::ostream& out)
 {
     for (const auto& condition : study.conditions)
@@ -97,7 +98,7 @@ void checkMeasurements(const Study& study, std::ostream& out)
         bool any = condition.measured.files.empty() || !condition.measured.numbers.empty();
         for (const auto& file : condition.measured.files)
         {
-            const Curve curve = readFile(file, condition.measured);
+            const Curve curve = readMeasured(file, condition.measured.time, condition.measured.value);
             out << condition.name << ", " << file.filename().string() << ": ";
             if (condition.role == Role::heldOut)
             {
@@ -130,7 +131,7 @@ MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
     result.declaredError = Eigen::VectorXd::Zero(study.featureCount());
     for (std::size_t repeat = 0; repeat < measured.files.size(); ++repeat)
     {
-        result.curves.push_back(readFile(measured.files[repeat], measured));
+        result.curves.push_back(readMeasured(measured.files[repeat], measured.time, measured.value));
         result.features.row(repeat) = Eigen::RowVectorXd::NullaryExpr(
             study.featureCount(), [&](Eigen::Index f) { return study.features[f](result.curves.back()); });
     }

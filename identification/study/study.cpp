@@ -1,5 +1,7 @@
 #include "study/study.h"
 
+#include "lists.h"
+
 #include <algorithm>
 
 namespace clepsydra::identification
@@ -9,22 +11,13 @@ bool acts(const Effect& effect, const Condition& condition)
 {
     return std::all_of(effect.actsIn.begin(), effect.actsIn.end(), [&](const auto& rule) {
         const auto tag = condition.tags.find(rule.first);
-        return tag != condition.tags.end()
-               && std::find(rule.second.begin(), rule.second.end(), tag->second) != rule.second.end();
+        return tag != condition.tags.end() && contains(rule.second, tag->second);
     });
 }
 
 std::vector<std::size_t> Study::conditionsOf(Role role) const
 {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < conditions.size(); ++i)
-    {
-        if (conditions[i].role == role)
-        {
-            found.push_back(i);
-        }
-    }
-    return found;
+    return numbersWhere(conditions.size(), [&](std::size_t c) { return conditions[c].role == role; });
 }
 
 } // namespace clepsydra::identification

@@ -227,6 +227,7 @@ TEST(Draft, RefusesAndWritesNothing)
     bench.write("fall.csv", table("t_s,height_mm", ",", '.', [](double t) { return 200 - 20 * t; }));
     bench.write("mass.csv", hopperFile(10, 5));
     bench.write("one.csv", "t_s\n0\n1\n2\n3\n");
+    bench.write("late.csv", "t_s,height_mm\n0,3\n2,2\n1,1\n3,0\n");
     bench.write("mine.yaml", "mine\n");
     const std::map<std::string, std::string> refused = {
         {"hopperQuick folder", "folder: holds no table of numbers"},
@@ -234,6 +235,7 @@ TEST(Draft, RefusesAndWritesNothing)
         {"hopperQuick fall.csv", "writes a mass"},
         {"singleBead mass.csv", "writes a length"},
         {"singleBead fall.csv mass.csv", "no column 't_s'"},
+        {"singleBead fall.csv late.csv", "late.csv: in line 4 the time goes back"},
         {"hopperQuick one.csv", "no column beside the time"},
         {"hopperQuick nowhere.csv", "nowhere.csv"},
         {"validation fall.csv", "is no case"},

@@ -1,6 +1,7 @@
 #include "study/draft/measuredFiles.h"
 
 #include "curves/table.h"
+#include "study/measurements.h"
 
 #include <algorithm>
 #include <limits>
@@ -74,19 +75,12 @@ Curve curveOf(const fs::path& file, const fs::path& first, const GuessedColumns&
 {
     try
     {
-        const Table table = readTable(file);
-        Curve curve{table.columns[table.index(columns.time.column)], table.columns[table.index(columns.value.column)]};
-        curve = tidied(std::move(curve));
-        if (curve.time.size() < 3)
-        {
-            throw std::runtime_error("fewer than three rows with a time and a value");
-        }
-        return curve;
+        return readMeasured(file, {columns.time.column}, {columns.value.column});
     }
     catch (const std::runtime_error& error)
     {
-        throw std::runtime_error(file.string() + ": " + error.what() + " (the study has the columns of "
-                                 + first.string() + "; files of other kinds need one of their own)");
+        throw std::runtime_error(std::string(error.what()) + " (the study has the columns of " + first.string()
+                                 + "; files of other kinds need one of their own)");
     }
 }
 
