@@ -105,6 +105,14 @@ class MistakenFiles(CampaignFile):
         self.write(parameters={"fricton": 0.1})
         self.assertIn("(is 'friction' meant?)", self.refused())
 
+    def testWhatIsNoListOfRunsOrNoNumberOfTimes(self):
+        """Before anything is run: these were found while the first run was under way, or ended in a traceback."""
+        for settings, words in (({"runs": {}}, "entry 'runs' is {}; allowed: a list of"), ({"runs": {"mu": 5}}, "allowed: a list of"),
+                                ({"keepTimes": 1}, "entry 'keepTimes' is 1; allowed: all, or a whole number above 1")):
+            self.write(**settings)
+            for command in ("check", "run"):
+                self.assertIn(words, self.refused(command))
+
     def testParametersOfTheHopperAreCheckedBeforeAnythingIsMade(self):
         """Of every run, also of one of many in a sweep."""
         for values, words in (({"friction": "nan"}, "entry 'friction' is nan; allowed: a number from 0 to 10"),
