@@ -1,7 +1,6 @@
 """What scripts/campaign does with damaged state, a full disk and mistaken files. With the stand-in of tests/campaign; seconds."""
 
 import errno
-import json
 import os
 import shutil
 import subprocess
