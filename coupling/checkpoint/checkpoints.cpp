@@ -122,21 +122,23 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
 /// what is left of those that they were made from must be as it was written.
 std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Manifest& manifest)
 {
-    const std::string timeFolder = manifest.time + '/';
     for (const Manifest::File& file : manifest.files)
     {
         if (isBeadsFile(file))
         {
             continue;
         }
-        if (Pstream::master() && fs::exists(caseDirectory / file.name))
+        const bool ofRank = startsWith(file.name, "processor");
+        // From several ranks to several: decomposePar has put another file in its place.
+        const bool replaced = ofRank && Pstream::parRun();
+        if (Pstream::master() && !replaced && fs::exists(caseDirectory / file.name))
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
                 return found;
             }
         }
-        const std::string name = partPrefix() + file.name.substr(file.name.find(timeFolder));
+        const std::string name = partPrefix() + file.name.substr(ofRank ? file.name.find('/') + 1 : 0);
         std::error_code missing;
         if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
         {

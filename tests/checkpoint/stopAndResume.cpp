@@ -138,6 +138,26 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     EXPECT_EQ(changed.ledgerSummary("0.125")["beadsEnd"], static_cast<int>(changed.dem.beads.size()));
 }
 
+// Written at time 1 on two ranks, resumed on one and on three. A program that looks for the time in `processor1/1/U` finds
+// it in the rank's name; one that holds the three ranks' new files against those of the two finds them damaged.
+TEST(OtherRanks, TakeTheCheckpointOfTimeOneFromTwoRanks)
+{
+    for (const std::string resume :
+        {"$SOLVER", "echo 'numberOfSubdomains 3; simpleCoeffs { n (3 1 1); }' >> system/decomposeParDict && "
+                    "decomposePar -force -latestTime && mpirun -np 3 $SOLVER -parallel"})
+    {
+        TestCase test;
+        test.dem.beads = {{0.0101, 0.0099, 0.02}};
+        test.setTimes(1, interval, 1);
+        ASSERT_TRUE(test.runCommand("mv 0 0.998").succeeded());
+        const Outcome first = test.run(2);
+        ASSERT_TRUE(first.succeeded()) << first.output;
+        const Outcome resumed = test.runCommand("echo 'endTime 1.001;' >> system/controlDict && " + resume);
+        EXPECT_TRUE(resumed.succeeded()) << resumed.output;
+        EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 1\n")) << resumed.output;
+    }
+}
+
 // Each of two ranks writes a file of its own beads, and a resumed run reads them, bit for bit the run that was never stopped.
 // The files are together as large as one that holds the beads of both: a rank that was handed the other's has more.
 TEST(TwoRanks, WriteTheirOwnBeadsAndGoOn)
