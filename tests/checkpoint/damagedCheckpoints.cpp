@@ -125,14 +125,25 @@ TEST(DamagedCheckpoint, IsAnErrorWhereNoneCanBeTaken)
     const Outcome half = inCopy(test, "rm -r checkpoints; $SOLVER" + andNothingMoved);
     EXPECT_EQ(half.status, 1) << half.output;
     EXPECT_TRUE(half.says("half of a checkpoint")) << half.output;
+
+    const Outcome beginning = inCopy(test, "echo zero > checkpoints/beginning; $SOLVER" + andNothingMoved);
+    EXPECT_EQ(beginning.status, 1) << beginning.output;
+    EXPECT_TRUE(beginning.says("checkpoints/beginning\" holds 'zero'; allowed:")) << beginning.output;
 }
 
-// On two ranks each rank's fields are held against the manifest, too.
+// On two ranks each rank's fields are held against the manifest, too, also those that lie elsewhere behind a link. A manifest
+// that names them by that place says nothing of them.
 TEST(DamagedCheckpoint, IsFoundOnEachRank)
 {
     TestCase test;
     threeCheckpoints(test, 0.02);
-    ASSERT_TRUE(test.run(2).succeeded());
+    test.file("system/decomposeParDict")
+        .set("numberOfSubdomains", "2")
+        .set("method", "simple")
+        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    const Outcome first = test.runCommand("blockMesh && decomposePar && mkdir elsewhere && mv processor1 elsewhere && "
+                                          "ln -s elsewhere/processor1 && mpirun -np 2 $SOLVER -parallel");
+    ASSERT_TRUE(first.succeeded()) << first.output;
     const Outcome outcome =
         test.runCommand(": > processor1/0.02/phi && echo 'endTime 0.022;' >> system/controlDict && "
                         "mpirun -np 2 $SOLVER -parallel && ls -d processor0/damaged.0.02 processor1/damaged.0.02");

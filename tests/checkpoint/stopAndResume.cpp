@@ -158,6 +158,25 @@ TEST(OtherRanks, TakeTheCheckpointOfTimeOneFromTwoRanks)
     }
 }
 
+// purgeWrite takes both halves of old checkpoints; the user's own times, the beginning's and one before, stay when the run
+// is resumed. A program that takes every time without beads for one of its own sets 0 aside as unfinished.
+TEST(PurgeWrite, TakesWholeCheckpointsAndNoTimeOfTheUser)
+{
+    TestCase test;
+    pilingBeads(test, false);
+    test.setTimes(0.014, interval, interval);
+    test.control().set("purgeWrite", "2");
+    ASSERT_TRUE(test.runCommand("cp -r 0 0.01").succeeded());
+    const Outcome first = test.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    EXPECT_EQ(test.times(), (std::vector<std::string>{"0.01", "0.013", "0.014"}));
+    EXPECT_EQ(test.runCommand("ls checkpoints").output, "0.013\n0.014\nbeginning\n");
+
+    const Outcome second = test.runCommand("echo 'endTime 0.015;' >> system/controlDict && $SOLVER && ls 0/U 0.01/U");
+    EXPECT_TRUE(second.succeeded()) << second.output;
+    EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.014")) << second.output;
+}
+
 // Each of two ranks writes a file of its own beads, and a resumed run reads them, bit for bit the run that was never stopped.
 // The files are together as large as one that holds the beads of both: a rank that was handed the other's has more.
 TEST(TwoRanks, WriteTheirOwnBeadsAndGoOn)
