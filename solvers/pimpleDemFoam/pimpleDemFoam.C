@@ -135,7 +135,7 @@ void runWithFluid(
 void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
 {
     output.start();
-    while (runTime.loop())
+    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
     {
         interval.advance();
         if (output.afterInterval())
