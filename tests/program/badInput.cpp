@@ -193,6 +193,8 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("forceModels", "(DiFelice gradPForce)",
         {"'DiFelice'", "DiFeliceDrag", "SchillerNaumannDrag", "GidaspowDrag", "KochHillDrag", "BeetstraDrag",
             "RongDrag", "StokesDrag", "gradPForce", "viscForce", "Archimedes"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag gradForce)", {"'gradForce' (did you mean 'gradPForce'?)"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag Archimedes Archimedes)", {"'Archimedes' twice"});
     expectEntryRefused("voidFractionModel", "big", {"'big'", "divided", "centre"});
     expectEntryRefused("smoothingModel", "diffusion", {"'diffusion'", "constDiffSmoothing", "off"});
     expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
@@ -219,6 +221,12 @@ TEST(BadInput, EntriesThatNobodyReads)
             test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; slowerThen 2; }");
         },
         {couplingProperties, "'slowerThen'", "did you mean 'slowerThan'?"}, SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; during 0.1; }");
+        },
+        {couplingProperties, "'slowerThan'"}, SeenBy::dictionaries);
+    expectEntryRefused("maxCo", "0.5", {"without 'adjustableInterval'"});
     expectRefused([](TestCase& test) { test.coupling().set("ledger/momentumTollerance", "1e-6"); },
         {couplingProperties, "did you mean 'momentumTolerance'?"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/stopWhenFlowEnds", "0.3"); },
