@@ -447,12 +447,20 @@ TEST(BadInput, PlacesOfBeads)
         withBeadAt({0.0101, 0.0099, 0.0208}), {"Beads 1 and 2 at", "overlap by 0.0012 m", "allowed"}, SeenBy::engine);
 }
 
-/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0. What LIGGGHTS says of a command
-/// with variables comes with their values.
+/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0, and within an `if` for longer. A last
+/// line that is to go on was left out without a word. What LIGGGHTS says of a command with variables comes with their values.
 TEST(BadInput, RunAndVariablesInDemScript)
 {
     expectRefused([](TestCase& test) { test.dem.more = "run 10"; }, {script + " line ", "'run 10'", "without 'run'"},
         SeenBy::engine);
+    for (const std::string command : {"run 10", "create_atoms 1 single 0.01 0.01 0.03", "if 1 then 'jump in.beads'"})
+    {
+        SCOPED_TRACE(command);
+        expectRefused([&](TestCase& test) { test.dem.more = "if 1 then \"variable a equal 1\" \"" + command + '"'; },
+            {script + " line ", command, "allowed: an 'if' without"}, SeenBy::engine);
+    }
+    expectRefused([](TestCase& test) { test.dem.more = "variable a &"; },
+        {script, "'variable a  ', ends in '&'", "allowed:"}, SeenBy::engine);
     expectRefused(
         [](TestCase& test) {
             test.dem.more = "variable inside equal -0.5\nregion mouth cylinder z 0 0 ${inside} 0 1 units box";
@@ -513,6 +521,8 @@ TEST(BadInput, DryRun)
     TestCase test;
     fillIn(test);
     test.dem.dumpEvery = 10;
+    test.dem.more = "compute energy all ke\nfix mean all ave/time 1 1 1 c_energy file DEM/energy.txt\n"
+                    "fix told all print 1 \"file 1\" file DEM/told.txt screen no\n";
     ASSERT_TRUE(test.makeMesh().succeeded());
     const Files before = filesIn(test.path());
     const Outcome outcome = test.runCommand("$SOLVER -dryRun");
