@@ -188,6 +188,21 @@ TEST_P(FinalBeads, AreHeldAgainstTheirChecksum)
     }
 }
 
+// A file that cannot be written keeps no checksum of an earlier one, nor does a part.
+TEST_P(FinalBeads, LoseTheirOldChecksumFirst)
+{
+    const auto [name, file] = GetParam();
+    TestCase test;
+    pilingBeads(test, false);
+    test.coupling().set("DEM/writeRestart", '"' + std::string(name) + '"');
+    test.setTimes(0.002, interval, 1);
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    const std::string before = "mkdir " + std::string(file) + " && echo old > " + file + ".sha256 && ";
+    const Outcome outcome = test.runCommand(before + "$SOLVER");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(test.path() / (std::string(file) + ".sha256"))) << outcome.output;
+}
+
 INSTANTIATE_TEST_SUITE_P(InOneFileAndInParts, FinalBeads,
     testing::Values(std::pair("packing.restart", "packing.restart"),
         std::pair("packing.%.restart", "packing.base.restart"), std::pair("packing.%.restart", "packing.0.restart")));

@@ -531,6 +531,13 @@ TEST(BadInput, DryRun)
     EXPECT_TRUE(outcome.says("MiB")) << outcome.output;
     EXPECT_EQ(before, filesIn(test.path()));
 
+    expectRefused(test.runCommand("TMPDIR=/proc/none OMPI_MCA_orte_tmpdir_base=/tmp $SOLVER -dryRun"),
+        {"TMPDIR is '/proc/none'", "allowed:"});
+    const Outcome atEnd = test.runCommand("cp -r . ../$$ && cd ../$$ && $SOLVER && $SOLVER -dryRun; status=$?; "
+                                          "rm -r ../$$; exit $status");
+    EXPECT_TRUE(atEnd.succeeded()) << atEnd.output;
+    EXPECT_TRUE(atEnd.says("Dry run: the case is at its end, 0.004 s")) << atEnd.output;
+
     test.dem.beads.emplace_back(0.01, 0.01, 0.0412);
     test.write();
     const Files wrong = filesIn(test.path());
