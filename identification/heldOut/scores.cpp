@@ -33,7 +33,7 @@ double sdOf(const std::vector<double>& values)
 
 /// Root mean square error and mean CRPS with the measured and predicted means moved.
 std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& features, const std::vector<Eigen::VectorXd>& dataShift,
+    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::VectorXd>& dataShift,
     const std::vector<Eigen::VectorXd>& predictionShift)
 {
     double squares = 0.0;
@@ -43,14 +43,10 @@ std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const s
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         const Eigen::VectorXd measured = meanFeatures(data[c].features);
-        for (const auto f : features)
+        for (const auto f : features[c])
         {
             const double shift = dataShift[c](f) - predictionShift[c](f);
             const double error = measured(f) - predictions[c].mean(f) + shift;
-            if (!std::isfinite(error))
-            {
-                continue;
-            }
             squares += error * error;
             count += 1.0;
             const double sd = std::sqrt(
@@ -102,13 +98,13 @@ std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
 }
 
 HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& logFeatures, const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random,
-    std::vector<double>* samples)
+    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
+    std::mt19937_64& random, std::vector<double>* samples)
 {
     const auto none = mapped(
         predictions, [](const Prediction& one) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(one.mean.size()); });
     HeldOutScore score;
-    std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, logFeatures, none, none);
+    std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, features, none, none);
     std::vector<double> errors;
     std::vector<double> crps;
     for (Eigen::Index draw = 0; draw < noise.front().rows(); ++draw)
@@ -121,7 +117,7 @@ HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vecto
             predictionShift.emplace_back(
                 predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), random)));
         }
-        const auto [error, rank] = scoresOf(data, predictions, logFeatures, dataShift, predictionShift);
+        const auto [error, rank] = scoresOf(data, predictions, features, dataShift, predictionShift);
         errors.push_back(error);
         crps.push_back(rank);
     }

@@ -45,10 +45,10 @@ std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random);
 
 /// Score of a prediction with standard errors by redrawing what is uncertain: the measured means and the simulated ones.
-/// \param logFeatures  features that enter the error
+/// \param features  by condition: those that enter the error; measured, and predicted by all that are compared
 /// \param samples  if given, the draws of the rms error, to compare predictions draw by draw
 HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& logFeatures, const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random,
-    std::vector<double>* samples = nullptr);
+    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
+    std::mt19937_64& random, std::vector<double>* samples = nullptr);
 
 } // namespace clepsydra::identification

@@ -48,7 +48,7 @@ HeldOutScore scoreWith(double declared)
     predictions[0].variance = Eigen::VectorXd::Constant(1, .0003);
     predictions[0].dataCovariance = Eigen::MatrixXd::Constant(1, 1, .0004);
     const auto noise = drawDataNoise(data, predictions, 4000, random);
-    return heldOutScore(data, predictions, {0}, noise, random);
+    return heldOutScore(data, predictions, {{0}}, noise, random);
 }
 
 /// Far from zero the error's own standard error: sqrt(.0004/4 + .0003) = .02, and with a declared one beside what repeats

@@ -179,10 +179,17 @@ TEST(Trace, TwoEffectsAtOnce)
     }
 }
 
-/// Data made by one effect at full size, predicted with it switched on, as a name or as a set.
-HeldOutResult heldOutOf(const std::string& truth, Decision decision)
+/// Data made by one effect at full size, predicted with it switched on, as a name or as a set. \param edgeFails  whether there
+/// is another held-out condition, where something else acts as well and no run with y succeeds
+HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFails = false)
 {
     Bench bench;
+    if (edgeFails)
+    {
+        bench.study.conditions.push_back(bench.study.conditions.back());
+        bench.study.conditions.back().name = "edged";
+        bench.study.conditions.back().entries["edge"] = "1";
+    }
     Setting setting = bench.simulator.plainSetting();
     const std::size_t index = effectOf(bench.study, truth);
     setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
@@ -193,6 +200,11 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision)
         data[c].features =
             featureRows(bench.simulator.repeats({c}, setting, "measured", 4), c, bench.study.featureCount());
         data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
+    }
+    if (edgeFails)
+    {
+        data.back().features.array() += .3;
+        bench.rig.failsWithYAtEdge = true;
     }
     Answer answer = trace(bench.simulator, bench.library, data, bench.random);
     answer.decision = decision;
@@ -210,6 +222,14 @@ TEST(HeldOut, AcceptsANameThatNothingElseImitates)
     EXPECT_LT(named.after->rmsLogError.value, named.noiseLimit);
     EXPECT_GT(named.before.rmsLogError.value, named.noiseLimit);
     EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
+}
+
+/// Where the effect's runs fail nothing is predicted: no gain, and the error before is that of the numbers that are left.
+TEST(HeldOut, ComparesTheSameNumbers)
+{
+    const HeldOutResult result = heldOutOf("y", Decision::named, true);
+    EXPECT_THAT(result.notAcceptedBecause, ElementsAre("no prediction of logMeanRate in edged"));
+    EXPECT_NEAR(result.before.rmsLogError.value, .1, .02) << ".29 with the number that y does not predict";
 }
 
 /// A study may have no held-out measurements: nothing is simulated, nothing accepted.
