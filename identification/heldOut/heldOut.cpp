@@ -63,10 +63,7 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
     operation.bounds = {-1.0, 1.0};
     study.effects.push_back(operation);
     std::vector<Run> runs = library.runs;
-    for (const auto& simulation : answer.null.simulations)
-    {
-        runs.push_back({answer.null.setting, simulation});
-    }
+    append(runs, answer.null.runs);
     for (auto& run : runs)
     {
         run.setting.amplitudes.conservativeResize(study.effects.size());

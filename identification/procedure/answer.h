@@ -1,7 +1,7 @@
 #pragma once
 
 #include "decision/visibility.h"
-#include "runner/simulator.h"
+#include "emulator/library.h"
 
 #include <memory>
 #include <string>
@@ -41,7 +41,7 @@ struct Explanation
     double logOdds = 0.0;     // against no effect
     double probability = 0.0; // given that there is something; of two effects: that no single one explains
     double misfit = 0.0;
-    std::vector<Simulation> simulations; // with it switched on, nearest to the last fit; empty: it was not simulated
+    std::vector<Run> runs; // with it switched on, where its fits were, one after the other; empty: it was not simulated
 };
 
 /// "effect" or "effect with other effect", or "no effect"

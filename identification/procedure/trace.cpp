@@ -359,7 +359,7 @@ private:
                                   [&](const Present& one) { return run.setting.amplitudes(one.effect) != 0.0; });
             if (same && !run.simulation.failed && &run >= runs_.data() + librarySize_)
             {
-                found.simulations.push_back(run.simulation);
+                found.runs.push_back(run);
             }
         }
         return found;

@@ -65,7 +65,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation.effects)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"misfit", explanation.misfit}, {"simulated", !explanation.simulations.empty()}};
+        {"misfit", explanation.misfit}, {"simulated", !explanation.runs.empty()}};
 }
 
 /// What the effect sets at its amplitude, in words that a user can check.

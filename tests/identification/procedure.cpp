@@ -232,6 +232,28 @@ TEST(HeldOut, ComparesTheSameNumbers)
     EXPECT_NEAR(result.before.rmsLogError.value, .1, .02) << ".29 with the number that y does not predict";
 }
 
+/// Control 1 learns from each run what was set in it: where the last fit lies does not matter where all is linear.
+TEST(HeldOut, OneMoreParameterKnowsWhatRunsWere)
+{
+    Bench bench(false);
+    bench.study.rig.seedEntry = "";
+    bench.library = makeLibrary(bench.simulator);
+    std::vector<MeasuredCondition> data(bench.study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(4, 1) << -2.26, -2.25, -2.24, -2.25).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(1);
+    }
+    Answer answer = trace(bench.simulator, bench.library, data, bench.random);
+    ASSERT_FALSE(answer.null.runs.empty());
+    const auto sizeOfOneMore = [&] {
+        return evaluateHeldOut(bench.simulator, bench.library, answer, data, data, bench.random).oneMoreAmplitude;
+    };
+    const double size = sizeOfOneMore();
+    answer.null.setting.parameters(0) -= .02;
+    EXPECT_NEAR(sizeOfOneMore(), size, .01 * std::abs(size));
+}
+
 /// A study may have no held-out measurements: nothing is simulated, nothing accepted.
 TEST(HeldOut, NothingWithoutMeasurements)
 {
