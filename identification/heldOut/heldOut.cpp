@@ -165,7 +165,7 @@ public:
             {
                 result_.conditions.push_back(c);
                 result_.data.push_back(
-                    {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2()});
+                    {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2(), {}});
             }
         }
     }
@@ -200,13 +200,9 @@ private:
 
     std::vector<Prediction> predictionsOf(const std::vector<Simulation>& simulations) const
     {
-        std::vector<Prediction> predictions;
-        for (const auto c : result_.conditions)
-        {
-            predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_));
-            predictions.back().variance += errorSlopes_.at(c).rowwise().squaredNorm();
-        }
-        return predictions;
+        return mapped(result_.conditions, [&](std::size_t c) {
+            return predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_);
+        });
     }
 
     Scored scored(const std::vector<Prediction>& predictions)
@@ -219,9 +215,10 @@ private:
     void predictNull()
     {
         result_.simulations.push_back(simulated(answer_.null.setting, "before"));
-        for (const auto c : result_.conditions)
+        for (std::size_t i = 0; i < result_.data.size(); ++i)
         {
-            errorSlopes_.emplace(c, commonErrorSlopes(simulator_, c, result_.simulations.back()));
+            result_.data[i].errorSlopes =
+                commonErrorSlopes(simulator_, result_.conditions[i], result_.simulations.back());
         }
         compared_.push_back(predictionsOf(result_.simulations.back()));
         result_.predictedBefore = compared_.front();
@@ -366,11 +363,10 @@ private:
     const Answer& answer_;
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
-    std::map<std::size_t, Eigen::MatrixXd> errorSlopes_; // by condition
-    std::vector<std::vector<Prediction>> compared_;      // of the null, the members of the set, control 1
-    std::vector<std::vector<Eigen::Index>> scored_;      // features, by condition
-    std::vector<std::string> unpredicted_;               // what was measured and is not scored
-    std::vector<Eigen::MatrixXd> noise_;                 // of the measurements
+    std::vector<std::vector<Prediction>> compared_; // of the null, the members of the set, control 1
+    std::vector<std::vector<Eigen::Index>> scored_; // features, by condition
+    std::vector<std::string> unpredicted_;          // what was measured and is not scored
+    std::vector<Eigen::MatrixXd> noise_;            // of the measurements
     Scored before_;
     Scored after_;
     Scored oneMore_;

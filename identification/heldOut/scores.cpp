@@ -17,12 +17,10 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 
 /// Independent standard normal numbers.
-Eigen::VectorXd normals(Eigen::Index count, std::mt19937_64& random)
+Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
-    Eigen::VectorXd draws(count);
-    std::generate(draws.begin(), draws.end(), [&] { return normal(random); });
-    return draws;
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
 double sdOf(const std::vector<double>& values)
@@ -49,8 +47,8 @@ std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const s
             const double error = measured(f) - predictions[c].mean(f) + shift;
             squares += error * error;
             count += 1.0;
-            const double sd = std::sqrt(
-                predictions[c].variance(f) + predictions[c].dataCovariance(f, f) + data[c].declaredVariance(f));
+            const double sd = std::sqrt(predictions[c].variance(f) + predictions[c].dataCovariance(f, f)
+                                        + data[c].declaredVariance(f) + data[c].commonVariance(f));
             for (const double value : data[c].features.col(f))
             {
                 if (std::isfinite(value))
@@ -81,16 +79,17 @@ double crpsOfNormal(double mean, double sd, double observed)
 std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random)
 {
+    const Eigen::MatrixXd common = normals(draws, data.front().errorSlopes.cols(), random);
     std::vector<Eigen::MatrixXd> noise;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         Eigen::MatrixXd covariance = predictions[c].dataCovariance.cwiseProduct(data[c].meanShare);
         covariance.diagonal().array() += data[c].declaredVariance.array() + 1e-14;
         const Eigen::MatrixXd root = covariance.llt().matrixL();
-        Eigen::MatrixXd rows(draws, covariance.rows());
+        Eigen::MatrixXd rows = common * data[c].errorSlopes.transpose();
         for (auto row : rows.rowwise())
         {
-            row = (root * normals(covariance.rows(), random)).transpose();
+            row += (root * normals(covariance.rows(), 1, random)).transpose();
         }
         noise.push_back(rows);
     }
@@ -115,7 +114,7 @@ HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vecto
         {
             dataShift.emplace_back(noise[c].row(draw).transpose());
             predictionShift.emplace_back(
-                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), random)));
+                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), 1, random)));
         }
         const auto [error, rank] = scoresOf(data, predictions, features, dataShift, predictionShift);
         errors.push_back(error);

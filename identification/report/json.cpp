@@ -158,7 +158,7 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
                 return isLog ? estimate({std::exp(value), std::exp(value) * sd}) : estimate({value, sd});
             };
             const auto predicted = [&](const Prediction& prediction) {
-                return plain(prediction.mean(f), std::sqrt(prediction.variance(f)));
+                return plain(prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f)));
             };
             list.push_back(
                 {{"condition", study.conditions[result.conditions[i]].name}, {"feature", study.features[f].name},
