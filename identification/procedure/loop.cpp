@@ -89,6 +89,7 @@ std::vector<MeasuredCondition> plannedData(
         }
         const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
         const bool isMeasured = measured[c].features.rows() > 0;
+        data[c].isPlanned = !isMeasured;
         data[c].features = base.replicate(isMeasured ? measured[c].features.rows() : plannedRepeats, 1);
         data[c].declaredError = isMeasured ? measured[c].declaredError : Eigen::VectorXd::Zero(study.featureCount());
         if (isMeasured)

@@ -119,6 +119,42 @@ TEST(Trace, AMisfitBeyondNoiseIsAResidual)
     }
 }
 
+/// Where runs do not scatter, noise is that of repeats: what was measured once beside others that have repeats is not exact.
+TEST(Trace, NothingMeasuredIsExact)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.features.push_back(study.features.front());
+    study.features.back().name = "once";
+    study.modelError = Eigen::VectorXd::Zero(2);
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(3, 2) << -2.31, -2.3, -2.30, NAN, -2.29, NAN).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(2);
+    }
+    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    try
+    {
+        arrange(study, emulator, data);
+        FAIL() << "a number without an error";
+    }
+    catch (const std::runtime_error& error)
+    {
+        EXPECT_THAT(error.what(), HasSubstr("condition 'both': 'once'"));
+    }
+    study.modelError(1) = .01;
+    const double noise = arrange(study, emulator, data).first.noise(0, 0);
+    EXPECT_NEAR(noise, 1e-4, 1e-9);
+    // What is planned has no scatter of its own, and must not make less of the others'.
+    data[1].features.setConstant(-2.3);
+    data[1].isPlanned = true;
+    EXPECT_NEAR(arrange(study, emulator, data).first.noise(0, 0), noise, 1e-9);
+}
+
 /// One effect at a setting, as a member of a set.
 Explanation explanationBy(std::size_t effect, const Setting& setting)
 {
