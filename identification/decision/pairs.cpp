@@ -194,7 +194,7 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
     return pairs;
 }
 
-void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
+double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random)
 {
     const auto verdict = PairJudge(study, evidence, pairs)(measured);
@@ -224,6 +224,7 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
         pair.fitsWell = pair.inSet && fitsWithin(fitsWell);
     }
+    return verdict.probabilities.tail<1>()(0);
 }
 
 } // namespace clepsydra::identification

@@ -55,8 +55,9 @@ struct Answer
     bool somethingElseInSet = false; // beside them
     std::string family;              // where all members are variants of one thing
     double pValue = 1.0;
-    double logOdds = 0.0; // of anything against no effect
-    double otherProbability = 0.0;
+    double logOdds = 0.0;          // of anything against no effect
+    double otherProbability = 0.0; // beside single effects
+    double otherBesideSet = 0.0;   // among what the set's probabilities are among: the same, or beside pairs
     double otherThreshold = 0.0;
     Explanation null;                   // refitted parameters, no effect
     std::vector<EffectFinding> effects; // as in the study

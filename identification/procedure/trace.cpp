@@ -229,7 +229,7 @@ private:
         Evidence evidence = evidenceNear(around, isExact);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
-        judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
+        answer_.otherBesideSet = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
         for (auto& pair : pairs)
         {
             if (!pair.inSet)
@@ -292,7 +292,7 @@ private:
             // null fit leave does not.
             answer_.pValue = std::min(1.0, 2.0 * std::min(answer_.pValue, evidence.chanceOfMisfit(null.misfit)));
         }
-        answer_.otherProbability = std::exp(odds.other);
+        answer_.otherProbability = answer_.otherBesideSet = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
         answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)

@@ -297,7 +297,9 @@ Json jsonOf(const Findings& findings)
     json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.somethingElseInSet;
-    json["somethingElse"] = {{"probability", answer.otherProbability}, {"probabilityNeeded", answer.otherThreshold}};
+    json["somethingElse"] = {
+        {"probability", answer.decision == Decision::unknown ? Json(nullptr) : Json(answer.otherProbability)},
+        {"probabilityNeeded", answer.otherThreshold}};
     json["pValue"] = answer.pValue;
     json["logOdds"] = number(answer.logOdds);
     json["null"] = explanationJson(study, answer.null);

@@ -209,6 +209,12 @@ TEST(Trace, TwoEffectsAtOnce)
     const Answer answer = trace(simulator, library, data, random);
     ASSERT_FALSE(answer.set.empty());
     EXPECT_EQ(answer.set.front().effects, truth);
+    double likely = 0;
+    for (const auto& member : answer.set)
+    {
+        likely += member.probability;
+    }
+    EXPECT_LE(likely + answer.otherBesideSet, 1 + 1e-9) << "these are said together";
     for (const auto& fit : answer.set.front().fits)
     {
         EXPECT_NEAR(fit.amplitude, .8, .3);
