@@ -513,6 +513,10 @@ Evidences Evidence::operator()(const Measured& measured) const
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
+    if (isExact())
+    {
+        evidences.chanceOfMisfit = chanceOfMisfit(null.misfit);
+    }
     return evidences;
 }
 

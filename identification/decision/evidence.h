@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Evidences
     Eigen::VectorXd misfits;        // of the means, as in `Fit`
     Eigen::VectorXd scatterMisfits; // of the spread between repeats, where it is not that of runs without effects
     Eigen::VectorXd peaks;          // log likelihood
+    std::optional<double> chanceOfMisfit =
+        std::nullopt; // of no effect, where runs do not scatter: how often noise alone does it
 };
 
 /// Where an explanation fits best, and how well that is known.

@@ -63,6 +63,25 @@ TEST(Trace, HeldOutDataTellNothing)
     EXPECT_EQ(one.layout.noise(0, 0), other.layout.noise(0, 0));
 }
 
+/// What the data could have shown is found beside the answer and changes nothing of it.
+TEST(Trace, LookingChangesNothing)
+{
+    const auto answerWith = [](bool withVisibility) {
+        Bench bench;
+        std::vector<MeasuredCondition> data(bench.study.conditions.size());
+        for (auto& condition : data)
+        {
+            condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+            condition.declaredError = Eigen::VectorXd::Zero(1);
+        }
+        const Answer answer = trace(bench.simulator, bench.library, data, bench.random, withVisibility);
+        return std::tuple(answer.visibility.detected.size(), answer.logOdds, bench.random());
+    };
+    const auto [seen, logOdds, next] = answerWith(true);
+    EXPECT_EQ(seen, 3);
+    EXPECT_EQ(answerWith(false), std::tuple(0, logOdds, next));
+}
+
 /// Where every run at the null fit fails nothing is left to be compared, and "no residual" would be a lie.
 TEST(Trace, NoAnswerWithoutSimulations)
 {
@@ -111,6 +130,23 @@ TEST(Trace, AMisfitBeyondNoiseIsAResidual)
         {
             EXPECT_NEAR(evidence.chanceOfMisfit(2), 0.4, 0.05) << "as large as there are numbers: nothing odd";
             EXPECT_LT(evidence.chanceOfMisfit(470), 1e-6);
+
+            // The same by the answer and by what could have been seen, whatever draws without any effect look like.
+            Calibration calibration;
+            calibration.nullStatistics.assign(99, 1e9);
+            calibration.critical = 1e9;
+            calibration.membership = calibration.misfits = calibration.scatterMisfits = calibration.naming =
+                Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.effects.size()));
+            Odds odds;
+            odds.chanceOfMisfit = .02;
+            EXPECT_TRUE(isDetected(study, calibration, odds));
+            odds.chanceOfMisfit = .03;
+            EXPECT_FALSE(isDetected(study, calibration, odds)) << "of two questions";
+            std::mt19937_64 random(1);
+            const Measured measured = arrange(study, emulator, data).second;
+            Replicas replicas(emulator, layout, evidence, random);
+            const Visibility seen = visibility(study, evidence, replicas, calibration, measured, random);
+            EXPECT_LT(seen.detected(static_cast<Eigen::Index>(effectOf(study, "y"))), 1);
         }
         else
         {
