@@ -191,6 +191,31 @@ TEST(Trace, NothingMeasuredIsExact)
     EXPECT_NEAR(arrange(study, emulator, data).first.noise(0, 0), noise, 1e-9);
 }
 
+/// What an effect does friction does as well: how far it is open is friction's error, too. Of a standard normal number between
+/// -1.5 and 1.5, which is what an amplitude between 1 and -1 leaves of friction.
+TEST(Trace, ParametersKnowLessBesideTheirLike)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.modelError = Eigen::VectorXd::Constant(1, .001);
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(3, 1) << -2.3036, -2.3026, -2.3016).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(1);
+    }
+    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    const auto [layout, measured] = arrange(study, emulator, data);
+    const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
+    const Fit fit = evidence.fit(effectOf(study, "x"), measured);
+    EXPECT_LT(std::sqrt(fit.covariance(0, 0)), .05) << "at one amplitude";
+    EXPECT_NEAR(std::sqrt(fit.marginal(0, 0)), .743, .05);
+    EXPECT_EQ(evidence.fitNull(measured).marginal, evidence.fitNull(measured).covariance);
+}
+
 /// One effect at a setting, as a member of a set.
 Explanation explanationBy(std::size_t effect, const Setting& setting)
 {

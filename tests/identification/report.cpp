@@ -56,13 +56,13 @@ struct Bench
         answer.null.setting = simulator.plainSetting();
         answer.null.setting.parameters(0) = .2;
         answer.null.fits.resize(1);
-        answer.null.fits.front().covariance = Eigen::MatrixXd::Constant(1, 1, .25);
+        answer.null.fits.front().marginal = Eigen::MatrixXd::Constant(1, 1, .25);
         answer.pValue = .0009995;
         answer.effects.resize(study.effects.size());
         for (auto& finding : answer.effects)
         {
             finding.fit.sd = .1;
-            finding.fit.covariance = Eigen::MatrixXd::Constant(1, 1, .04);
+            finding.fit.marginal = Eigen::MatrixXd::Constant(1, 1, .04);
         }
     }
 
