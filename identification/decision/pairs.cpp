@@ -207,8 +207,8 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
         std::vector<double> improbabilities;
         for (int trial = 0; trial < trials; ++trial)
         {
-            const auto [data, judge] =
-                replicas.draw(drawn(study, pair, random), around(pair.fits.front(), random), random);
+            const Eigen::VectorXd parameters = around(pair.fits.front(), random);
+            const auto [data, judge] = replicas.draw(drawn(study, pair, random), parameters, random);
             const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
             misfits.push_back(own.judgements[i].misfit);
             scatterMisfits.push_back(own.judgements[i].scatterMisfit);

@@ -84,8 +84,9 @@ Eigen::VectorXd coordinatesOf(const Study& study, std::size_t condition)
     return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 }
 
-/// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates.
-std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& answer,
+/// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates; none
+/// where these are missing.
+std::optional<std::vector<Prediction>> withGaussianProcess(const Study& study, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<std::size_t>& conditions,
     std::vector<Prediction> predictions)
 {
@@ -95,7 +96,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
     if (dimensions == 0 || !std::all_of(trained.begin(), trained.end(), same)
         || !std::all_of(conditions.begin(), conditions.end(), same))
     {
-        return predictions;
+        return std::nullopt;
     }
     const Eigen::VectorXd parameters = inSds(study, answer.null.setting.parameters);
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
@@ -295,8 +296,11 @@ private:
         }
         oneMore_ = scored(compared_.back());
         result_.oneMoreParameter = oneMore_.score;
-        result_.gaussianProcess =
-            scored(withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore)).score;
+        if (const auto smooth =
+                withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore))
+        {
+            result_.gaussianProcess = scored(*smooth).score;
+        }
     }
 
     /// What noise alone does to the error of a prediction: one whose mean is what was measured, moved by the draws.

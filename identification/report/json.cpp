@@ -46,6 +46,11 @@ Json heldOutScore(const HeldOutScore& score)
         {"standardError", number(score.rmsLogError.standardError)}, {"crps", estimate(score.crps)}};
 }
 
+Json heldOutScoreOrNull(const std::optional<HeldOutScore>& score)
+{
+    return score ? heldOutScore(*score) : Json(nullptr);
+}
+
 Json parametersOf(const Study& study, const Eigen::VectorXd& values)
 {
     Json json = Json::object();
@@ -192,11 +197,10 @@ Json heldOutJson(const Findings& findings)
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
-    return {{"conditions", names}, {"before", heldOutScore(result.before)},
-        {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
-        {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
-        {"overOneMoreParameter", estimate(result.overOneMore)}, {"noiseFloor", result.noiseFloor},
-        {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
+    return {{"conditions", names}, {"before", heldOutScore(result.before)}, {"after", heldOutScoreOrNull(result.after)},
+        {"oneMoreParameter", oneMore}, {"gaussianProcess", heldOutScoreOrNull(result.gaussianProcess)},
+        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", estimate(result.overOneMore)},
+        {"noiseFloor", result.noiseFloor}, {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
         {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
         {"numbers", heldOutNumbers(study, result)}};
 }

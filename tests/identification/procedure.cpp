@@ -321,6 +321,7 @@ TEST(HeldOut, AcceptsANameThatNothingElseImitates)
     const HeldOutResult named = heldOutOf("y", Decision::named);
     EXPECT_THAT(named.notAcceptedBecause, IsEmpty());
     EXPECT_TRUE(named.accepted());
+    EXPECT_FALSE(named.gaussianProcess) << "these conditions have no coordinates";
     EXPECT_GT(named.overOneMore.value, named.overOneMore.standardError);
     EXPECT_LT(named.after->rmsLogError.value, named.noiseLimit);
     EXPECT_GT(named.before.rmsLogError.value, named.noiseLimit);
