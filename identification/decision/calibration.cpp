@@ -33,7 +33,8 @@ double widthNeeded(const Fit& fit, double amplitude)
     return std::abs(distance) / std::max(own, 1e-12);
 }
 
-/// Weight of an effect: variants of one thing share it.
+} // namespace
+
 double logPrior(const Study& study, std::size_t e)
 {
     const Effect& effect = study.effects[e];
@@ -42,8 +43,6 @@ double logPrior(const Study& study, std::size_t e)
                                                     [&](const Effect& other) { return other.family == effect.family; });
     return std::log(effect.prior / static_cast<double>(variants));
 }
-
-} // namespace
 
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
 {

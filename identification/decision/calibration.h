@@ -97,6 +97,9 @@ private:
 /// Whether there is anything beyond noise.
 bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds);
 
+/// Log weight of an effect: variants of one thing share it.
+double logPrior(const Study& study, std::size_t e);
+
 /// Whether two effects are variants of one thing.
 bool areVariants(const Study& study, std::size_t one, std::size_t other);
 

@@ -154,9 +154,8 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
         {
             if (mayGoTogether(study, evidence, one, other))
             {
-                const double weight = study.effects[one].prior * study.effects[other].prior;
-                weights += weight;
-                pairs.push_back({{one, other}, {}, std::log(weight)});
+                pairs.push_back({{one, other}, {}, logPrior(study, one) + logPrior(study, other)});
+                weights += std::exp(pairs.back().logPrior);
             }
         }
     }

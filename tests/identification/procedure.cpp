@@ -246,6 +246,36 @@ TEST(Trace, NoPairOfWhatUndoesEachOther)
     EXPECT_FALSE(undoEachOther(named("Basset"), setting("1000*a")));
 }
 
+/// Pairs with variants of one thing share the weight of one pair, all of them that of one effect.
+TEST(Trace, PairsOfVariantsShareTheirWeight)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.modelError = Eigen::VectorXd::Constant(1, .01);
+    study.effects.push_back(study.effects.back()); // another clock
+    study.effects[0].family = study.effects[2].family = "rate";
+    LinearRig rig;
+    Simulator simulator(study, rig);
+    const Library library = makeLibrary(simulator);
+    std::vector<MeasuredCondition> data(study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(1);
+    }
+    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    const auto [layout, measured] = arrange(study, emulator, data);
+    Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
+    // x or clock with y or the other clock, or the latter two.
+    const auto pairs = leadingPairs(study, evidence, measured);
+    EXPECT_FALSE(pairs.empty());
+    for (const auto& pair : pairs)
+    {
+        const bool hasVariant = pair.effects != std::vector<std::size_t>{1, 3};
+        EXPECT_NEAR(std::exp(pair.logPrior), hasVariant ? 1 / 6. : 1 / 3., 1e-9);
+    }
+}
+
 /// The mean start is late and the scale drifts: neither alone explains both, and the two are found together.
 TEST(Trace, TwoEffectsAtOnce)
 {
