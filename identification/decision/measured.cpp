@@ -25,6 +25,24 @@ Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
     return features(complete, Eigen::all);
 }
 
+/// A number without any error would be exact, and all that differs from it a residual. \param deviations  of all repeats
+void requireErrors(const Study& study, const MeasuredCondition& data, const std::string& condition,
+    const std::vector<Eigen::Index>& features, const Eigen::MatrixXd& deviations)
+{
+    const Eigen::VectorXd mean = meanFeatures(data.features);
+    for (const auto f : features)
+    {
+        const auto spread = deviations.col(f).array().abs();
+        const bool scatters = (spread.isFinite() && spread > 1e-12 * std::abs(mean(f))).any();
+        if (std::isfinite(mean(f)) && !scatters && data.declaredError(f) == 0.0 && study.modelError(f) == 0.0)
+        {
+            throw std::runtime_error("condition '" + condition + "': '" + study.features[f].name
+                                     + "' would count as exact: nowhere do repeats of it differ, and it has no "
+                                       "relativeError, standardError or modelError");
+        }
+    }
+}
+
 /// Of measurements where the simulator has no noise: from their own repeats, or what was declared.
 Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data, const Emulator& emulator)
 {
@@ -32,7 +50,7 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
     bool declared = true;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
-        if (emulator[c])
+        if (emulator[c] && !data[c].isPlanned)
         {
             repeats.add(data[c].features);
             declared = declared && hasDeclaredErrors(data[c]);
@@ -40,7 +58,15 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
     }
     if (repeats.degreesOfFreedom() >= 2.0)
     {
-        return pooledCovariance(repeats.deviations(), repeats.degreesOfFreedom());
+        const Eigen::MatrixXd deviations = repeats.deviations();
+        for (std::size_t c = 0; c < data.size(); ++c)
+        {
+            if (emulator[c] && !data[c].isPlanned)
+            {
+                requireErrors(study, data[c], study.conditions[c].name, emulator[c]->features, deviations);
+            }
+        }
+        return pooledCovariance(deviations, repeats.degreesOfFreedom());
     }
     if (!declared)
     {

@@ -16,6 +16,7 @@ struct MeasuredCondition
     Eigen::MatrixXd features;      // one repeat per row; NaN: missing
     Eigen::VectorXd declaredError; // standard error of the mean beyond the scatter of repeats, by feature
     std::vector<Curve> curves;     // as measured, SI
+    bool isPlanned = false;        // not measured yet
 };
 
 /// Looks at every measured file before anything is run: its columns, numbers, and that time does not go back. Of training
