@@ -16,16 +16,21 @@ namespace clepsydra
 // OpenFOAM's macros for run-time selection are written for code inside its namespace.
 using namespace Foam;
 
-/// The model that an entry of a dictionary names; FatalIOError with the file, the entry and the known names where it
-/// names none of them.
-inline word selectedModel(const dictionary& dict, const word& entry, const wordList& known)
+/// FatalIOError with the file, the entry and the known names for the name of a model that is none of them.
+inline void requireKnownName(const dictionary& dict, const word& entry, const word& name, const wordList& known)
 {
-    word name = dict.get<word>(entry);
     if (!known.found(name))
     {
         FatalIOErrorInFunction(dict) << "Unknown " << entry << " '" << name << "'" << didYouMean(name, known).c_str()
                                      << "; allowed: " << flatOutput(known) << exit(FatalIOError);
     }
+}
+
+/// The model that an entry of a dictionary names, one of those known.
+inline word selectedModel(const dictionary& dict, const word& entry, const wordList& known)
+{
+    word name = dict.get<word>(entry);
+    requireKnownName(dict, entry, name, known);
     return name;
 }
 

@@ -21,7 +21,7 @@ using namespace clepsydra::identification;
 
 struct Arguments
 {
-    fs::path study;
+    fs::path study = "study.yaml";
     fs::path folder;
     fs::path caseFolder;
     std::vector<fs::path> measured;
@@ -80,7 +80,7 @@ int main(int argc, char** argv)
     drafting->add_option("measured", arguments.measured, "CSV files, or folders of them")
         ->required()
         ->check(CLI::ExistingPath);
-    drafting->add_option("--output", arguments.study, "file to make; default: <name of the case>.study.yaml here");
+    drafting->add_option("--output", arguments.study, "file to make; default: study.yaml here");
     auto* planning =
         app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
     planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);

@@ -9,6 +9,8 @@ from vtk.util.numpy_support import vtk_to_numpy
 def writtenTimes(case):
     """{time: file} of the case's beads."""
     collection = case / "VTK" / "beads.pvd"
+    if not collection.exists():
+        raise SystemExit(f"{collection}: there is no such file: was the run made with drawBeads off?")
     return {float(item.get("timestep")): collection.parent / item.get("file")
             for item in ElementTree.parse(collection).iter("DataSet")}
 

@@ -10,6 +10,7 @@ usage: parameterFile.py get FILE NAME              its value, $name replaced, #e
 """
 
 import difflib
+import inspect
 import math
 import re
 import sys
@@ -131,6 +132,9 @@ def get(path, name):
 
 
 def setValues(path, *wishes):
+    for wish in wishes:
+        if "=" not in wish:
+            raise ParameterError(f"'{wish}' sets nothing; allowed: NAME=VALUE")
     change(path, dict(wish.split("=", 1) for wish in wishes))
 
 
@@ -169,6 +173,9 @@ def evaluate(expression):
 if __name__ == "__main__":
     commands = {"get": get, "set": setValues, "merge": merge, "numbers": numbers, "differences": differences,
                 "evaluate": evaluate}
-    if len(sys.argv) < 3 or sys.argv[1] not in commands:
+    try:
+        command = commands[sys.argv[1]]
+        inspect.signature(command).bind(*sys.argv[2:])
+    except (IndexError, KeyError, TypeError):
         sys.exit(__doc__)
-    commands[sys.argv[1]](*sys.argv[2:])
+    command(*sys.argv[2:])

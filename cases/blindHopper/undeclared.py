@@ -107,7 +107,7 @@ def replace(path, old, new):
 
 #--- All of them ------------------------------------------------------------------------------------------------------
 
-# In the library: those that shared/closing_loop.md, sections 4 and 5, expects to change a rate by 3 % or more.
+# In the library: those that were expected, when the project began, to change a rate by 3 % or more.
 EFFECTS = [
     Undeclared("wallFriction", True, "the cylinder rubs more",
                entries=lambda p, a: {"frictionWall": p["frictionWall"] + 0.35 * a}),

@@ -51,15 +51,23 @@ fileNameList partsOf(const fileName& caseDirectory)
     return parts;
 }
 
-/// The name of the time of the fresh start; empty before there was one.
-word beginningOf(const fileName& folder)
+/// The time of the fresh start; without a name before there was one. Collective.
+instant beginningOf(const fileName& folder)
 {
+    const fileName file = folder / beginningName;
     string line;
-    if (isFile(folder / beginningName))
+    if (Pstream::master() && isFile(file))
     {
-        IFstream(folder / beginningName).getLine(line);
+        IFstream(file).getLine(line);
     }
-    return word(line);
+    Pstream::scatter(line);
+    scalar value = 0;
+    if (!line.empty() && !readScalar(line, value))
+    {
+        FatalErrorInFunction << file << " holds '" << line.c_str() << "'; allowed: the time of the fresh start"
+                             << exit(FatalError);
+    }
+    return {value, line};
 }
 
 /// This rank's part of the case, as names in a manifest begin: "" or "processor1/".
@@ -122,21 +130,23 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
 /// what is left of those that they were made from must be as it was written.
 std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Manifest& manifest)
 {
-    const std::string timeFolder = manifest.time + '/';
     for (const Manifest::File& file : manifest.files)
     {
         if (isBeadsFile(file))
         {
             continue;
         }
-        if (Pstream::master() && fs::exists(caseDirectory / file.name))
+        const bool ofRank = startsWith(file.name, "processor");
+        // From several ranks to several: decomposePar has put another file in its place.
+        const bool replaced = ofRank && Pstream::parRun();
+        if (Pstream::master() && !replaced && fs::exists(caseDirectory / file.name))
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
                 return found;
             }
         }
-        const std::string name = partPrefix() + file.name.substr(file.name.find(timeFolder));
+        const std::string name = partPrefix() + file.name.substr(ofRank ? file.name.find('/') + 1 : 0);
         std::error_code missing;
         if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
         {
@@ -170,8 +180,8 @@ std::string damageOf(const fileName& caseDirectory, const std::string& timeName,
     return firstOfRanks(found);
 }
 
-/// Times that a run has written, the latest first; without the fresh start's. Collective: the same on all ranks.
-wordList writtenTimes(const fileName& caseDirectory, const word& beginning)
+/// Times that a run has written, those after its fresh start, the latest first. Collective: the same on all ranks.
+wordList writtenTimes(const fileName& caseDirectory, scalar beginning)
 {
     wordList names;
     if (Pstream::master())
@@ -181,7 +191,7 @@ wordList writtenTimes(const fileName& caseDirectory, const word& beginning)
         {
             for (const instant& time : Time::findTimes(part))
             {
-                if (time.name() != "constant" && time.name() != beginning)
+                if (time.name() != "constant" && time.value() > beginning)
                 {
                     times.emplace(time.value(), time.name());
                 }
@@ -214,6 +224,19 @@ bool startsFromLatestTime(const fileName& caseDirectory)
 {
     IFstream file(caseDirectory / "system/controlDict");
     return dictionary(file).getOrDefault<word>("startFrom", "latestTime") == "latestTime";
+}
+
+/// OpenFOAM's purgeWrite has removed the other half of these checkpoints.
+void removeBeadsWithoutFields(const fileName& caseDirectory)
+{
+    const fileNameList parts = partsOf(caseDirectory);
+    for (const fileName& time : readDir(caseDirectory / folderName, fileName::DIRECTORY))
+    {
+        if (std::none_of(parts.begin(), parts.end(), [&](const fileName& part) { return isDir(part / time); }))
+        {
+            rmDir(caseDirectory / folderName / time);
+        }
+    }
 }
 
 /// A FoamFile ends with a line that nothing is written after: where it is missing, the disk was full.
@@ -256,7 +279,8 @@ std::string linesOfThisRank(
     {
         if (entry.is_regular_file())
         {
-            names.push_back(fs::relative(entry.path(), caseDirectory));
+            // Not fs::relative, which would resolve a processor folder that is a link to elsewhere.
+            names.push_back(entry.path().lexically_relative(caseDirectory));
         }
     }
     names.insert(names.end(), beads.begin(), beads.end());
@@ -277,15 +301,14 @@ void Checkpoints::setAsideUnusable(const argList& args)
 {
     const fileName caseDirectory = args.globalPath();
     const fileName folder = caseDirectory / folderName;
-    word beginning = beginningOf(folder);
-    Pstream::scatter(beginning);
-    if (beginning.empty())
+    const instant beginning = beginningOf(folder);
+    if (beginning.name().empty())
     {
         return;
     }
 
     wordList usable;
-    for (const word& time : writtenTimes(caseDirectory, beginning))
+    for (const word& time : writtenTimes(caseDirectory, beginning.value()))
     {
         if (returnReduce(isFile(folder / time / completeName), orOp<bool>()))
         {
@@ -340,15 +363,14 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
     }
 
     const fileName folder = time.globalPath() / folderName;
-    word beginning = beginningOf(folder);
-    Pstream::scatter(beginning);
+    const instant beginning = beginningOf(folder);
     const word start = time.timeName();
-    if (beginning.empty() || beginning == start)
+    if (beginning.name().empty() || beginning.name() == start)
     {
         startAfresh(writes);
         return;
     }
-    beginning_ = std::stod(beginning);
+    beginning_ = beginning.value();
     Manifest manifest;
     const std::string damage = damageOf(time.globalPath(), start, manifest);
     if (!damage.empty())
@@ -356,7 +378,7 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
         FatalErrorInFunction << "There is no whole checkpoint of time " << start << ": " << damage.c_str()
                              << "\nThere are those of the times " << flatOutput(readDir(folder, fileName::DIRECTORY))
                              << ": choose one by startTime in system/controlDict, or startFrom latestTime. To start "
-                             << "afresh remove the folder " << folder << " and all times after " << beginning
+                             << "afresh remove the folder " << folder << " and all times after " << beginning.name()
                              << exit(FatalError);
     }
     const fs::path oldBeads = beadsOf(start) / oldBeadsName;
@@ -456,6 +478,10 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         FatalErrorInFunction << "The checkpoint of time " << timeName << " could not be written: " << problem.c_str()
                              << "\nThe same command goes on from the checkpoint before" << exit(FatalError);
+    }
+    if (Pstream::master() && time_.controlDict().getOrDefault<label>("purgeWrite", 0) > 0)
+    {
+        removeBeadsWithoutFields(time_.globalPath());
     }
 }
 

@@ -27,7 +27,12 @@ void RunTime::resume(double beginning)
     requireWholeState();
     value() = written.get<scalar>("value");
     beginning_ = beginning;
-    writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
+    // With adjustableInterval that of controlDict is only the first, and may reach beyond the next write time or the end.
+    setDeltaT(written.get<scalar>("deltaT"), false);
+    if (writesByTime())
+    {
+        writeTimeIndex_ = static_cast<label>((value() - beginning_ + 0.5 * deltaT_) / writeInterval_);
+    }
 }
 
 void RunTime::requireWholeState() const
@@ -63,10 +68,14 @@ bool RunTime::loop(double step)
     return loop();
 }
 
+bool RunTime::writesByTime() const
+{
+    return writeControl_ == wcRunTime || writeControl_ == wcAdjustableRunTime;
+}
+
 double RunTime::timeLeft() const
 {
-    const bool writesByTime = writeControl_ == wcRunTime || writeControl_ == wcAdjustableRunTime;
-    const double toWrite = writesByTime ? beginning_ + (writeTimeIndex_ + 1) * writeInterval_ - value() : VGREAT;
+    const double toWrite = writesByTime() ? beginning_ + (writeTimeIndex_ + 1) * writeInterval_ - value() : VGREAT;
     return atEnd() ? toWrite : std::min(toWrite, endTime_ - value());
 }
 

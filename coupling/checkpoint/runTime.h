@@ -49,6 +49,8 @@ public:
 
 private:
     void requireWholeState() const;
+    /// Not by steps or wall time.
+    bool writesByTime() const;
 
     double beginning_;
 };

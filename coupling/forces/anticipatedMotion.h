@@ -25,8 +25,9 @@ struct AnticipatedMotion
 ///
 ///     following = 1 - b,    mobility = dt (1 - b)/(x m)
 ///
-/// The drag's impulse would be m (1 - exp(-x)) (U - v) for a bead that nothing holds, and is K dt (U - v), which is more,
-/// for one that contacts hold. What share was held is read from the last interval: the part of the impulse that the
+/// The drag's impulse would be m (1 - exp(-K dt/m)) (U - v) for a bead that nothing holds, here with the bead's own mass
+/// alone: in long intervals that is the drag's less what the added mass hands back. It is K dt (U - v), which is more, for
+/// one that contacts hold. What share was held is read from the last interval: the part of the impulse that the
 /// bead's own momentum did not take up. A bead whose velocity is the same to the last bit is held fast by the engine.
 ///
 /// \param given  of the last interval

@@ -1,5 +1,6 @@
 #include "forces/beadForces.h"
 
+#include "HashSet.H"
 #include "wordList.H"
 
 #include <algorithm>
@@ -45,8 +46,15 @@ BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidPr
     : timers_(timers),
       modelType_(readModelType(couplingProperties))
 {
+    Foam::wordHashSet names;
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
+        if (!names.insert(name))
+        {
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry 'forceModels' lists '" << name << "' twice; allowed: each force once"
+                << Foam::exit(Foam::FatalIOError);
+        }
         const bool memoryTaken = needs().memory > 0;
         models_.append(ForceModel::New(name, couplingProperties, fluid).ptr());
         if (modelType_ == ModelType::B && models_.last().onlyInModelA())

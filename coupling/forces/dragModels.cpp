@@ -89,23 +89,12 @@ private:
     const DragOfMany law_;
 };
 
-template<class Law>
-struct Register : ForceModel::adddictionaryConstructorToTable<Drag<Law>>
-{
-    Register()
-        : ForceModel::adddictionaryConstructorToTable<Drag<Law>>(Law::name),
-          line("forceModels", {{Law::name, Law::line}})
-    {}
-
-    const ModelLines line;
-};
-
 /// Makes every law known under its own name.
 template<class Laws>
 struct RegisterEach;
 
 template<class... Laws>
-struct RegisterEach<std::tuple<Laws...>> : Register<Laws>...
+struct RegisterEach<std::tuple<Laws...>> : RegisterLaw<Drag, Laws>...
 {};
 
 const RegisterEach<closures::DragLaws> allLaws;

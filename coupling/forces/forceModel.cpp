@@ -20,15 +20,8 @@ void ForceSum::setZero(Eigen::Index beadCount)
 Foam::autoPtr<ForceModel> ForceModel::New(
     const Foam::word& name, const Foam::dictionary& couplingProperties, const FluidProperties& fluid)
 {
-    const auto constructor = dictionaryConstructorTablePtr_->cfind(name);
-    if (!constructor.found())
-    {
-        FatalIOErrorInFunction(couplingProperties)
-            << "Unknown model '" << name
-            << "' in entry 'forceModels'; allowed: " << Foam::flatOutput(dictionaryConstructorTablePtr_->sortedToc())
-            << Foam::exit(Foam::FatalIOError);
-    }
-    return (*constructor)(couplingProperties.subOrEmptyDict(name + "Props"), fluid);
+    requireKnownName(couplingProperties, "forceModels", name, dictionaryConstructorTablePtr_->sortedToc());
+    return (*dictionaryConstructorTablePtr_)[name](couplingProperties.subOrEmptyDict(name + "Props"), fluid);
 }
 
 } // namespace clepsydra

@@ -81,4 +81,16 @@ public:
     virtual Foam::string description() const = 0;
 };
 
+/// Makes a law of closures/ known under its own name, as a force model.
+template<template<class> class Model, class Law>
+struct RegisterLaw : ForceModel::adddictionaryConstructorToTable<Model<Law>>
+{
+    RegisterLaw()
+        : ForceModel::adddictionaryConstructorToTable<Model<Law>>(Law::name),
+          line("forceModels", {{Law::name, Law::line}})
+    {}
+
+    const ModelLines line;
+};
+
 } // namespace clepsydra

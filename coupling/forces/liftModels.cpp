@@ -52,17 +52,8 @@ private:
     const FluidProperties fluid_;
 };
 
-/// Makes a law known under its own name.
 template<class Law>
-struct Register : ForceModel::adddictionaryConstructorToTable<Lift<Law>>
-{
-    Register()
-        : ForceModel::adddictionaryConstructorToTable<Lift<Law>>(Law::name),
-          line("forceModels", {{Law::name, Law::line}})
-    {}
-
-    const ModelLines line;
-};
+using Register = RegisterLaw<Lift, Law>;
 
 // Adding a lift law to the program is one line here.
 const Register<closures::RubinowKellerLift> rubinowKeller;

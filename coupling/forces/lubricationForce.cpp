@@ -86,8 +86,10 @@ private:
             requireStable(coefficient, beads.mass[first], sum.timeStep);
             const Vector3d force = coefficient * approach * normal;
             sum.mutual.col(first) -= force;
+            // Otherwise another rank's, which sees it first.
             if (second < beads.size())
             {
+                requireStable(coefficient, beads.mass[second], sum.timeStep);
                 sum.mutual.col(second) += force;
             }
         }

@@ -25,11 +25,11 @@ public:
     VirtualMassForce(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluidDensity_(fluid.density)
     {
-        requireKnownEntries(coefficients, {"law", "Cadd"});
         if (coefficients.found("law"))
         {
             zuber_ = selectedModel(coefficients, "law", laws.names()) == "Zuber";
         }
+        requireKnownEntries(coefficients, zuber_ ? wordList({"law"}) : wordList({"law", "Cadd"}));
         if (coefficients.found("Cadd"))
         {
             coefficient_ = positiveEntry(coefficients, "Cadd", true);

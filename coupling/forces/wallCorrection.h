@@ -25,12 +25,11 @@ inline const ModelLines wallCorrections("<drag law>Props { wallCorrection { law 
 class WallCorrection
 {
 public:
-    /// FatalIOError for an unknown law and for a tube or walls that are missing.
+    /// FatalIOError for a law that is unknown or, beside other entries, missing, and for a tube or walls that are missing.
     explicit WallCorrection(const Foam::dictionary& dict)
     {
         requireKnownEntries(dict, {"law", "tubeDiameter", "walls"});
-        const Foam::word law =
-            dict.found("law") ? selectedModel(dict, "law", wallCorrections.names()) : Foam::word("none");
+        const Foam::word law = dict.empty() ? Foam::word("none") : selectedModel(dict, "law", wallCorrections.names());
         if (law == "DiFelice1996")
         {
             tubeDiameter_ = positiveEntry(dict, "tubeDiameter");
@@ -69,13 +68,21 @@ public:
         return !planes_.empty();
     }
 
-    /// By how much more slip a free bead would have the same drag [m/s].
+    /// By how much more slip a free bead would have the same drag [m/s]. FatalError for a bead behind a plane.
     Vector3d addedSlip(const Vector3d& slip, const Vector3d& position, double radius) const
     {
         Vector3d added = Vector3d::Zero();
         for (const WallPlane& plane : planes_)
         {
             const double distance = plane.distance(position);
+            if (distance < 0)
+            {
+                FatalErrorInFunction << "The centre of a bead at " << toFoam(position) << " m is " << -distance
+                                     << " m behind wallCorrection's plane through " << toFoam(plane.point)
+                                     << " with the normal " << toFoam(plane.normal)
+                                     << "; allowed: planes whose normal points to the beads"
+                                     << Foam::exit(Foam::FatalError);
+            }
             const double lambda = radius / std::max(radius, distance);
             const double gap = std::max(distance / radius - 1, lubricatedGap);
             const Vector3d across = plane.normal.dot(slip) * plane.normal;

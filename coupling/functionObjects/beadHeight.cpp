@@ -55,7 +55,9 @@ bool BeadHeight::read(const dictionary& dict)
 
     stopBelow_ = dict.getOrDefault<scalar>("stopBelow", -GREAT);
     bead_ = dict.getOrDefault<label>("bead", 1);
-    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    gone_ = false;
+    // Later, and in a resumed run, it may have left.
+    if (time_.timeIndex() == 0 && mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
     {
         const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
         if (!returnReduce((beads.id == bead_).any(), orOp<bool>()))
@@ -79,6 +81,7 @@ void BeadHeight::sample()
     // One rank has the bead, the others add nothing.
     scalar height = 0;
     scalar velocity = 0;
+    bool found = false;
     const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
     for (Eigen::Index i = 0; i < beads.size(); ++i)
     {
@@ -86,7 +89,18 @@ void BeadHeight::sample()
         {
             height = axis_.dot(beads.position.col(i));
             velocity = axis_.dot(beads.velocity.col(i));
+            found = true;
         }
+    }
+    reduce(found, orOp<bool>());
+    if (!found)
+    {
+        if (!gone_)
+        {
+            Info << name() << ": bead " << bead_ << " is no longer there, no more rows" << endl;
+        }
+        gone_ = true;
+        return;
     }
     reduce(height, sumOp<scalar>());
     reduce(velocity, sumOp<scalar>());

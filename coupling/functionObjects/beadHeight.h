@@ -20,10 +20,10 @@ namespace clepsydra
 ///     }
 ///
 /// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s], a row per
-/// execution (executeControl, executeInterval) and one at the start. A restart continues in a folder of its own start
-/// time.
+/// execution (executeControl, executeInterval) and one at the start, until the bead has left. A restart continues in a folder
+/// of its own start time.
 ///
-/// FatalIOError where there is no such bead or the axis is zero.
+/// FatalIOError where there is no such bead at a fresh start, or the axis is zero.
 class BeadHeight : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
 {
 public:
@@ -48,6 +48,7 @@ private:
     Foam::label bead_ = 1;
     Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
     Foam::scalar stopBelow_ = -Foam::GREAT;
+    bool gone_ = false;
 };
 
 } // namespace clepsydra

@@ -136,10 +136,12 @@ bool MassInHopper::read(const dictionary& dict)
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
     sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
-    if (sampleInterval_ > 0 && sampleInterval_ < time_.deltaTValue() * (1 - roundingOfTime))
+    // Not the last interval, which may be longer with adjustableInterval: what a fresh start takes, a resumed run takes.
+    const auto timeStep = time_.controlDict().get<scalar>("deltaT");
+    if (sampleInterval_ > 0 && sampleInterval_ < timeStep * (1 - roundingOfTime))
     {
         FatalIOErrorInFunction(dict) << "Entry 'sampleInterval' is " << sampleInterval_
-                                     << " s; allowed: at least the time step, " << time_.deltaTValue() << " s"
+                                     << " s; allowed: at least the time step, " << timeStep << " s"
                                      << exit(FatalIOError);
     }
     return true;

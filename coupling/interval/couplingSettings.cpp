@@ -91,10 +91,8 @@ void CouplingSettings::readChoices()
                                       << " models; allowed: one of (implicitCouple explicitCouple)"
                                       << exit(FatalIOError);
     }
-    // The name with the file's path, for the message.
-    dictionary choice(static_cast<const dictionary&>(dict_).name());
-    choice.add("momCoupleModels", momentumModels.first());
-    implicitCoupling_ = selectedModel(choice, "momCoupleModels", momentumCouplings.names()) == "implicitCouple";
+    requireKnownName(dict_, "momCoupleModels", momentumModels.first(), momentumCouplings.names());
+    implicitCoupling_ = momentumModels.first() == "implicitCouple";
 
     const dictionary voidFractionProps = dict_.subOrEmptyDict(dict_.get<word>("voidFractionModel") + "Props");
     if (voidFractionProps.found("alphaMin"))
@@ -105,7 +103,20 @@ void CouplingSettings::readChoices()
 
 void CouplingSettings::readAdjustableInterval()
 {
-    if (!dict_.getOrDefault<Switch>("adjustableInterval", false))
+    if (!dict_.found("adjustableInterval"))
+    {
+        for (const word entry : {"maxCo", "minInterval", "maxInterval"})
+        {
+            if (dict_.found(entry))
+            {
+                FatalIOErrorInFunction(dict_)
+                    << "Entry '" << entry << "' has no effect without 'adjustableInterval'; "
+                    << "allowed: together with adjustableInterval yes (or no)" << exit(FatalIOError);
+            }
+        }
+        return;
+    }
+    if (!dict_.get<Switch>("adjustableInterval"))
     {
         return;
     }

@@ -250,6 +250,12 @@ void RunOutput::finish()
              << nl;
     }
     Info << endl;
+    if (scratch_ && !firstIntervalSeconds_)
+    {
+        Info << "Dry run: the case is at its end, " << time_.value() << " s: there is no interval to try. Nothing was "
+             << "written" << nl << endl;
+        return;
+    }
     if (scratch_)
     {
         const memInfo memory;

@@ -14,10 +14,13 @@ class ScratchFolder
 public:
     ScratchFolder()
     {
-        std::string pattern = (std::filesystem::temp_directory_path() / "pimpleDemFoam.XXXXXX").string();
-        if (!mkdtemp(pattern.data()))
+        std::error_code problem;
+        std::string pattern = (std::filesystem::temp_directory_path(problem) / "pimpleDemFoam.XXXXXX").string();
+        if (problem || !mkdtemp(pattern.data()))
         {
-            throw std::runtime_error("cannot make the folder " + pattern);
+            const char* const asked = std::getenv("TMPDIR");
+            throw std::runtime_error("cannot make a temporary folder; TMPDIR is '" + std::string(asked ? asked : "")
+                                     + "', allowed: a folder that can be written to");
         }
         path_ = pattern;
     }

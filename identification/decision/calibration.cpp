@@ -33,7 +33,8 @@ double widthNeeded(const Fit& fit, double amplitude)
     return std::abs(distance) / std::max(own, 1e-12);
 }
 
-/// Weight of an effect: variants of one thing share it.
+} // namespace
+
 double logPrior(const Study& study, std::size_t e)
 {
     const Effect& effect = study.effects[e];
@@ -42,8 +43,6 @@ double logPrior(const Study& study, std::size_t e)
                                                     [&](const Effect& other) { return other.family == effect.family; });
     return std::log(effect.prior / static_cast<double>(variants));
 }
-
-} // namespace
 
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random)
 {
@@ -92,7 +91,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     all(count) = peaks(count) = evidences.other;
     const double sum = logSumExp(all);
     return {sum - evidences.null, logSumExp(peaks) - evidences.null, (all.head(count).array() - sum).matrix(),
-        all(count) - sum, evidences.misfits, evidences.scatterMisfits};
+        all(count) - sum, evidences.misfits, evidences.scatterMisfits, evidences.chanceOfMisfit};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)
@@ -154,10 +153,19 @@ std::optional<std::size_t> soleMember(const Study& study, const Calibration& cal
     return best <= inVariants + rounding ? std::optional(members.front()) : std::nullopt;
 }
 
-double Calibration::pValue(double statistic) const
+double Calibration::pValue(const Odds& odds) const
 {
-    const auto above = nullStatistics.end() - std::lower_bound(nullStatistics.begin(), nullStatistics.end(), statistic);
-    return (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
+    const auto above =
+        nullStatistics.end() - std::lower_bound(nullStatistics.begin(), nullStatistics.end(), odds.statistic);
+    const double ofStatistic = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
+    // Two questions. Draws lie anywhere where no run was made, and then look as odd as any data; what the runs at the null fit
+    // leave does not.
+    return odds.chanceOfMisfit ? std::min(1.0, 2.0 * std::min(ofStatistic, *odds.chanceOfMisfit)) : ofStatistic;
+}
+
+bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds)
+{
+    return calibration.pValue(odds) < study.settings.level;
 }
 
 Fit Calibration::widened(std::size_t effect, Fit fit, const Bounds& bounds) const
@@ -227,7 +235,7 @@ void Calibrator::drawEffects()
             const auto [data, judge] = replicas_.draw({{e, amplitude}}, around(fit, random_), random_);
             const Evidences evidences = judge(data);
             const Odds odds = oddsOf(study_, evidences);
-            if (odds.statistic > calibration_.critical)
+            if (isDetected(study_, calibration_, odds))
             {
                 detected_.push_back({e, odds, oddsOf(study_, evidences, e)});
                 widths.push_back(widthNeeded(judge.fit(e, data), amplitude));
@@ -247,7 +255,7 @@ void Calibrator::drawOther()
         const double size = sizes[static_cast<std::size_t>(i) % sizes.size()];
         const auto [data, judge] = replicas_.drawOther(size, around(fit, random_), random_);
         const Odds odds = oddsOf(study_, judge(data));
-        if (odds.statistic > calibration_.critical)
+        if (isDetected(study_, calibration_, odds))
         {
             detected_.push_back({study_.effects.size(), odds, odds});
         }

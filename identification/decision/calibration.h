@@ -21,6 +21,7 @@ struct Odds
     double other = 0.0;      // the same of something else
     Eigen::VectorXd misfits; // of each effect where it is likeliest, as in `Evidences`
     Eigen::VectorXd scatterMisfits;
+    std::optional<double> chanceOfMisfit; // as in `Evidences`
 };
 
 /// Thresholds of the decision, from trials in known worlds with this data set's own numbers of repeats: no runs.
@@ -37,7 +38,7 @@ struct Calibration
     double otherMembership = 0.0; // as membership, for what is not in the library
     double wrongNames = 0.0;      // of detected foils, at these thresholds
 
-    double pValue(double statistic) const;
+    double pValue(const Odds& odds) const;
 
     /// A fit of an effect with the interval that holds its amplitude as often as it says.
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
@@ -92,6 +93,12 @@ private:
     std::vector<Draw> detected_;
     Calibration calibration_;
 };
+
+/// Whether there is anything beyond noise.
+bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds);
+
+/// Log weight of an effect: variants of one thing share it.
+double logPrior(const Study& study, std::size_t e);
 
 /// Whether two effects are variants of one thing.
 bool areVariants(const Study& study, std::size_t one, std::size_t other);

@@ -394,7 +394,8 @@ Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measur
 {
     const auto rows = explanation.grids.size() > 1 ? explanation.grids.back().amplitudes().size() : 1;
     const auto columns = explanation.grids.front().amplitudes().size();
-    AtNodes found{Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns), Eigen::MatrixXd(rows, columns)};
+    const Eigen::MatrixXd empty(rows, columns);
+    AtNodes found{empty, empty, empty, Eigen::MatrixXd(study_.parameters.size(), rows * columns)};
     for (Eigen::Index i = 0; i < found.misfits.size(); ++i)
     {
         const Node& node = explanation.nodes[i];
@@ -403,6 +404,7 @@ Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measur
         found.misfits(i) = solution.misfit;
         found.volumes(i) = solution.logVolume + spread.logLikelihood;
         found.scatterMisfits(i) = spread.misfit;
+        found.parameters.col(i) = solution.parameters;
     }
     return found;
 }
@@ -411,7 +413,7 @@ Evidence::Posterior Evidence::over(
     const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const
 {
     Posterior posterior;
-    std::vector<Eigen::MatrixXd> weights;
+    auto& weights = posterior.weights;
     double logCell = 0.0;
     for (std::size_t k = 0; k < looked.size(); ++k)
     {
@@ -428,14 +430,10 @@ Evidence::Posterior Evidence::over(
         }
         logCell += effect.isSwitch ? 0.0 : std::log(cell / (effect.bounds.upper - effect.bounds.lower));
     }
-    const auto interpolated = [&](const Eigen::MatrixXd& atNodes) -> Eigen::MatrixXd {
-        const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
-        return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
-    };
     // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
     // likelihood is; the likelihood itself it would not.
-    const Eigen::MatrixXd misfit = interpolated(nodes.misfits);
-    const Eigen::MatrixXd volume = interpolated(nodes.volumes);
+    const Eigen::MatrixXd misfit = posterior.interpolated(nodes.misfits);
+    const Eigen::MatrixXd volume = posterior.interpolated(nodes.volumes);
     posterior.logs.resize(misfit.rows(), misfit.cols());
     for (Eigen::Index i = 0; i < misfit.size(); ++i)
     {
@@ -445,7 +443,7 @@ Evidence::Posterior Evidence::over(
     Eigen::Index column = 0;
     const double highest = posterior.logs.maxCoeff(&row, &column);
     posterior.judgement = {logSumExp(posterior.logs.reshaped()), misfit(row, column),
-        interpolated(nodes.scatterMisfits)(row, column), highest - logCell};
+        posterior.interpolated(nodes.scatterMisfits)(row, column), highest - logCell};
     return posterior;
 }
 
@@ -473,17 +471,21 @@ std::vector<Bounds> Evidence::likelyPart(const Posterior& posterior, const std::
     return part;
 }
 
-Evidence::Posterior Evidence::posterior(
-    const Explanation& explanation, const Measured& measured, const Spread& usual) const
+Eigen::MatrixXd Evidence::Posterior::interpolated(const Eigen::MatrixXd& atNodes) const
 {
-    const AtNodes nodes = atNodes(explanation, measured, usual);
+    const Eigen::MatrixXd byFirst = weights.front() * atNodes.transpose();
+    return weights.size() > 1 ? Eigen::MatrixXd(byFirst * weights.back().transpose()) : byFirst;
+}
+
+Evidence::Posterior Evidence::posterior(const Explanation& explanation, const AtNodes& nodes) const
+{
     const auto ranges = mapped(explanation.effects, [&](std::size_t e) { return study_.effects[e].bounds; });
     return over(explanation, nodes, likelyPart(over(explanation, nodes, ranges), ranges));
 }
 
 Evidence::Judgement Evidence::judge(const Explanation& explanation, const Measured& measured) const
 {
-    return posterior(explanation, measured, spreadOf(null_, measured)).judgement;
+    return posterior(explanation, atNodes(explanation, measured, spreadOf(null_, measured))).judgement;
 }
 
 Evidences Evidence::operator()(const Measured& measured) const
@@ -500,7 +502,7 @@ Evidences Evidence::operator()(const Measured& measured) const
     {
         if (!effects_[e].nodes.empty())
         {
-            const Judgement found = posterior(effects_[e], measured, usual).judgement;
+            const Judgement found = posterior(effects_[e], atNodes(effects_[e], measured, usual)).judgement;
             evidences.effects(e) = found.logEvidence;
             evidences.misfits(e) = found.misfit;
             evidences.scatterMisfits(e) = found.scatterMisfit;
@@ -508,6 +510,10 @@ Evidences Evidence::operator()(const Measured& measured) const
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
+    if (isExact())
+    {
+        evidences.chanceOfMisfit = chanceOfMisfit(null.misfit);
+    }
     return evidences;
 }
 

@@ -6,6 +6,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <random>
 #include <vector>
 
@@ -23,6 +24,8 @@ struct Evidences
     Eigen::VectorXd misfits;        // of the means, as in `Fit`
     Eigen::VectorXd scatterMisfits; // of the spread between repeats, where it is not that of runs without effects
     Eigen::VectorXd peaks;          // log likelihood
+    std::optional<double> chanceOfMisfit =
+        std::nullopt; // of no effect, where runs do not scatter: how often noise alone does it
 };
 
 /// Where an explanation fits best, and how well that is known.
@@ -33,7 +36,8 @@ struct Fit
     double lower = 0.0; // 95 % of the posterior
     double upper = 0.0;
     Eigen::VectorXd parameters; // in prior sd, from the prior's mean
-    Eigen::MatrixXd covariance; // of these
+    Eigen::MatrixXd covariance; // of these, at this amplitude
+    Eigen::MatrixXd marginal;   // the same over all amplitudes: what they take from each other, too
     double misfit = 0.0;        // sum of squares in units of noise, the parameters' priors included
 };
 
@@ -188,10 +192,12 @@ private:
     struct Posterior
     {
         std::vector<Eigen::VectorXd> amplitudes; // by effect, evenly spaced
+        std::vector<Eigen::MatrixXd> weights;    // of the nodes there
         Eigen::MatrixXd logs;                    // with the prior
         Judgement judgement;
+
+        Eigen::MatrixXd interpolated(const Eigen::MatrixXd& atNodes) const;
     };
-    Posterior posterior(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
 
     /// What is interpolated between nodes: rows for the second effect's amplitudes, columns for the first's.
     struct AtNodes
@@ -199,10 +205,12 @@ private:
         Eigen::MatrixXd misfits;
         Eigen::MatrixXd volumes; // log likelihood, what is no misfit
         Eigen::MatrixXd scatterMisfits;
+        Eigen::MatrixXd parameters; // by column: a node's
     };
     AtNodes atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
     /// \param looked  by effect: where
     Posterior over(const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const;
+    Posterior posterior(const Explanation& explanation, const AtNodes& nodes) const;
     static std::vector<Bounds> likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges);
 
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;

@@ -59,6 +59,7 @@ void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fi
     const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
     fit.parameters = solution.parameters;
     fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
+    fit.marginal = fit.covariance;
     fit.misfit = solution.misfit;
 }
 
@@ -69,7 +70,8 @@ Fit Evidence::fit(std::size_t effect, const Measured& measured) const
 
 std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& measured) const
 {
-    const Posterior found = posterior(explanation, measured, spreadOf(null_, measured));
+    const AtNodes nodes = atNodes(explanation, measured, spreadOf(null_, measured));
+    const Posterior found = posterior(explanation, nodes);
     const Eigen::ArrayXXd share = (found.logs.array() - found.judgement.logEvidence).exp();
     std::vector<Fit> all;
     std::vector<Present> present;
@@ -79,10 +81,20 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
             k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
         present.push_back({explanation.effects[k], all.back().amplitude});
     }
+    // How far the amplitudes that are possible move the parameters from their mean, each by what the posterior gives it.
+    Eigen::MatrixXd moves(nodes.parameters.rows(), share.size());
+    for (Eigen::Index p = 0; p < moves.rows(); ++p)
+    {
+        const Eigen::MatrixXd there =
+            found.interpolated(nodes.parameters.row(p).reshaped(nodes.misfits.rows(), nodes.misfits.cols()));
+        moves.row(p) = (there.array() - (share * there.array()).sum()).reshaped().transpose();
+    }
+    const Eigen::MatrixXd weighted = moves * share.reshaped().matrix().asDiagonal();
     const Node node = nodeAt(present);
     for (auto& fit : all)
     {
         fitParameters(node, measured, fit);
+        fit.marginal += weighted * moves.transpose();
     }
     return all;
 }

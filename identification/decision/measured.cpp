@@ -4,7 +4,9 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -22,6 +24,24 @@ Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
     const auto complete =
         numbersWhere(features.rows(), [&](Eigen::Index row) { return features.row(row).array().isFinite().all(); });
     return features(complete, Eigen::all);
+}
+
+/// A number without any error would be exact, and all that differs from it a residual. \param deviations  of all repeats
+void requireErrors(const Study& study, const MeasuredCondition& data, const std::string& condition,
+    const std::vector<Eigen::Index>& features, const Eigen::MatrixXd& deviations)
+{
+    const Eigen::VectorXd mean = meanFeatures(data.features);
+    for (const auto f : features)
+    {
+        const auto spread = deviations.col(f).array().abs();
+        const bool scatters = (spread.isFinite() && spread > 1e-12 * std::abs(mean(f))).any();
+        if (std::isfinite(mean(f)) && !scatters && data.declaredError(f) == 0.0 && study.modelError(f) == 0.0)
+        {
+            throw std::runtime_error("condition '" + condition + "': '" + study.features[f].name
+                                     + "' would count as exact: nowhere do repeats of it differ, and it has no "
+                                       "relativeError, standardError or modelError");
+        }
+    }
 }
 
 } // namespace
@@ -75,19 +95,27 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     return drawn;
 }
 
-Covariance ownNoise(
-    const Study& study, const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions)
+Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data,
+    const std::vector<std::size_t>& conditions, const Emulator* learnt)
 {
     Scatter repeats;
     bool declared = true;
-    for (const auto c : conditions)
+    std::vector<std::size_t> measured;
+    std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(measured),
+        [&](std::size_t c) { return !data[c].isPlanned; });
+    for (const auto c : measured)
     {
         repeats.add(data[c].features);
         declared = declared && hasDeclaredErrors(data[c]);
     }
     if (repeats.degreesOfFreedom() >= 2.0)
     {
-        return pooledCovariance(repeats.deviations(), repeats.degreesOfFreedom());
+        const Eigen::MatrixXd deviations = repeats.deviations();
+        for (const auto c : learnt ? measured : std::vector<std::size_t>{})
+        {
+            requireErrors(study, data[c], study.conditions[c].name, (*learnt)[c]->features, deviations);
+        }
+        return pooledCovariance(deviations, repeats.degreesOfFreedom());
     }
     if (!declared)
     {
@@ -104,7 +132,7 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
     Layout layout;
     Measured measured;
     const auto learnt = numbersWhere(data.size(), [&](std::size_t c) { return emulator[c].has_value(); });
-    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, learnt);
+    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, learnt, &emulator);
     layout.noiseFreedom = emulator.scatters() ? emulator.degreesOfFreedom() : own.nu;
     layout.noise = emulator.scatters() ? emulator.noise() : own.matrix;
     for (const auto c : learnt)

@@ -56,10 +56,11 @@ struct Measured
     std::vector<Eigen::MatrixXd> scatter; // by block: sum of squares and products of deviations from the mean
 };
 
-/// Noise of measurements where the simulator has none: from their own repeats, or what was declared.
+/// Noise of measurements where the simulator has none: from their own repeats, or what was declared. Planned ones have none.
+/// \param learnt  where there is one, the numbers that it has must have errors, too
 /// \throws std::runtime_error where there is neither
-Covariance ownNoise(
-    const Study& study, const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions);
+Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data,
+    const std::vector<std::size_t>& conditions, const Emulator* learnt = nullptr);
 
 /// \param data  by condition of the study; only those that the emulator has are looked at
 /// \param errorSlopes  as in Library; empty: there are no common errors

@@ -154,9 +154,8 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
         {
             if (mayGoTogether(study, evidence, one, other))
             {
-                const double weight = study.effects[one].prior * study.effects[other].prior;
-                weights += weight;
-                pairs.push_back({{one, other}, {}, std::log(weight)});
+                pairs.push_back({{one, other}, {}, logPrior(study, one) + logPrior(study, other)});
+                weights += std::exp(pairs.back().logPrior);
             }
         }
     }
@@ -194,7 +193,7 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
     return pairs;
 }
 
-void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
+double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random)
 {
     const auto verdict = PairJudge(study, evidence, pairs)(measured);
@@ -207,8 +206,8 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
         std::vector<double> improbabilities;
         for (int trial = 0; trial < trials; ++trial)
         {
-            const auto [data, judge] =
-                replicas.draw(drawn(study, pair, random), around(pair.fits.front(), random), random);
+            const Eigen::VectorXd parameters = around(pair.fits.front(), random);
+            const auto [data, judge] = replicas.draw(drawn(study, pair, random), parameters, random);
             const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
             misfits.push_back(own.judgements[i].misfit);
             scatterMisfits.push_back(own.judgements[i].scatterMisfit);
@@ -224,6 +223,7 @@ void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evide
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
         pair.fitsWell = pair.inSet && fitsWithin(fitsWell);
     }
+    return verdict.probabilities.tail<1>()(0);
 }
 
 } // namespace clepsydra::identification

@@ -28,8 +28,8 @@ bool undoEachOther(const Effect& one, const Effect& other);
 std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, const Measured& measured);
 
 /// Which of these pairs belong to the set, by trials in known worlds with each of them in: such as fit as well as their own
-/// trials do, and are as likely as most of them.
-void judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
+/// trials do, and are as likely as most of them. \return the probability of something that is not in the library, beside them
+double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random);
 
 /// Whether the effects of two pairs are the same or variants of each other.

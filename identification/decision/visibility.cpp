@@ -57,7 +57,7 @@ Visibility visibility(const Study& study, const Evidence& evidence, Replicas& re
             {
                 const auto [data, judge] = replicas.draw({{e, amplitude}}, null.parameters, random);
                 const Odds odds = oddsOf(study, judge(data));
-                if (odds.statistic <= calibration.critical)
+                if (!isDetected(study, calibration, odds))
                 {
                     continue;
                 }

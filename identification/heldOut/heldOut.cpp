@@ -63,10 +63,7 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
     operation.bounds = {-1.0, 1.0};
     study.effects.push_back(operation);
     std::vector<Run> runs = library.runs;
-    for (const auto& simulation : answer.null.simulations)
-    {
-        runs.push_back({answer.null.setting, simulation});
-    }
+    append(runs, answer.null.runs);
     for (auto& run : runs)
     {
         run.setting.amplitudes.conservativeResize(study.effects.size());
@@ -87,8 +84,9 @@ Eigen::VectorXd coordinatesOf(const Study& study, std::size_t condition)
     return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 }
 
-/// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates.
-std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& answer,
+/// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates; none
+/// where these are missing.
+std::optional<std::vector<Prediction>> withGaussianProcess(const Study& study, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<std::size_t>& conditions,
     std::vector<Prediction> predictions)
 {
@@ -98,7 +96,7 @@ std::vector<Prediction> withGaussianProcess(const Study& study, const Answer& an
     if (dimensions == 0 || !std::all_of(trained.begin(), trained.end(), same)
         || !std::all_of(conditions.begin(), conditions.end(), same))
     {
-        return predictions;
+        return std::nullopt;
     }
     const Eigen::VectorXd parameters = inSds(study, answer.null.setting.parameters);
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
@@ -160,8 +158,7 @@ public:
           library_(library),
           answer_(answer),
           training_(training),
-          random_(random),
-          logs_(logFeatures(study_))
+          random_(random)
     {
         for (const auto c : study_.conditionsOf(Role::heldOut))
         {
@@ -169,7 +166,7 @@ public:
             {
                 result_.conditions.push_back(c);
                 result_.data.push_back(
-                    {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2()});
+                    {heldOut[c].features, shareOfMean(heldOut[c].features), heldOut[c].declaredError.cwiseAbs2(), {}});
             }
         }
     }
@@ -180,9 +177,11 @@ public:
         {
             return std::move(result_);
         }
-        scoreNull();
-        scoreMembers();
-        scoreControls();
+        predictNull();
+        predictMembers();
+        predictControls();
+        findScored();
+        score();
         findNoise();
         judge();
         return std::move(result_);
@@ -202,54 +201,45 @@ private:
 
     std::vector<Prediction> predictionsOf(const std::vector<Simulation>& simulations) const
     {
-        std::vector<Prediction> predictions;
-        for (const auto c : result_.conditions)
-        {
-            predictions.push_back(predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_));
-            predictions.back().variance += errorSlopes_.at(c).rowwise().squaredNorm();
-        }
-        return predictions;
+        return mapped(result_.conditions, [&](std::size_t c) {
+            return predictionOf(featureRows(simulations, c, study_.featureCount()), study_, answer_);
+        });
     }
 
     Scored scored(const std::vector<Prediction>& predictions)
     {
         Scored one;
-        one.score = heldOutScore(result_.data, predictions, logs_, noise_, random_, &one.draws);
+        one.score = heldOutScore(result_.data, predictions, scored_, noise_, random_, &one.draws);
         return one;
     }
 
-    void scoreNull()
+    void predictNull()
     {
         result_.simulations.push_back(simulated(answer_.null.setting, "before"));
-        for (const auto c : result_.conditions)
+        for (std::size_t i = 0; i < result_.data.size(); ++i)
         {
-            errorSlopes_.emplace(c, commonErrorSlopes(simulator_, c, result_.simulations.back()));
+            result_.data[i].errorSlopes =
+                commonErrorSlopes(simulator_, result_.conditions[i], result_.simulations.back());
         }
-        result_.predictedBefore = predictionsOf(result_.simulations.back());
-        noise_ = drawDataNoise(result_.data, result_.predictedBefore, draws, random_);
-        before_ = scored(result_.predictedBefore);
-        result_.before = before_.score;
+        compared_.push_back(predictionsOf(result_.simulations.back()));
+        result_.predictedBefore = compared_.front();
     }
 
-    void scoreMembers()
+    void predictMembers()
     {
-        for (std::size_t member = 0; member < answer_.set.size(); ++member)
+        for (const auto& member : answer_.set)
         {
-            const auto after = simulated(answer_.set[member].setting, nameOf(study_, answer_.set[member].effects));
-            const auto predicted = predictionsOf(after);
-            Scored one = scored(predicted);
-            result_.members.push_back(one.score);
-            if (member == 0)
+            auto after = simulated(member.setting, nameOf(study_, member.effects));
+            compared_.push_back(predictionsOf(after));
+            if (result_.simulations.size() == 1)
             {
-                result_.after = one.score;
-                result_.predictedAfter = predicted;
-                result_.simulations.push_back(after);
-                after_ = std::move(one);
+                result_.predictedAfter = compared_.back();
+                result_.simulations.push_back(std::move(after));
             }
         }
     }
 
-    void scoreControls()
+    void predictControls()
     {
         const FreeOperation more = fitOneMore(simulator_, library_, answer_, training_);
         result_.oneMoreAmplitude = more.size;
@@ -262,10 +252,55 @@ private:
                 simulation.features = simulator_.featuresOf(operation.apply(simulation.curve, more.size));
             }
         }
-        oneMore_ = scored(predictionsOf(oneMore));
+        compared_.push_back(predictionsOf(oneMore));
+    }
+
+    /// What is compared is compared on the same numbers: those that all predict.
+    void findScored()
+    {
+        for (std::size_t i = 0; i < result_.conditions.size(); ++i)
+        {
+            const Eigen::VectorXd measured = meanFeatures(result_.data[i].features);
+            scored_.emplace_back();
+            for (const auto f : logFeatures(study_))
+            {
+                const bool isPredicted = std::all_of(compared_.begin(), compared_.end(),
+                    [&](const auto& predictions) { return std::isfinite(predictions[i].mean(f)); });
+                if (std::isfinite(measured(f)) && isPredicted)
+                {
+                    scored_.back().push_back(f);
+                }
+                else if (std::isfinite(measured(f)))
+                {
+                    unpredicted_.push_back("no prediction of " + study_.features[f].name + " in "
+                                           + study_.conditions[result_.conditions[i]].name);
+                }
+            }
+        }
+    }
+
+    void score()
+    {
+        noise_ = drawDataNoise(result_.data, result_.predictedBefore, draws, random_);
+        before_ = scored(result_.predictedBefore);
+        result_.before = before_.score;
+        for (std::size_t member = 0; member < answer_.set.size(); ++member)
+        {
+            Scored one = scored(compared_[1 + member]);
+            result_.members.push_back(one.score);
+            if (member == 0)
+            {
+                result_.after = one.score;
+                after_ = std::move(one);
+            }
+        }
+        oneMore_ = scored(compared_.back());
         result_.oneMoreParameter = oneMore_.score;
-        result_.gaussianProcess =
-            scored(withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore)).score;
+        if (const auto smooth =
+                withGaussianProcess(study_, answer_, training_, result_.conditions, result_.predictedBefore))
+        {
+            result_.gaussianProcess = scored(*smooth).score;
+        }
     }
 
     /// What noise alone does to the error of a prediction: one whose mean is what was measured, moved by the draws.
@@ -290,7 +325,7 @@ private:
         }
         result_.improvement = difference(before_, after_);
         result_.overOneMore = difference(oneMore_, after_);
-        auto& reasons = result_.notAcceptedBecause;
+        auto& reasons = result_.notAcceptedBecause = std::move(unpredicted_);
         if (answer_.decision != Decision::named)
         {
             reasons.emplace_back("it is not the only explanation");
@@ -332,9 +367,10 @@ private:
     const Answer& answer_;
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
-    const std::vector<Eigen::Index> logs_;               // the features that are scored
-    std::map<std::size_t, Eigen::MatrixXd> errorSlopes_; // by condition
-    std::vector<Eigen::MatrixXd> noise_;                 // of the measurements
+    std::vector<std::vector<Prediction>> compared_; // of the null, the members of the set, control 1
+    std::vector<std::vector<Eigen::Index>> scored_; // features, by condition
+    std::vector<std::string> unpredicted_;          // what was measured and is not scored
+    std::vector<Eigen::MatrixXd> noise_;            // of the measurements
     Scored before_;
     Scored after_;
     Scored oneMore_;

@@ -19,7 +19,8 @@ struct HeldOutResult
     HeldOutScore before;               // the null, refitted
     std::optional<HeldOutScore> after; // the best explanation; none where there is none
     HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
-    HeldOutScore gaussianProcess;      // control 2: the null with a discrepancy without a name
+    /// Control 2: the null with a discrepancy without a name; none where conditions have no coordinates.
+    std::optional<HeldOutScore> gaussianProcess;
     std::vector<HeldOutScore> members; // of Answer::set
     Estimate improvement;              // of the rms error, before minus after, with the noise they share
     Estimate overOneMore;              // the same, control 1 minus after

@@ -17,12 +17,10 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 
 /// Independent standard normal numbers.
-Eigen::VectorXd normals(Eigen::Index count, std::mt19937_64& random)
+Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
-    Eigen::VectorXd draws(count);
-    std::generate(draws.begin(), draws.end(), [&] { return normal(random); });
-    return draws;
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
 double sdOf(const std::vector<double>& values)
@@ -33,7 +31,7 @@ double sdOf(const std::vector<double>& values)
 
 /// Root mean square error and mean CRPS with the measured and predicted means moved.
 std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& features, const std::vector<Eigen::VectorXd>& dataShift,
+    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::VectorXd>& dataShift,
     const std::vector<Eigen::VectorXd>& predictionShift)
 {
     double squares = 0.0;
@@ -43,18 +41,14 @@ std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const s
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         const Eigen::VectorXd measured = meanFeatures(data[c].features);
-        for (const auto f : features)
+        for (const auto f : features[c])
         {
             const double shift = dataShift[c](f) - predictionShift[c](f);
             const double error = measured(f) - predictions[c].mean(f) + shift;
-            if (!std::isfinite(error))
-            {
-                continue;
-            }
             squares += error * error;
             count += 1.0;
-            const double sd = std::sqrt(
-                predictions[c].variance(f) + predictions[c].dataCovariance(f, f) + data[c].declaredVariance(f));
+            const double sd = std::sqrt(predictions[c].variance(f) + predictions[c].dataCovariance(f, f)
+                                        + data[c].declaredVariance(f) + data[c].commonVariance(f));
             for (const double value : data[c].features.col(f))
             {
                 if (std::isfinite(value))
@@ -85,16 +79,17 @@ double crpsOfNormal(double mean, double sd, double observed)
 std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random)
 {
+    const Eigen::MatrixXd common = normals(draws, data.front().errorSlopes.cols(), random);
     std::vector<Eigen::MatrixXd> noise;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         Eigen::MatrixXd covariance = predictions[c].dataCovariance.cwiseProduct(data[c].meanShare);
         covariance.diagonal().array() += data[c].declaredVariance.array() + 1e-14;
         const Eigen::MatrixXd root = covariance.llt().matrixL();
-        Eigen::MatrixXd rows(draws, covariance.rows());
+        Eigen::MatrixXd rows = common * data[c].errorSlopes.transpose();
         for (auto row : rows.rowwise())
         {
-            row = (root * normals(covariance.rows(), random)).transpose();
+            row += (root * normals(covariance.rows(), 1, random)).transpose();
         }
         noise.push_back(rows);
     }
@@ -102,13 +97,13 @@ std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
 }
 
 HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<Eigen::Index>& logFeatures, const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random,
-    std::vector<double>* samples)
+    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
+    std::mt19937_64& random, std::vector<double>* samples)
 {
     const auto none = mapped(
         predictions, [](const Prediction& one) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(one.mean.size()); });
     HeldOutScore score;
-    std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, logFeatures, none, none);
+    std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, features, none, none);
     std::vector<double> errors;
     std::vector<double> crps;
     for (Eigen::Index draw = 0; draw < noise.front().rows(); ++draw)
@@ -119,9 +114,9 @@ HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vecto
         {
             dataShift.emplace_back(noise[c].row(draw).transpose());
             predictionShift.emplace_back(
-                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), random)));
+                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), 1, random)));
         }
-        const auto [error, rank] = scoresOf(data, predictions, logFeatures, dataShift, predictionShift);
+        const auto [error, rank] = scoresOf(data, predictions, features, dataShift, predictionShift);
         errors.push_back(error);
         crps.push_back(rank);
     }

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "decision/visibility.h"
-#include "runner/simulator.h"
+#include "emulator/library.h"
 
 #include <memory>
 #include <string>
@@ -41,7 +41,7 @@ struct Explanation
     double logOdds = 0.0;     // against no effect
     double probability = 0.0; // given that there is something; of two effects: that no single one explains
     double misfit = 0.0;
-    std::vector<Simulation> simulations; // with it switched on, nearest to the last fit; empty: it was not simulated
+    std::vector<Run> runs; // with it switched on, where its fits were, one after the other; empty: it was not simulated
 };
 
 /// "effect" or "effect with other effect", or "no effect"
@@ -55,8 +55,9 @@ struct Answer
     bool somethingElseInSet = false; // beside them
     std::string family;              // where all members are variants of one thing
     double pValue = 1.0;
-    double logOdds = 0.0; // of anything against no effect
-    double otherProbability = 0.0;
+    double logOdds = 0.0;          // of anything against no effect
+    double otherProbability = 0.0; // beside single effects
+    double otherBesideSet = 0.0;   // among what the set's probabilities are among: the same, or beside pairs
     double otherThreshold = 0.0;
     Explanation null;                   // refitted parameters, no effect
     std::vector<EffectFinding> effects; // as in the study

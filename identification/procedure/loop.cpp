@@ -1,7 +1,6 @@
 #include "procedure/loop.h"
 
 #include "files/wholeFile.h"
-#include "emulator/settings.h"
 #include "nextRuns/nextExperiment.h"
 #include "heldOut/heldOut.h"
 #include "procedure/magnitudes.h"
@@ -109,6 +108,7 @@ std::vector<MeasuredCondition> plannedData(
         }
         const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
         const bool isMeasured = measured[c].features.rows() > 0;
+        data[c].isPlanned = !isMeasured;
         data[c].features = base.replicate(isMeasured ? measured[c].features.rows() : plannedRepeats, 1);
         data[c].declaredError = isMeasured ? measured[c].declaredError : Eigen::VectorXd::Zero(study.featureCount());
         if (isMeasured)
@@ -172,10 +172,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     std::mt19937_64 random(study.settings.seed);
 
     const Library library = makeLibrary(simulator);
-    Answer answer = trace(simulator, library, training, random);
-    const Evidence evidence(study, *answer.emulator, answer.layout, inSds(study, answer.null.setting.parameters));
-    Replicas replicas(*answer.emulator, answer.layout, evidence, random);
-    answer.visibility = visibility(study, evidence, replicas, answer.calibration, answer.measured, random);
+    const Answer answer = trace(simulator, library, training, random, true);
     const auto next = nextExperiments(simulator, answer, random);
     Findings findings{&study, &answer, nullptr, &next, &simulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');

@@ -32,14 +32,15 @@ class Tracing
 {
 public:
     Tracing(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
-        std::mt19937_64& random)
+        std::mt19937_64& random, bool withVisibility)
         : simulator_(simulator),
           study_(simulator.study()),
           data_(data),
           features_(measuredFeatures(study_, data)),
           runs_(library.runs),
           errorSlopes_(library.errorSlopes),
-          random_(random)
+          random_(random),
+          withVisibility_(withVisibility)
     {}
 
     Answer run()
@@ -229,7 +230,7 @@ private:
         Evidence evidence = evidenceNear(around, isExact);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
-        judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
+        answer_.otherBesideSet = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
         for (auto& pair : pairs)
         {
             if (!pair.inSet)
@@ -285,14 +286,8 @@ private:
         const Odds odds = oddsOf(study_, evidences);
         answer_.logOdds = odds.logOdds;
         const Fit null = evidence.fitNull(measured);
-        answer_.pValue = calibration.pValue(odds.statistic);
-        if (evidence.isExact())
-        {
-            // Two questions. Draws lie anywhere where no run was made, and then look as odd as any data; what the runs at the
-            // null fit leave does not.
-            answer_.pValue = std::min(1.0, 2.0 * std::min(answer_.pValue, evidence.chanceOfMisfit(null.misfit)));
-        }
-        answer_.otherProbability = std::exp(odds.other);
+        answer_.pValue = calibration.pValue(odds);
+        answer_.otherProbability = answer_.otherBesideSet = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
         answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
@@ -307,9 +302,15 @@ private:
             finding.threshold = std::exp(calibration.membership(e));
             answer_.effects.push_back(std::move(finding));
         }
+        if (withVisibility_)
+        {
+            // With draws of its own: what is looked at must not change what is decided.
+            std::mt19937_64 own = random_;
+            answer_.visibility = visibility(study_, evidence, replicas, calibration, measured, own);
+        }
         const auto& said = answer_.emulator->remarks();
         answer_.remarks.insert(answer_.remarks.end(), said.begin(), said.end());
-        if (answer_.pValue >= study_.settings.level)
+        if (!isDetected(study_, calibration, odds))
         {
             return;
         }
@@ -359,7 +360,7 @@ private:
                                   [&](const Present& one) { return run.setting.amplitudes(one.effect) != 0.0; });
             if (same && !run.simulation.failed && &run >= runs_.data() + librarySize_)
             {
-                found.simulations.push_back(run.simulation);
+                found.runs.push_back(run);
             }
         }
         return found;
@@ -373,15 +374,16 @@ private:
     const std::vector<Eigen::MatrixXd>& errorSlopes_;
     const std::size_t librarySize_ = runs_.size();
     std::mt19937_64& random_;
+    const bool withVisibility_;
     Answer answer_;
 };
 
 } // namespace
 
-Answer trace(
-    Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data, std::mt19937_64& random)
+Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
+    std::mt19937_64& random, bool withVisibility)
 {
-    return Tracing(simulator, library, data, random).run();
+    return Tracing(simulator, library, data, random, withVisibility).run();
 }
 
 } // namespace clepsydra::identification

@@ -37,7 +37,7 @@ std::size_t shownCondition(const Study& study, const Effect* effect)
 /// Standard errors of the physical values of an explanation's parameters.
 Eigen::VectorXd parameterErrors(const Study& study, const Explanation& explanation)
 {
-    const Eigen::MatrixXd& covariance = explanation.fits.front().covariance;
+    const Eigen::MatrixXd& covariance = explanation.fits.front().marginal;
     Eigen::VectorXd errors = Eigen::VectorXd::Zero(study.parameters.size());
     for (Eigen::Index i = 0; i < covariance.rows(); ++i)
     {

@@ -150,9 +150,12 @@ std::string curvePlots(const Study& study, const std::vector<std::size_t>& condi
 
 std::string trainingCurves(const Findings& findings)
 {
+    const auto simulationsOf = [](const Explanation& explanation) {
+        return mapped(explanation.runs, [](const Run& run) { return run.simulation; });
+    };
     const auto& set = findings.answer->set;
-    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training), findings.answer->null.simulations,
-        set.empty() ? std::vector<Simulation>{} : set.front().simulations, *findings.data);
+    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training),
+        simulationsOf(findings.answer->null), simulationsOf(set.empty() ? Explanation{} : set.front()), *findings.data);
 }
 
 std::string heldOutCurves(const Findings& findings)

@@ -47,6 +47,11 @@ Json heldOutScore(const HeldOutScore& score)
         {"standardError", number(score.rmsLogError.standardError)}, {"crps", estimate(score.crps)}};
 }
 
+Json heldOutScoreOrNull(const std::optional<HeldOutScore>& score)
+{
+    return score ? heldOutScore(*score) : Json(nullptr);
+}
+
 Json parametersOf(const Study& study, const Eigen::VectorXd& values)
 {
     Json json = Json::object();
@@ -66,7 +71,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation.effects)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"misfit", explanation.misfit}, {"simulated", !explanation.simulations.empty()}};
+        {"misfit", explanation.misfit}, {"simulated", !explanation.runs.empty()}};
 }
 
 /// What the effect sets at its amplitude, in words that a user can check.
@@ -159,7 +164,7 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
                 return isLog ? estimate({std::exp(value), std::exp(value) * sd}) : estimate({value, sd});
             };
             const auto predicted = [&](const Prediction& prediction) {
-                return plain(prediction.mean(f), std::sqrt(prediction.variance(f)));
+                return plain(prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f)));
             };
             list.push_back(
                 {{"condition", study.conditions[result.conditions[i]].name}, {"feature", study.features[f].name},
@@ -193,11 +198,10 @@ Json heldOutJson(const Findings& findings)
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
-    return {{"conditions", names}, {"before", heldOutScore(result.before)},
-        {"after", result.after ? heldOutScore(*result.after) : Json(nullptr)}, {"oneMoreParameter", oneMore},
-        {"gaussianProcess", heldOutScore(result.gaussianProcess)}, {"improvement", estimate(result.improvement)},
-        {"overOneMoreParameter", estimate(result.overOneMore)}, {"noiseFloor", result.noiseFloor},
-        {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
+    return {{"conditions", names}, {"before", heldOutScore(result.before)}, {"after", heldOutScoreOrNull(result.after)},
+        {"oneMoreParameter", oneMore}, {"gaussianProcess", heldOutScoreOrNull(result.gaussianProcess)},
+        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", estimate(result.overOneMore)},
+        {"noiseFloor", result.noiseFloor}, {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
         {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
         {"numbers", heldOutNumbers(study, result)}};
 }
@@ -298,7 +302,9 @@ Json jsonOf(const Findings& findings)
     json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
     json["somethingElseInSet"] = answer.somethingElseInSet;
-    json["somethingElse"] = {{"probability", answer.otherProbability}, {"probabilityNeeded", answer.otherThreshold}};
+    json["somethingElse"] = {
+        {"probability", answer.decision == Decision::unknown ? Json(nullptr) : Json(answer.otherProbability)},
+        {"probabilityNeeded", answer.otherThreshold}};
     json["pValue"] = answer.pValue;
     json["logOdds"] = number(answer.logOdds);
     json["null"] = explanationJson(study, answer.null);

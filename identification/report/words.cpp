@@ -165,7 +165,7 @@ std::string probabilitiesInWords(const Findings& findings)
     const Answer& answer = *findings.answer;
     auto shares = mapped(answer.set,
         [&](const Explanation& each) { return meaningOf(findings, each) + ' ' + percent(each.probability); });
-    shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherProbability));
+    shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherBesideSet));
     return "How likely: " + joined(shares, ", ") + '.';
 }
 
@@ -239,8 +239,9 @@ std::vector<std::string> detailsOf(const Findings& findings)
         all.emplace_back("This does not show that nothing is missing: report.html says from which size on each effect "
                          "would have been seen.");
     }
-    else
+    else if (answer.decision != Decision::unknown)
     {
+        // What is likely among explanations that all misfit is no explanation.
         all.push_back(probabilitiesInWords(findings));
     }
     if (!isHeldOut(heldOut))

@@ -16,6 +16,7 @@ struct MeasuredCondition
     Eigen::MatrixXd features;      // one repeat per row; NaN: missing
     Eigen::VectorXd declaredError; // standard error of the mean beyond the scatter of repeats, by feature
     std::vector<Curve> curves;     // as measured, SI
+    bool isPlanned = false;        // not measured yet
 };
 
 /// The curve of one measured file. \throws std::runtime_error that names file, and column or row

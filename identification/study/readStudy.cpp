@@ -142,6 +142,35 @@ void readAllEffects(const YamlPlace& root, Study& study)
     study.effects = std::move(all);
 }
 
+/// Of an effect that acts in no training condition, and of its parameters, the data say nothing: it would take its share of
+/// every probability, and enter sets.
+void leaveOutIdle(Study& study)
+{
+    const auto trained = study.conditionsOf(Role::training);
+    for (std::size_t e = study.effects.size(); e-- > 0;)
+    {
+        const Effect& effect = study.effects[e];
+        if (std::any_of(
+                trained.begin(), trained.end(), [&](std::size_t c) { return acts(effect, study.conditions[c]); }))
+        {
+            continue;
+        }
+        study.leftOut.push_back(effect.name + " (it acts in no training condition)");
+        study.effects.erase(study.effects.begin() + static_cast<std::ptrdiff_t>(e));
+        auto& parameters = study.parameters;
+        parameters.erase(std::remove_if(parameters.begin(), parameters.end(),
+                             [&](const Parameter& parameter) { return parameter.effect == e; }),
+            parameters.end());
+        for (auto& parameter : parameters)
+        {
+            if (parameter.effect > e)
+            {
+                --*parameter.effect;
+            }
+        }
+    }
+}
+
 void readSettings(const YamlPlace& root, Study& study)
 {
     Settings& settings = study.settings;
@@ -245,6 +274,7 @@ Study readStudy(const std::filesystem::path& file)
         root.at("magnitudeLimit").fail("must be above 1");
     }
     checkEffects(root, study);
+    leaveOutIdle(study);
     return study;
 }
 

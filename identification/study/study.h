@@ -215,7 +215,7 @@ struct Study
     ExecutorSpecification executor;
     Settings settings;
     std::vector<std::string> assumptions; // the user's own words, repeated in the report
-    std::vector<std::string> leftOut;     // effects of a library that the case has no entries for
+    std::vector<std::string> leftOut; // effects that the case has no entries for, or that act in no training condition
 
     std::vector<std::size_t> conditionsOf(Role role) const;
     Eigen::Index featureCount() const

@@ -7,7 +7,6 @@ import numpy as np
 from scipy.optimize import nnls
 
 from . import timing
-from .hopper import Hopper
 
 FILE = Path(__file__).resolve().parent / "costModel.json"
 TERMS = ("perBeadStep", "perBead", "perCell", "perCell43")

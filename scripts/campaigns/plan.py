@@ -81,10 +81,10 @@ class Campaign:
         self.defaults = parameterFile.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
         self.common = self._derive(self.given)
+        self.keepTimes = self._keepTimes()
         self.tasks = self._plan(only)
 
-    @property
-    def keepTimes(self):
+    def _keepTimes(self):
         """How many times of a run stay on disk; None for all."""
         kept = self.settings.get("keepTimes", "all")
         if kept != "all" and not (isinstance(kept, int) and kept > 1):
@@ -159,7 +159,7 @@ class Campaign:
 
     def _plan(self, only):
         tasks, runs = {}, self.settings["runs"]
-        if not isinstance(runs, dict):
+        if not (isinstance(runs, dict) and runs and all(isinstance(entry or {}, dict) for entry in runs.values())):
             raise self._error("runs", runs, "a list of `name: { ... }`")
         unknown = [name for name in only or [] if name not in runs]
         if unknown:

@@ -2,14 +2,14 @@
 
 import re
 
+import seeds
+
 COUPLING_FIXES = ("couple/cfd", "couple/cfd/force", "couple/cfd/force/implicit", "couple/cfd/force/accumulator",
                   "couple/cfd/force/implicit/accumulated")
 MADE_BY_COUPLING = ("dragforce", "couple_cfd", "hdtorque", "Ksl", "uf", "expForces")    # fixes that those make
 LOGS = ("log", "thermo_log", "echo")
 RESTARTS = ("write_restart", "restart")
 REFUSED = ("jump", "label", "next", "rerun", "minimize")
-
-
 MAKES_BEADS = ("insert/pack", "insert/rate/region", "insert/stream", "read_restart", "read_data", "create_atoms")
 
 
@@ -24,17 +24,13 @@ def outputFolders(text):
             yield file[0].rsplit("/", 1)[0]
 
 
-SMALLEST_SEED = 10007
-
-
 def withSeeds(text, where, report):
     """A script with seeds that LIGGGHTS 3.8 takes: primes above 10000, no two alike."""
     taken = set()
 
     def replaced(line):
         seed = int(line["seed"])
-        least = max(seed, SMALLEST_SEED)
-        good = next(number for number in range(least, 10 * least) if isSeed(number) and number not in taken)
+        good = next(number for number in seeds.seedsFrom(seed) if number not in taken)
         taken.add(good)
         if good == seed:
             return line[0]
@@ -44,10 +40,6 @@ def withSeeds(text, where, report):
 
     return re.sub(r"^(?P<before>[ \t]*fix[^#\n]*?(?:particletemplate/\w+|particledistribution/\w+|\bseed)[ \t]+)(?P<seed>\d+)", replaced, text,
                   flags=re.MULTILINE)
-
-
-def isSeed(number):
-    return number > 10000 and all(number % factor for factor in range(2, int(number**0.5) + 1))
 
 
 class DemScript:

@@ -21,11 +21,9 @@ EMPTYING_MASS, EMPTYING_FRICTION = 500, 0.8
 EMPTYING_TIME = {"dry": 52, "submerged": 90}
 
 SMOOTH_FRICTION = 1e-6      # "like a Newtonian fluid"
-LINE_ABOVE = 200            # the straight line of figure 7 is fitted where more is left
 # The slope of a parabola under Gaussian weights "in a 2 s window": read here as the full width at half maximum. The other
 # readings, a standard deviation of .5 s or 1 s, are narrower and wider by less than a factor of two.
 WINDOW_DEVIATION = 2 / 2.3548
-SURGE_REFERENCE = 80        # figure 3: rates over the rate so long before the end
 
 
 @dataclass(frozen=True)

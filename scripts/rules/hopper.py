@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import environment
+import seeds
 from rules import Rule, length, number, oneOf, whole
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -17,13 +18,13 @@ RAYLEIGH_FRACTION = 0.4                 # of the DEM step, at most: as pimpleDem
 DENSEST_PACKING = 0.74
 FASTEST_IN_CELLS = 10                   # cells that a falling bead may pass in a coupling interval; from 2 on a warning
 RANKS_PER_CORE = 4                      # more ranks than cores are slow, but may be wanted for a test
-BYTES_PER_BEAD, BYTES_PER_CELL = 2240, 2470     # scripts/benchmarks/README.md
+# scripts/benchmarks/README.md
+BYTES_PER_BEAD, BYTES_PER_CELL, BYTES_OF_PROGRAM = 2700, 2590, 87e6
 
 
 def isSeed(value):
-    """LIGGGHTS wants primes above 10000, and another one for each of its commands: those from 10007 on are the bead templates'."""
-    return (isinstance(value, float) and value.is_integer() and 11000 < value < 2**31
-            and all(value % divisor for divisor in range(2, math.isqrt(int(value)) + 1)))
+    """Those from 10007 on are the bead templates'."""
+    return isinstance(value, float) and value.is_integer() and 11000 < value < 2**31 and seeds.isSeed(int(value))
 
 
 RULES = {
@@ -153,7 +154,7 @@ def cells(text, p, found):
 
 
 def checkMachine(p, cells, ranks, found):
-    needed = cells * BYTES_PER_CELL + p["beadCount"] * BYTES_PER_BEAD
+    needed = BYTES_OF_PROGRAM + cells * BYTES_PER_CELL + p["beadCount"] * BYTES_PER_BEAD
     if ranks is not None:
         checkHere(p, cells, ranks, needed, found)
     found.facts.append(f"mesh: some {cells:.3g} cells ({p['mesher']}); memory: some {needed / 1e6:.3g} MB")

@@ -81,7 +81,7 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
         const dictionary& dict = item.dict();
         requireKnownEntries(dict, {"from", "to", "below", "slowerThan", "during"});
         GroupChange change{item.keyword(), dict.get<word>("from"), dict.get<word>("to"), dict.get<double>("below"), {}};
-        if (dict.found("slowerThan"))
+        if (dict.found("slowerThan") || dict.found("during"))
         {
             change.rest = GroupChange::Rest{positiveEntry(dict, "slowerThan"), positiveEntry(dict, "during")};
         }

@@ -77,9 +77,15 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 /// The beads for other runs, with a checksum that the engine holds them against.
 void writeFinalBeads(DemEngine& engine, const std::filesystem::path& file)
 {
-    if (Pstream::master())
+    // First those of an earlier run. In one file, or in parts, of which this rank writes one and the first the base, too.
+    for (const std::string& part : {std::string("base"), std::to_string(Pstream::myProcNo())})
     {
-        std::filesystem::remove(checksumName(file));
+        std::string name = file;
+        if (const std::size_t at = name.find('%'); at != std::string::npos)
+        {
+            name.replace(at, 1, part);
+        }
+        std::filesystem::remove(checksumName(name));
     }
     for (const std::filesystem::path& written : engine.writeCheckpoint(file))
     {
@@ -135,7 +141,7 @@ void runWithFluid(
 void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
 {
     output.start();
-    while (runTime.loop())
+    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
     {
         interval.advance();
         if (output.afterInterval())
@@ -178,13 +184,13 @@ int main(int argc, char* argv[])
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
-    const Checkpoints checkpoints(runTime, !dryRun);
-    if (checkpoints.resumed())
-    {
-        runTime.resume(checkpoints.beginning());
-    }
     try
     {
+        const Checkpoints checkpoints(runTime, !dryRun);
+        if (checkpoints.resumed())
+        {
+            runTime.resume(checkpoints.beginning());
+        }
         LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.beads(), dryRun));
         if (models)
         {
@@ -214,8 +220,7 @@ int main(int argc, char* argv[])
         FatalErrorInFunction << error.what() << nl << nl
                              << "file: " << settings.demDict().get<fileName>("script").c_str() << exit(FatalError);
     }
-
-    catch (const FileError& error)
+    catch (const std::exception& error)
     {
         FatalErrorInFunction << error.what() << exit(FatalError);
     }

@@ -125,14 +125,25 @@ TEST(DamagedCheckpoint, IsAnErrorWhereNoneCanBeTaken)
     const Outcome half = inCopy(test, "rm -r checkpoints; $SOLVER" + andNothingMoved);
     EXPECT_EQ(half.status, 1) << half.output;
     EXPECT_TRUE(half.says("half of a checkpoint")) << half.output;
+
+    const Outcome beginning = inCopy(test, "echo zero > checkpoints/beginning; $SOLVER" + andNothingMoved);
+    EXPECT_EQ(beginning.status, 1) << beginning.output;
+    EXPECT_TRUE(beginning.says("checkpoints/beginning\" holds 'zero'; allowed:")) << beginning.output;
 }
 
-// On two ranks each rank's fields are held against the manifest, too.
+// On two ranks each rank's fields are held against the manifest, too, also those that lie elsewhere behind a link. A manifest
+// that names them by that place says nothing of them.
 TEST(DamagedCheckpoint, IsFoundOnEachRank)
 {
     TestCase test;
     threeCheckpoints(test, 0.02);
-    ASSERT_TRUE(test.run(2).succeeded());
+    test.file("system/decomposeParDict")
+        .set("numberOfSubdomains", "2")
+        .set("method", "simple")
+        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    const Outcome first = test.runCommand("blockMesh && decomposePar && mkdir elsewhere && mv processor1 elsewhere && "
+                                          "ln -s elsewhere/processor1 && mpirun -np 2 $SOLVER -parallel");
+    ASSERT_TRUE(first.succeeded()) << first.output;
     const Outcome outcome =
         test.runCommand(": > processor1/0.02/phi && echo 'endTime 0.022;' >> system/controlDict && "
                         "mpirun -np 2 $SOLVER -parallel && ls -d processor0/damaged.0.02 processor1/damaged.0.02");
@@ -175,6 +186,21 @@ TEST_P(FinalBeads, AreHeldAgainstTheirChecksum)
         EXPECT_EQ(outcome.status, 1) << outcome.output;
         EXPECT_TRUE(outcome.says(packing)) << outcome.output;
     }
+}
+
+// A file that cannot be written keeps no checksum of an earlier one, nor does a part.
+TEST_P(FinalBeads, LoseTheirOldChecksumFirst)
+{
+    const auto [name, file] = GetParam();
+    TestCase test;
+    pilingBeads(test, false);
+    test.coupling().set("DEM/writeRestart", '"' + std::string(name) + '"');
+    test.setTimes(0.002, interval, 1);
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    const std::string before = "mkdir " + std::string(file) + " && echo old > " + file + ".sha256 && ";
+    const Outcome outcome = test.runCommand(before + "$SOLVER");
+    EXPECT_EQ(outcome.status, 1) << outcome.output;
+    EXPECT_FALSE(std::filesystem::exists(test.path() / (std::string(file) + ".sha256"))) << outcome.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(InOneFileAndInParts, FinalBeads,

@@ -31,6 +31,8 @@ void adjustInterval(TestCase& test)
         .set("maxCo", "0.05")
         .set("minInterval", "4e-5")
         .set("maxInterval", "4e-3");
+    // Shorter than the interval that a checkpoint is written in, and no mistake for that.
+    test.control().set("functions/massInHopper/sampleInterval", interval);
 }
 
 /// Stops at a time by `endTime`, and goes on from there to the case's own end.
@@ -136,6 +138,45 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     ASSERT_TRUE(back.succeeded()) << back.output;
     EXPECT_TRUE(back.says("Resuming from the checkpoint of time 0.125")) << back.output;
     EXPECT_EQ(changed.ledgerSummary("0.125")["beadsEnd"], static_cast<int>(changed.dem.beads.size()));
+}
+
+// Written at time 1 on two ranks, resumed on one and on three. A program that looks for the time in `processor1/1/U` finds
+// it in the rank's name; one that holds the three ranks' new files against those of the two finds them damaged.
+TEST(OtherRanks, TakeTheCheckpointOfTimeOneFromTwoRanks)
+{
+    for (const std::string resume :
+        {"$SOLVER", "echo 'numberOfSubdomains 3; simpleCoeffs { n (3 1 1); }' >> system/decomposeParDict && "
+                    "decomposePar -force -latestTime && mpirun -np 3 $SOLVER -parallel"})
+    {
+        TestCase test;
+        test.dem.beads = {{0.0101, 0.0099, 0.02}};
+        test.setTimes(1, interval, 1);
+        ASSERT_TRUE(test.runCommand("mv 0 0.998").succeeded());
+        const Outcome first = test.run(2);
+        ASSERT_TRUE(first.succeeded()) << first.output;
+        const Outcome resumed = test.runCommand("echo 'endTime 1.001;' >> system/controlDict && " + resume);
+        EXPECT_TRUE(resumed.succeeded()) << resumed.output;
+        EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 1\n")) << resumed.output;
+    }
+}
+
+// purgeWrite takes both halves of old checkpoints; the user's own times, the beginning's and one before, stay when the run
+// is resumed. A program that takes every time without beads for one of its own sets 0 aside as unfinished.
+TEST(PurgeWrite, TakesWholeCheckpointsAndNoTimeOfTheUser)
+{
+    TestCase test;
+    pilingBeads(test, false);
+    test.setTimes(0.014, interval, interval);
+    test.control().set("purgeWrite", "2");
+    ASSERT_TRUE(test.runCommand("cp -r 0 0.01").succeeded());
+    const Outcome first = test.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    EXPECT_EQ(test.times(), (std::vector<std::string>{"0.01", "0.013", "0.014"}));
+    EXPECT_EQ(test.runCommand("ls checkpoints").output, "0.013\n0.014\nbeginning\n");
+
+    const Outcome second = test.runCommand("echo 'endTime 0.015;' >> system/controlDict && $SOLVER && ls 0/U 0.01/U");
+    EXPECT_TRUE(second.succeeded()) << second.output;
+    EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.014")) << second.output;
 }
 
 // Each of two ranks writes a file of its own beads, and a resumed run reads them, bit for bit the run that was never stopped.
@@ -342,6 +383,60 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
             EXPECT_NEAR(rows[row][column], expected[row][column], 1e-9) << "row " << row << ", column " << column;
         }
     }
+}
+
+// Intervals have become shorter than controlDict's deltaT, 1 ms: stopped .4 ms before a write time and again before the end,
+// the run writes both. One that takes half of deltaT for near enough ends without.
+TEST(StoppedBetweenWriteTimes, ByLessThanTheFirstInterval)
+{
+    TestCase test;
+    pilingBeads(test, true);
+    adjustInterval(test);
+    test.coupling().set("maxCo", "0.003");
+    test.setTimes(0.03, interval, 0.02);
+    const Outcome first = runInTwo(test, "0.0196");
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    EXPECT_EQ(test.times(), (std::vector<std::string>{"0.0196", "0.02", "0.03"}));
+
+    const Outcome second = test.runCommand("echo 'endTime 0.0396;' >> system/controlDict && $SOLVER && "
+                                           "echo 'endTime 0.04; writeInterval 1;' >> system/controlDict && $SOLVER");
+    ASSERT_TRUE(second.succeeded()) << second.output;
+    EXPECT_EQ(test.times().back(), "0.04");
+}
+
+// Write times by processor time are counted anew by each process. One that takes the simulated time, 10 s, for processor
+// time writes nothing before it has worked as long.
+TEST(StoppedBetweenWriteTimes, CountedByProcessorTime)
+{
+    TestCase test;
+    test.coupling().set("fluid", "none").set("DEM/maxRayleighFraction", "1e9");
+    test.dem.beads = {{0.0101, 0.0099, 0.02}};
+    test.dem.gravity = 0;
+    test.dem.timeStep = 1;
+    test.setTimes(10, 1, 0.01);
+    test.control().set("writeControl", "cpuTime");
+    ASSERT_TRUE(test.run().succeeded());
+    const Outcome resumed = test.runCommand("echo 'endTime 20;' >> system/controlDict && $SOLVER && ls -d 11");
+    EXPECT_TRUE(resumed.succeeded()) << resumed.output;
+}
+
+// A dry run's deltaT is edited while it goes on: clock and beads keep the interval that they began with. A clock that takes
+// the new step runs twice as fast as the beads, and has fewer rows.
+TEST(EditedTimeStep, DoesNotPartClockAndBeads)
+{
+    TestCase test;
+    pilingBeads(test, false);
+    test.setTimes(0.5, interval, 0.5);
+    test.control().set("runTimeModifiable", "yes");
+    ASSERT_TRUE(test.makeMesh().succeeded());
+    // OpenFOAM heeds a file that is younger by ten seconds.
+    const Outcome outcome = test.runCommand(
+        "$SOLVER > log & solver=$!; until [ -s postProcessing/massInHopper/0/massInHopper.dat ] || ! kill -0 $solver; "
+        "do sleep 0.01; done; kill -STOP $solver; echo 'deltaT 0.002;' >> system/controlDict; "
+        "touch -d '1 minute' system/controlDict; kill -CONT $solver; wait $solver; status=$?; cat log; exit $status");
+    ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_TRUE(outcome.says("Re-reading object controlDict")) << outcome.output;
+    EXPECT_EQ(massRows(test).size(), 501u);
 }
 
 // A run that is stopped after it has inserted all its beads goes on as if never stopped. LIGGGHTS takes the finished

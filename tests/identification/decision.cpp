@@ -72,7 +72,7 @@ TEST(Decision, KeepsWhatItPromises)
     {
         const auto [data, judge] = others.draw({}, atPrior, bench.random);
         const Odds odds = oddsOf(bench.study, judge(data));
-        alarms += calibration.pValue(odds.statistic) < .05 ? 1 : 0;
+        alarms += isDetected(bench.study, calibration, odds) ? 1 : 0;
     }
     EXPECT_NEAR(alarms / (4. * draws), .05, .035);
     double wrong = 0;
@@ -93,7 +93,7 @@ TEST(Decision, KeepsWhatItPromises)
             const auto [data, judge] = others.draw({{e, amplitude}}, atPrior, bench.random);
             const Evidences evidences = judge(data);
             const Odds odds = oddsOf(bench.study, evidences);
-            if (odds.statistic <= calibration.critical)
+            if (!isDetected(bench.study, calibration, odds))
             {
                 continue;
             }

@@ -131,11 +131,11 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
     EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: holds no numbers"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
-    EXPECT_THAT(bench.output, HasSubstr("hopperQuick.study.yaml:9: rig.set.beadDiameter: FILL IN"));
-    const std::string study = "hopperQuick.study.yaml";
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: rig.set.beadDiameter: FILL IN"));
+    const std::string study = "study.yaml";
     EXPECT_THAT(bench.text(study), HasSubstr("decide now, before"));
     EXPECT_EQ(bench.run("plan " + study), 1);
-    EXPECT_THAT(bench.output, HasSubstr("hopperQuick.study.yaml:9: rig.set.beadDiameter: FILL IN"));
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: rig.set.beadDiameter: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr(".prior.sd: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr("Replace these by values"));
     bench.fill(study);
@@ -214,9 +214,9 @@ TEST(Draft, OfAnUnknownCase)
     EXPECT_THAT(bench.output, HasSubstr("observable.file: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr("measured.value.offset: FILL IN"))
         << "what has left is no measure of what is there";
-    bench.fill("case.study.yaml");
-    ASSERT_EQ(bench.run("plan case.study.yaml"), 0) << bench.output;
-    EXPECT_EQ(readStudy(bench.path("case.study.yaml")).conditions.front().measured.value.factor, -1e-3);
+    bench.fill("study.yaml");
+    ASSERT_EQ(bench.run("plan study.yaml"), 0) << bench.output;
+    EXPECT_EQ(readStudy(bench.path("study.yaml")).conditions.front().measured.value.factor, -1e-3);
 }
 
 /// Nothing is written where there is nothing to write about, and nothing that is there is written over.
@@ -248,8 +248,7 @@ TEST(Draft, RefusesAndWritesNothing)
         EXPECT_THAT(bench.output, HasSubstr(told)) << arguments;
     }
     EXPECT_EQ(bench.text("mine.yaml"), "mine\n");
-    EXPECT_FALSE(fs::exists(bench.path("hopperQuick.study.yaml")));
-    EXPECT_FALSE(fs::exists(bench.path("singleBead.study.yaml")));
+    EXPECT_FALSE(fs::exists(bench.path("study.yaml")));
 }
 
 /// By name; "1" and "2" behind a word are repeats, "10" and "12" are not.

@@ -43,12 +43,13 @@ HeldOutScore scoreWith(double declared)
     data[0].features = (Eigen::MatrixXd(4, 1) << .1, .3, .1, .3).finished();
     data[0].meanShare = Eigen::MatrixXd::Constant(1, 1, .25);
     data[0].declaredVariance = Eigen::VectorXd::Constant(1, declared);
+    data[0].errorSlopes = Eigen::MatrixXd::Zero(1, 0);
     std::vector<Prediction> predictions(1);
     predictions[0].mean = Eigen::VectorXd::Constant(1, -.3);
     predictions[0].variance = Eigen::VectorXd::Constant(1, .0003);
     predictions[0].dataCovariance = Eigen::MatrixXd::Constant(1, 1, .0004);
     const auto noise = drawDataNoise(data, predictions, 4000, random);
-    return heldOutScore(data, predictions, {0}, noise, random);
+    return heldOutScore(data, predictions, {{0}}, noise, random);
 }
 
 /// Far from zero the error's own standard error: sqrt(.0004/4 + .0003) = .02, and with a declared one beside what repeats
@@ -58,6 +59,23 @@ TEST(HeldOut, RmsErrorOfMeansAndItsStandardError)
     EXPECT_NEAR(scoreWith(0).rmsLogError.value, .5, 1e-12);
     EXPECT_NEAR(scoreWith(0).rmsLogError.standardError, .02, .001);
     EXPECT_NEAR(scoreWith(.0012).rmsLogError.standardError, .04, .002);
+}
+
+/// One calibration behind two features in two conditions: whatever it is, all numbers are moved by it alike.
+TEST(HeldOut, CommonErrorsAreShared)
+{
+    std::mt19937_64 random(6);
+    HeldOutData one;
+    one.features = Eigen::MatrixXd::Zero(1, 2);
+    one.meanShare = Eigen::MatrixXd::Ones(2, 2);
+    one.declaredVariance = Eigen::VectorXd::Zero(2);
+    one.errorSlopes = Eigen::Vector2d(.1, -.2);
+    Prediction exact{Eigen::VectorXd::Zero(2), Eigen::VectorXd::Zero(2), Eigen::MatrixXd::Zero(2, 2)};
+    const auto noise = drawDataNoise({one, one}, {exact, exact}, 4000, random);
+    const Eigen::ArrayXd first = noise[0].col(0);
+    EXPECT_NEAR(std::sqrt(first.square().mean()), .1, .005);
+    EXPECT_LT((noise[0].col(1).array() + 2 * first).abs().maxCoeff(), 1e-5);
+    EXPECT_LT((noise[1].col(0).array() - first).abs().maxCoeff(), 1e-5);
 }
 
 /// On a smooth function it predicts between the points; on noise it stays at zero.

@@ -23,6 +23,7 @@ public:
 
     bool scatters = false;
     bool failsWithY = false;
+    bool failsWithYAtEdge = false;
     bool failsAlways = false;
     int failuresFirst = 0;
     double curvature = 0.0;
@@ -44,7 +45,8 @@ public:
             const auto own = defaults();
             all.insert(own.begin(), own.end());
             const auto p = numbersOf(all);
-            if (failsAlways || failuresFirst-- > 0 || (failsWithY && p.at("y") != 0.0))
+            if (failsAlways || failuresFirst-- > 0
+                || (p.at("y") != 0.0 && (failsWithY || (failsWithYAtEdge && p.at("edge") != 0.0))))
             {
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});
                 continue;

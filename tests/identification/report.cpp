@@ -17,6 +17,8 @@ namespace
 {
 
 using testing::AllOf;
+using testing::Contains;
+using testing::Each;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -54,13 +56,13 @@ struct Bench
         answer.null.setting = simulator.plainSetting();
         answer.null.setting.parameters(0) = .2;
         answer.null.fits.resize(1);
-        answer.null.fits.front().covariance = Eigen::MatrixXd::Constant(1, 1, .25);
+        answer.null.fits.front().marginal = Eigen::MatrixXd::Constant(1, 1, .25);
         answer.pValue = .0009995;
         answer.effects.resize(study.effects.size());
         for (auto& finding : answer.effects)
         {
             finding.fit.sd = .1;
-            finding.fit.covariance = Eigen::MatrixXd::Constant(1, 1, .04);
+            finding.fit.marginal = Eigen::MatrixXd::Constant(1, 1, .04);
         }
     }
 
@@ -161,7 +163,7 @@ TEST(Sentence, OfAFitThatStrainsAParameter)
     EXPECT_THAT(sentenceOf(bench.findings),
         StartsWith("The model fits, but only with friction 3.5 standard deviations from its own measurement"));
     bench.found(Decision::named, {{1, .5}});
-    EXPECT_THAT(detailsOf(bench.findings), testing::Contains(HasSubstr("takes friction 3.5 standard deviations from")));
+    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("takes friction 3.5 standard deviations from")));
 }
 
 /// One that is left, but not far enough ahead, is no finding.
@@ -169,6 +171,9 @@ TEST(Sentence, OfALoneMemberKeepsTheDoubt)
 {
     Bench bench;
     bench.found(Decision::set, {{1, .5}}, true);
+    bench.answer.otherProbability = 1;
+    bench.answer.otherBesideSet = .3;
+    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("does not hold 30 %")));
     EXPECT_THAT(sentenceOf(bench.findings),
         StartsWith("Perhaps water that moves along with a bead (y 0.020), perhaps something that"));
 }
@@ -182,6 +187,7 @@ TEST(Sentence, OfNothingAndOfSomethingElse)
     bench.answer.decision = Decision::unknown;
     EXPECT_THAT(sentenceOf(bench.findings),
         StartsWith("There is something that the library does not hold: none of its 3 effects"));
+    EXPECT_THAT(detailsOf(bench.findings), Each(Not(HasSubstr("How likely")))) << "of none that fits";
 }
 
 TEST(Sentence, OfVariantsOfOneThing)

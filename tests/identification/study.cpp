@@ -4,6 +4,7 @@
 #include "runner/entries.h"
 #include "study/expression.h"
 #include "study/entriesOfRuns.h"
+#include "study/namedItems.h"
 #include "study/readStudy.h"
 #include "study/units.h"
 #include "linearRig.h"
@@ -447,6 +448,26 @@ TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
     EXPECT_EQ(study.effects.size(), 2U);
     ASSERT_EQ(study.leftOut.size(), 1U);
     EXPECT_NE(study.leftOut.front().find("roll"), std::string::npos);
+}
+
+/// Effects of the water in a study of dry conditions, with what is a part of them; what is left keeps its own part.
+TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
+{
+    const TemporaryFolder folder;
+    const auto partOf = [](const std::string& effect) {
+        return "  - { name: " + effect + "Part, of: " + effect
+               + ", set: { friction: friction }, prior: { mean: 0, sd: 1 }, range: [-9, 9] }\n";
+    };
+    const Study study = studyOf(folder,
+        replaced(replaced(goodStudy, "effects:\n",
+                     partOf("drag") + partOf("clock")
+                         + "effects:\n  - { name: drag, set: { friction: friction + a }, actsIn: { medium: water } }\n"
+                           "  - { name: clock, chain: { timeFactor: 0.01*a } }\n"),
+            "role: training", "role: training, tags: { medium: air }"));
+    EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"clock", "size"}));
+    EXPECT_EQ(study.leftOut, std::vector<std::string>{"drag (it acts in no training condition)"});
+    EXPECT_EQ(namesOfItems(study.parameters), (std::vector<std::string>{"friction", "clockPart"}));
+    EXPECT_EQ(study.parameters[1].effect, 0U);
 }
 
 //--- The budget ------------------------------------------------------------------------------------------------------

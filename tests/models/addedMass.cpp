@@ -102,6 +102,13 @@ TEST(VirtualMass, TakesZubersCoefficient)
     EXPECT_NEAR(test.accelerationOf(0).z(), -0.6 * 9.81 / (1 + 2.75 * 0.4), 1e-9);
 }
 
+/// A constant coefficient beside Zuber's law would be without effect.
+TEST(VirtualMass, RefusesACoefficientBesideZubersLaw)
+{
+    EXPECT_THROW(
+        ForcesOnBeads("forceModels (virtualMassForce); virtualMassForceProps { law Zuber; Cadd 0.7; }"), Foam::IOerror);
+}
+
 /// It asks for DU/Dt, which is not sampled otherwise.
 TEST(VirtualMass, AsksForTheFluidsAcceleration)
 {

@@ -111,6 +111,22 @@ TEST(Lubrication, RefusesAStepThatItCannotDamp)
     }
 }
 
+/// A large bead could take the step, the small one beside it could not, in whichever order they are listed. A look at the
+/// first one only takes the step in one order.
+TEST(Lubrication, RefusesAStepThatTheSmallerOfTwoBeadsCannotTake)
+{
+    for (const double first : {radius, 0.1 * radius})
+    {
+        const double second = 1.1 * radius - first;
+        ForcesOnBeads test(
+            "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; }", weightlessWater);
+        test.engine().seePairs(0.1);
+        test.engine().addBead(1, {0, 0, 0}, first);
+        test.engine().addBead(2, {1.1 * radius, 0, 0}, second);
+        EXPECT_THROW(test.engine().advance(1), Foam::error) << first;
+    }
+}
+
 /// The roughness has no default: results depend on it.
 TEST(Lubrication, AsksForARoughness)
 {

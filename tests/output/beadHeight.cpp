@@ -45,6 +45,14 @@ public:
         engine_.advance(1);
     }
 
+    void removeBead(int id)
+    {
+        if (engine_.beads().size() > 0)
+        {
+            engine_.removeBead(id);
+        }
+    }
+
 private:
     std::unique_ptr<Foam::fvMesh> mesh_;
     FakeEngine engine_;
@@ -95,6 +103,35 @@ TEST(BeadHeight, EndsTheRunBelowAHeight)
         ++steps;
     }
     EXPECT_EQ(steps, 4);
+}
+
+/// When the bead has left there are no more rows, and the run goes on, also when it is resumed. Rows of height 0 would be
+/// taken for a bead that lies still, and 0 for below every floor.
+TEST(BeadHeight, EndsWithItsBead)
+{
+    TemporaryCase temporaryCase("functions { height { type beadHeight; bead 2; stopBelow 0.1; } } endTime 0.05;");
+    TwoBeads beads(temporaryCase);
+    int steps = 0;
+    while (temporaryCase.time().loop())
+    {
+        if (++steps == 3)
+        {
+            beads.removeBead(2);
+        }
+    }
+    EXPECT_EQ(steps, 5);
+    if (Pstream::master())
+    {
+        std::ifstream in(temporaryCase.folder() / "postProcessing/height/0/height.dat");
+        int rows = 0;
+        for (std::string line; std::getline(in, line);)
+        {
+            rows += line.front() != '#';
+        }
+        EXPECT_EQ(rows, 3);
+    }
+    const Foam::dictionary dict(Foam::IStringStream("type beadHeight; bead 2;")());
+    EXPECT_NO_THROW(Foam::functionObject::New("resumed", temporaryCase.time(), dict));
 }
 
 /// A bead that is not there must end the run with words that help, and leave no file behind.

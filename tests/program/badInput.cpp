@@ -193,6 +193,8 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("forceModels", "(DiFelice gradPForce)",
         {"'DiFelice'", "DiFeliceDrag", "SchillerNaumannDrag", "GidaspowDrag", "KochHillDrag", "BeetstraDrag",
             "RongDrag", "StokesDrag", "gradPForce", "viscForce", "Archimedes"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag gradForce)", {"'gradForce' (did you mean 'gradPForce'?)"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag Archimedes Archimedes)", {"'Archimedes' twice"});
     expectEntryRefused("voidFractionModel", "big", {"'big'", "divided", "centre"});
     expectEntryRefused("smoothingModel", "diffusion", {"'diffusion'", "constDiffSmoothing", "off"});
     expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
@@ -219,6 +221,12 @@ TEST(BadInput, EntriesThatNobodyReads)
             test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; slowerThen 2; }");
         },
         {couplingProperties, "'slowerThen'", "did you mean 'slowerThan'?"}, SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; during 0.1; }");
+        },
+        {couplingProperties, "'slowerThan'"}, SeenBy::dictionaries);
+    expectEntryRefused("maxCo", "0.5", {"without 'adjustableInterval'"});
     expectRefused([](TestCase& test) { test.coupling().set("ledger/momentumTollerance", "1e-6"); },
         {couplingProperties, "did you mean 'momentumTolerance'?"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/stopWhenFlowEnds", "0.3"); },
@@ -439,12 +447,20 @@ TEST(BadInput, PlacesOfBeads)
         withBeadAt({0.0101, 0.0099, 0.0208}), {"Beads 1 and 2 at", "overlap by 0.0012 m", "allowed"}, SeenBy::engine);
 }
 
-/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0. What LIGGGHTS says of a command
-/// with variables comes with their values.
+/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0, and within an `if` for longer. A last
+/// line that is to go on was left out without a word. What LIGGGHTS says of a command with variables comes with their values.
 TEST(BadInput, RunAndVariablesInDemScript)
 {
     expectRefused([](TestCase& test) { test.dem.more = "run 10"; }, {script + " line ", "'run 10'", "without 'run'"},
         SeenBy::engine);
+    for (const std::string command : {"run 10", "create_atoms 1 single 0.01 0.01 0.03", "if 1 then 'jump in.beads'"})
+    {
+        SCOPED_TRACE(command);
+        expectRefused([&](TestCase& test) { test.dem.more = "if 1 then \"variable a equal 1\" \"" + command + '"'; },
+            {script + " line ", command, "allowed: an 'if' without"}, SeenBy::engine);
+    }
+    expectRefused([](TestCase& test) { test.dem.more = "variable a &"; },
+        {script, "'variable a  ', ends in '&'", "allowed:"}, SeenBy::engine);
     expectRefused(
         [](TestCase& test) {
             test.dem.more = "variable inside equal -0.5\nregion mouth cylinder z 0 0 ${inside} 0 1 units box";
@@ -505,6 +521,8 @@ TEST(BadInput, DryRun)
     TestCase test;
     fillIn(test);
     test.dem.dumpEvery = 10;
+    test.dem.more = "compute energy all ke\nfix mean all ave/time 1 1 1 c_energy file DEM/energy.txt\n"
+                    "fix told all print 1 \"file 1\" file DEM/told.txt screen no\n";
     ASSERT_TRUE(test.makeMesh().succeeded());
     const Files before = filesIn(test.path());
     const Outcome outcome = test.runCommand("$SOLVER -dryRun");
@@ -512,6 +530,13 @@ TEST(BadInput, DryRun)
     EXPECT_TRUE(outcome.says("Dry run: one interval took")) << outcome.output;
     EXPECT_TRUE(outcome.says("MiB")) << outcome.output;
     EXPECT_EQ(before, filesIn(test.path()));
+
+    expectRefused(test.runCommand("TMPDIR=/proc/none OMPI_MCA_orte_tmpdir_base=/tmp $SOLVER -dryRun"),
+        {"TMPDIR is '/proc/none'", "allowed:"});
+    const Outcome atEnd = test.runCommand("cp -r . ../$$ && cd ../$$ && $SOLVER && $SOLVER -dryRun; status=$?; "
+                                          "rm -r ../$$; exit $status");
+    EXPECT_TRUE(atEnd.succeeded()) << atEnd.output;
+    EXPECT_TRUE(atEnd.says("Dry run: the case is at its end, 0.004 s")) << atEnd.output;
 
     test.dem.beads.emplace_back(0.01, 0.01, 0.0412);
     test.write();

@@ -8,7 +8,6 @@ usage: sameBytes.py [-v]
 import filecmp
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path

@@ -85,6 +85,16 @@ class Stops(HopperCase):
         self.assertIn("'./Allrun mesh' makes another", self.refuses("submerged"))
 
 
+class Results(HopperCase):
+    def testWithoutBeadsWrittenAllButTheirPictureIsMade(self):
+        """What draws beads fails here, as it does where none were written; with beads it is called, and its failure told."""
+        self.program(self.folder / "bin" / "xvfb-run", "#!/bin/sh\nexit 1\n")
+        self.refuses()
+        self.set(drawBeads="off")
+        self.succeeds()
+        self.assertTrue((self.case / "results" / "summary.json").exists())
+
+
 class Ranks(HopperCase):
     def testTheirBoxesAllReachTheBeads(self):
         """As many as ranks, at most two along x and y, said once however often a stage is prepared, also for a stage that was

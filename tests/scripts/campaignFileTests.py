@@ -1,7 +1,6 @@
 """What scripts/campaign does with damaged state, a full disk and mistaken files. With the stand-in of tests/campaign; seconds."""
 
 import errno
-import json
 import os
 import shutil
 import subprocess
@@ -104,6 +103,14 @@ class MistakenFiles(CampaignFile):
         self.assertIn("(is 'packings' meant?)", self.refused())
         self.write(parameters={"fricton": 0.1})
         self.assertIn("(is 'friction' meant?)", self.refused())
+
+    def testWhatIsNoListOfRunsOrNoNumberOfTimes(self):
+        """Before anything is run: these were found while the first run was under way, or ended in a traceback."""
+        for settings, words in (({"runs": {}}, "entry 'runs' is {}; allowed: a list of"), ({"runs": {"mu": 5}}, "allowed: a list of"),
+                                ({"keepTimes": 1}, "entry 'keepTimes' is 1; allowed: all, or a whole number above 1")):
+            self.write(**settings)
+            for command in ("check", "run"):
+                self.assertIn(words, self.refused(command))
 
     def testParametersOfTheHopperAreCheckedBeforeAnythingIsMade(self):
         """Of every run, also of one of many in a sweep."""

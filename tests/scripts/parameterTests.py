@@ -1,5 +1,6 @@
 """scripts/parameterFile.py and scripts/arithmetic.py: what is read, what is refused, what is never run."""
 
+import subprocess
 import sys
 import unittest
 from pathlib import Path
@@ -70,6 +71,17 @@ class Changing(unittest.TestCase):
     def testAnUnknownNameNamesTheNearest(self):
         with self.assertRaisesRegex(ParameterError, r"no entry 'fricton' \(is 'friction' meant\?\); it has: friction, other"):
             withParameters("friction 1;\nother 2;\n", {"fricton": "1"})
+
+
+class Typed(unittest.TestCase):
+    def testMistakesAreTold(self):
+        """What a shell passes on, in words, never in a traceback."""
+        for arguments, words in (((), "usage: "), (("get", "FILE"), "usage: "), (("evaluate", "1", "2"), "usage: "),
+                                 (("set", "FILE", "friction", ".2"), "'friction' sets nothing; allowed: NAME=VALUE")):
+            outcome = subprocess.run([REPOSITORY / "scripts" / "parameterFile.py", *arguments], capture_output=True, text=True)
+            self.assertEqual(outcome.returncode, 1)
+            self.assertIn(words, outcome.stderr)
+            self.assertNotIn("Traceback", outcome.stderr)
 
 
 class Arithmetic(unittest.TestCase):

@@ -8,7 +8,6 @@ table that let every finding hold, as it once did, passes neither of the tests o
 import json
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 from pathlib import Path

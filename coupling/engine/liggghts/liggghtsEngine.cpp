@@ -394,11 +394,15 @@ private:
     {
         const std::filesystem::path& resumeFrom = setup.resumeFrom;
         bool boxMade = false;
-        for (const ScriptCommand& command : readScript(setup.script, setup.variables))
+        for (ScriptCommand& command : readScript(setup.script, setup.variables))
         {
             if (setup.writesNothing && writesFiles(command.text))
             {
                 continue;
+            }
+            if (setup.writesNothing)
+            {
+                command.text = withoutFiles(command.text);
             }
             if (resumeFrom.empty() || !makesBeads(command.text))
             {

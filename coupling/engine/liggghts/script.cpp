@@ -2,6 +2,8 @@
 
 #include "engine/demEngine.h"
 
+#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -22,6 +24,51 @@ std::string word(const std::string& command, int index)
         words >> found;
     }
     return found;
+}
+
+bool isQuote(char c)
+{
+    return c == '"' || c == '\'';
+}
+
+/// What stands in quotes is one word, with its quotes.
+std::vector<std::string> wordsOf(const std::string& command)
+{
+    const auto isSpace = [](unsigned char c) { return std::isspace(c) != 0; };
+    std::vector<std::string> words;
+    for (auto at = command.begin(); (at = std::find_if_not(at, command.end(), isSpace)) != command.end();)
+    {
+        auto end = std::find_if(at, command.end(), isSpace);
+        if (isQuote(*at))
+        {
+            end = std::find(at + 1, command.end(), *at);
+            end += end == command.end() ? 0 : 1;
+        }
+        words.emplace_back(at, end);
+        at = end;
+    }
+    return words;
+}
+
+/// What `if` makes LIGGGHTS do is not seen line by line: it must be nothing that this program has to know of.
+void requireHarmless(const std::string& ifCommand, const std::string& where)
+{
+    static const std::set<std::string> others = {"run", "rerun", "minimize", "jump", "label", "next", "include"};
+    for (const std::string& found : wordsOf(ifCommand))
+    {
+        const bool quoted = isQuote(found.front());
+        const std::string inside = quoted ? found.substr(1, found.size() - 2) : found;
+        const std::string name = word(inside, 0);
+        if (quoted && name == "if")
+        {
+            requireHarmless(inside, where);
+        }
+        else if (others.count(name) > 0 || makesBeads(name))
+        {
+            throw DemEngineError(where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
+                                 + "', for it would be done unseen, and again in a resumed run");
+        }
+    }
 }
 
 /// A file's name with the values of its variables.
@@ -75,6 +122,10 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
             throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
                                  + "', for the coupling runs LIGGGHTS, from interval to interval");
         }
+        if (name == "if")
+        {
+            requireHarmless(text, where);
+        }
         if (name == "include")
         {
             const std::vector<ScriptCommand> included =
@@ -86,6 +137,11 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
             commands.push_back({text, where});
         }
         text.clear();
+    }
+    if (!text.empty())
+    {
+        throw DemEngineError(
+            script.string() + ": the last line, '" + text + "', ends in '&'; allowed: a line after it");
     }
     return commands;
 }
@@ -100,6 +156,30 @@ bool writesFiles(const std::string& command)
     static const std::set<std::string> commands = {
         "dump", "dump_modify", "undump", "restart", "write_restart", "write_data", "write_dump", "log", "shell"};
     return commands.count(word(command, 0)) > 0;
+}
+
+std::string withoutFiles(const std::string& command)
+{
+    std::vector<std::string> words = wordsOf(command);
+    const auto writes = [](const std::string& style) {
+        return style.rfind("ave/", 0) == 0 || style == "print" || style == "massflow/mesh";
+    };
+    constexpr std::size_t style = 3; // fix ID group style
+    if (words.size() <= style || words[0] != "fix" || !writes(words[style]))
+    {
+        return command;
+    }
+    std::string kept;
+    for (std::size_t i = 0; i < words.size(); ++i)
+    {
+        if (i > style && (words[i] == "file" || words[i] == "append"))
+        {
+            ++i;
+            continue;
+        }
+        kept += words[i] + ' ';
+    }
+    return kept;
 }
 
 bool makesBeads(const std::string& command)

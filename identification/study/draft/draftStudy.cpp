@@ -460,12 +460,8 @@ void Draft::writeEnd()
 
 } // namespace
 
-void draftStudy(const fs::path& caseFolder, const std::vector<fs::path>& measured, fs::path study, std::ostream& out)
+void draftStudy(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study, std::ostream& out)
 {
-    if (study.empty())
-    {
-        study = fs::canonical(caseFolder).filename().string() + ".study.yaml";
-    }
     if (fs::exists(fs::symlink_status(study)))
     {
         throw std::runtime_error(study.string() + ": is there already, and stays; --output names another file");

@@ -13,10 +13,10 @@ namespace clepsydra::identification
 /// Of files of conditions that are proposed to be held out no value is looked at.
 /// \param caseFolder  of the simulation: hoppers that write massInHopper and beads that write beadHeight are known
 /// \param measured  files, and folders of files (.csv, .txt, .dat, .tsv)
-/// \param study  is made; its folder must be there. Empty: <name of the case>.study.yaml in the current folder
+/// \param study  is made; its folder must be there
 /// \throws std::runtime_error, with nothing written, where the study is there already, where nothing can be read, or where
 /// the files do not fit each other or the case
 void draftStudy(const std::filesystem::path& caseFolder, const std::vector<std::filesystem::path>& measured,
-    std::filesystem::path study, std::ostream& out);
+    const std::filesystem::path& study, std::ostream& out);
 
 } // namespace clepsydra::identification
