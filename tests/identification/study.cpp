@@ -466,7 +466,7 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
             "role: training", "role: training, tags: { medium: air }"));
     EXPECT_EQ(namesOfItems(study.effects), (std::vector<std::string>{"clock", "size"}));
     EXPECT_EQ(study.leftOut, std::vector<std::string>{"drag (it acts in no training condition)"});
-    EXPECT_EQ(namesOfItems(study.parameters), (std::vector<std::string>{"friction", "clockPart"}));
+    EXPECT_EQ(namesOfItems(study.parameters), (std::vector<std::string>{"rough", "clockPart"}));
     EXPECT_EQ(study.parameters[1].effect, 0U);
 }
 
