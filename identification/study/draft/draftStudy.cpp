@@ -460,7 +460,8 @@ void Draft::writeEnd()
 
 } // namespace
 
-void draftStudy(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study, std::ostream& out)
+void draftStudy(
+    const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study, std::ostream& out)
 {
     if (fs::exists(fs::symlink_status(study)))
     {
