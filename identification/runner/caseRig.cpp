@@ -51,7 +51,7 @@ std::string endOfLog(const fs::path& file)
 /// the start: a run that found them would go on from there.
 bool isOutput(const std::string& name)
 {
-    static const std::regex outputs("stages|results|postProcessing|VTK|checkpoints|log\\..*|processor\\d+|.*\\.work");
+    static const std::regex outputs(R"(stages|results|postProcessing|VTK|checkpoints|log\..*|processor\d+|.*\.work)");
     char* end = nullptr;
     return std::regex_match(name, outputs) || (std::strtod(name.c_str(), &end) > 0.0 && *end == '\0');
 }

@@ -7,6 +7,7 @@
 #include "words/didYouMean.h"
 
 #include <cmath>
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -202,11 +203,11 @@ void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
 /// Control 2 compares them number by number.
 void requireEqualCoordinates(const YamlPlace& root, const Study& study)
 {
-    const Condition* first = nullptr;
+    const auto first = std::find_if(study.conditions.begin(), study.conditions.end(),
+        [](const Condition& condition) { return !condition.coordinates.empty(); });
     for (const auto& condition : study.conditions)
     {
         const auto names = namesOf(condition.coordinates);
-        first = first == nullptr && !names.empty() ? &condition : first;
         if (!names.empty() && names != namesOf(first->coordinates))
         {
             root.at("conditions")
