@@ -6,8 +6,8 @@
 #include "study/units.h"
 #include "words/didYouMean.h"
 
-#include <cmath>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>

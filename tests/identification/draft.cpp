@@ -77,10 +77,10 @@ public:
         std::string study = text(name);
         for (const auto& [place, by] :
             std::vector<std::pair<std::string, std::string>>{{"\"FILL IN: [^\"]*; the case has ([^\"]*)\"", "$1"},
-                {"\"FILL IN: [^\"]*the name has ([0-9.]*)[^\"]*\"", "$1e-3"}, {"mean: \"FILL IN[^\"]*\"", "mean: 0.15"},
-                {"sd: \"FILL IN[^\"]*\"", "sd: 0.03"},
-                {"file: \"FILL IN[^\"]*\"", "file: postProcessing/massInHopper/*/massInHopper.dat"},
-                {"value: \"FILL IN[^\"]*\"", "value: mass"}, {"\"FILL IN[^\"]*\"", "0.2"}})
+                {R"("FILL IN: [^"]*the name has ([0-9.]*)[^"]*")", "$1e-3"}, {R"(mean: "FILL IN[^"]*")", "mean: 0.15"},
+                {R"(sd: "FILL IN[^"]*")", "sd: 0.03"},
+                {R"(file: "FILL IN[^"]*")", "file: postProcessing/massInHopper/*/massInHopper.dat"},
+                {R"(value: "FILL IN[^"]*")", "value: mass"}, {R"("FILL IN[^"]*")", "0.2"}})
         {
             study = std::regex_replace(study, std::regex(place), by);
         }
@@ -182,9 +182,9 @@ TEST(Draft, OfFallingBeadsIsAcceptedOnceFilled)
     {
         for (const std::string trial : {"1", "2"})
         {
-            bench.write(
-                name + "_trial_" + trial + ".txt", table("28 Feb 2023, 3:30 PM\nTime(sec)\tPosition(mm)", "\t", '.',
-                                                       [=](double t) { return t < .5 || t > 5 ? 0 : 10 + speed * t; }));
+            bench.write(name + "_trial_" + trial + ".txt",
+                table("28 Feb 2023, 3:30 PM\nTime(sec)\tPosition(mm)", "\t", '.',
+                    [&, speed = speed](double t) { return t < .5 || t > 5 ? 0 : 10 + speed * t; }));
         }
     }
     const std::string files = " bead_1.5_trial_1.txt bead_1.5_trial_2.txt bead_2_trial_1.txt bead_2_trial_2.txt";

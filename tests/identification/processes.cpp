@@ -23,7 +23,6 @@ namespace
 namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using std::chrono_literals::operator""ms;
 
 /// A run that starts a child that ignores SIGTERM, one more that has left its group and session and whose parent is gone,
 /// and then waits for ever itself, ignoring SIGTERM. All write down who they are.
@@ -60,7 +59,7 @@ bool soon(const Condition& condition)
 {
     for (int look = 0; look < 1000 && !condition(); ++look)
     {
-        std::this_thread::sleep_for(20ms);
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return condition();
 }
@@ -72,7 +71,7 @@ TEST(Processes, NoneOutlivesTheTimeLimit)
     const TemporaryFolder folder;
     std::vector<int> ended;
     std::size_t left = stubbornProcesses;
-    ProcessPool(1, 1.0, 100ms).run({{folder.path(), stubborn}}, [&](const JobEnd& end) {
+    ProcessPool(1, 1.0, std::chrono::milliseconds(100)).run({{folder.path(), stubborn}}, [&](const JobEnd& end) {
         ended.push_back(end.status);
         left = alive(processesOf(folder.path()));
     });
@@ -86,7 +85,7 @@ TEST(Processes, NoneOutlivesItsRun)
 {
     const TemporaryFolder folder;
     std::vector<int> ended;
-    ProcessPool(2, 0, 100ms)
+    ProcessPool(2, 0, std::chrono::milliseconds(100))
         .run({{folder.path(), "setsid sh -c 'trap \"\" TERM; echo $$ >> pids; while :; do sleep 1000; done' &\n"
                               "while [ ! -s pids ]; do sleep 0.02; done; exit 3"},
                  {folder.path(), "kill -9 $$"}},
@@ -108,7 +107,7 @@ TEST(Processes, NoneOutlivesTheProgram)
         {
             try
             {
-                ProcessPool(2, 0, 100ms)
+                ProcessPool(2, 0, std::chrono::milliseconds(100))
                     .run({{folder.path(), stubborn}, {folder.path(), "while [ ! -e fail ]; do sleep 0.02; done"}},
                         [](const JobEnd&) { throw std::runtime_error("the disk is full"); });
             }
@@ -143,7 +142,7 @@ TEST(Processes, StoppedIsNotFailed)
     const auto runWhileSignalled = [&](int signal, void (*action)(int), const std::string& command) {
         const auto before = std::signal(signal, action);
         std::thread sender([&] {
-            std::this_thread::sleep_for(200ms);
+            std::this_thread::sleep_for(std::chrono::milliseconds(200));
             kill(getpid(), signal);
         });
         std::vector<int> ended;
@@ -174,7 +173,7 @@ class PlayedSlurm
 public:
     /// \param sbatch, scancel  what these do, as shell
     PlayedSlurm(const TemporaryFolder& folder, const std::string& sbatch, const std::string& scancel = "")
-        : path_(std::getenv("PATH"))
+        : path_(std::getenv("PATH") ? std::getenv("PATH") : "")
     {
         for (const auto& [name, text] : {std::pair("sbatch", sbatch), std::pair("scancel", scancel)})
         {
@@ -198,7 +197,7 @@ private:
 TEST(Slurm, OptionsAreNoShell)
 {
     const TemporaryFolder folder;
-    const PlayedSlurm slurm(folder, "printf '%s\\n' \"$@\" > " + (folder.path() / "words").string());
+    const PlayedSlurm slurm(folder, R"(printf '%s\n' "$@" > )" + (folder.path() / "words").string());
     const std::string hostile = "--comment=;touch " + (folder.path() / "executed").string() + ";$(touch executed)";
     SlurmArray(0, {hostile}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {});
     EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr('\n' + hostile + '\n'));

@@ -324,7 +324,7 @@ TEST(Program, PlansByTheTimeOfOneRun)
     EXPECT_THAT(workshop.output, HasSubstr("s a run, assumed"));
     ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
     std::smatch found;
-    const std::regex said("effect library: (\\d+) runs, (\\d+) of them not made yet.*\\((\\S+) s a run\\)");
+    const std::regex said(R"(effect library: (\d+) runs, (\d+) of them not made yet.*\((\S+) s a run\))");
     ASSERT_TRUE(std::regex_search(workshop.output, found, said)) << workshop.output;
     EXPECT_EQ(std::stoi(found[2]), std::stoi(found[1]) - 1);
     EXPECT_LT(std::stod(found[3]), 30);
@@ -415,7 +415,7 @@ TEST(Program, FullDiskLeavesTheOldReports)
         EXPECT_THAT(workshop.output, HasSubstr("answer.json.unfinished: File too large"));
         EXPECT_EQ(sha256OfPath(workshop.path() / "results"), before);
     }
-    std::ofstream(workshop.path() / "results/report.json") << "{ \"summary\": \"half";
+    std::ofstream(workshop.path() / "results/report.json") << R"({ "summary": "half)";
     workshop.append("nonsense: 1\n");
     EXPECT_NE(workshop.run("report"), 0);
     EXPECT_THAT(workshop.output, HasSubstr("report.json: damaged"));
@@ -481,7 +481,7 @@ TEST(Runner, SeveralFilesOfOneRun)
     std::ostringstream progress;
     CaseRig rig(study, progress);
     const auto orderOf = [](const std::string& file) {
-        return RunOrder{"for i in 1 2 3; do printf \"# t m\\n0 $i\\n1 $i\\n\" > $(printf abc | cut -c$i); done", file,
+        return RunOrder{R"~(for i in 1 2 3; do printf "# t m\n0 $i\n1 $i\n" > $(printf abc | cut -c$i); done)~", file,
             {}, 0, "test"};
     };
     const auto results = rig.run({orderOf("a"), orderOf("b"), orderOf("d")});

@@ -456,7 +456,7 @@ TEST(BadInput, RunAndVariablesInDemScript)
     for (const std::string command : {"run 10", "create_atoms 1 single 0.01 0.01 0.03", "if 1 then 'jump in.beads'"})
     {
         SCOPED_TRACE(command);
-        expectRefused([&](TestCase& test) { test.dem.more = "if 1 then \"variable a equal 1\" \"" + command + '"'; },
+        expectRefused([&](TestCase& test) { test.dem.more = R"(if 1 then "variable a equal 1" ")" + command + '"'; },
             {script + " line ", command, "allowed: an 'if' without"}, SeenBy::engine);
     }
     expectRefused([](TestCase& test) { test.dem.more = "variable a &"; },
