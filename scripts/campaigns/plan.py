@@ -48,12 +48,15 @@ class Campaign:
     """A campaign file and its template, read and checked. CampaignError where anything is wrong.
 
     only: of its entries `runs` these; all unless given.
+    missing: only runs that have no results yet, and what they need.
     """
 
-    def __init__(self, path, only=None):
+    def __init__(self, path, only=None, missing=False):
         self.path = Path(path).resolve()
         try:
             self._read(only)
+            if missing:
+                self._dropPublished()
         except parameterFile.ParameterError as problem:
             raise CampaignError(problem) from None
 
@@ -90,6 +93,13 @@ class Campaign:
         if kept != "all" and not (isinstance(kept, int) and kept > 1):
             raise self._error("keepTimes", kept, "all, or a whole number above 1")
         return None if kept == "all" else kept
+
+    def _dropPublished(self):
+        left = [task for task in self.tasks.values() if task.publish and not (self.results / f"{task.publish}.json").exists()]
+        names = {task.name for task in left}
+        for task in left:
+            names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
+        self.tasks = {name: task for name, task in self.tasks.items() if name in names}
 
     def parameterText(self, task):
         """The task's file `parameters`."""

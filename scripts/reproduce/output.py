@@ -35,13 +35,13 @@ DECIMALS = 3
 
 
 def command(main, description, entries, afterRun=None):
-    """main() after the command line is read: --run does first what the campaign's entries have not done yet.
+    """main() after the command line is read: --run runs first what of the campaign's entries has no results yet.
 
     afterRun(folder): takes from the campaign's work folder what its results do not hold.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--run", action="store_true",
-                        help=f"first run what is missing of the entries {', '.join(entries)} of {CAMPAIGN}" if entries
+                        help=f"first run what has no results yet of the entries {', '.join(entries)} of {CAMPAIGN}" if entries
                         else "nothing has to be run for this one")
     parser.add_argument("--into", metavar="FOLDER", type=Path, default=RESULTS / "figures")
     if afterRun:
@@ -54,11 +54,11 @@ def command(main, description, entries, afterRun=None):
     try:
         main(Folder(given.into))
     except series.MissingRuns as missing:
-        sys.exit(f"{sys.argv[0]}: {missing}; `scripts/campaign run {CAMPAIGN} --only ENTRY` makes them")
+        sys.exit(f"{sys.argv[0]}: {missing}; `scripts/campaign run {CAMPAIGN} --missing --only ENTRY` makes them")
 
 
 def run(entries):
-    with subprocess.Popen([SCRIPTS / "campaign", "run", CAMPAIGN, "--only", *entries]) as campaign:
+    with subprocess.Popen([SCRIPTS / "campaign", "run", CAMPAIGN, "--missing", "--only", *entries]) as campaign:
         try:
             status = campaign.wait()
         except KeyboardInterrupt:

@@ -157,6 +157,23 @@ class CampaignOfStandIns(CampaignTest):
         self.assertRegex(self.call("status").stdout, r"one\.1\.dry +waiting")
         self.assertRegex(self.call("run", "--only", "noSuchRun").stderr, "no run 'noSuchRun'; there are: one, other")
 
+    def testOnlyRunsWithoutResults(self):
+        """As in a fresh copy of a repository that holds the results of one run, by an earlier program: that one is neither run
+        nor written again, and of two pours only the other's is made."""
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry"], packings=[1, 2], runs={"one": {}})
+        earlier = self.folder / "results" / "one.1.dry.json"
+        earlier.parent.mkdir()
+        earlier.write_text("earlier")
+        self.assertNotIn("one.1.dry", self.call("status", "--missing").stdout)
+        self.assertEqual(self.call("run", "--missing").returncode, 0)
+        self.assertEqual([path.name for path in self.work("runs/*")], ["one.2.dry"])
+        self.assertEqual(len(self.work("shared/pour-*")), 1)
+        self.assertEqual(earlier.read_text(), "earlier")
+        outcome = self.call("run", "--missing")
+        self.assertEqual((outcome.returncode, outcome.stdout), (0, "campaign: every run has its results\n"))
+        self.assertEqual(self.call("run").returncode, 0)
+        self.assertEqual(len(self.work("runs/*")), 2)
+
     def testWrongFilesAreNamedWithWhatIsAllowed(self):
         self.sweep([0.1], parameters={"fricton": 1})
         outcome = self.call("run")
