@@ -102,12 +102,11 @@ class HopperRun:
         """The paper's W, "at the beginning"."""
         return self.rateBetween(*START)
 
-    def gain(self, upper, lower):
-        """Mean rate while so many g are left, over that in the upper half, in which the paper finds m(t) straight; None for a
-        run without such parts."""
-        if upper > LINEAR[1] * self.mass[0] * 1.001 or self.mass[-1] > lower:
-            return None
-        return ratio(self.rateBetween(upper / self.mass[0], lower / self.mass[0]), self.rateBetween(*LINEAR))
+    def gain(self, upper, lower, early):
+        """Mean rate while so many g are left, over that between two parts of the fill."""
+        if self.mass[-1] > lower:
+            raise MissingRuns(f"{self.name} ended before {lower:g} g were left")
+        return ratio(self.rateBetween(upper / self.mass[0], lower / self.mass[0]), self.rateBetween(*early))
 
     @cached_property
     def rise(self):
