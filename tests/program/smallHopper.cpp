@@ -117,4 +117,12 @@ TEST(SmallHopper, EveryBeadIsAccountedFor)
     EXPECT_NEAR(rate["submerged"] / rate["dry"], ratioOfRates.mean, ratioOfRates.allowed());
 }
 
+/// The softest beads that scripts/rules/hopper.py allows. LIGGGHTS refuses beads of less than 5 MPa unless it is told.
+TEST(SmallHopper, BeadsMayBeAsSoftAsTheRulesSay)
+{
+    QuickHopper hopper({{"beadCount", "20"}, {"youngsModulus", "1e5"}, {"pourDuration", "0.04"}, {"pourTime", "0.06"}});
+    const Outcome poured = hopper.pour();
+    EXPECT_TRUE(poured.succeeded()) << poured.output;
+}
+
 } // namespace
