@@ -95,9 +95,13 @@ class Film(Pictures):
     def testEveryOther(self):
         self.assertIn("film.gif: 3 pictures", self.makes("movie", "--every", 2, self.submerged, "film.gif"))
 
+    def testAPartOfTheRun(self):
+        self.assertIn("film.gif: 2 pictures", self.makes("movie", "--between", 0.15, 0.35, self.submerged, "film.gif"))
+
     def testSaysWhatItCannotDo(self):
         for arguments, complaint in (((self.submerged, "film.avi"), "allowed: .mp4"), ((self.folder, "film.mp4"), "has no VTK/beads.pvd"),
-                                     (("--view", 3, 1, 0, 1, self.submerged, "film.mp4"), "--view is X0 < X1")):
+                                     (("--view", 3, 1, 0, 1, self.submerged, "film.mp4"), "--view is X0 < X1"),
+                                     (("--between", 0.2, 0.1, self.submerged, "film.mp4"), "--between is T0 < T1")):
             done = self.runs("movie", *arguments)
             self.assertEqual(done.returncode, 2)
             self.assertIn(complaint, done.stderr)
