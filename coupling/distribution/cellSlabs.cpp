@@ -23,6 +23,8 @@ constexpr double infinitelyFar = std::numeric_limits<double>::infinity();
 constexpr double sameSideCosine = 0.9;
 /// Sides whose normals are within about 60 degrees of opposite bound the same slab.
 constexpr double oppositeCosine = -0.5;
+/// Exponent: of two cells behind whose walls a bead is, the one behind whose wall it is half as far gets nearly all.
+constexpr double leastBehindCounts = 8;
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
 {
@@ -122,12 +124,27 @@ template<class Cut>
 double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const
 {
     double fraction = 1;
-    for (int i = side.firstPlane; i < side.firstPlane + side.planeCount; ++i)
+    for (int i = side.firstPlane; !side.wall && i < side.firstPlane + side.planeCount; ++i)
     {
-        const double distance = planes_[i].inwardNormal.dot(centre) - planes_[i].offset;
-        fraction = std::min(fraction, side.wall ? (distance >= 0 ? 1.0 : 0.0) : cut(distance));
+        fraction = std::min(fraction, cut(planes_[i].inwardNormal.dot(centre) - planes_[i].offset));
     }
     return fraction;
+}
+
+double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double beadRadius) const
+{
+    double nearestPlane = 0;
+    for (int slab = firstSlab_[cell]; slab < firstSlab_[cell + 1]; ++slab)
+    {
+        for (const Side& side : {slabs_[slab].low, slabs_[slab].high})
+        {
+            for (int i = side.firstPlane; side.wall && i < side.firstPlane + side.planeCount; ++i)
+            {
+                nearestPlane = std::min(nearestPlane, planes_[i].inwardNormal.dot(centre) - planes_[i].offset);
+            }
+        }
+    }
+    return nearestPlane == 0 ? 1 : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / beadRadius), leastBehindCounts);
 }
 
 template<class Cut>
@@ -138,17 +155,18 @@ double CellSlabs::shareInSlabs(label cell, const Vector3d& centre, const Cut& cu
     {
         const double low = fractionInside(slabs_[slab].low, centre, cut);
         const double high = fractionInside(slabs_[slab].high, centre, cut);
-        // Behind a wall is behind it however far the other side reaches.
-        share *= low == 0 || high == 0 ? 0 : std::max(0.0, low + high - 1);
+        share *= std::max(0.0, low + high - 1);
     }
     return share;
 }
 
-double CellSlabs::share(label cell, const Vector3d& centre, double radius) const
+double CellSlabs::share(label cell, const Vector3d& centre, double radius, double beadRadius) const
 {
-    return bricks_[cell].isBrick
-               ? shareInBrick(cell, centre, radius)
-               : shareInSlabs(cell, centre, [radius](double distance) { return partInHalfSpace(distance / radius); });
+    const double before = partBeforeWalls(cell, centre, beadRadius);
+    return before == 0 ? 0
+           : bricks_[cell].isBrick
+               ? before * shareInBrick(cell, centre, radius)
+               : before * shareInSlabs(cell, centre, [radius](double distance) { return partInHalfSpace(distance / radius); });
 }
 
 double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius) const
@@ -156,7 +174,7 @@ double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius
     const Box& box = cellBoxes_[cell];
     const Brick& brick = bricks_[cell];
     const auto distance = [perRadius = 1 / radius](double inside, bool wall) {
-        return wall ? (inside >= 0 ? infinitelyFar : -infinitelyFar) : inside * perRadius;
+        return wall ? infinitelyFar : inside * perRadius;
     };
     std::array<SlabAboutSphere, 3> slabs;
     for (int axis = 0; axis < 3; ++axis)
@@ -167,9 +185,13 @@ double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius
     return sphereInBox_(slabs);
 }
 
-double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth) const
+double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double beadRadius) const
 {
-    return shareInSlabs(cell, centre, [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); });
+    const double before = partBeforeWalls(cell, centre, beadRadius);
+    return before == 0 ? 0
+                       : before * shareInSlabs(cell, centre, [bandwidth](double distance) {
+                             return 0.5 * std::erfc(-distance / bandwidth);
+                         });
 }
 
 void CellSlabs::makeBins(const Foam::fvMesh& mesh)

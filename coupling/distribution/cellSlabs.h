@@ -23,18 +23,27 @@ namespace clepsydra
 /// cell of the last interval, not on how the mesh is decomposed.
 ///
 /// A wall bounds no share: a bead does not reach through a wall, it touches it. So a cell has the full share on the
-/// fluid's side of its wall faces, and none of a bead whose centre lies behind one. This is what keeps the solid
-/// volume from leaking through baffles of zero thickness.
+/// fluid's side of its wall faces, and next to none, behindWall at most, of a bead whose centre lies behind one. This is
+/// what keeps the solid volume from leaking through baffles of zero thickness.
+///
+/// Next to none and not none, because the mesh's walls are not quite the engine's: snappyHexMesh cuts an edge short that
+/// a small bead rolls into. A bead whose centre is in front of no cell's walls so belongs to the cells whose walls it is
+/// the least behind, as long as that is less than its radius.
 class CellSlabs
 {
 public:
+    /// Beside any other share it is lost in rounding.
+    static constexpr double behindWall = 1e-30;
+
     explicit CellSlabs(const Foam::fvMesh& mesh);
 
     /// Share of a sphere in one cell, not normalised, in [0, 1].
-    double share(Foam::label cell, const Vector3d& centre, double radius) const;
+    /// \param radius      of the sphere [m]
+    /// \param beadRadius  how far behind a wall its centre may be [m]
+    double share(Foam::label cell, const Vector3d& centre, double radius, double beadRadius) const;
 
     /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; the same rule at walls.
-    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth) const;
+    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double beadRadius) const;
 
     /// Cells whose bounding box meets the cube about the sphere, by growing label.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
@@ -79,11 +88,12 @@ private:
     };
 
     double shareInBrick(Foam::label cell, const Vector3d& centre, double radius) const;
-    // cut: fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre
+    // cut: fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre; a wall cuts nothing
     template<class Cut>
     double fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const;
     template<class Cut>
     double shareInSlabs(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
+    double partBeforeWalls(Foam::label cell, const Vector3d& centre, double beadRadius) const;
     void addCell(const Foam::fvMesh& mesh, Foam::label cell);
     void makeBins(const Foam::fvMesh& mesh);
     Eigen::Vector3i binOf(const Vector3d& point) const;

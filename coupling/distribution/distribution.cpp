@@ -2,6 +2,7 @@
 
 #include "processorCyclicPolyPatch.H"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clepsydra
@@ -84,13 +85,22 @@ void Distribution::addShares(const VisitingBead& bead, Neighbourhood& near)
         near.reach = reach;
         cells_.cellsNear(bead.position, reach + margin, near.cells);
     }
+    const auto first = static_cast<std::ptrdiff_t>(shares_.size());
+    double largest = 0;
     for (const Foam::label cell : near.cells)
     {
         const double share = cells_.isNear(cell, bead.position, reach) ? voidFraction_->share(cell, bead) : 0;
         if (share > 0)
         {
             shares_.push_back({cell, share});
+            largest = std::max(largest, share);
         }
+    }
+    if (largest > CellSlabs::behindWall)
+    {
+        shares_.erase(std::remove_if(shares_.begin() + first, shares_.end(),
+                          [](const Share& share) { return share.share <= CellSlabs::behindWall; }),
+            shares_.end());
     }
 }
 

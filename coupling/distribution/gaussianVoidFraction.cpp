@@ -43,7 +43,7 @@ public:
 
     double share(Foam::label cell, const VisitingBead& bead) const override
     {
-        return cells().gaussianShare(cell, bead.position, bandwidth_);
+        return cells().gaussianShare(cell, bead.position, bandwidth_, bead.radius);
     }
 
     Foam::string description() const override

@@ -38,7 +38,7 @@ public:
 
     double share(Foam::label cell, const VisitingBead& bead) const override
     {
-        return cells().share(cell, bead.position, bead.radius);
+        return cells().share(cell, bead.position, bead.radius, bead.radius);
     }
 
     Foam::string description() const override
@@ -61,12 +61,12 @@ public:
 
     double reach(const VisitingBead& bead) const override
     {
-        return smallPart * bead.radius;
+        return bead.radius;
     }
 
     double share(Foam::label cell, const VisitingBead& bead) const override
     {
-        return cells().share(cell, bead.position, smallPart * bead.radius);
+        return cells().share(cell, bead.position, smallPart * bead.radius, bead.radius);
     }
 
     Foam::string description() const override
