@@ -115,35 +115,54 @@ def surge():
     difference = Value(rises["submerged"].mean - rises["dry"].mean,
                        float(np.hypot(rises["submerged"].error, rises["dry"].error)))
     found.append(row("rise of W, submerged less dry", "-", difference, names(sum(runsOf.values(), []))))
+    upperHalf = tuple(part * runsOf["dry"][0].fill for part in series.LINEAR)
     gain = {}
     for window in series.SURGE:
-        rows, gain[window] = gains(runsOf, window, series.LINEAR)
-        found += rows
+        rows, gain[window] = gains(runsOf, window, upperHalf)
+        found += [*rows, wilsonGain(window, upperHalf)]
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
-    first = gain[series.SURGE[0]]
+    first = ratio(*(gain[series.SURGE[0]][stage] for stage in ("submerged", "dry")))
     require(f"from 200 to 100 g the rate gains more under water than dry ({first}), beyond three standard errors",
             first.mean - 1 > SIGNIFICANT * first.error)
     return found
 
 
-def gains(runsOf, window, early, beads=""):
-    """W in a window of mass over W between two parts of the fill, of each medium; and the one over the other, which frees it of
-    the heap: rows, and the last of them."""
-    fill = runsOf["submerged"][0].fill
-    what = "{}W from {} to {} g over W from {:.0f} to {:.0f} g".format(beads, *window, *(part * fill for part in early))
-    gain = {stage: series.mean([run.gain(*window, early) for run in runs]) for stage, runs in runsOf.items()}
-    both = ratio(gain["submerged"], gain["dry"])
-    expected = paper.wilsonRate(*window) / paper.wilsonRate(*(part * fill for part in early))
-    return [*(row(f"{what}, {stage}", "-", gain[stage], names(runs)) for stage, runs in runsOf.items()),
-            row(f"{what}, submerged over dry", "-", both, names(sum(runsOf.values(), []))),
-            row(f"{what}, by the formula of Wilson et al. (2014)", "-", Value(expected, 0), [])], both
+def gains(runsOf, late, early, beads=""):
+    """W while so many g are left over W while more were: rows, and the values of each medium. The one over the other frees it
+    of the heap."""
+    what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(beads, *late, *early)
+    gain = {stage: series.mean([run.gain(late, early) for run in runs]) for stage, runs in runsOf.items() if runs}
+    found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
+    if len(gain) == len(paper.STAGES):
+        found.append(row(f"{what}, submerged over dry", "-", ratio(gain["submerged"], gain["dry"]), names(sum(runsOf.values(), []))))
+    return found, gain
+
+
+def wilsonGain(late, early):
+    return row("W from {} to {} g over W from {:.4g} to {:.4g} g, by the formula of Wilson et al. (2014)".format(*late, *early), "-",
+               Value(paper.wilsonRate(*late) / paper.wilsonRate(*early), 0), [])
 
 
 def surgeOfSmallBeads():
-    """The paper's figure 3: the surge grows as the beads get smaller. Ours: beads of 1 mm in a rig of half the size."""
-    rises, found = {}, []
+    """The paper's figure 3: the surge grows as the beads get smaller. Ours: 150 g of beads of 1 mm, and 1 mm in a rig of half the
+    size."""
+    windows = series.SURGE_OF_150, series.BEFORE_IT
+    found, gain = [], {}
+    for size, runsOf in (("2 mm", series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])),
+                         ("1 mm", {stage: series.smallBeads(stage) for stage in paper.STAGES})):
+        if not runsOf["submerged"]:
+            raise series.MissingRuns("no submerged run with beads of 1 mm: entry beads1mm")
+        rows, gain[size] = gains(runsOf, *windows, f"d = {size}: ")
+        found += rows
+    for stage in gain["1 mm"]:
+        change = ratio(gain["1 mm"][stage], gain["2 mm"][stage])
+        print(f"  the rate's gain with beads of 1 mm over that with 2 mm, {stage}: {change}")
+        found.append(row("the same of 1 mm over that of 2 mm, " + stage, "-", change,
+                         names(series.smallBeads(stage) + series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])[stage])))
+    found.append(wilsonGain(*windows))
+    rises = {}
     for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
         runs = [run for run in runsOf("submerged") if run.endsInHeap]
         if not runs:

@@ -20,6 +20,9 @@ CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom 
 # when submerged runs of 400 g ended at 97 g (the first window was seen, the second was not) and the dry one was whole; below
 # 50 g the heap on the bottom slows the dry flow. What the heap does above that, the dry run in the same window tells.
 SURGE = ((200, 100), (100, 50))
+# For beads of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared with. Fixed on
+# 2026-11-25, before any of 1 mm was run.
+SURGE_OF_150, BEFORE_IT = (100, 50), (142.5, 100)
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
@@ -102,11 +105,11 @@ class HopperRun:
         """The paper's W, "at the beginning"."""
         return self.rateBetween(*START)
 
-    def gain(self, upper, lower, early):
-        """Mean rate while so many g are left, over that between two parts of the fill."""
-        if self.mass[-1] > lower:
-            raise MissingRuns(f"{self.name} ended before {lower:g} g were left")
-        return ratio(self.rateBetween(upper / self.mass[0], lower / self.mass[0]), self.rateBetween(*early))
+    def gain(self, late, early):
+        """Mean rate while so many g are left, over that while more were."""
+        if self.mass[-1] > late[1]:
+            raise MissingRuns(f"{self.name} ended before {late[1]:g} g were left")
+        return ratio(*(self.rateBetween(*(edge / self.mass[0] for edge in window)) for window in (late, early)))
 
     @cached_property
     def rise(self):
@@ -358,6 +361,11 @@ def correctedLaw(stage):
 def halfSize(stage):
     """Runs of the rig of half the size; none where they are not there yet."""
     return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize"]
+
+
+def smallBeads(stage):
+    """Runs of beads of 1 mm in the full rig."""
+    return [run for run in allRuns() if run.stage == stage and run.entry == "beads1mm"]
 
 
 def asDeepAsHalfSize(stage):
