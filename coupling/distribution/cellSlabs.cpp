@@ -144,7 +144,8 @@ double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double bea
             }
         }
     }
-    return nearestPlane == 0 ? 1 : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / beadRadius), leastBehindCounts);
+    return nearestPlane == 0 ? 1
+                             : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / beadRadius), leastBehindCounts);
 }
 
 template<class Cut>
@@ -163,19 +164,20 @@ double CellSlabs::shareInSlabs(label cell, const Vector3d& centre, const Cut& cu
 double CellSlabs::share(label cell, const Vector3d& centre, double radius, double beadRadius) const
 {
     const double before = partBeforeWalls(cell, centre, beadRadius);
-    return before == 0 ? 0
-           : bricks_[cell].isBrick
-               ? before * shareInBrick(cell, centre, radius)
-               : before * shareInSlabs(cell, centre, [radius](double distance) { return partInHalfSpace(distance / radius); });
+    if (before == 0)
+    {
+        return 0;
+    }
+    const auto cut = [radius](double distance) { return partInHalfSpace(distance / radius); };
+    return before * (bricks_[cell].isBrick ? shareInBrick(cell, centre, radius) : shareInSlabs(cell, centre, cut));
 }
 
 double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius) const
 {
     const Box& box = cellBoxes_[cell];
     const Brick& brick = bricks_[cell];
-    const auto distance = [perRadius = 1 / radius](double inside, bool wall) {
-        return wall ? infinitelyFar : inside * perRadius;
-    };
+    const auto distance = [perRadius = 1 / radius](
+                              double inside, bool wall) { return wall ? infinitelyFar : inside * perRadius; };
     std::array<SlabAboutSphere, 3> slabs;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -188,10 +190,8 @@ double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius
 double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double beadRadius) const
 {
     const double before = partBeforeWalls(cell, centre, beadRadius);
-    return before == 0 ? 0
-                       : before * shareInSlabs(cell, centre, [bandwidth](double distance) {
-                             return 0.5 * std::erfc(-distance / bandwidth);
-                         });
+    const auto cut = [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); };
+    return before == 0 ? 0 : before * shareInSlabs(cell, centre, cut);
 }
 
 void CellSlabs::makeBins(const Foam::fvMesh& mesh)

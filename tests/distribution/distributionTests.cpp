@@ -326,7 +326,8 @@ TEST(Divided, ShareInABrickIsThePartOfTheSphereInIt)
                 const clepsydra::Box brick(middle - half, middle + half);
                 if (cells.isNear(cell, centre, diameter / 2))
                 {
-                    EXPECT_NEAR(cells.share(cell, centre, diameter / 2, diameter / 2), partInBox(centre, diameter / 2, brick), 1e-5)
+                    EXPECT_NEAR(cells.share(cell, centre, diameter / 2, diameter / 2),
+                        partInBox(centre, diameter / 2, brick), 1e-5)
                         << "bead at " << centre.transpose() << ", cell at " << middle.transpose();
                 }
             }
