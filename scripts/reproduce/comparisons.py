@@ -5,6 +5,7 @@ claim that is made of them (`require`) is not borne out.
 """
 
 import numpy as np
+from scipy import stats
 
 from repository import hopper
 import closures
@@ -120,6 +121,10 @@ def surge():
     for window in series.SURGE:
         rows, gain[window] = gains(runsOf, window, upperHalf)
         found += [*rows, wilsonGain(window, upperHalf)]
+    for window in series.SURGE:
+        packings = [ratio(*(run.gain(window, upperHalf) for run in pair)).mean for pair in zip(runsOf["submerged"], runsOf["dry"])]
+        print("  from {} to {} g, submerged over dry of each packing: {}; p = {:.2g}".format(
+            *window, ", ".join(f"{one:.3f}" for one in packings), stats.ttest_1samp(packings, 1, alternative="greater").pvalue))
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
@@ -148,21 +153,20 @@ def wilsonGain(late, early):
 def surgeOfSmallBeads():
     """The paper's figure 3: the surge grows as the beads get smaller. Ours: 150 g of beads of 1 mm, and 1 mm in a rig of half the
     size."""
-    windows = series.SURGE_OF_150, series.BEFORE_IT
-    found, gain = [], {}
-    for size, runsOf in (("2 mm", series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])),
-                         ("1 mm", {stage: series.smallBeads(stage) for stage in paper.STAGES})):
-        if not runsOf["submerged"]:
-            raise series.MissingRuns("no submerged run with beads of 1 mm: entry beads1mm")
-        rows, gain[size] = gains(runsOf, *windows, f"d = {size}: ")
-        found += rows
-    for stage in gain["1 mm"]:
-        change = ratio(gain["1 mm"][stage], gain["2 mm"][stage])
-        print(f"  the rate's gain with beads of 1 mm over that with 2 mm, {stage}: {change}")
-        found.append(row("the same of 1 mm over that of 2 mm, " + stage, "-", change,
-                         names(series.smallBeads(stage) + series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])[stage])))
-    found.append(wilsonGain(*windows))
-    rises = {}
+    large = series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])
+    small = {stage: series.smallBeads(stage) for stage in paper.STAGES}
+    if not small["submerged"]:
+        raise series.MissingRuns("no submerged run with beads of 1 mm: entry beads1mm")
+    found, rises = [], {}
+    for early in (series.BEFORE_IT, series.BEFORE_IT_STEADY):
+        ofLarge, gainOfLarge = gains(large, series.SURGE_OF_150, early, "d = 2 mm: ")
+        ofSmall, gainOfSmall = gains(small, series.SURGE_OF_150, early, "d = 1 mm: ")
+        found += [*ofLarge, *ofSmall]
+        for stage, gain in gainOfSmall.items():
+            change = ratio(gain, gainOfLarge[stage])
+            print(f"  the gain over {early[0]:g} to {early[1]:g} g of 1 mm over that of 2 mm, {stage}: {change}")
+            found.append(row(f"the same of 1 mm over that of 2 mm, {stage}", "-", change, names(small[stage] + large[stage])))
+        found.append(wilsonGain(series.SURGE_OF_150, early))
     for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
         runs = [run for run in runsOf("submerged") if run.endsInHeap]
         if not runs:

@@ -21,8 +21,8 @@ CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom 
 # 50 g the heap on the bottom slows the dry flow. What the heap does above that, the dry run in the same window tells.
 SURGE = ((200, 100), (100, 50))
 # For beads of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared with. Fixed on
-# 2026-11-25, before any of 1 mm was run.
-SURGE_OF_150, BEFORE_IT = (100, 50), (142.5, 100)
+# 2026-11-25, before any of 1 mm was run. The second leaves out how the flow of 150 g sets in, and was chosen after the run.
+SURGE_OF_150, BEFORE_IT, BEFORE_IT_STEADY = (100, 50), (142.5, 100), (130, 100)
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
