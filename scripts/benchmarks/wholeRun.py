@@ -31,7 +31,7 @@ def quickHopperOverLast(hopper, repetitions):
     times = timing.interleaved(runs, repetitions)
     wall = {name: [loopSeconds(time.result) / time.result["timeEnd"] for time in of] for name, of in times.items()}
     return timing.Figure([a / b for a, b in zip(wall["last"], wall["thisAdaptive"])], target=">= 3",
-                         meaning=f"wall time of the first {DURATION} s of flow without the start, that of {last} over ours with an adaptive "
+                         meaning=f"wall time of the first {DURATION} s of flow without the start, that of the version in CLEPSYDRA_LAST over ours with an adaptive "
                                  "interval, 2 ranks", details={"wallSecondsASecond": wall})
 
 
