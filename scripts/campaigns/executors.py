@@ -8,7 +8,7 @@ import sys
 
 import wholeFiles
 from campaigns.plan import CampaignError
-from campaigns.task import onStop
+from campaigns.task import isDone, onStop
 
 COMMAND = os.path.abspath(sys.argv[0])
 
@@ -19,7 +19,9 @@ def local(campaign, cores):
     slots = max(1, cores // max(task.ranks for task in campaign.tasks.values()))
     makefile = campaign.work / "Makefile"
     targets = {name: f"{name}/done" for name in campaign.tasks}
-    rules = [f"all: {' '.join(targets.values())}"]
+    # whatever marks there are: a run may have been lengthened since
+    left = [targets[name] for name, task in campaign.tasks.items() if not isDone(campaign, task)]
+    rules = [f"all: {' '.join(targets.values())}", f".PHONY: {' '.join(left)}"]
     for name, task in campaign.tasks.items():
         rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
                   # exec: the signals of make must reach the task, not a shell before it
@@ -45,7 +47,7 @@ def slurm(campaign, options):
     """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
     levels = []
     for name, task in campaign.tasks.items():
-        if (campaign.folder(task) / "done").exists():
+        if isDone(campaign, task):
             continue
         level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
         while len(levels) <= level:

@@ -6,7 +6,7 @@ from collections import Counter
 from pathlib import Path
 
 import caseFiles
-from campaigns.task import attemptsOf, stageFolder, wallSeconds
+from campaigns.task import attemptsOf, isDone, stageFolder, wallSeconds
 
 ORDER = ("done", "running", "stopped", "waiting", "blocked", "failed")
 
@@ -16,7 +16,7 @@ def states(campaign):
     found = {}
     for name, task in campaign.tasks.items():     # needs come before those that need them
         folder = campaign.folder(task)
-        if (folder / "done").exists():
+        if isDone(campaign, task):
             found[name] = "done"
         elif isLocked(folder / "attempts"):
             found[name] = "running"

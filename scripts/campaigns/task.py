@@ -17,6 +17,7 @@ import time
 from pathlib import Path
 
 import caseFiles
+import parameterFile
 import wholeFiles
 from campaigns.plan import CampaignError
 
@@ -32,13 +33,14 @@ NICENESS = "10"
 def execute(campaign, task):
     """Returns the exit status: 0 done, 1 failed, 143 stopped with a checkpoint."""
     folder = campaign.folder(task)
-    if (folder / "done").exists():
+    if isDone(campaign, task):
         return 0
     makeFolder(campaign, task)
     with locked(folder / "attempts") as attempts:
         dropHalfLine(attempts)
-        (folder / "failed").unlink(missing_ok=True)
-        status = 0 if hasEnded(folder) else attempt(campaign, task, attempts)
+        for mark in ("done", "failed"):
+            (folder / mark).unlink(missing_ok=True)
+        status = 0 if hasEnded(campaign, task) else attempt(campaign, task, attempts)
         if status == STOPPED:
             return status
         try:
@@ -53,29 +55,43 @@ def execute(campaign, task):
     return 0
 
 
-def hasEnded(folder):
+def isDone(campaign, task):
+    """A run is not done once it is to last longer than it did."""
+    folder, endTime = campaign.folder(task), campaign.template["stages"].get(task.part)
+    return (folder / "done").exists() and (
+        endTime is None or parameterFile.parameters(folder / "parameters")[endTime] >= campaign.endTime(task))
+
+
+def hasEnded(campaign, task):
     """True where the last attempt came to its end, and only its results may be missing."""
-    return events(folder)[-1:] != [] and events(folder)[-1].get("status") == 0
+    folder = campaign.folder(task)
+    return (events(folder)[-1:] != [] and events(folder)[-1].get("status") == 0
+            and (folder / "parameters").read_text() == campaign.parameterText(task))
 
 
 def attempt(campaign, task, attempts):
     note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
+    wholeFiles.write(campaign.folder(task) / "parameters", campaign.parameterText(task))
     status = runAllrun(campaign, task)
     note(attempts, {"end": time.time(), "status": status})
     return status
 
 
 def makeFolder(campaign, task):
-    """The copy of the template; one that is there from an earlier attempt must have the same parameters."""
-    folder, text = campaign.folder(task), campaign.parameterText(task)
+    """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how long
+    the stages last."""
+    folder = campaign.folder(task)
     if folder.exists():
-        if (folder / "parameters").read_text() != text:
-            raise SystemExit(f"campaign: {folder} was begun with other parameters than the campaign's file has now; "
-                             "remove that folder to begin anew, or give the run another name")
+        before, now = parameterFile.parameters(folder / "parameters"), campaign.parameters(task)
+        changed = [name for name in dict.fromkeys([*before, *now])
+                   if before.get(name) != now.get(name) and name not in campaign.template["stages"].values()]
+        if changed:
+            raise SystemExit(f"campaign: {folder} was begun with other parameters than the campaign's file has now "
+                             f"({', '.join(changed)}); remove that folder to begin anew, or give the run another name")
         return
     unfinished = folder.with_name(folder.name + ".unfinished")
     copyCase(campaign.case, unfinished)
-    (unfinished / "parameters").write_text(text)
+    (unfinished / "parameters").write_text(campaign.parameterText(task))
     for made, maker in task.links:
         (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
         (unfinished / made).symlink_to(campaign.work / maker / made)

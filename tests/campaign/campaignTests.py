@@ -124,10 +124,26 @@ class CampaignOfStandIns(CampaignTest):
         self.assertEqual(self.call("run").returncode, 0)
         self.assertEqual({path.read_text().count("\n") for path in self.work("*/*/starts")}, {1})
         (self.work("runs/mu-0.1.1.dry")[0] / "done").unlink()
-        self.sweep([0.1], parameters={"steps": 30})
+        self.sweep([0.1], parameters={"hold": "elsewhere"})
         outcome = self.call("run")
         self.assertNotEqual(outcome.returncode, 0)
-        self.assertIn("begun with other parameters", outcome.stdout + outcome.stderr)
+        self.assertIn("begun with other parameters than the campaign's file has now (hold)", outcome.stdout + outcome.stderr)
+
+    def testARunThatIsToLastLongerGoesOn(self):
+        """All are done, then the end time is raised: each run goes on from its end, and its table has every row once. A
+        runner that trusted its marks would start none of them; one that began anew would have the first rows twice."""
+        self.sweep([0.1])
+        self.assertEqual(self.call("run").returncode, 0)
+        self.sweep([0.1], parameters={"time": 0.3})
+        self.assertIn("3 done, 4 stopped", self.call("status").stdout)
+        outcome = self.call("run")
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        self.assertEqual([beads for _, _, beads in self.rows("mu-0.1.1.dry")], list(range(100, 70, -1)))
+        self.assertEqual(len(self.work("runs/*/starts")), 4)
+        self.assertEqual({path.read_text().count("\n") for path in self.work("runs/*/starts")}, {2})
+        self.assertEqual({path.read_text().count("\n") for path in self.work("shared/*/starts")}, {1})
+        record = json.loads((self.folder / "results" / "mu-0.1.1.dry.json").read_text())
+        self.assertEqual((record["parameters"]["time"], record["cost"]["attempts"]), (0.3, 2))
 
     def testTheTemplateMayBeEditedMeanwhile(self):
         """The second run begins after the template got another default (which its program refuses), another parameter
