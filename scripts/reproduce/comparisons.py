@@ -128,20 +128,20 @@ def surge():
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
-    first = ratio(*(gain[series.SURGE[0]][stage] for stage in ("submerged", "dry")))
+    first = gain[series.SURGE[0]]["submerged over dry"]
     require(f"from 200 to 100 g the rate gains more under water than dry ({first}), beyond three standard errors",
             first.mean - 1 > SIGNIFICANT * first.error)
     return found
 
 
 def gains(runsOf, late, early, beads=""):
-    """W while so many g are left over W while more were: rows, and the values of each medium. The one over the other frees it
-    of the heap."""
+    """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the other, which
+    frees it of the heap."""
     what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(beads, *late, *early)
-    gain = {stage: series.mean([run.gain(late, early) for run in runs]) for stage, runs in runsOf.items() if runs}
+    gain = {stage: series.mean([run.gain(late, early) for run in runs]) for stage, runs in runsOf.items()}
     found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
-    if len(gain) == len(paper.STAGES):
-        found.append(row(f"{what}, submerged over dry", "-", ratio(gain["submerged"], gain["dry"]), names(sum(runsOf.values(), []))))
+    gain["submerged over dry"] = ratio(gain["submerged"], gain["dry"])
+    found.append(row(f"{what}, submerged over dry", "-", gain["submerged over dry"], names(sum(runsOf.values(), []))))
     return found, gain
 
 
@@ -151,30 +151,25 @@ def wilsonGain(late, early):
 
 
 def surgeOfSmallBeads():
-    """The paper's figure 3: the surge grows as the beads get smaller. Ours: 150 g of beads of 1 mm, and 1 mm in a rig of half the
-    size."""
+    """The paper's figure 3: the surge grows as the beads get smaller. Ours: 150 g of beads of 1 mm."""
     large = series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])
     small = {stage: series.smallBeads(stage) for stage in paper.STAGES}
-    if not small["submerged"]:
-        raise series.MissingRuns("no submerged run with beads of 1 mm: entry beads1mm")
-    found, rises = [], {}
+    if not all(small.values()):
+        raise series.MissingRuns("no dry or no submerged run with beads of 1 mm: entry beads1mm")
+    found, changes = [], {}
     for early in (series.BEFORE_IT, series.BEFORE_IT_STEADY):
         ofLarge, gainOfLarge = gains(large, series.SURGE_OF_150, early, "d = 2 mm: ")
         ofSmall, gainOfSmall = gains(small, series.SURGE_OF_150, early, "d = 1 mm: ")
         found += [*ofLarge, *ofSmall]
-        for stage, gain in gainOfSmall.items():
-            change = ratio(gain, gainOfLarge[stage])
-            print(f"  the gain over {early[0]:g} to {early[1]:g} g of 1 mm over that of 2 mm, {stage}: {change}")
-            found.append(row(f"the same of 1 mm over that of 2 mm, {stage}", "-", change, names(small[stage] + large[stage])))
+        for what, gain in gainOfSmall.items():
+            change = changes[early, what] = ratio(gain, gainOfLarge[what])
+            print(f"  the gain over {early[0]:g} to {early[1]:g} g of 1 mm over that of 2 mm, {what}: {change}")
+            runs = [run for stage in paper.STAGES if stage in what for run in small[stage] + large[stage]]
+            found.append(row(f"the same of 1 mm over that of 2 mm, {what}", "-", change, names(runs)))
         found.append(wilsonGain(series.SURGE_OF_150, early))
-    for size, runsOf in (("2 mm", series.asDeepAsHalfSize), ("1 mm, rig of half the size", series.halfSize)):
-        runs = [run for run in runsOf("submerged") if run.endsInHeap]
-        if not runs:
-            raise series.MissingRuns("no submerged run with beads of 1 mm: entry halfSize")
-        rises[size] = series.mean([run.rise for run in runs])
-        found.append(row(f"rise of W while half of the fill leaves, submerged, d = {size}", "-", rises[size], names(runs)))
-    for size, rise in rises.items():
-        print(f"  rise of W, d = {size}: {rise}")
+    change = changes[series.BEFORE_IT, "submerged over dry"]
+    require("under water more than dry, the rate gains more with beads of 1 mm than of 2 mm, beyond three standard errors",
+            change.mean - 1 > SIGNIFICANT * change.error)
     return found
 
 
@@ -182,7 +177,7 @@ def numericalChoices():
     """What finer meshes and stiffer beads than the campaign's make of the rate at the start."""
     found = []
     for stage in paper.STAGES:
-        usual = series.asDeepAsHalfSize(stage)
+        usual = series.ofUsualFill(stage)
         for what, run in series.variants(stage).items():
             change = ratio(run.startRate, series.mean([its.startRate for its in usual]))
             found.append(row(f"W_{stage} with {what} over W", "-", change, names(usual) + [run.name]))

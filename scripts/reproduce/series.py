@@ -26,7 +26,7 @@ SURGE_OF_150, BEFORE_IT, BEFORE_IT_STEADY = (100, 50), (142.5, 100), (130, 100)
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05              # of the rate at the start: below it the hopper counts as empty
 END = 0.3                   # s of a run that show whether it still flows
-LIKE_HALF_SIZE = 100        # g, that lie as many beads deep as the fill of the rig of half the size
+USUAL_FILL = 100            # g, of which there are most runs
 DRAWS = 400                 # of a fit's data, for the uncertainty of what follows from it
 
 
@@ -109,7 +109,11 @@ class HopperRun:
         """Mean rate while so many g are left, over that while more were."""
         if self.mass[-1] > late[1]:
             raise MissingRuns(f"{self.name} ended before {late[1]:g} g were left")
-        return ratio(*(self.rateBetween(*(edge / self.mass[0] for edge in window)) for window in (late, early)))
+        return ratio(self.rateWhileLeft(*late), self.rateWhileLeft(*early))
+
+    def rateWhileLeft(self, upper, lower):
+        """As rateBetween, of masses in g."""
+        return self.rateBetween(upper / self.mass[0], lower / self.mass[0])
 
     @cached_property
     def rise(self):
@@ -143,9 +147,8 @@ class HopperRun:
         return np.append(self.time, self.time[-1] + after), np.append(self.mass, np.full(len(after), self.mass[-1]))
 
     def paperRate(self):
-        """t and W(t) as the paper takes it; in a smaller rig all times go as the root of its size, the window too."""
-        scale = np.sqrt(self.parameters["beadDiameter"] / paper.TABLE_1[-1].diameter)
-        return flow.smoothedRate(*self.padded, deviation=scale * paper.WINDOW_DEVIATION)
+        """t and W(t) as the paper takes it."""
+        return flow.smoothedRate(*self.padded, deviation=paper.WINDOW_DEVIATION)
 
     def line(self):
         """Slope and height of the straight line through the upper half of m(t)."""
@@ -343,7 +346,7 @@ def corrections(stage):
     """{what: factor} of what was tried one by one at one friction: the paper's fill, stiffer beads, and under water a finer
     mesh, each over the runs of the entry fill100."""
     friction = paper.MATCHING_FRICTION["dry"]
-    usual = mean([run.startRate for run in asDeepAsHalfSize(stage)])
+    usual = mean([run.startRate for run in ofUsualFill(stage)])
     deepest = deepestOfBoth(friction)[stage]
     found = {f"{deepest[0].fill:.0f} g": ratio(mean([run.startRate for run in deepest]), usual)}
     for what, run in variants(stage).items():
@@ -358,20 +361,15 @@ def correctedLaw(stage):
     return frictionLaw(stage).scaled(product(corrections(stage).values()))
 
 
-def halfSize(stage):
-    """Runs of the rig of half the size; none where they are not there yet."""
-    return [run for run in allRuns() if run.stage == stage and run.entry == "halfSize"]
-
-
 def smallBeads(stage):
     """Runs of beads of 1 mm in the full rig."""
     return [run for run in allRuns() if run.stage == stage and run.entry == "beads1mm"]
 
 
-def asDeepAsHalfSize(stage):
-    """Runs of the full rig with the same number of beads, and of the same friction."""
+def ofUsualFill(stage):
+    """Runs at the friction that the paper finds to match the dry rate."""
     found = [run for run in fills(stage, friction=paper.MATCHING_FRICTION["dry"])
-             if isclose(run.fill, LIKE_HALF_SIZE, rel_tol=0.01)]
+             if isclose(run.fill, USUAL_FILL, rel_tol=0.01)]
     if not found:
-        raise MissingRuns(f"no {stage} run of {LIKE_HALF_SIZE} g: entry fill100")
+        raise MissingRuns(f"no {stage} run of {USUAL_FILL} g: entry fill100")
     return found
