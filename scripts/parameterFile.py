@@ -118,6 +118,11 @@ def meant(word, known):
     return f" (is '{near[0]}' meant?)" if near else ""
 
 
+def changedNames(before, now):
+    """Names of the entries that are not alike, or in one only."""
+    return [name for name in dict.fromkeys([*before, *now]) if before.get(name) != now.get(name)]
+
+
 def shown(value):
     return f"{value:.10g}" if isinstance(value, float) else value
 
@@ -158,9 +163,8 @@ def numbers(path):
 
 def differences(before, now):
     before, now = parameters(before), parameters(now)
-    for name in dict.fromkeys([*before, *now]):
-        if before.get(name) != now.get(name):
-            print(f"{name} {shown(before.get(name, '(none)'))} -> {shown(now.get(name, '(none)'))}")
+    for name in changedNames(before, now):
+        print(f"{name} {shown(before.get(name, '(none)'))} -> {shown(now.get(name, '(none)'))}")
 
 
 def evaluate(expression):

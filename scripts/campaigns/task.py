@@ -82,9 +82,8 @@ def makeFolder(campaign, task):
     the stages last."""
     folder = campaign.folder(task)
     if folder.exists():
-        before, now = parameterFile.parameters(folder / "parameters"), campaign.parameters(task)
-        changed = [name for name in dict.fromkeys([*before, *now])
-                   if before.get(name) != now.get(name) and name not in campaign.template["stages"].values()]
+        changed = [name for name in parameterFile.changedNames(parameterFile.parameters(folder / "parameters"), campaign.parameters(task))
+                   if name not in campaign.template["stages"].values()]
         if changed:
             raise SystemExit(f"campaign: {folder} was begun with other parameters than the campaign's file has now "
                              f"({', '.join(changed)}); remove that folder to begin anew, or give the run another name")
