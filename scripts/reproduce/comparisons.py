@@ -85,7 +85,7 @@ def matchingFriction():
 
 
 def corrected():
-    """W with the paper's fill, stiffer beads and a finer mesh at once, as if what each changes at one friction multiplied."""
+    """W with the paper's fill, stiffer beads and a finer mesh at once; what was not run at once as if it multiplied."""
     friction, found, rates, frictions = paper.MATCHING_FRICTION["dry"], [], {}, {}
     for stage in paper.STAGES:
         corrections = series.corrections(stage)
@@ -107,37 +107,47 @@ def corrected():
 
 
 def surge():
-    """How straight m(t) is: what the rate gains while half of the fill leaves, and what it is late over what it was early."""
-    friction = paper.MATCHING_FRICTION["dry"]
+    """How straight m(t) is, at both frictions that the paper finds to match; what is claimed is of the one with three packings."""
+    found, rises, gain = surgeAt(paper.MATCHING_FRICTION["dry"])
+    first = gain[series.SURGE[0]]["submerged over dry"]
+    require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
+    require(f"from 200 to 100 g the rate gains more under water than dry ({first}), beyond three standard errors",
+            first.mean - 1 > SIGNIFICANT * first.error)
+    found += surgeAt(paper.MATCHING_FRICTION["submerged"])[0]
+    return found + [wilsonGain(window, upperHalf(series.deepestOfBoth(paper.MATCHING_FRICTION["dry"]))) for window in series.SURGE]
+
+
+def surgeAt(friction):
+    """Rows, what the rate gains while half of the fill leaves, and what it is late over what it was early, by window."""
     runsOf = series.deepestOfBoth(friction)
     rises = {stage: series.mean([run.rise for run in runs]) for stage, runs in runsOf.items()}
     found = [row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-", rises[stage], names(runs))
              for stage, runs in runsOf.items()]
     difference = Value(rises["submerged"].mean - rises["dry"].mean,
                        float(np.hypot(rises["submerged"].error, rises["dry"].error)))
-    found.append(row("rise of W, submerged less dry", "-", difference, names(sum(runsOf.values(), []))))
-    upperHalf = tuple(part * runsOf["dry"][0].fill for part in series.LINEAR)
-    gain = {}
+    found.append(row(f"rise of W, submerged less dry, mu = {friction:g}", "-", difference, names(sum(runsOf.values(), []))))
+    early, gain = upperHalf(runsOf), {}
     for window in series.SURGE:
-        rows, gain[window] = gains(runsOf, window, upperHalf)
-        found += [*rows, wilsonGain(window, upperHalf)]
-    for window in series.SURGE:
-        packings = [ratio(*(run.gain(window, upperHalf) for run in pair)).mean for pair in zip(runsOf["submerged"], runsOf["dry"])]
-        print("  from {} to {} g, submerged over dry of each packing: {}; p = {:.2g}".format(
-            *window, ", ".join(f"{one:.3f}" for one in packings), stats.ttest_1samp(packings, 1, alternative="greater").pvalue))
+        rows, gain[window] = gains(runsOf, window, early, f"mu = {friction:g}: ")
+        found += rows
+        packings = [ratio(*(run.gain(window, early) for run in pair)).mean for pair in zip(runsOf["submerged"], runsOf["dry"])]
+        print("  mu = {}, from {} to {} g, submerged over dry of each packing: {}".format(
+            friction, *window, ", ".join(f"{one:.3f}" for one in packings))
+            + (f"; p = {stats.ttest_1samp(packings, 1, alternative='greater').pvalue:.2g}" if len(packings) > 1 else ""))
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
-        print(f"  rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
-    require("m(t) is straight dry: no rise beyond three standard errors", rises["dry"].mean < SIGNIFICANT * rises["dry"].error)
-    first = gain[series.SURGE[0]]["submerged over dry"]
-    require(f"from 200 to 100 g the rate gains more under water than dry ({first}), beyond three standard errors",
-            first.mean - 1 > SIGNIFICANT * first.error)
-    return found
+        print(f"  mu = {friction:g}, rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
+    return found, rises, gain
 
 
-def gains(runsOf, late, early, beads=""):
+def upperHalf(runsOf):
+    """The masses, in g, between which m(t) is straight in the paper."""
+    return tuple(part * runsOf["dry"][0].fill for part in series.LINEAR)
+
+
+def gains(runsOf, late, early, ofWhat):
     """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the other, which
     frees it of the heap."""
-    what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(beads, *late, *early)
+    what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(ofWhat, *late, *early)
     gain = {stage: series.mean([run.gain(late, early) for run in runs]) for stage, runs in runsOf.items()}
     found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
     gain["submerged over dry"] = ratio(gain["submerged"], gain["dry"])

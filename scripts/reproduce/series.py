@@ -321,11 +321,13 @@ def scatterOverErrors(residuals, errors):
 
 
 def matching(stage, whole=False):
-    """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill."""
-    frictions = {paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}
-    fillOf = {friction: max(byFill(stage, friction, whole), default=0) for friction in frictions}
-    chosen = max(frictions, key=lambda friction: (fillOf[friction], friction == paper.MATCHING_FRICTION[stage]))
-    return deepest(stage, chosen, whole)
+    """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill or
+    of more packings."""
+    def worth(friction):
+        fill, runs = max(byFill(stage, friction, whole).items(), default=(0, []))
+        return fill, len(runs), friction == paper.MATCHING_FRICTION[stage]
+
+    return deepest(stage, max({paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}, key=worth), whole)
 
 
 def variants(stage):
@@ -343,11 +345,20 @@ FINEST = "medium mesh"
 
 
 def corrections(stage):
-    """{what: factor} of what was tried one by one at one friction: the paper's fill, stiffer beads, and under water a finer
-    mesh, each over the runs of the entry fill100."""
-    friction = paper.MATCHING_FRICTION["dry"]
+    """{what: factor} of the paper's fill, stiffer beads, and under water a finer mesh, over the runs of the entry fill100 at one
+    friction: of all at once, where that was run."""
+    together = [run for run in allRuns() if run.stage == stage and run.entry == "match"]
+    if not together:
+        return oneByOne(stage)
     usual = mean([run.startRate for run in ofUsualFill(stage)])
-    deepest = deepestOfBoth(friction)[stage]
+    what = f"{together[0].fill:.0f} g of {together[0].parameters['youngsModulus'] / 1e6:g} MPa"
+    return {what + (", coarse mesh" if stage == "submerged" else ""): ratio(mean([run.startRate for run in together]), usual)}
+
+
+def oneByOne(stage):
+    """The same of what was tried one by one."""
+    usual = mean([run.startRate for run in ofUsualFill(stage)])
+    deepest = deepestOfBoth(paper.MATCHING_FRICTION["dry"])[stage]
     found = {f"{deepest[0].fill:.0f} g": ratio(mean([run.startRate for run in deepest]), usual)}
     for what, run in variants(stage).items():
         if what == FINEST or not what.endswith("mesh"):
@@ -357,7 +368,7 @@ def corrections(stage):
 
 @cache
 def correctedLaw(stage):
-    """The fit with all corrections at once, as if they multiplied and were the same at every friction."""
+    """The fit with all corrections, as if they multiplied and were the same at every friction."""
     return frictionLaw(stage).scaled(product(corrections(stage).values()))
 
 
