@@ -347,7 +347,8 @@ FINEST = "medium mesh"
 def corrections(stage):
     """{what: factor} of the paper's fill, stiffer beads, and under water a finer mesh, over the runs of the entry fill100 at one
     friction: of all at once, where that was run."""
-    together = [run for run in allRuns() if run.stage == stage and run.entry == "match"]
+    together = [run for run in allRuns() if run.stage == stage and run.entry == "match"
+                and isclose(run.friction, paper.MATCHING_FRICTION["dry"])]
     if not together:
         return oneByOne(stage)
     usual = mean([run.startRate for run in ofUsualFill(stage)])
