@@ -90,6 +90,7 @@ def corrected():
     for stage in paper.STAGES:
         corrections = series.corrections(stage)
         what = ", ".join(corrections)
+        print(f"  factor of W_{stage}, one by one: {series.product(series.oneByOne(stage).values())}")
         law = series.correctedLaw(stage)
         runs = names([run for repeats in series.sweep(stage).values() for run in repeats])
         found.append(row(f"factor of W_{stage}: {what}", "-", series.product(corrections.values()), runs))
@@ -114,7 +115,8 @@ def surge():
     require(f"from 200 to 100 g the rate gains more under water than dry ({first}), beyond three standard errors",
             first.mean - 1 > SIGNIFICANT * first.error)
     found += surgeAt(paper.MATCHING_FRICTION["submerged"])[0]
-    return found + [wilsonGain(window, upperHalf(series.deepestOfBoth(paper.MATCHING_FRICTION["dry"]))) for window in series.SURGE]
+    early = series.deepest("dry", paper.MATCHING_FRICTION["dry"])[0].upperHalf
+    return found + [wilsonGain(window, early) for window in series.SURGE]
 
 
 def surgeAt(friction):
@@ -126,7 +128,7 @@ def surgeAt(friction):
     difference = Value(rises["submerged"].mean - rises["dry"].mean,
                        float(np.hypot(rises["submerged"].error, rises["dry"].error)))
     found.append(row(f"rise of W, submerged less dry, mu = {friction:g}", "-", difference, names(sum(runsOf.values(), []))))
-    early, gain = upperHalf(runsOf), {}
+    early, gain = runsOf["dry"][0].upperHalf, {}
     for window in series.SURGE:
         rows, gain[window] = gains(runsOf, window, early, f"mu = {friction:g}: ")
         found += rows
@@ -137,11 +139,6 @@ def surgeAt(friction):
     for name, rise in (*rises.items(), ("submerged less dry", difference)):
         print(f"  mu = {friction:g}, rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     return found, rises, gain
-
-
-def upperHalf(runsOf):
-    """The masses, in g, between which m(t) is straight in the paper."""
-    return tuple(part * runsOf["dry"][0].fill for part in series.LINEAR)
 
 
 def gains(runsOf, late, early, ofWhat):

@@ -150,9 +150,14 @@ class HopperRun:
         """t and W(t) as the paper takes it."""
         return flow.smoothedRate(*self.padded, deviation=paper.WINDOW_DEVIATION)
 
+    @property
+    def upperHalf(self):
+        """The masses, in g, between which the paper fits its straight line."""
+        return tuple(part * self.fill for part in LINEAR)
+
     def line(self):
         """Slope and height of the straight line through the upper half of m(t)."""
-        upper, lower = (part * self.mass[0] for part in LINEAR)
+        upper, lower = self.upperHalf
         part = (self.mass < upper) & (self.mass > lower)
         return np.polyfit(self.time[part], self.mass[part], 1)
 
