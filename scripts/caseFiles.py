@@ -1,11 +1,15 @@
 """Reading what a case directory holds: its parameters and its observables."""
 
+import json
 import re
 from pathlib import Path
 
 import numpy as np
 
 from parameterFile import ParameterError, parameters, parametersIn, withParameters     # so that users need this module only
+
+TIME_ROUNDING = 1e-5    # a part's start is the name of a folder, in six digits
+
 
 def startDirectories(case, name):
     """postProcessing/<name>/<startTime>, in order of start time."""
@@ -24,6 +28,23 @@ def columns(case, name):
     if not len(rows):
         raise SystemExit(f"{case}: no data in postProcessing/{name}")
     return rows.T
+
+
+def books(case):
+    """The ledger's summaries of a run, in order of time. A part that is killed writes none."""
+    files = [directory / "summary.json" for directory in startDirectories(case, "ledger")]
+    return [json.loads(file.read_text()) for file in files if file.exists()]
+
+
+def missingBooks(case, parts, end):
+    """(from, to) of each piece of a run, up to `end`, that none of these books are of."""
+    starts = [float(directory.name) for directory in Path(case).glob("postProcessing/*/[0-9]*")]
+    missing, reached = [], min(starts)
+    for part in [*parts, {"timeStart": end, "timeEnd": end}]:
+        if part["timeStart"] - reached > TIME_ROUNDING * reached:
+            missing.append((reached, part["timeStart"]))
+        reached = max(reached, part["timeEnd"])
+    return missing
 
 
 def times(case):

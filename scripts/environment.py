@@ -17,4 +17,8 @@ def load():
 
 def program(name):
     """One of ours."""
-    return Path(os.environ.get("CLEPSYDRA_BUILD", SCRIPTS.parent / "build")) / "bin" / name
+    return build() / "bin" / name
+
+
+def build():
+    return Path(os.environ.get("CLEPSYDRA_BUILD", SCRIPTS.parent / "build"))

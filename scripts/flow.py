@@ -1,10 +1,6 @@
-"""Outflow of a hopper: rate, time to empty, and the closed formulas for the rate."""
-
-from math import sqrt
+"""Outflow of a hopper: rate and time to empty."""
 
 import numpy as np
-
-GRAVITY = 9.81
 
 # of the Gaussian window [s]; the paper's window of 2 s is as long as a whole run of the
 # quick hopper
@@ -55,29 +51,3 @@ def emptyingTime(time, mass, level):
     if not len(above) or above[-1] == len(rate) - 1:
         return None
     return at[above[-1] + 1]
-
-
-def terminalVelocity(diameter, density, fluidDensity, viscosity):
-    """Speed of a lone sphere falling in a fluid (kinematic viscosity given).
-
-    Drag coefficient: Brown & Lawler, J. Environ. Eng. 129, 222 (2003), eq. 19.
-    """
-    weight = 4 / 3 * GRAVITY * diameter * (density / fluidDensity - 1)
-    slow, fast = 0.0, 10 * sqrt(weight)
-    for _ in range(100):
-        speed = (slow + fast) / 2
-        reynolds = speed * diameter / viscosity
-        drag = (24 / reynolds * (1 + 0.150 * reynolds**0.681)
-                + 0.407 / (1 + 8710 / reynolds))
-        slow, fast = (speed, fast) if drag * speed**2 < weight else (slow, speed)
-    return speed
-
-
-def beverloo(orifice, diameter, density, packing=0.6, C=0.58, k=1.4):
-    """Dry rate [kg/s]: Beverloo et al., Chem. Eng. Sci. 15, 260 (1961), bulk density."""
-    return C * packing * density * sqrt(GRAVITY) * (orifice - k * diameter) ** 2.5
-
-
-def modifiedBeverloo(orifice, diameter, density, terminal, C=0.4, k=2.4):
-    """Submerged rate [kg/s]: Wilson et al., Papers in Physics 6, 060009 (2014)."""
-    return C * density * terminal * diameter**2 * (orifice / diameter - k) ** 2

@@ -8,6 +8,8 @@ import json
 from math import hypot
 from pathlib import Path
 
+import wholeFiles
+
 KINDS = ("measured", "computed", "otherCode")
 # A finding may differ from the recorded one by so many standard errors of the two,
 ALLOWED_ERRORS = 3
@@ -46,7 +48,7 @@ def write(rows, case=Path(".")):
     results = case / "results"
     results.mkdir(exist_ok=True)
     named = [{"case": case.name} | found for found in rows]
-    (results / "rows.json").write_text(json.dumps(named, indent=2) + "\n")
+    wholeFiles.write(results / "rows.json", json.dumps(named, indent=2) + "\n")
 
 
 def key(found):

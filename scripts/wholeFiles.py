@@ -8,6 +8,10 @@ from pathlib import Path
 @contextlib.contextmanager
 def replacing(path):
     """A text file to write, which takes the place of `path` once it is on disk. OSError where it cannot be written."""
+    if os.path.exists(path) and not os.path.isfile(path):       # /dev/stdout, /dev/null, a pipe: nothing there to lose
+        with open(path, "w") as file:
+            yield file
+        return
     path = Path(os.path.realpath(path))
     unfinished = path.with_name(f"{path.name}.unfinished.{os.getpid()}")
     try:

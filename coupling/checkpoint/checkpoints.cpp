@@ -295,61 +295,98 @@ std::string linesOfThisRank(
     return lines;
 }
 
+/// Times that a start must not take for the latest, the latest first.
+struct UnusableTimes
+{
+    wordList unfinished;
+    /// With `startFrom latestTime`, and what is wrong with each.
+    wordList damaged;
+    std::string damages;
+    /// The one that is then the latest; empty without `startFrom latestTime`.
+    word latestUsable;
+
+    bool areThere() const
+    {
+        return !unfinished.empty() || !damaged.empty();
+    }
+};
+
+/// Collective. FatalError where all checkpoints are damaged.
+UnusableTimes unusableTimes(const fileName& caseDirectory)
+{
+    UnusableTimes found;
+    const fileName folder = caseDirectory / folderName;
+    const instant beginning = beginningOf(folder);
+    if (beginning.name().empty())
+    {
+        return found;
+    }
+
+    wordList finished;
+    for (const word& time : writtenTimes(caseDirectory, beginning.value()))
+    {
+        const bool isFinished = returnReduce(isFile(folder / time / completeName), orOp<bool>());
+        (isFinished ? finished : found.unfinished).append(time);
+    }
+    if (!startsFromLatestTime(caseDirectory))
+    {
+        return found;
+    }
+    found.latestUsable = beginning.name();
+    for (const word& time : finished)
+    {
+        Manifest manifest;
+        const std::string damage = damageOf(caseDirectory, time, manifest);
+        if (damage.empty())
+        {
+            found.latestUsable = time;
+            return found;
+        }
+        found.damaged.append(time);
+        found.damages += "\n    time " + time + ": " + damage;
+    }
+    if (!finished.empty())
+    {
+        FatalErrorInFunction << "No checkpoint of this case can be resumed from:" << found.damages.c_str()
+                             << "\nTo start afresh remove the folder " << folder << " and the times "
+                             << flatOutput(finished) << exit(FatalError);
+    }
+    return found;
+}
+
 } // namespace
 
 void Checkpoints::setAsideUnusable(const argList& args)
 {
     const fileName caseDirectory = args.globalPath();
-    const fileName folder = caseDirectory / folderName;
-    const instant beginning = beginningOf(folder);
-    if (beginning.name().empty())
+    const UnusableTimes found = unusableTimes(caseDirectory);
+    for (const word& time : found.unfinished)
     {
-        return;
-    }
-
-    wordList usable;
-    for (const word& time : writtenTimes(caseDirectory, beginning.value()))
-    {
-        if (returnReduce(isFile(folder / time / completeName), orOp<bool>()))
-        {
-            usable.append(time);
-            continue;
-        }
         Info << "Setting aside time " << time << ": the run was ended while it wrote it" << endl;
         setAside(caseDirectory, time, "unfinished.");
     }
-    if (usable.empty() || !startsFromLatestTime(caseDirectory))
+    for (const word& time : found.damaged)
     {
-        return;
+        setAside(caseDirectory, time, "damaged.");
     }
+    if (!found.damaged.empty())
+    {
+        Info << "WARNING: damaged checkpoints, set aside as damaged.<time>:" << found.damages.c_str()
+             << "\n    going on from the last that is whole, time " << found.latestUsable << nl << endl;
+    }
+}
 
-    label whole = 0;
-    std::string damages;
-    for (; whole < usable.size(); ++whole)
+word Checkpoints::startInPlaceOfUnusable(const argList& args)
+{
+    const UnusableTimes found = unusableTimes(args.globalPath());
+    if (!found.areThere() || found.latestUsable.empty())
     {
-        Manifest manifest;
-        const std::string damage = damageOf(caseDirectory, usable[whole], manifest);
-        if (damage.empty())
-        {
-            break;
-        }
-        damages += "\n    time " + usable[whole] + ": " + damage;
+        return word();
     }
-    if (whole == usable.size())
-    {
-        FatalErrorInFunction << "No checkpoint of this case can be resumed from:" << damages.c_str()
-                             << "\nTo start afresh remove the folder " << folder << " and the times "
-                             << flatOutput(usable) << exit(FatalError);
-    }
-    for (label damaged = 0; damaged < whole; ++damaged)
-    {
-        setAside(caseDirectory, usable[damaged], "damaged.");
-    }
-    if (whole > 0)
-    {
-        Info << "WARNING: damaged checkpoints, set aside as damaged.<time>:" << damages.c_str()
-             << "\n    going on from the last that is whole, time " << usable[whole] << nl << endl;
-    }
+    Info << "WARNING: a start sets aside unfinished times, " << flatOutput(found.unfinished) << ", and damaged ones, "
+         << flatOutput(found.damaged) << found.damages.c_str() << "\n    and goes on from time " << found.latestUsable
+         << nl << endl;
+    return found.latestUsable;
 }
 
 Checkpoints::Checkpoints(const Time& time, bool writes)
@@ -360,6 +397,15 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
         FatalIOErrorInFunction(time.controlDict()) << "Entry 'purgeWrite' is 1; allowed: 0 for all times, or at least "
                                                       "2, for the last one is removed before the "
                                                    << "next is whole" << exit(FatalIOError);
+    }
+    // OpenFOAM's stream does not tell that a compressed file had no room, and requireWholeFoamFile() cannot see its end.
+    // With `writeFormat binary` OpenFOAM compresses nothing.
+    if (time.writeCompression() == IOstream::COMPRESSED)
+    {
+        FatalIOErrorInFunction(time.controlDict())
+            << "Entry 'writeCompression' is " << time.controlDict().get<word>("writeCompression")
+            << "; allowed: off, for a compressed file that a full disk cuts would be taken for a whole checkpoint's"
+            << exit(FatalIOError);
     }
 
     const fileName folder = time.globalPath() / folderName;

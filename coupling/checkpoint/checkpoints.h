@@ -26,8 +26,12 @@ public:
     /// is constructed. Collective. FatalError where all checkpoints are damaged.
     static void setAsideUnusable(const Foam::argList& args);
 
+    /// For a case that must stay as it is: the time that would be the latest if setAsideUnusable() had been called; empty
+    /// where it would rename nothing, or the start is not from the latest. Collective. FatalError as there.
+    static Foam::word startInPlaceOfUnusable(const Foam::argList& args);
+
     /// FatalError if the start time has no whole checkpoint although the case was run before. FatalIOError where
-    /// purgeWrite would remove the last checkpoint before the next is there. Collective.
+    /// purgeWrite would remove the last checkpoint before the next is there, or files are compressed. Collective.
     /// \param writes  false where the case must stay as it is
     explicit Checkpoints(const Foam::Time& time, bool writes = true);
 

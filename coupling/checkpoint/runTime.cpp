@@ -10,8 +10,28 @@ namespace clepsydra
 
 using namespace Foam;
 
+namespace
+{
+
+dictionary controlsFrom(const argList& args, const word& start)
+{
+    IFstream file(args.globalPath() / "system" / Time::controlDictName);
+    dictionary controls(file);
+    controls.set("startFrom", word("startTime"));
+    controls.set("startTime", readScalar(start));
+    return controls;
+}
+
+} // namespace
+
 RunTime::RunTime(const argList& args)
     : Time(Time::controlDictName, args),
+      beginning_(startTime_)
+{}
+
+RunTime::RunTime(const argList& args, const word& start)
+    : Time(controlsFrom(args, start), args.rootPath(), args.caseName(), "system", "constant",
+        !args.found("noFunctionObjects")),
       beginning_(startTime_)
 {}
 

@@ -16,6 +16,9 @@ class RunTime : public Foam::Time
 public:
     explicit RunTime(const Foam::argList& args);
 
+    /// From this time, whatever system/controlDict says of the start. Not even the names of others are looked at.
+    RunTime(const Foam::argList& args, const Foam::word& start);
+
     /// Goes on from the time that a run has written, to the last digit: the sum of the steps, not its name.
     /// \param beginning  time of the fresh start [s]
     void resume(double beginning);

@@ -13,7 +13,7 @@
 /// with the drag force on the bead F = Sp (U_f - u_p), U_f being the interstitial velocity. F is the whole drag of
 /// MODEL A (Zhou, Kuang, Chu & Yu, J. Fluid Mech. 661, 2010): the force that stands BESIDE the separate force
 /// -V_p grad p of the pressure gradient. A law published as an exchange coefficient beta [kg/(m3 s)] of model A
-/// gives Sp = beta V_p/(1 - eps). For model B see modelB().
+/// gives Sp = beta V_p/(1 - eps). Model B's drag is Sp/eps, see BeadForces.
 ///
 /// A law is evaluated for every bead at every DEM step, some 1e9 times a day. So: no allocation, powers of eps from
 /// the cached logarithm, branches only where the law itself has them, and a finite value at rest. At rest a law
@@ -84,14 +84,6 @@ inline double logReynolds(double reynolds) noexcept
 inline double powerOfVoidFraction(const BeadInFluid& bead, double exponent) noexcept
 {
     return std::exp(exponent * bead.logVoidFraction);
-}
-
-/// The same drag law for MODEL B, where the fluid's momentum equation keeps the whole pressure gradient and the bead
-/// feels buoyancy (from rho_f g) and drag only: Sp_B = Sp_A/eps. In a homogeneous bed both give the bead the same
-/// total force. Zhou et al. 2010; Feng & Yu, Ind. Eng. Chem. Res. 43, 8378 (2004).
-inline double modelB(double modelACoefficient, double voidFraction) noexcept
-{
-    return modelACoefficient / voidFraction;
 }
 
 } // namespace clepsydra::closures

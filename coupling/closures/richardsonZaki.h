@@ -39,10 +39,4 @@ inline double roweExponent(double terminalReynolds) noexcept
     return (4.7 + 2.35 * weight) / (1.0 + weight);
 }
 
-/// v = v_t eps^n.
-inline double richardsonZakiVelocity(double terminalVelocity, double voidFraction, double exponent) noexcept
-{
-    return terminalVelocity * std::pow(voidFraction, exponent);
-}
-
 } // namespace clepsydra::closures

@@ -42,9 +42,10 @@ BeadsView segmentOf(const BeadsView& beads, Eigen::Index first, Eigen::Index cou
 
 } // namespace
 
-BeadForces::BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers)
+BeadForces::BeadForces(
+    const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid, PhaseTimers& timers)
     : timers_(timers),
-      modelType_(readModelType(couplingProperties))
+      modelType_(modelType)
 {
     Foam::wordHashSet names;
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))

@@ -16,7 +16,8 @@ class BeadForces final : public FluidForces
 {
 public:
     /// FatalIOError for an unknown force and for one that does not go with `modelType`.
-    BeadForces(const Foam::dictionary& couplingProperties, const FluidProperties& fluid, PhaseTimers& timers);
+    BeadForces(const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid,
+        PhaseTimers& timers);
 
     void evaluate(const BeadsView& beads, double timeStep, Vectors force) override;
 

@@ -21,13 +21,9 @@ inline const ModelLines modelTypes(
     "modelType", {{"A", "the fluid keeps eps grad p; beads feel drag, -V grad p and V div(tau)"},
                      {"B", "the fluid keeps all of grad p and div(tau); beads feel drag/eps"}});
 
-/// Entry `modelType` of couplingProperties; A where there is none. FatalIOError for anything but A and B.
+/// Entry `modelType` of couplingProperties. FatalIOError for anything but A and B.
 inline ModelType readModelType(const Foam::dictionary& couplingProperties)
 {
-    if (!couplingProperties.found("modelType"))
-    {
-        return ModelType::A;
-    }
     return selectedModel(couplingProperties, "modelType", modelTypes.names()) == "B" ? ModelType::B : ModelType::A;
 }
 

@@ -23,8 +23,9 @@ static const ModelLines lines(
 namespace
 {
 
-/// One text per passage; the time of the last row with the masses then, and the row. As text: OpenFOAM would write numbers
-/// with the fields' digits.
+/// The outlets' names; one text per passage; the time of the last row with the masses then, and the row. As text: OpenFOAM
+/// would write numbers with the fields' digits.
+const word outletsEntry = "outlets";
 const word passagesEntry = "passages";
 const word lastSampleEntry = "lastSample";
 const word lastRowEntry = "lastRow";
@@ -44,11 +45,12 @@ BeadFlux::BeadFlux(const word& name, const Time& time, const dictionary& dict)
 {
     // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
     BeadFlux::read(dict);
+    requireSameOutlets();
     const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
 
     wordList columns({"inserted"});
-    columns.append(mesh_.lookupObject<BeadTraffic>(BeadTraffic::registryName).outlets());
+    columns.append(traffic().outlets());
     Ostream& os = file();
     writeHeader(os, "Beads inserted, and those that left through " + std::to_string(columns.size() - 1) + " outlets");
     writeCommented(os, "time [s]");
@@ -73,10 +75,29 @@ BeadFlux::BeadFlux(const word& name, const Time& time, const dictionary& dict)
     lastCount_ = time_.value();
 }
 
+const BeadTraffic& BeadFlux::traffic() const
+{
+    return mesh_.lookupObject<BeadTraffic>(BeadTraffic::registryName);
+}
+
+void BeadFlux::requireSameOutlets() const
+{
+    wordList before;
+    if (getProperty(outletsEntry, before) && before != traffic().outlets())
+    {
+        FatalIOError(FUNCTION_NAME, __FILE__, __LINE__, time_.globalPath() / time_.constant() / "couplingProperties")
+            << "Entry 'beadOutlets' is " << flatOutput(traffic().outlets()) << " and was " << flatOutput(before)
+            << " when " << name() << " counted what left; allowed: as it was, for its totals are those since the fresh "
+            << "start, or another name for " << name() << " in system/controlDict, by which it begins at 0"
+            << exit(FatalIOError);
+    }
+}
+
 void BeadFlux::resume(label rowsThatStay)
 {
     stringList passages;
     string lastSample;
+    // Checkpoints of earlier versions have no outlets' names: their number is all that can be compared.
     if (!getProperty(passagesEntry, passages) || !getProperty(lastSampleEntry, lastSample)
         || !getProperty(lastRowEntry, lastRow_) || passages.size() != static_cast<label>(passages_.size()))
     {
@@ -139,11 +160,11 @@ void BeadFlux::count()
         return;
     }
     lastCount_ = time_.value();
-    const auto& traffic = mesh_.lookupObject<BeadTraffic>(BeadTraffic::registryName);
-    passages_.front() += traffic.lastInserted();
-    for (std::size_t outlet = 0; outlet < traffic.lastLeft().size(); ++outlet)
+    passages_.front() += traffic().lastInserted();
+    const std::vector<Passage>& left = traffic().lastLeft();
+    for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        passages_[outlet + 1] += traffic.lastLeft()[outlet];
+        passages_[outlet + 1] += left[outlet];
     }
 }
 
@@ -194,6 +215,7 @@ void BeadFlux::keepState()
     {
         lastSample += textOf(mass);
     }
+    setProperty(outletsEntry, traffic().outlets());
     setProperty(passagesEntry, texts);
     setProperty(lastSampleEntry, string(lastSample));
     setProperty(lastRowEntry, lastRow_);

@@ -24,7 +24,7 @@ namespace clepsydra
 /// before. A restart continues in a folder of its own start time, and goes on counting. It looks at every time step, so it
 /// has no executeControl: what leaves between two looks would not be in a checkpoint.
 ///
-/// FatalIOError where an entry is out of range.
+/// FatalIOError where an entry is out of range, and where `beadOutlets` is another than before a restart.
 class BeadFlux : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
 {
 public:
@@ -47,6 +47,9 @@ public:
     bool end() override;
 
 private:
+    const BeadTraffic& traffic() const;
+    /// Before any table is touched.
+    void requireSameOutlets() const;
     /// Adds the last interval's. Interval by interval: the sums of a resumed run are those of one never stopped.
     void count();
     /// Takes up what the checkpoint holds, if there is one.

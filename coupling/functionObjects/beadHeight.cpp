@@ -3,6 +3,7 @@
 #include "functionObjects/observableTable.h"
 #include "functionObjects/observedBeads.h"
 #include "modelLines.h"
+#include "words/exactText.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -15,13 +16,22 @@ defineTypeNameAndDebug(BeadHeight, 0);
 addToRunTimeSelectionTable(functionObject, BeadHeight, dictionary);
 static const ModelLines lines("functions { type }", {{BeadHeight::typeName_(), "height and velocity of one bead"}});
 
+namespace
+{
+
+/// As text: OpenFOAM would write the number with the fields' digits.
+const word lastRowEntry = "lastRow";
+const word rowsEntry = "rows";
+
+} // namespace
+
 BeadHeight::BeadHeight(const word& name, const Time& time, const dictionary& dict)
     : fvMeshFunctionObject(name, time, dict),
       writeFile(mesh_, name, name)
 {
     // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
     BeadHeight::read(dict);
-    makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
+    const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
 
     Ostream& os = file();
@@ -33,10 +43,24 @@ BeadHeight::BeadHeight(const word& name, const Time& time, const dictionary& dic
     os << endl;
 
     // OpenFOAM executes function objects after the first step only; the curve should start at the start.
-    if (mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    if (resume(rowsThatStay) && mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
     {
         sample();
     }
+}
+
+bool BeadHeight::resume(label rowsThatStay)
+{
+    string lastRow;
+    if (!getProperty(lastRowEntry, lastRow))
+    {
+        return true;
+    }
+    getProperty(rowsEntry, rows_);
+    const bool again = isRowOfNow(time_, std::stod(lastRow));
+    rows_ -= again ? 1 : 0;
+    warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
+    return again;
 }
 
 bool BeadHeight::read(const dictionary& dict)
@@ -109,6 +133,8 @@ void BeadHeight::sample()
     writeCurrentTime(os);
     os << tab << setw(charWidth()) << height << tab << setw(charWidth()) << velocity << endl;
     requireWritten(os);
+    setProperty(lastRowEntry, string(exactText(time_.value())));
+    setProperty(rowsEntry, ++rows_);
 
     if (height < stopBelow_)
     {

@@ -20,8 +20,9 @@ namespace clepsydra
 ///     }
 ///
 /// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s], a row per
-/// execution (executeControl, executeInterval) and one at the start, until the bead has left. A restart continues in a folder
-/// of its own start time.
+/// execution (executeControl, executeInterval, and `writeControl none`: OpenFOAM executes before each write) and one at the
+/// fresh start, until the bead has left. A restart continues in a folder of its own start time, with the rows that it would
+/// have written had it not been stopped.
 ///
 /// FatalIOError where there is no such bead at a fresh start, or the axis is zero.
 class BeadHeight : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
@@ -43,12 +44,18 @@ public:
     }
 
 private:
+    /// Takes up the state that the checkpoint holds, if there is one.
+    /// \param rowsThatStay  in tables of earlier start times
+    /// \return whether a row of the start time is due: at a fresh start, or where there was one and is to be written again
+    bool resume(Foam::label rowsThatStay);
     void sample();
 
     Foam::label bead_ = 1;
     Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
     Foam::scalar stopBelow_ = -Foam::GREAT;
     bool gone_ = false;
+    /// In all tables, since the fresh start.
+    Foam::label rows_ = 0;
 };
 
 } // namespace clepsydra

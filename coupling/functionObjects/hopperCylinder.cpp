@@ -30,7 +30,6 @@ HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwa
     }
     reduce(low, minOp<vector>());
     reduce(high, maxOp<vector>());
-    height_ = high.z() - low.z();
     foot_ = 0.5 * (low.x() + high.x()) * e1 + 0.5 * (low.y() + high.y()) * e2 + low.z() * axis_;
 
     double furthestSqr = 0;

@@ -36,17 +36,10 @@ public:
         return radius_;
     }
 
-    /// From the lowest to the highest point of the wall.
-    double height() const
-    {
-        return height_;
-    }
-
 private:
     Vector3d axis_;
     Vector3d foot_;
     double radius_ = 0;
-    double height_ = 0;
 };
 
 } // namespace clepsydra

@@ -3,7 +3,6 @@
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
 #include "forces/forceModel.h"
-#include "forces/modelType.h"
 #include "interval/dictionaryText.h"
 
 #include "runTimeSelection.h"
@@ -74,7 +73,7 @@ void CouplingSettings::readChoices()
         return;
     }
     readAdjustableInterval();
-    selectedModel(dict_, "modelType", modelTypes.names());
+    modelType_ = readModelType(dict_);
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
 
     const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "forces/modelType.h"
+
 #include "IOdictionary.H"
 #include "Switch.H"
 #include "Time.H"
@@ -20,8 +22,8 @@ struct AdjustableInterval
     double longest;  ///< [s]
 };
 
-/// What constant/couplingProperties says, checked. Every member of a case is read here and nowhere else, apart from
-/// the coefficients of run-time selected models and what is the engine's.
+/// What constant/couplingProperties says, checked. What is a member here is read here and nowhere else; models that are
+/// selected by name, outlets, ledger and engine read what is theirs from dict().
 ///
 /// FatalIOError naming file, entry and what is allowed where something is missing or wrong.
 class CouplingSettings
@@ -38,6 +40,12 @@ public:
     bool hasFluid() const
     {
         return hasFluid_;
+    }
+
+    /// A in a dry run.
+    ModelType modelType() const
+    {
+        return modelType_;
     }
 
     /// Time between exchanges of beads and fluid [s]; equals the fluid's time step. Of the first interval only, where
@@ -109,6 +117,7 @@ private:
     const Foam::Time& time_;
     Foam::IOdictionary dict_;
     bool hasFluid_ = true;
+    ModelType modelType_ = ModelType::A;
     double couplingInterval_ = 0;
     std::optional<AdjustableInterval> adjustableInterval_;
     bool ddtVoidFraction_ = true;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -184,12 +185,16 @@ private:
     /// \param end  of the word #include
     void refuseItself(std::size_t end) const
     {
-        const auto lineEnd = std::min(text_.find('\n', end), text_.size());
-        const std::string line = text_.substr(end, lineEnd - end);
-        const auto closing = line.rfind('"');
-        const std::string name = file_.name();
-        if (closing != std::string::npos && closing >= name.size()
-            && line.compare(closing - name.size(), name.size(), name) == 0)
+        const std::string blanks = " \t\r\n";
+        auto begin = std::min(text_.find_first_not_of(blanks, end), text_.size());
+        const bool quoted = begin < text_.size() && text_[begin] == '"';
+        begin += quoted ? 1 : 0;
+        string name = text_.substr(begin, text_.find_first_of(quoted ? "\"" : blanks + ';', begin) - begin);
+        // As OpenFOAM does it, but for the file's own words: what these make of the name is not known here.
+        name.expand(true);
+        std::error_code notThere;
+        if (std::filesystem::equivalent(
+                std::filesystem::path(file_.path().c_str()) / name.c_str(), file_.c_str(), notThere))
         {
             refuse("The file includes itself", line_);
         }

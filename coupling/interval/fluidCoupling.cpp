@@ -56,7 +56,6 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     : mesh_(mesh),
       settings_(settings),
       fluid_(fluid),
-      modelType_(readModelType(settings.dict())),
       needs_(needs),
       engine_(engine),
       ledger_(ledger),
@@ -200,7 +199,7 @@ Reactions FluidCoupling::reactions() const
         const Vector3d velocity = beads.velocity.col(bead);
         // Explicit coupling anticipates nothing: a motion without its answer to the pressure would be worse than none.
         const double volume = settings_.implicitCoupling() ? volumeInFluid(beads, bead) : 0;
-        const double pressureForce = modelType_ == ModelType::A ? fluid_.density * volume : 0;
+        const double pressureForce = settings_.modelType() == ModelType::A ? fluid_.density * volume : 0;
         all.col(bead) << beads.state[bead].given.impulse - ofBead.col(bead).segment<3>(inAdvance)
                              - motion.drag * velocity,
             motion.drag, volume * motion.following, volume * motion.mobility * pressureForce,
@@ -232,7 +231,7 @@ void FluidCoupling::giveInAdvance(const volVectorField& U, const volScalarField&
 
 tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) const
 {
-    const dimensionedScalar inModelA("inModelA", dimless, modelType_ == ModelType::A ? 1 : 0);
+    const dimensionedScalar inModelA("inModelA", dimless, settings_.modelType() == ModelType::A ? 1 : 0);
     return inModelA * (voidFraction_ - pressureFactor_) * fvc::grad(p);
 }
 
@@ -319,7 +318,7 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
 void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following)
 {
     pressureFactor_ = voidFraction_;
-    if (modelType_ == ModelType::A)
+    if (settings_.modelType() == ModelType::A)
     {
         columns(pressureFactor_.primitiveFieldRef()) += following;
     }
@@ -351,7 +350,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     Eigen::MatrixXd pascalPerMetre = fluid_.density * columns(gradient().primitiveField());
     const vector pressureForceInFluid =
         -gSum(vectorField(fluid_.density * gradient().primitiveField() * solidFraction_ * mesh_.V().field()));
-    if (modelType_ == ModelType::A)
+    if (settings_.modelType() == ModelType::A)
     {
         smooth(pascalPerMetre);
     }
@@ -403,7 +402,7 @@ void FluidCoupling::fluidToBeads(const volVectorField& U, const volScalarField& 
     sampled.keep(exchange_.sumAtHome(distribution_.sample(sampled.inCells())));
 
     // In model B no bead feels it, and the fluid's equation holds no reaction to it.
-    if (modelType_ == ModelType::A)
+    if (settings_.modelType() == ModelType::A)
     {
         bookPressureForce(pressureForceInFluid);
     }

@@ -5,7 +5,6 @@
 #include "exchange/beadExchange.h"
 #include "forces/anticipatedMotion.h"
 #include "forces/forceModel.h"
-#include "forces/modelType.h"
 #include "interval/carriedMomentum.h"
 #include "interval/couplingSettings.h"
 #include "interval/selfDisturbance.h"
@@ -130,7 +129,6 @@ private:
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     const FluidProperties fluid_;
-    const ModelType modelType_;
     const ForceNeeds needs_;
     DemEngine& engine_;
     Ledger& ledger_;

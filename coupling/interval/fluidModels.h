@@ -14,7 +14,7 @@ struct FluidModels
 {
     FluidModels(
         const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid, PhaseTimers& timers)
-        : forces(settings.dict(), fluid, timers),
+        : forces(settings.dict(), settings.modelType(), fluid, timers),
           distribution(settings.dict(), mesh)
     {}
 

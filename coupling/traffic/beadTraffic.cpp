@@ -4,7 +4,6 @@
 #include "vectors.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace clepsydra
 {
@@ -59,8 +58,7 @@ BeadTraffic::BeadTraffic(const dictionary& couplingProperties, const fvMesh& mes
       outlets_(couplingProperties, mesh),
       insertionTime_(readInsertionTime(couplingProperties, couplingInterval)),
       interval_(couplingInterval),
-      left_(static_cast<std::size_t>(outlets_.names().size())),
-      lastLeft_(left_.size())
+      lastLeft_(static_cast<std::size_t>(outlets_.names().size()))
 {}
 
 double BeadTraffic::start(const BeadsView& beads, bool fresh)
@@ -84,7 +82,7 @@ void BeadTraffic::advance(const BeadsView& beads, int newFrom, double interval)
 {
     interval_ = interval;
     Passage inserted;
-    std::vector<Passage> left(left_.size());
+    std::vector<Passage> left(lastLeft_.size());
     gone_.clear();
     for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
     {
@@ -116,11 +114,11 @@ void BeadTraffic::advance(const BeadsView& beads, int newFrom, double interval)
         }
     }
     lastInserted_ = sumOfRanks(inserted);
-    inserted_ += lastInserted_;
+    netVolume_ += lastInserted_.volume;
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
         lastLeft_[outlet] = sumOfRanks(left[outlet]);
-        left_[outlet] += lastLeft_[outlet];
+        netVolume_ -= lastLeft_[outlet].volume;
     }
 }
 
@@ -132,7 +130,7 @@ label BeadTraffic::removeGone(DemEngine& engine)
         return count;
     }
     std::vector<int> ids;
-    std::vector<Passage> left(left_.size());
+    std::vector<Passage> left(lastLeft_.size());
     for (const Gone& bead : gone_)
     {
         ids.push_back(bead.id);
@@ -140,19 +138,11 @@ label BeadTraffic::removeGone(DemEngine& engine)
     }
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        const Passage ofAll = sumOfRanks(left[outlet]);
-        lastLeft_[outlet] += ofAll;
-        left_[outlet] += ofAll;
+        lastLeft_[outlet] += sumOfRanks(left[outlet]);
     }
     gone_.clear();
     engine.remove(ids);
     return count;
-}
-
-double BeadTraffic::netVolume() const
-{
-    return std::accumulate(left_.begin(), left_.end(), inserted_.volume,
-        [](double volume, const Passage& left) { return volume - left.volume; });
 }
 
 PartWithin BeadTraffic::partOf(const BeadsView& beads, Eigen::Index bead, double interval) const

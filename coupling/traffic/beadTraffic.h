@@ -59,30 +59,23 @@ public:
         return outlets_.names();
     }
 
-    const Passage& inserted() const
-    {
-        return inserted_;
-    }
-
-    /// In the order of outlets().
-    const std::vector<Passage>& left() const
-    {
-        return left_;
-    }
-
-    /// The same of the last interval alone.
+    /// In the last interval.
     const Passage& lastInserted() const
     {
         return lastInserted_;
     }
 
+    /// In the last interval, in the order of outlets().
     const std::vector<Passage>& lastLeft() const
     {
         return lastLeft_;
     }
 
-    /// Solid volume that came in less that which left [m3].
-    double netVolume() const;
+    /// Solid volume that came in less that which left, since start() [m3].
+    double netVolume() const
+    {
+        return netVolume_;
+    }
 
     bool writeData(Foam::Ostream&) const override
     {
@@ -104,10 +97,9 @@ private:
     const BeadOutlets outlets_;
     const double insertionTime_;
     double interval_;
-    Passage inserted_;
-    std::vector<Passage> left_;
     Passage lastInserted_;
     std::vector<Passage> lastLeft_;
+    double netVolume_ = 0;
     std::vector<Gone> gone_;
 };
 

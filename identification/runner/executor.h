@@ -22,7 +22,7 @@ struct Job
 struct JobEnd
 {
     std::size_t job = 0;
-    int status = 0; // exit status; 124: above the time limit; 128 + signal
+    int status = 0; // exit status; 124: above the time limit; 125: Slurm's task left none; 128 + signal
     double seconds = 0.0;
 };
 

@@ -194,6 +194,8 @@ int Simulator::missing(const std::vector<SimulationOrder>& orders)
 std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& orders)
 {
     std::vector<Simulation> done(orders.size());
+    // Not by seeds, which orders of other settings share. Indices in effort_.failures.
+    std::vector<std::vector<std::size_t>> failuresOf(orders.size());
     auto open = numbersWhere(orders.size(), [](std::size_t) { return true; });
     // Without a seed a second attempt would fail in the same way.
     const int attempts = study_.rig.seedEntry.empty() ? 1 : study_.settings.attempts;
@@ -229,17 +231,15 @@ std::vector<Simulation> Simulator::run(const std::vector<SimulationOrder>& order
             if (simulation.failed)
             {
                 simulation.features.setConstant(std::numeric_limits<double>::quiet_NaN());
+                failuresOf[open[k]].push_back(effort_.failures.size());
                 effort_.failures.push_back(
                     {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
                 failed.push_back(open[k]);
+                continue;
             }
-            for (int earlier = 0; !simulation.failed && earlier < attempt; ++earlier)
+            for (const std::size_t failure : failuresOf[open[k]])
             {
-                const long seed = runOrder(order, earlier).seed;
-                for (auto& failure : effort_.failures)
-                {
-                    failure.repeated = failure.repeated || failure.seed == seed;
-                }
+                effort_.failures[failure].repeated = true;
             }
         }
         open = failed;

@@ -3,6 +3,7 @@
 import json
 import shutil
 
+import caseFiles
 from . import timing
 from .hopper import FUNCTIONS, Hopper, solver
 from .twoRanks import loopSeconds
@@ -39,12 +40,9 @@ def drained(hopper):
 
 def startOf(folder, remaining):
     """The write time at which most nearly this part of the fill remains."""
-    rows = [line.split() for line in (folder / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines()
-            if not line.startswith("#")]
-    beads = {float(row[0]): int(row[2]) for row in rows}
+    at, _, beads = caseFiles.columns(folder, "massInHopper")[:3]
     written = [float(path.name) for path in (folder / "checkpoints").iterdir() if path.name != "beginning"]
-    first = beads[min(beads)]
-    return min([0.0, *written], key=lambda time: abs(beads[min(beads, key=lambda at: abs(at - time))] / first - remaining))
+    return min([0.0, *written], key=lambda time: abs(beads[abs(at - time).argmin()] / beads[0] - remaining))
 
 
 def window(folder, start, ranks):

@@ -3,10 +3,9 @@
 import functools
 import json
 
+import environment
 from . import timing
-from .hopper import REPOSITORY
 
-COUNTER = REPOSITORY / "build" / "lib" / "libcountMessages.so"
 RANKS = (2, 4, 8)
 INTERVALS = 5
 
@@ -37,15 +36,19 @@ def largest(ofRanks):
 @functools.cache
 def measured(hopper):
     """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are counts."""
-    if not COUNTER.exists():
-        raise timing.Skipped(f"there is no {COUNTER.relative_to(REPOSITORY)}: 'cmake --build build --target countMessages' makes it")
+    if not counter().exists():
+        raise timing.Skipped(f"there is no {counter()}: 'cmake --build {environment.build()} --target countMessages' makes it")
     return {ranks: counted(hopper, ranks) for ranks in RANKS}
+
+
+def counter():
+    return environment.build() / "lib" / "libcountMessages.so"
 
 
 def counted(hopper, ranks):
     run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingInterval"], ranks)
     counts = run.folder / "counts"
     counts.mkdir()
-    run.command[1:1] = ["-x", f"MESSAGE_COUNTS={counts}", "-x", f"LD_PRELOAD={COUNTER}"]
+    run.command[1:1] = ["-x", f"MESSAGE_COUNTS={counts}", "-x", f"LD_PRELOAD={counter()}"]
     timing.timed(run)
     return [json.loads((counts / f"{rank}.json").read_text()) for rank in range(ranks)]

@@ -26,7 +26,7 @@ OUTPUTS = ("stages", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
 STOPPED = 143           # exit status of Allrun, and of a task, that SIGTERM ended with a checkpoint
 BETWEEN_LOOKS = 1       # s
 BETWEEN_PRUNINGS = 60   # s
-MOST_ROWS = 5000        # of a published m(t)
+MOST_ROWS = 5000        # of a published m(t), beside the last
 NICENESS = "10"
 
 
@@ -192,7 +192,8 @@ def publish(campaign, task):
     campaign.results.mkdir(parents=True, exist_ok=True)
     stage = stageFolder(campaign, task)
     columns = caseFiles.columns(stage, "massInHopper")
-    rows = columns.T[::-(-columns.shape[1] // MOST_ROWS)]
+    last = columns.shape[1] - 1
+    rows = columns.T[[*range(0, last, last // MOST_ROWS + 1), last]]
     with wholeFiles.replacing(campaign.results / f"{task.publish}.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "mass [kg]", "beads [-]"])

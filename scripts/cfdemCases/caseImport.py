@@ -197,8 +197,9 @@ class Import:
         for name, default in (("purgeWrite", "0"), ("writeFormat", "ascii"), ("writePrecision", "8"), ("timeFormat", "general"),
                               ("timePrecision", "8")):
             entries[name] = old.text(name, default)
-        if "writeCompression" in old:
-            entries["writeCompression"] = {"uncompressed": "off", "compressed": "on"}.get(old.text("writeCompression"), old.text("writeCompression"))
+        entries["writeCompression"] = "off"
+        if old.text("writeCompression", "off") not in (*OFF, "uncompressed"):
+            self.report.change(where, "writeCompression", "is off here: a checkpoint must be seen to be whole")
         entries["runTimeModifiable"] = "no"
         old.text("runTimeModifiable")
         if "libs" in old:

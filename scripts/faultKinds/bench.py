@@ -53,7 +53,6 @@ class Bench:
         self.mayMount = mayMount
         self.quick = quick
         self.random = random.Random(seed)
-        self.environment = sourced(REPOSITORY / "scripts" / "environment")
         self.wall = {}
         self._made = {}
         self._kept = set()
@@ -126,7 +125,7 @@ class Bench:
         with open(log, "a") as output:
             options = {"stdout": output, "stderr": subprocess.STDOUT, "stdin": subprocess.DEVNULL, **options}
             return subprocess.Popen([*map(str, wrapper), *map(str, command)], cwd=folder, start_new_session=True,
-                                    env=self.environment | {MARK: self._mark}, **options)
+                                    env=os.environ | {MARK: self._mark}, **options)
 
     def call(self, command, folder, log=None, wrapper=(), timeout=TOO_LONG, **options):
         """Runs it to its end."""
@@ -261,12 +260,6 @@ def mountsBelow(folder):
     """Mount points in a folder, and itself, outer ones first."""
     points = [Path(line.split()[1]) for line in Path("/proc/self/mounts").read_text().splitlines()]
     return [point for point in points if folder == point or folder in point.parents]
-
-
-def sourced(script):
-    """The environment after sourcing it."""
-    text = subprocess.run(["bash", "-c", f'. "{script}" && env -0'], stdout=subprocess.PIPE, check=True).stdout.decode()
-    return dict(entry.split("=", 1) for entry in text.split("\0") if entry)
 
 
 def files(manifest):

@@ -5,6 +5,8 @@ import json
 import subprocess
 from pathlib import Path
 
+import wholeFiles
+
 PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- table of faults: made by --page -->\n", "<!-- end of the table -->\n"
 
@@ -37,7 +39,7 @@ def summary(rows):
 
 
 def write(file, rows):
-    file.write_text(json.dumps(rows, indent=1) + "\n")
+    wholeFiles.write(file, json.dumps(rows, indent=1) + "\n")
 
 
 def writePage(results):
@@ -50,4 +52,4 @@ def writePage(results):
     table = [f"{summary(rows)}; commit {commits}.\n\n",
              "| fault | what is done | what happens | tries |\n|---|---|---|---|\n"]
     table += [f"| `{found['fault']}` | {found['done']} | {found['observed']} | {found['tries']} |\n" for found in rows]
-    PAGE.write_text(before + BEGIN + "".join(table) + END + after)
+    wholeFiles.write(PAGE, before + BEGIN + "".join(table) + END + after)

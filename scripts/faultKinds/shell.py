@@ -21,16 +21,16 @@ def hostileParameters(bench):
 def hostile(bench, use, text):
     folder = bench.freshFolder("hostile")
     (folder / "parameters").write_text(f"friction            {text if use != 'set' else 1};\nother 1;\n")
-    (folder / "template").write_text("friction            0.1;\n")
+    (folder / "template").write_text("friction            0.1;\nother 2;\n")
     action = {"get": "value=$(parameter friction) && echo \"$value\"",
               "set": f"setParameter parameters friction {shlex.quote(text)}",
-              "merge": "setParameters template parameters",
+              "merge": "parameterFile merge template parameters",
               "at": f"at {shlex.quote(text)}"}[use]
     functions = REPOSITORY / "scripts" / "runFunctions"
     script = f"set -eu; repository={shlex.quote(str(REPOSITORY))}; . {functions}; {action}"
     outcome = bench.call(["bash", "-c", script], folder)
     if any(path.name == "made" for path in folder.rglob("*")):
         raise Wrong(f"{use}: {text!r} was run")
-    if "Traceback" in outcome.output:
+    if "Traceback" in outcome.output or "command not found" in outcome.output:
         raise Wrong(f"{use}: {text!r}: " + outcome.lastWords)
     return "not run"

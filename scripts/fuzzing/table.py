@@ -4,6 +4,7 @@ import datetime
 import json
 import subprocess
 
+import wholeFiles
 from .builds import REPOSITORY
 
 #: What is added up where the same target was run at the same commit before.
@@ -28,7 +29,7 @@ def addTo(file, rows):
             known.remove(same)
         known.append(row)
     total = {key: sum(row[key] for row in known) for key in SUMMED}
-    file.write_text(json.dumps({"total": total, "runs": known}, indent=1) + "\n")
+    wholeFiles.write(file, json.dumps({"total": total, "runs": known}, indent=1) + "\n")
 
 
 def commit():

@@ -84,26 +84,29 @@ def matchingFriction():
     return found
 
 
-def corrected():
-    """W with the paper's fill, stiffer beads and a finer mesh at once; what was not run at once as if it multiplied."""
-    friction, found, rates, frictions = paper.MATCHING_FRICTION["dry"], [], {}, {}
+def stiff():
+    """The same of the paper's fill with stiffer beads on a finer mesh: the fit's shape through the rates of those runs."""
+    friction, found, rates, frictions, used = paper.MATCHING_FRICTION["dry"], [], {}, {}, []
     for stage in paper.STAGES:
-        corrections = series.corrections(stage)
-        what = ", ".join(corrections)
-        print(f"  factor of W_{stage}, one by one: {series.product(series.oneByOne(stage).values())}")
-        law = series.correctedLaw(stage)
-        runs = names([run for repeats in series.sweep(stage).values() for run in repeats])
-        found.append(row(f"factor of W_{stage}: {what}", "-", series.product(corrections.values()), runs))
+        runsOf, law, sweep = series.stiffRuns(stage), series.stiffLaw(stage), series.frictionLaw(stage)
+        for at, runs in runsOf.items():
+            rate = series.mean([run.startRate for run in runs])
+            print(f"  {stage}, mu = {at:g}: {ratio(rate, sweep.value(at))} of the sweep's fit")
+            found.append(row(f"W_{stage}, mu = {at:g}, {series.described(runs[0])}", "g/s", rate, names(runs), paper.RATE[stage]))
+        for at, tried in series.stiffWithClogged(stage).items():
+            found += arches(f"{stage}, mu = {at:g}, {series.described(tried[0])}", tried)
+        runs = names(sum(runsOf.values(), []))
+        used += runs
+        found.append(row(f"factor of W_{stage} over the sweep's fit", "-", law.over(sweep, friction), runs))
         rates[stage] = law.value(friction)
-        found.append(row(f"W_{stage} with these, mu = {friction:g}", "g/s", rates[stage], runs, paper.RATE[stage]))
         frictions[stage] = law.frictionAt(paper.RATE[stage])
         found.append(row(f"mu_{stage} that matches the measured rate, with these", "-", frictions[stage], runs,
                          simulated=paper.MATCHING_FRICTION[stage]))
-    found.append(row(f"W_submerged/W_dry with these, mu = {friction:g} in both", "-", ratio(rates["submerged"], rates["dry"]), runs,
+    found.append(row(f"W_submerged/W_dry with these, mu = {friction:g} in both", "-", ratio(rates["submerged"], rates["dry"]), used,
                      paper.RATE["submerged"] / paper.RATE["dry"]))
     difference = Value(frictions["submerged"].mean - frictions["dry"].mean,
                        float(np.hypot(frictions["submerged"].error, frictions["dry"].error)))
-    found.append(row("mu_submerged less mu_dry, with these", "-", difference, runs))
+    found.append(row("mu_submerged less mu_dry, with these", "-", difference, used))
     return found
 
 
@@ -145,9 +148,10 @@ def gains(runsOf, late, early, ofWhat):
     """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the other, which
     frees it of the heap."""
     what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(ofWhat, *late, *early)
-    gain = {stage: series.mean([run.gain(late, early) for run in runs]) for stage, runs in runsOf.items()}
+    gainsOf = {stage: [run.gain(late, early) for run in runs] for stage, runs in runsOf.items()}
+    gain = {stage: series.mean(values) for stage, values in gainsOf.items()}
     found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
-    gain["submerged over dry"] = ratio(gain["submerged"], gain["dry"])
+    gain["submerged over dry"] = series.mean([ratio(*ofPacking) for ofPacking in zip(gainsOf["submerged"], gainsOf["dry"], strict=True)])
     found.append(row(f"{what}, submerged over dry", "-", gain["submerged over dry"], names(sum(runsOf.values(), []))))
     return found, gain
 
@@ -197,7 +201,7 @@ def emptying():
     """Time that 500 g need at mu = .8: from the deepest run there is, and its rate at the start for what it lacks."""
     found, times = [], {}
     for stage in paper.STAGES:
-        clogging = cloggingOf(stage, paper.EMPTYING_FRICTION)
+        clogging = arches(f"{stage}, mu = {paper.EMPTYING_FRICTION:g}", series.withClogged(stage, friction=paper.EMPTYING_FRICTION))
         found += clogging
         if clogging and not series.fills(stage, friction=paper.EMPTYING_FRICTION):
             continue
@@ -216,15 +220,13 @@ def emptying():
     return found
 
 
-def cloggingOf(stage, friction):
+def arches(what, tried):
     """A row of the runs that an arch over the orifice ended, where there are any."""
-    clogged = series.cloggedRuns(stage, friction=friction)
+    clogged = [run for run in tried if run.clogged]
     if not clogged:
         return []
-    tried = len(series.withClogged(stage, friction=friction))
     left = series.mean([Value(run.mass[0] - run.mass[-1], run.beadMass) for run in clogged])
-    return [row(f"what leaves before an arch closes the orifice, {stage}, mu = {friction:g}, {len(clogged)} of {tried} runs",
-                "g", left, names(clogged))]
+    return [row(f"what leaves before an arch closes the orifice, {what}, {len(clogged)} of {len(tried)} runs", "g", left, names(clogged))]
 
 
 def emptyingOf(run):
@@ -284,7 +286,8 @@ def packingAtTheExit():
 
 
 GROUPS = {group.__name__: group for group in
-          (rates, ratioOfRates, matchingFriction, corrected, surge, surgeOfSmallBeads, numericalChoices, emptying, torricelli, tableI, packingAtTheExit)}
+          (rates, ratioOfRates, matchingFriction, stiff, surge, surgeOfSmallBeads, numericalChoices, emptying, torricelli, tableI,
+           packingAtTheExit)}
 
 
 def table(rows):

@@ -12,6 +12,7 @@ import beadFiles
 import caseFiles
 import paper
 import series
+import wholeFiles
 
 FOLDER = RESULTS / "exit"
 RUNS = f"fill100-{paper.MATCHING_FRICTION['dry']}.*"
@@ -29,7 +30,7 @@ def keep(folder):
     radius = caseFiles.parameters(folder / "parameters")["orificeDiameter"] / 2
     times = beadFiles.writtenTimes(case)
     FOLDER.mkdir(parents=True, exist_ok=True)
-    with open(FOLDER / f"{folder.name}.profile.csv", "w") as file:
+    with wholeFiles.replacing(FOLDER / f"{folder.name}.profile.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "height [m]", "solid fraction [-]", "downward solid flux [m/s]"])
         for time, drawn in sorted(times.items()):
@@ -38,7 +39,7 @@ def keep(folder):
                     table.writerow([f"{time:.6g}", *(f"{value:.5g}" for value in row)])
     position, size, velocity = beadFiles.readBeads(times[min(times, key=lambda time: abs(time - PICTURE_AT))])
     cut = np.abs(position[:, 1]) < size
-    with open(FOLDER / f"{folder.name}.slab.csv", "w") as file:
+    with wholeFiles.replacing(FOLDER / f"{folder.name}.slab.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(SLAB_COLUMNS)
         for row in np.column_stack([position, velocity, size])[cut]:

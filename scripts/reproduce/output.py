@@ -17,6 +17,7 @@ from repository import CAMPAIGN, CASE, RESULTS, SCRIPTS
 import paper
 import pictureStyle
 import series
+import wholeFiles
 
 
 # one style for all
@@ -107,7 +108,7 @@ class Folder:
         print(self.path / f"{name}.png")
 
     def numbers(self, name, head, rows):
-        with open(self.path / f"{name}.csv", "w") as file:
+        with wholeFiles.replacing(self.path / f"{name}.csv") as file:
             table = csv.writer(file, lineterminator="\n")
             table.writerow(head)
             table.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in row] for row in rows)

@@ -48,11 +48,6 @@ def ratio(above, below):
     return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
 
 
-def product(values):
-    mean = float(np.prod([value.mean for value in values]))
-    return Value(mean, abs(mean) * float(np.hypot.reduce([value.error / value.mean for value in values])))
-
-
 class HopperRun:
     """One m(t), in g and s."""
 
@@ -267,11 +262,26 @@ class FrictionLaw:
         drawn = [self.rate(friction, fit) for fit in range(1, len(self.fits))]
         return np.percentile(drawn, [16, 84], axis=0)
 
-    def scaled(self, factor):
-        """All rates times a factor: each draw's by one drawn within the factor's error."""
-        drawn = np.random.default_rng(20170328).normal(factor.mean, factor.error, len(self.fits) - 1)
-        factors = np.append(factor.mean, drawn)[:, None]
-        return FrictionLaw(self.fits * np.hstack([factors, factors, np.ones_like(factors)]))
+    def through(self, rates, common):
+        """The same shape through other runs' rates at some frictions, {friction: rate}: one factor for all, each draw's to rates
+        drawn within their errors, which count for more where they scatter more, and all off by one common part."""
+        frictions = np.array(list(rates))
+        means, errors = np.array([rate.mean for rate in rates.values()]), np.array([rate.error for rate in rates.values()])
+        shapes = np.array([self.rate(frictions, fit) for fit in range(len(self.fits))])
+
+        def factors(values):
+            return (values * shapes / errors**2).sum(axis=1) / (shapes**2 / errors**2).sum(axis=1)
+
+        best = factors(means)[0]
+        spread = errors * max(1, scatterOverErrors(means - best * shapes[0], errors, parameters=1))
+        random = np.random.default_rng(20170328)
+        drawn = (means + spread * random.standard_normal(shapes.shape)) * (1 + common * random.standard_normal((len(shapes), 1)))
+        scale = np.append(best, factors(drawn)[1:])[:, None]
+        return FrictionLaw(self.fits * np.hstack([scale, scale, np.ones_like(scale)]))
+
+    def over(self, other, friction):
+        """The one's rate over the other's, of which it is the shape: draw by draw, so that what both share does not count."""
+        return self._value(np.array([self.rate(friction, fit) / other.rate(friction, fit) for fit in range(len(self.fits))]))
 
     def value(self, friction):
         """The rate with its error."""
@@ -313,15 +323,15 @@ def frictionLaw(stage):
         return optimize.least_squares(deviations, start, bounds=([0, 0, 0.01], [np.inf, np.inf, 2])).x
 
     best = fit(means)
-    spread = errors * max(1, scatterOverErrors(means - (best[0] + best[1] * np.exp(-frictions / best[2])), errors))
+    spread = errors * max(1, scatterOverErrors(means - (best[0] + best[1] * np.exp(-frictions / best[2])), errors, len(best)))
     random = np.random.default_rng(20170327)
     draws = [fit(means + spread * random.standard_normal(len(means))) for _ in range(DRAWS)]
     return FrictionLaw(np.array([best, *draws]))
 
 
-def scatterOverErrors(residuals, errors):
-    """Square root of chi2 per degree of freedom of a fit with three parameters; 1 where there is none."""
-    freedom = len(residuals) - 3
+def scatterOverErrors(residuals, errors, parameters):
+    """Square root of chi2 per degree of freedom of a fit; 1 where there is none."""
+    freedom = len(residuals) - parameters
     return np.sqrt(((residuals / errors) ** 2).sum() / freedom) if freedom > 0 else 1.0
 
 
@@ -346,36 +356,43 @@ def variants(stage):
     return found
 
 
-FINEST = "medium mesh"
+def stiffWithClogged(stage):
+    """{friction: runs} of the paper's fill with stiffer beads on a finer mesh."""
+    found = {}
+    for run in allRuns():
+        if run.stage == stage and run.entry.startswith("match"):
+            found.setdefault(run.friction, []).append(run)
+    return dict(sorted(found.items()))
 
 
-def corrections(stage):
-    """{what: factor} of the paper's fill, stiffer beads, and under water a finer mesh, over the runs of the entry fill100 at one
-    friction: of all at once, where that was run."""
-    together = [run for run in allRuns() if run.stage == stage and run.entry == "match"
-                and isclose(run.friction, paper.MATCHING_FRICTION["dry"])]
-    if not together:
-        return oneByOne(stage)
-    usual = mean([run.startRate for run in ofUsualFill(stage)])
-    what = f"{together[0].fill:.0f} g of {together[0].parameters['youngsModulus'] / 1e6:g} MPa"
-    return {what + (", coarse mesh" if stage == "submerged" else ""): ratio(mean([run.startRate for run in together]), usual)}
+def described(run):
+    """What tells these from the runs of the sweep."""
+    return f"{run.fill:.0f} g, {run.parameters['youngsModulus'] / 1e6:g} MPa, {run.parameters['meshLevel']} mesh"
 
 
-def oneByOne(stage):
-    """The same of what was tried one by one."""
-    usual = mean([run.startRate for run in ofUsualFill(stage)])
-    deepest = deepestOfBoth(paper.MATCHING_FRICTION["dry"])[stage]
-    found = {f"{deepest[0].fill:.0f} g": ratio(mean([run.startRate for run in deepest]), usual)}
-    for what, run in variants(stage).items():
-        if what == FINEST or not what.endswith("mesh"):
-            found[what] = ratio(run.startRate, usual)
-    return found
+def stiffRuns(stage):
+    """The same without clogged ones."""
+    found = {friction: [run for run in runs if not run.clogged] for friction, runs in stiffWithClogged(stage).items()}
+    if not any(found.values()):
+        raise MissingRuns(f"no {stage} run of the paper's fill with stiffer beads on a finer mesh: entry match")
+    return {friction: runs for friction, runs in found.items() if runs}
 
 
 @cache
-def correctedLaw(stage):
-    """The fit with all corrections, as if they multiplied and were the same at every friction."""
-    return frictionLaw(stage).scaled(product(corrections(stage).values()))
+def stiffLaw(stage):
+    """The sweep's fit, through the rates of the paper's fill with stiffer beads on a finer mesh."""
+    runsOf = stiffRuns(stage)
+    packings = min(len(runs) for runs in runsOf.values())
+    return frictionLaw(stage).through({friction: mean([run.startRate for run in runs]) for friction, runs in runsOf.items()},
+                                      packingScatter(stage) / np.sqrt(packings))
+
+
+def packingScatter(stage):
+    """Standard deviation over packings, of the mean: from the largest fill that has several."""
+    rates = [run.startRate.mean for run in deepest(stage, paper.MATCHING_FRICTION["dry"])]
+    if len(rates) < 2:
+        raise MissingRuns("no fill of two packings: entries fill400packings, fill200packings")
+    return np.std(rates, ddof=1) / np.mean(rates)
 
 
 def smallBeads(stage):

@@ -170,13 +170,18 @@ int main(int argc, char* argv[])
     const MpiSession mpi;
     chDir(args.globalPath());
     std::unique_ptr<CaseLock> lock;
-    if (!dryRun)
+    word start;
+    if (dryRun)
+    {
+        start = Checkpoints::startInPlaceOfUnusable(args);
+    }
+    else
     {
         lock = std::make_unique<CaseLock>(args.globalPath());
         Checkpoints::setAsideUnusable(args);
     }
 
-    RunTime runTime(args);
+    RunTime runTime = start.empty() ? RunTime(args) : RunTime(args, start);
 #include "createMesh.H"
 
     const CouplingSettings settings(runTime);

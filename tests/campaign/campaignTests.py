@@ -117,6 +117,14 @@ class CampaignOfStandIns(CampaignTest):
     def heldRuns(self):
         return sum(path.read_text().count("\n") for path in self.work("runs/*/held"))
 
+    def testALongTableIsThinnedAndHasTheEnd(self):
+        """5002 rows: every second one, which would miss the last."""
+        self.write(case=str(Path(__file__).parent / "standIn"), stages=["dry"], packings=[1], parameters={"time": 50.02}, runs={"one": {}})
+        outcome = self.call("run")
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        times = [time for time, _, _ in self.rows("one.1.dry")]
+        self.assertEqual(times, [round(0.02 * row, 2) for row in range(2501)] + [50.01])
+
     def testWhatIsDoneIsNotDoneAgain(self):
         """Nor is a run that was begun with other parameters mistaken for this one."""
         self.sweep([0.1])

@@ -129,6 +129,12 @@ class Meanings(Folder):
         self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
         self.assertIn("volAverage_voidfraction: no such field here", said)
 
+    def testFilesAreNotCompressed(self):
+        """Taken over as `on`, the program would refuse the case."""
+        said = self.imported(self.case("settlingBead", "CFD/system/controlDict", "writeCompression uncompressed", "writeCompression compressed"))
+        self.assertIn("writeCompression        off;", (self.target / "system/controlDict").read_text())
+        self.assertIn("writeCompression: is off here", said)
+
     def testScriptLosesTheCoupling(self):
         said = self.imported(HERE / "packedColumn")
         script = (self.target / "DEM/in.liggghts_run").read_text()

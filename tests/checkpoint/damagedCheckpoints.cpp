@@ -131,6 +131,31 @@ TEST(DamagedCheckpoint, IsAnErrorWhereNoneCanBeTaken)
     EXPECT_TRUE(beginning.says("checkpoints/beginning\" holds 'zero'; allowed:")) << beginning.output;
 }
 
+// A dry run starts from where a start would that has set the unusable times aside, and leaves all files as they are. One that
+// takes the latest time refuses a case that runs.
+TEST(DamagedCheckpoint, IsPassedOverByADryRun)
+{
+    TestCase test;
+    threeCheckpoints(test, 0.02);
+    ASSERT_TRUE(test.run().succeeded());
+    const std::string resumed = "Resuming from the checkpoint of time 0.01";
+    const std::vector<std::pair<std::string, std::string>> startsAfter = {
+        {"rm 0.02/phi checkpoints/0.02/complete", resumed},
+        {": > 0.02/uniform/time", resumed},
+        {"rm checkpoints/*/complete", "Create mesh for time = 0\n"},
+    };
+    for (const auto& [damage, start] : startsAfter)
+    {
+        const Outcome outcome = inCopy(
+            test, damage
+                      + "; all() { find . | sort; find . -type f -exec sha256sum {} + | sort; }; before=\"$(all)\" && "
+                        "$SOLVER -dryRun && [ \"$before\" = \"$(all)\" ]");
+        EXPECT_TRUE(outcome.succeeded()) << damage << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says(start)) << damage << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says("Dry run: one interval took")) << damage << '\n' << outcome.output;
+    }
+}
+
 // On two ranks each rank's fields are held against the manifest, too, also those that lie elsewhere behind a link. A manifest
 // that names them by that place says nothing of them.
 TEST(DamagedCheckpoint, IsFoundOnEachRank)
@@ -144,6 +169,13 @@ TEST(DamagedCheckpoint, IsFoundOnEachRank)
     const Outcome first = test.runCommand("blockMesh && decomposePar && mkdir elsewhere && mv processor1 elsewhere && "
                                           "ln -s elsewhere/processor1 && mpirun -np 2 $SOLVER -parallel");
     ASSERT_TRUE(first.succeeded()) << first.output;
+
+    // Killed when one rank had its folder and the other not: each for itself would start from another time.
+    const Outcome dryRun =
+        inCopy(test, "rm -r processor1/0.02 checkpoints/0.02/complete && mpirun -np 2 $SOLVER -parallel -dryRun");
+    EXPECT_TRUE(dryRun.succeeded()) << dryRun.output;
+    EXPECT_TRUE(dryRun.says("Resuming from the checkpoint of time 0.01")) << dryRun.output;
+
     const Outcome outcome =
         test.runCommand(": > processor1/0.02/phi && echo 'endTime 0.022;' >> system/controlDict && "
                         "mpirun -np 2 $SOLVER -parallel && ls -d processor0/damaged.0.02 processor1/damaged.0.02");

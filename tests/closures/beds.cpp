@@ -101,11 +101,4 @@ TEST(RichardsonZaki, RowesExponent)
     }
 }
 
-/// v = v_t eps^n: .2674*.8^2.39 = .2674*.586658 = .156872 m/s; at eps = 1 the lone bead.
-TEST(RichardsonZaki, HindersSettling)
-{
-    EXPECT_NEAR(richardsonZakiVelocity(0.2674, 0.8, 2.39), 0.156872, 1e-6);
-    EXPECT_DOUBLE_EQ(richardsonZakiVelocity(0.2674, 1.0, 2.39), 0.2674);
-}
-
 } // namespace

@@ -32,25 +32,6 @@ TEST(BeadInFluid, HasTwoReynoldsNumbers)
     EXPECT_DOUBLE_EQ(bead.logVoidFraction, -0.69314718055994531);
 }
 
-/// Model B's coefficient is model A's over eps; at eps = 1 they are one. Returning Sp unchanged fails the first line.
-TEST(BeadInFluid, ModelBDividesByTheVoidFraction)
-{
-    EXPECT_DOUBLE_EQ(modelB(3.0e-4, 0.4), 7.5e-4);
-    EXPECT_DOUBLE_EQ(modelB(3.0e-4, 1.0), 3.0e-4);
-}
-
-/// In a homogeneous bed models A and B must put the same total force on a bead: A's drag plus pressure gradient,
-/// Sp u + V_p beta u/eps = Sp u (1 + phi/eps) = Sp u/eps, B's drag alone. Fails for any other conversion.
-TEST(BeadInFluid, ModelsAAndBAgreeOnTheTotalForce)
-{
-    const BeadInFluid bead = beadAtReynolds(50.0, 0.42);
-    const double volume = pi / 6.0 * 8e-9;
-    const double sp = DiFeliceDrag{}(bead);
-    const double beta = sp * (1.0 - 0.42) / volume;
-    const double pressureGradient = beta * bead.slipSpeed / 0.42;
-    EXPECT_RELATIVE(sp * bead.slipSpeed + volume * pressureGradient, modelB(sp, 0.42) * bead.slipSpeed, 1e-14);
-}
-
 /// Schiller & Naumann is continuous where 0.44 takes over (Re = 988.948, from 24/Re (1 + .15 Re^.687) = .44), holds
 /// 0.44 above it, and lies by the known .39 % above the power law at Re = 1000 (.4382881). A version that switches
 /// at 1000 is discontinuous and fails the third check; one without the Newton regime fails the second.

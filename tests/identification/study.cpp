@@ -502,6 +502,29 @@ TEST(Simulator, TellsEveryFailureAsRepeated)
     EXPECT_TRUE(simulator.effort().failures[1].repeated);
 }
 
+/// Two orders with the same seeds, as those of the two sides of a common error: the one that fails at every seed is told as
+/// excluded, though the other one succeeds with a seed of its own. By seeds alone its first failure is told as repeated.
+TEST(Simulator, TellsFailuresOfOrdersWithTheSameSeedsApart)
+{
+    const TemporaryFolder folder;
+    const Study study = linearStudy(folder, "seed");
+    LinearRig rig;
+    rig.failuresFirst = 2;
+    rig.failsWithY = true;
+    Simulator simulator(study, rig);
+    Setting withY = simulator.plainSetting();
+    withY.amplitudes(1) = 1;
+    const auto done = simulator.run({{0, withY, "same"}, {0, simulator.plainSetting(), "same"}});
+    EXPECT_TRUE(done[0].failed);
+    EXPECT_FALSE(done[1].failed);
+    const std::vector<Failure>& failures = simulator.effort().failures;
+    ASSERT_GE(failures.size(), 3U);
+    EXPECT_EQ(failures[0].seed, failures[1].seed);
+    EXPECT_FALSE(failures[0].repeated);
+    EXPECT_TRUE(failures[1].repeated);
+    EXPECT_FALSE(failures[2].repeated);
+}
+
 TEST(Simulator, StopsAtTheBudget)
 {
     const TemporaryFolder folder;

@@ -16,13 +16,14 @@ inline FluidProperties water()
     return {1000, 1e-3, {0, 0, -9.81}};
 }
 
-/// The forces that a couplingProperties of this text selects, acting on beads of the fake engine.
+/// The forces that a couplingProperties of this text selects, of model A unless it says so, acting on beads of the fake
+/// engine.
 class ForcesOnBeads
 {
 public:
     explicit ForcesOnBeads(const std::string& couplingProperties, const FluidProperties& fluid = water())
         : dict_(Foam::IStringStream(couplingProperties)()),
-          forces_(dict_, fluid, timers_),
+          forces_(dict_, dict_.found("modelType") ? readModelType(dict_) : ModelType::A, fluid, timers_),
           engine_(1e-5, fluid.gravity)
     {
         engine_.initialise(&forces_);

@@ -4,6 +4,7 @@
 #include "closures/addedMass.h"
 #include "closures/lubrication.h"
 #include "engine/liggghts/liggghtsEngine.h"
+#include "engine/liggghts/script.h"
 #include "forcesOnBeads.h"
 #include "support/demScript.h"
 
@@ -195,7 +196,7 @@ TEST(Liggghts, TakesTheAddedMassImplicitly)
     beads.dem.beads = {{0.005, 0.01, 0.01}};
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, water(), timers);
+    BeadForces forces(dict, ModelType::A, water(), timers);
     beads.start(&forces).advance(100);
     EXPECT_NEAR(
         beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
@@ -210,7 +211,7 @@ TEST(Liggghts, FrozenBeadsStayWhatTheFluidDoes)
     beads.dem.more = "group frozen id 1\nfix frozen frozen freeze\n";
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, water(), timers);
+    BeadForces forces(dict, ModelType::A, water(), timers);
     LiggghtsEngine& engine = beads.start(&forces);
     const Vector3d before = impulseGiven(engine);
     engine.advance(100);
@@ -261,6 +262,40 @@ TEST(Liggghts, RefusesWhatIsNoRestartFile)
         EXPECT_NE(message.find(file + " is no restart file; allowed"), std::string::npos) << message;
     }
     std::filesystem::remove(file);
+}
+
+/// A variable whose value holds its own name is one without a value. Replaced again and again it never comes to an end.
+TEST(Liggghts, RefusesAnIncludeWhoseVariableHoldsItself)
+{
+    const std::string file = testing::TempDir() + "clepsydraModels" + std::to_string(getpid()) + ".include";
+    std::ofstream(file) << "include DEM/in.${sizes}\n";
+    const std::string message = errorOf([&] { readScript(file, {{"sizes", "a${sizes}"}}); });
+    EXPECT_NE(message.find(file + " line 1: include 'DEM/in.a${sizes}'; allowed"), std::string::npos) << message;
+    std::filesystem::remove(file);
+}
+
+/// A file that includes itself, also through another one and by another path, is named with its line; one that is included
+/// twice is read twice. The stack ran over.
+TEST(Liggghts, RefusesAScriptThatIncludesItself)
+{
+    const std::string name = "clepsydraModels" + std::to_string(getpid());
+    const std::string first = testing::TempDir() + name + ".first";
+    const std::string second = testing::TempDir() + name + ".second";
+    const auto messageOf = [&](const std::string& ofFirst, const std::string& ofSecond) {
+        std::ofstream(first) << ofFirst;
+        std::ofstream(second) << ofSecond;
+        return errorOf([&] { readScript(first, {}); });
+    };
+    const std::string again = "include " + testing::TempDir() + "./" + name + ".first";
+    const std::string itself = messageOf(again + '\n', "");
+    EXPECT_NE(itself.find(first + " line 1: " + again.substr(0, 7)), std::string::npos) << itself;
+    EXPECT_NE(itself.find("allowed: a file that does not include " + first), std::string::npos) << itself;
+    const std::string through = messageOf("units si\ninclude " + second + '\n', "\n" + again + '\n');
+    EXPECT_NE(through.find(second + " line 2: " + again.substr(0, 7)), std::string::npos) << through;
+    const std::string twice = "include " + second + '\n';
+    EXPECT_EQ(messageOf(twice + twice, "units si\n"), "");
+    std::filesystem::remove(first);
+    std::filesystem::remove(second);
 }
 
 /// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
@@ -412,7 +447,7 @@ TEST(Liggghts, LubricatesPairsAcrossRanks)
     Foam::dictionary dict(
         Foam::IStringStream("forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.1; }")());
     PhaseTimers timers;
-    BeadForces forces(dict, fluid, timers);
+    BeadForces forces(dict, ModelType::A, fluid, timers);
     LiggghtsEngine& engine = beads.start(&forces, forces.needs().pairReach);
     engine.advance(20);
     const double coefficient = closures::squeezeCoefficient(1e-3, radius / 2, gap, 1e-6, 0.2 * radius);
@@ -604,7 +639,7 @@ TEST(GroupChange, RestingBeadsDoNotPushTheFluidByTheirAddedMass)
     beads.dem.beads = {{0.0201, 0.01, 1.0e-3}, {0.0201, 0.01, 3.0e-3}};
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, water(), timers);
+    BeadForces forces(dict, ModelType::A, water(), timers);
     LiggghtsEngine& engine = beads.start(&forces);
     advanceInIntervals(engine, 0.05);
     ASSERT_EQ(beads.velocity(1), Vector3d::Zero());

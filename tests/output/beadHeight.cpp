@@ -14,6 +14,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 namespace clepsydra::tests
 {
@@ -58,6 +59,22 @@ private:
     FakeEngine engine_;
     ObservedBeads observed_;
 };
+
+/// Of the rows of a .dat file; empty where there is none, and on ranks other than the master.
+std::vector<double> timesOfRows(const std::filesystem::path& file)
+{
+    std::vector<double> times;
+    std::ifstream in(file);
+    for (std::string line; Pstream::master() && std::getline(in, line);)
+    {
+        double time = 0;
+        if (line.front() != '#' && std::istringstream(line) >> time)
+        {
+            times.push_back(time);
+        }
+    }
+    return times;
+}
 
 /// Bead 2 along an axis that is neither z nor of length 1: height .25*.6 + .75*.8 = .75, velocity .3*.6 - .4*.8 = -.14,
 /// in the row that OpenFOAM itself leaves out, at t = 0, and in each of the run's steps. The other bead, the z axis, an
@@ -132,6 +149,51 @@ TEST(BeadHeight, EndsWithItsBead)
     }
     const Foam::dictionary dict(Foam::IStringStream("type beadHeight; bead 2;")());
     EXPECT_NO_THROW(Foam::functionObject::New("resumed", temporaryCase.time(), dict));
+}
+
+/// A run that is stopped has, resumed, the rows of one that is not: a row every .1 s, where it is stopped at .15 s, at which
+/// none is due, and at .2 s, whose row goes to the next table. One that takes a row at every start has one at .15 s, one that
+/// takes none there lacks that of .2 s. An earlier table that has lost a row is told of.
+TEST(BeadHeight, GoesOnAfterARestart)
+{
+    TemporaryCase temporaryCase;
+    const auto runFrom = [&](const std::string& start, const std::string& end) {
+        temporaryCase.restart(
+            "stopAt endTime; deltaT 0.01; writeControl timeStep; writeInterval 5; runTimeModifiable no; "
+            "functions { height { type beadHeight; bead 2; executeControl timeStep; executeInterval 10; writeControl "
+            "none; } } "
+            "startFrom startTime; startTime "
+            + start + "; endTime " + end + ';');
+        const TwoBeads beads(temporaryCase);
+        testing::internal::CaptureStdout();
+        while (temporaryCase.time().loop())
+        {
+            temporaryCase.time().write();
+        }
+        return testing::internal::GetCapturedStdout();
+    };
+    const std::filesystem::path tables = temporaryCase.folder() / "postProcessing/height";
+    const auto expectRows = [&](const std::string& start, const std::vector<double>& times) {
+        EXPECT_THAT(timesOfRows(tables / start / "height.dat"),
+            testing::Pointwise(testing::DoubleNear(1e-9), Pstream::master() ? times : std::vector<double>()))
+            << start;
+    };
+    runFrom("0", "0.15");
+    EXPECT_THAT(runFrom("0.15", "0.2"), testing::Not(testing::HasSubstr("WARNING")));
+    EXPECT_THAT(runFrom("0.2", "0.3"), testing::Not(testing::HasSubstr("WARNING")));
+    expectRows("0", {0, 0.1});
+    expectRows("0.15", {});
+    expectRows("0.2", {0.2, 0.3});
+    if (Pstream::master())
+    {
+        std::filesystem::remove(tables / "0/height.dat");
+    }
+    const std::string said = runFrom("0.3", "0.35");
+    if (Pstream::master())
+    {
+        EXPECT_THAT(said, testing::HasSubstr("WARNING: height.dat has 1 rows"));
+        EXPECT_THAT(said, testing::HasSubstr("in place of the 3"));
+    }
 }
 
 /// A bead that is not there must end the run with words that help, and leave no file behind.

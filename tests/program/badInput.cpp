@@ -234,16 +234,20 @@ TEST(BadInput, EntriesThatNobodyReads)
 }
 
 /// What helps to write couplingProperties is no mistake: a word that it uses as $word, what an included file holds, and
-/// coefficients of models that are not chosen. A check that knew the program's own keywords alone would refuse it.
+/// coefficients of models that are not chosen. A check that knew the program's own keywords alone would refuse it, one that
+/// looked at the tail of a file's name alone would take two of these for the file itself.
 TEST(BadInput, EntriesThatOthersReadAreNoMistake)
 {
     TestCase test;
     fillIn(test);
     test.extraFiles["constant/lengths"] = "bead 2e-3; coarse { cell 5e-3; }\n";
+    test.extraFiles["constant/common.couplingProperties"] = "fine { cell 1e-3; }\n";
+    test.extraFiles["shared/couplingProperties"] = "liquid water;\n";
     test.coupling()
         .remove("forceModels")
         .remove("constDiffSmoothingProps/smoothingLength")
-        .set("#include \"lengths\"\nlift", "SaffmanLiftForce")
+        .set("#include \"lengths\"\n#include \"common.couplingProperties\"\nlift",
+            "SaffmanLiftForce;\n#include \"../shared/couplingProperties\"\nuseDDTvoidfraction on")
         .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes $lift)")
         .set("constDiffSmoothingProps/length", "6e-3")
         .set("constDiffSmoothingProps/smoothingLength", "$length")
@@ -251,6 +255,38 @@ TEST(BadInput, EntriesThatOthersReadAreNoMistake)
         .set("GaussianProps/bandwidth", "$bead");
     const Outcome outcome = test.run();
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// A file that includes itself is refused, by whatever name it does so, also a DEM script that does so through another one. The
+/// stack ran over.
+TEST(BadInput, FilesThatIncludeThemselves)
+{
+    for (const std::string name :
+        {"couplingProperties", "../constant/couplingProperties", "$FOAM_CASE/constant/couplingProperties"})
+    {
+        SCOPED_TRACE(name);
+        expectRefused(
+            [&](TestCase& test) {
+                test.coupling().set("fluid", "incompressible;\n#include \"" + name + "\"\nuseDDTvoidfraction on");
+            },
+            {couplingProperties, "The file includes itself"}, SeenBy::dictionaries);
+    }
+    expectRefused(
+        [](TestCase& test) {
+            test.dem.more = "include DEM/in.more";
+            test.extraFiles["DEM/in.more"] = "\ninclude DEM/../" + script + '\n';
+        },
+        {"DEM/in.more line 2: include 'DEM/../" + script + "'", "allowed:"}, SeenBy::engine);
+}
+
+/// Settings that leave no whole checkpoint for a while, or on a full disk one that only seems to be whole. With
+/// `writeCompression on` a run went on with status 0 whatever became of its files.
+TEST(BadInput, CheckpointsThatMayNotBeWhole)
+{
+    expectRefused([](TestCase& test) { test.control().set("purgeWrite", "1"); },
+        {controlDict, "'purgeWrite' is 1", "allowed:"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.control().set("writeCompression", "on"); },
+        {controlDict, "'writeCompression' is on", "allowed: off"}, SeenBy::dictionaries);
 }
 
 /// A dictionary in the place of a value, no value, two values, and numbers beyond all sense. The program ended by

@@ -67,7 +67,7 @@ class FreshRun(unittest.TestCase):
     def testNoBeadIsFasterThanItCanFall(self):
         """Beads that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
         # from the top of the beads, of which none lies higher than 2 cm, to the floor of the tank
-        limit = np.sqrt(2 * flow.GRAVITY * (self.runs["dry"].parameters["tankDepth"] + 0.02))
+        limit = np.sqrt(2 * 9.81 * (self.runs["dry"].parameters["tankDepth"] + 0.02))
         case = self.folder / "work" / "runs" / self.runs["dry"].name / "stages" / "dry"
         fastest = max(np.linalg.norm(beadFiles.readBeads(file)[2], axis=1).max()
                       for file in beadFiles.writtenTimes(case).values())

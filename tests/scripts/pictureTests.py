@@ -166,6 +166,17 @@ class Report(Pictures):
         for said in ("97 at the end", "3 lost", "2.50e-03"):
             self.assertIn(said, page)
 
+    def testSaysOfWhichTimeThereAreNoBooks(self):
+        """Killed after .3 s, it went on from the checkpoint at .25 s; before that, a stop at .2 s wrote books."""
+        self.assertNotIn("are missing", self.page(self.submerged))
+        case = self.copied("killed")
+        ledger = case / "postProcessing/ledger"
+        books = json.loads((ledger / "0/summary.json").read_text())
+        (ledger / "0/summary.json").write_text(json.dumps(books | {"timeEnd": 0.2}))
+        (ledger / "0.25").mkdir()
+        (ledger / "0.25/summary.json").write_text(json.dumps(books | {"timeStart": 0.25}))
+        self.assertIn("The books of 0.2 to 0.25 s are missing", self.page(case))
+
     def testWithoutARun(self):
         done = self.runs("runReport", self.folder, "report.html")
         self.assertEqual(done.returncode, 2)

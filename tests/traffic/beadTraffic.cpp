@@ -11,10 +11,13 @@
 #include "traffic/beadTraffic.h"
 
 #include "IStringStream.H"
+#include "functionObject.H"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 
 namespace clepsydra::tests
 {
@@ -140,6 +143,8 @@ TEST(BeadTrafficTest, TheBooksFollowTheVolumeInside)
     double largestStep = 0;
     double last = first;
     label removed = 0;
+    Passage inserted;
+    Passage left;
     for (int step = 1; step <= 160; ++step)
     {
         if (step == 30 && mine)
@@ -158,16 +163,60 @@ TEST(BeadTrafficTest, TheBooksFollowTheVolumeInside)
         largestStep = step == 30 ? largestStep : std::max(largestStep, std::abs(now - last));
         last = now;
         removed += traffic.removeGone(engine);
+        inserted += traffic.lastInserted();
+        left += traffic.lastLeft()[0];
     }
     EXPECT_EQ(removed, 2);
     EXPECT_EQ(returnReduce(label(engine.beads().size()), sumOp<label>()), 1);
-    EXPECT_EQ(traffic.inserted().beads, 1);
-    EXPECT_EQ(traffic.left()[0].beads, 2);
+    EXPECT_EQ(inserted.beads, 1);
+    EXPECT_EQ(left.beads, 2);
     const double mass = 2500 * sphereVolume(radius);
-    EXPECT_NEAR(traffic.left()[0].mass, 2 * mass, 1e-12);
-    EXPECT_NEAR(traffic.left()[0].momentum.z(), -0.4 * mass, 1e-12);
-    EXPECT_NEAR(traffic.inserted().volume, sphereVolume(radius), 1e-15);
+    EXPECT_NEAR(left.mass, 2 * mass, 1e-12);
+    EXPECT_NEAR(left.momentum.z(), -0.4 * mass, 1e-12);
+    EXPECT_NEAR(inserted.volume, sphereVolume(radius), 1e-15);
     EXPECT_LT(largestStep, 0.25 * sphereVolume(radius));
+}
+
+// Resumed with fewer outlets, others, or the same in another order, beadFlux refuses and leaves its table as it was. It began at
+// 0 again without a word, or went on counting what leaves through one outlet in the columns of another.
+TEST(BeadFluxTest, RefusesOtherOutletsThanBeforeARestart)
+{
+    TemporaryCase temporaryCase;
+    const auto restart = [&](const std::string& more) {
+        temporaryCase.restart("stopAt endTime; endTime 0.02; deltaT 0.01; writeControl timeStep; writeInterval 2; "
+                              "runTimeModifiable no; startFrom startTime; "
+                              + more);
+        return boxMesh(temporaryCase.time(), point::zero, point::one, {4, 4, 4});
+    };
+    {
+        const auto mesh = restart("startTime 0; functions { flux { type beadFlux; } }");
+        const BeadTraffic traffic(entries("beadOutlets (zMin yMax);"), *mesh, interval);
+        while (temporaryCase.time().loop())
+        {
+            temporaryCase.time().write();
+        }
+    }
+    const auto table = [&] {
+        std::ifstream in(temporaryCase.folder() / "postProcessing/flux/0/flux.dat");
+        return std::string(std::istreambuf_iterator<char>(in), {});
+    };
+    const std::string before = table();
+    const auto errorWith = [&](const std::string& outlets) {
+        const auto mesh = restart("startTime 0.02;");
+        const BeadTraffic traffic(entries("beadOutlets (" + outlets + ");"), *mesh, interval);
+        return errorOf([&] { functionObject::New("flux", temporaryCase.time(), entries("type beadFlux;")); });
+    };
+    for (const char* others : {"zMin", "zMin xMin", "yMax zMin"})
+    {
+        EXPECT_THAT(errorWith(others), testing::AllOf(testing::HasSubstr("'beadOutlets'"),
+                                           testing::HasSubstr("(zMin yMax)"), testing::HasSubstr("allowed:")))
+            << others;
+        if (Pstream::master())
+        {
+            EXPECT_EQ(table(), before) << others;
+        }
+    }
+    EXPECT_THAT(errorWith("zMin yMax"), testing::IsEmpty());
 }
 
 // The ledger holds what the cells have against these books. Each fault that it is there for ends the run.

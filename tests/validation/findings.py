@@ -36,7 +36,7 @@ class Findings(unittest.TestCase):
         self.addCleanup(shutil.rmtree, root)
         self.cases = root / "cases" / "validation"
         (root / "scripts").mkdir()
-        for name in ("validate", "validation.py"):
+        for name in ("validate", "validation.py", "wholeFiles.py"):
             shutil.copy(SCRIPTS / name, root / "scripts")
         self.program = root / "scripts" / "validate"
         for name in ("one", "other"):

@@ -77,7 +77,7 @@ std::string withValues(std::string name, const ScriptVariables& variables, const
     for (const auto& [variable, value] : variables)
     {
         const std::string reference = "${" + variable + '}';
-        for (std::size_t at; (at = name.find(reference)) != std::string::npos;)
+        for (std::size_t at = 0; (at = name.find(reference, at)) != std::string::npos; at += value.size())
         {
             name.replace(at, reference.size(), value);
         }
@@ -91,10 +91,19 @@ std::string withValues(std::string name, const ScriptVariables& variables, const
     return name;
 }
 
-} // namespace
-
-std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables)
+/// By whatever path.
+bool isAmong(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files)
 {
+    std::error_code notThere;
+    return std::any_of(files.begin(), files.end(),
+        [&](const auto& other) { return std::filesystem::equivalent(file, other, notThere); });
+}
+
+/// \param open  the files that are being read, each of which includes the next
+std::vector<ScriptCommand> readFile(
+    const std::filesystem::path& script, const ScriptVariables& variables, std::vector<std::filesystem::path> open)
+{
+    open.push_back(script);
     std::ifstream lines(script);
     if (!lines)
     {
@@ -128,8 +137,13 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
         }
         if (name == "include")
         {
-            const std::vector<ScriptCommand> included =
-                readScript(withValues(word(text, 1), variables, where), variables);
+            const std::string file = withValues(word(text, 1), variables, where);
+            if (isAmong(file, open))
+            {
+                throw DemEngineError(where + ": include '" + file + "'; allowed: a file that does not include "
+                                     + script.string() + " itself, for that would never end");
+            }
+            const std::vector<ScriptCommand> included = readFile(file, variables, open);
             commands.insert(commands.end(), included.begin(), included.end());
         }
         else
@@ -144,6 +158,13 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
             script.string() + ": the last line, '" + text + "', ends in '&'; allowed: a line after it");
     }
     return commands;
+}
+
+} // namespace
+
+std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables)
+{
+    return readFile(script, variables, {});
 }
 
 bool isCommand(const std::string& command, const std::string& name)

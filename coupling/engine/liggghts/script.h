@@ -20,8 +20,8 @@ struct ScriptCommand
 /// The commands of a script in their order: lines joined at `&`, `include`d files in their place.
 /// The commands are given to LIGGGHTS one by one, so that an error can name its line. Hence no `jump`, `label`, `next`.
 /// \param variables  name and value, for the names of included files: `include DEM/in.${sizes}`
-/// \throws DemEngineError where a file cannot be read or ends in `&`, a file's name has another variable, or a command jumps
-/// or runs, also one within an `if`, where none may make beads either.
+/// \throws DemEngineError where a file cannot be read, ends in `&` or includes itself (or a file that does), a file's name
+/// has another variable, or a command jumps or runs, also one within an `if`, where none may make beads either.
 std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
 /// True for the command of this name.
