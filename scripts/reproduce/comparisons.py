@@ -12,7 +12,7 @@ import closures
 import exitFlow
 import paper
 import series
-from series import Value, ratio
+from series import Value, difference, ratio
 
 SIGNIFICANT = 3             # standard errors
 KEYS = ("quantity", "unit", "measured", "paperSimulation", "ours", "uncertainty", "residualPercent", "runs")
@@ -104,10 +104,7 @@ def stiff():
                          simulated=paper.MATCHING_FRICTION[stage]))
     found.append(row(f"W_submerged/W_dry with these, mu = {friction:g} in both", "-", ratio(rates["submerged"], rates["dry"]), used,
                      paper.RATE["submerged"] / paper.RATE["dry"]))
-    difference = Value(frictions["submerged"].mean - frictions["dry"].mean,
-                       float(np.hypot(frictions["submerged"].error, frictions["dry"].error)))
-    found.append(row("mu_submerged less mu_dry, with these", "-", difference, used))
-    return found
+    return found + [row("mu_submerged less mu_dry, with these", "-", difference(frictions["submerged"], frictions["dry"]), used)]
 
 
 def surge():
@@ -128,18 +125,13 @@ def surgeAt(friction):
     rises = {stage: series.mean([run.rise for run in runs]) for stage, runs in runsOf.items()}
     found = [row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-", rises[stage], names(runs))
              for stage, runs in runsOf.items()]
-    difference = Value(rises["submerged"].mean - rises["dry"].mean,
-                       float(np.hypot(rises["submerged"].error, rises["dry"].error)))
-    found.append(row(f"rise of W, submerged less dry, mu = {friction:g}", "-", difference, names(sum(runsOf.values(), []))))
+    more = difference(rises["submerged"], rises["dry"])
+    found.append(row(f"rise of W, submerged less dry, mu = {friction:g}", "-", more, names(sum(runsOf.values(), []))))
     early, gain = runsOf["dry"][0].upperHalf, {}
     for window in series.SURGE:
         rows, gain[window] = gains(runsOf, window, early, f"mu = {friction:g}: ")
         found += rows
-        packings = [ratio(*(run.gain(window, early) for run in pair)).mean for pair in zip(runsOf["submerged"], runsOf["dry"])]
-        print("  mu = {}, from {} to {} g, submerged over dry of each packing: {}".format(
-            friction, *window, ", ".join(f"{one:.3f}" for one in packings))
-            + (f"; p = {stats.ttest_1samp(packings, 1, alternative='greater').pvalue:.2g}" if len(packings) > 1 else ""))
-    for name, rise in (*rises.items(), ("submerged less dry", difference)):
+    for name, rise in (*rises.items(), ("submerged less dry", more)):
         print(f"  mu = {friction:g}, rise of W, {name}: {rise}, {rise.mean / rise.error:+.1f} standard errors")
     return found, rises, gain
 
@@ -151,7 +143,12 @@ def gains(runsOf, late, early, ofWhat):
     gainsOf = {stage: [run.gain(late, early) for run in runs] for stage, runs in runsOf.items()}
     gain = {stage: series.mean(values) for stage, values in gainsOf.items()}
     found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
-    gain["submerged over dry"] = series.mean([ratio(*ofPacking) for ofPacking in zip(gainsOf["submerged"], gainsOf["dry"], strict=True)])
+    ofPackings = [ratio(*pair) for pair in zip(gainsOf["submerged"], gainsOf["dry"], strict=True)]
+    gain["submerged over dry"] = series.mean(ofPackings)
+    if len(ofPackings) > 1:
+        means = [one.mean for one in ofPackings]
+        print(f"  {what}, submerged over dry of each packing: {', '.join(f'{one:.3f}' for one in means)}; one-sided "
+              f"p = {stats.ttest_1samp(means, 1, alternative='greater').pvalue:.2g}")
     found.append(row(f"{what}, submerged over dry", "-", gain["submerged over dry"], names(sum(runsOf.values(), []))))
     return found, gain
 
@@ -215,8 +212,8 @@ def emptying():
                          series.mean([run.startRate for run in runs]), names(runs),
                          simulated=paper.EMPTYING_MASS / paper.EMPTYING_TIME[stage]))
     if len(times) == len(paper.STAGES):
-        require("500 g need longer under water", times["submerged"].mean - times["dry"].mean
-                > SIGNIFICANT * np.hypot(times["submerged"].error, times["dry"].error))
+        longer = difference(times["submerged"], times["dry"])
+        require("500 g need longer under water", longer.mean > SIGNIFICANT * longer.error)
     return found
 
 
@@ -247,9 +244,9 @@ def torricelli():
         rough = series.mean([run.rateExponent for run in series.deepest(stage, paper.MATCHING_FRICTION["dry"])])
         found.append(row(f"p of W ~ m^p, {stage}, mu = {paper.SMOOTH_FRICTION:g} (Torricelli: .5)", "-", exponent, names(runs),
                          simulated=0.5))
+        less = difference(exponent, rough)
         require(f"{stage}, without friction the rate falls with the height ({exponent}), with friction less ({rough})",
-                exponent.mean > SIGNIFICANT * exponent.error
-                and exponent.mean - rough.mean > SIGNIFICANT * np.hypot(exponent.error, rough.error))
+                exponent.mean > SIGNIFICANT * exponent.error and less.mean > SIGNIFICANT * less.error)
     return found
 
 
@@ -277,11 +274,9 @@ def packingAtTheExit():
     shares = {stage: exitFlow.profile(stage).shareAt(0) for stage in paper.STAGES}
     found = [row(f"share of the orifice inside beads, {stage}, mu = .15", "-", share, [exitFlow.runOf(stage)])
              for stage, share in shares.items()]
-    difference = Value(shares["submerged"].mean - shares["dry"].mean,
-                       float(np.hypot(shares["submerged"].error, shares["dry"].error)))
-    found.append(row("share of the orifice inside beads, submerged less dry", "-", difference,
-                     [exitFlow.runOf(stage) for stage in paper.STAGES]))
-    print(f"  submerged less dry: {difference}, {difference.mean / difference.error:+.1f} standard errors")
+    more = difference(shares["submerged"], shares["dry"])
+    found.append(row("share of the orifice inside beads, submerged less dry", "-", more, [exitFlow.runOf(stage) for stage in paper.STAGES]))
+    print(f"  submerged less dry: {more}, {more.mean / more.error:+.1f} standard errors")
     return found
 
 

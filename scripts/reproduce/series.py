@@ -43,6 +43,10 @@ class Value:
         return f"{self.mean:.4g} +- {self.error:.2g}"
 
 
+def difference(one, other):
+    return Value(one.mean - other.mean, float(np.hypot(one.error, other.error)))
+
+
 def ratio(above, below):
     mean = above.mean / below.mean
     return Value(mean, abs(mean) * np.hypot(above.error / above.mean, below.error / below.mean))
