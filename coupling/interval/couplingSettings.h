@@ -42,7 +42,7 @@ public:
         return hasFluid_;
     }
 
-    /// A in a dry run.
+    /// A where there is no fluid.
     ModelType modelType() const
     {
         return modelType_;

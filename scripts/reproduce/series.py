@@ -191,15 +191,27 @@ def check(run):
         raise SystemExit(f"cases/hopper5cm/results/runs/{run.name}: {'; '.join(problems)}")
 
 
+def ofEntries(begin, stage, **wanted):
+    """Runs of the entries that begin so, of a stage and with the parameters wanted, in order of fill and friction."""
+    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith(begin) and
+             all(isclose(run.parameters[name], value) for name, value in wanted.items())]
+    return sorted(found, key=lambda run: (run.fill, run.friction))
+
+
+def byFriction(runs):
+    found = {}
+    for run in runs:
+        found.setdefault(run.friction, []).append(run)
+    return found
+
+
 def fills(stage, **wanted):
     """Runs of the entries fill..., of a stage and with the parameters wanted, in order of fill; without clogged ones."""
     return [run for run in withClogged(stage, **wanted) if not run.clogged]
 
 
 def withClogged(stage, **wanted):
-    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith("fill") and
-             all(isclose(run.parameters[name], value) for name, value in wanted.items())]
-    return sorted(found, key=lambda run: (run.fill, run.friction))
+    return ofEntries("fill", stage, **wanted)
 
 
 def cloggedRuns(stage, **wanted):
@@ -362,11 +374,7 @@ def variants(stage):
 
 def stiffWithClogged(stage):
     """{friction: runs} of the paper's fill with stiffer beads on a finer mesh."""
-    found = {}
-    for run in allRuns():
-        if run.stage == stage and run.entry.startswith("match"):
-            found.setdefault(run.friction, []).append(run)
-    return dict(sorted(found.items()))
+    return byFriction(ofEntries("match", stage))
 
 
 def described(run):
@@ -376,10 +384,10 @@ def described(run):
 
 def stiffRuns(stage):
     """The same without clogged ones."""
-    found = {friction: [run for run in runs if not run.clogged] for friction, runs in stiffWithClogged(stage).items()}
-    if not any(found.values()):
+    found = byFriction(run for run in ofEntries("match", stage) if not run.clogged)
+    if not found:
         raise MissingRuns(f"no {stage} run of the paper's fill with stiffer beads on a finer mesh: entry match")
-    return {friction: runs for friction, runs in found.items() if runs}
+    return found
 
 
 @cache
@@ -401,7 +409,7 @@ def packingScatter(stage):
 
 def smallBeads(stage):
     """Runs of beads of 1 mm in the full rig."""
-    return [run for run in allRuns() if run.stage == stage and run.entry == "beads1mm"]
+    return ofEntries("beads1mm", stage)
 
 
 def ofUsualFill(stage):
