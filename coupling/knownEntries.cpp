@@ -5,7 +5,7 @@
 #include "IStringStream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cctype>
@@ -140,7 +140,7 @@ void requireKnownEntries(const dictionary& dict, const wordList& values, const w
         if (!isAmong(name, known))
         {
             const bool helps = macros.count(name) > 0 || (mayInclude && !own.found(name));
-            faults += helps ? "" : "Entry '" + name + "' is read by nobody" + didYouMean(name, known) + '\n';
+            faults += helps ? "" : "Entry '" + name + "' is unknown" + didYouMean(name, known) + '\n';
         }
         else if (!isAmong(name, item.isDict() ? dictionaries : values))
         {

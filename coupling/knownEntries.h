@@ -6,7 +6,7 @@
 namespace clepsydra
 {
 
-/// What a reader of a dictionary says first: which entries it reads. An entry that nobody reads is a misspelt one, or
+/// What a reader of a dictionary says first: which entries it reads. An entry that is unknown is a misspelt one, or
 /// one whose effect the user waits for in vain.
 ///
 /// FatalIOError naming file, entry, the nearest known word and what is allowed for every other entry, and for a value

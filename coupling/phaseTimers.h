@@ -11,7 +11,7 @@ namespace clepsydra
 
 /// Wall and processor time of the phases of a run by name. A phase inside another (forces inside DEM) is not counted
 /// twice: time goes to the innermost. Where other programs keep the processor busy, only processor time says what a
-/// phase costs; on several ranks it contains the waiting for messages. A library that profiles MPI is told, too.
+/// phase costs; on several ranks it contains the waiting for messages. A library that profiles MPI is reported, too.
 class PhaseTimers
 {
 public:

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include "vectorField.H"
 

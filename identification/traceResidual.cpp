@@ -48,7 +48,7 @@ void showReport(const fs::path& folder)
     std::cout << "Curves and tables: " << (folder / "report.html").string() << '\n';
 }
 
-/// Files of a report anew, where the runs are still stored.
+/// Files of a report again, where the runs are still stored.
 void renewReport(const fs::path& study, const fs::path& folder)
 {
     try

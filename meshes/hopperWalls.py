@@ -9,7 +9,7 @@ orifice is not made smaller by its corners.
 
 from math import cos, hypot, log, pi, sin, sqrt
 
-BEAD_CORNERS = 48       # of the beads' walls: each triangle costs time at every step
+PARTICLE_CORNERS = 48       # of the particles' walls: each triangle costs time at every step
 WATER_CORNERS = 192     # of the surfaces that the fluid's mesh is fitted to
 
 
@@ -18,16 +18,16 @@ def equalAreaRadius(radius, corners):
     return radius * sqrt((2 * pi / corners) / sin(2 * pi / corners))
 
 
-def beadWalls(p):
+def particleWalls(p):
     """Triangles of the cylinder, of the plate with its orifice, and of the plug, by name."""
     orifice, hopper, height = p["orificeDiameter"] / 2, p["hopperDiameter"] / 2, p["hopperHeight"]
     rows = max(1, round(height / (2 * p["cellSize"])))
     # rings wider apart as they grow, so that triangles stay compact
     count = max(1, round(log(hopper / orifice) / 0.25))
     rings = [(orifice * (hopper / orifice) ** (ring / count), 0) for ring in range(count + 1)]
-    return {"hopperWall": revolved([(hopper, height * row / rows) for row in range(rows + 1)], BEAD_CORNERS),
-            "hopperPlate": revolved(exitProfile(p)[:0:-1] + rings, BEAD_CORNERS),
-            "plug": fan(circle(orifice, 0, BEAD_CORNERS), (0, 0, 0))}
+    return {"hopperWall": revolved([(hopper, height * row / rows) for row in range(rows + 1)], PARTICLE_CORNERS),
+            "hopperPlate": revolved(exitProfile(p)[:0:-1] + rings, PARTICLE_CORNERS),
+            "plug": fan(circle(orifice, 0, PARTICLE_CORNERS), (0, 0, 0))}
 
 
 def waterWalls(p):

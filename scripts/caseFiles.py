@@ -30,14 +30,14 @@ def columns(case, name):
     return rows.T
 
 
-def books(case):
-    """The ledger's summaries of a run, in order of time. A part that is killed writes none."""
-    files = [directory / "summary.json" for directory in startDirectories(case, "ledger")]
+def balances(case):
+    """The conservation check's summaries of a run, in order of time. A part that is killed writes none."""
+    files = [directory / "summary.json" for directory in startDirectories(case, "conservationCheck")]
     return [json.loads(file.read_text()) for file in files if file.exists()]
 
 
-def missingBooks(case, parts, end):
-    """(from, to) of each piece of a run, up to `end`, that none of these books are of."""
+def missingBalances(case, parts, end):
+    """(from, to) of each piece of a run, up to `end`, that none of these balances are of."""
     starts = [float(directory.name) for directory in Path(case).glob("postProcessing/*/[0-9]*")]
     missing, reached = [], min(starts)
     for part in [*parts, {"timeStart": end, "timeEnd": end}]:
@@ -72,8 +72,8 @@ def surfaceValues(case, name):
     return rows[:, 0], rows[:, 1:]
 
 
-def dumpedBeads(case, dump="DEM/beads.dump"):
-    """The entries of a LIGGGHTS dump: step, and an array with a row per bead and the columns that the dump has."""
+def dumpedParticles(case, dump="DEM/particles.dump"):
+    """The entries of a LIGGGHTS dump: step, and an array with a row per particle and the columns that the dump has."""
     lines = (Path(case) / dump).read_text().splitlines()
     entries, at = [], 0
     while at < len(lines):

@@ -8,7 +8,7 @@ import environment
 
 
 def value(formula, **options):
-    """One number: value("terminalVelocity", dragLaw="DiFeliceDrag", beadDiameter=2e-3, ...)."""
+    """One number: value("terminalVelocity", dragLaw="DiFeliceDrag", particleDiameter=2e-3, ...)."""
     return float(values(formula, **options)[0])
 
 

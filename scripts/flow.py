@@ -44,7 +44,7 @@ def meanRate(time, mass, upper, lower):
 def emptyingTime(time, mass, level):
     """When the smoothed rate falls below level [kg/s] for good; None if it does not.
 
-    Not "the last bead": single beads trickle off the heap on a flat bottom for seconds.
+    Not "the last particle": single particles trickle off the heap on a flat bottom for seconds.
     """
     at, rate = smoothedRate(time, mass)
     above = np.flatnonzero(rate >= level)

@@ -1,4 +1,4 @@
-"""Beads and water of a case in its middle plane, and beside them what a scale would read: of renderFlow and movie."""
+"""Particles and water of a case in its middle plane, and beside them what a scale would read: of renderFlow and movie."""
 
 import sys
 
@@ -11,13 +11,13 @@ import vtk
 from matplotlib.collections import EllipseCollection, LineCollection
 from vtk.util.numpy_support import vtk_to_numpy
 
-import beadFiles
+import particleFiles
 import caseFiles
 import foamMesh
 import pictureStyle
 
 POINTS = 160            # of the grid on which the water is drawn, across
-OBSERVABLES = {"massInHopper": ("mass in the hopper [g]", "what a scale reads"), "beadHeight": ("height of the bead [mm]", "")}
+OBSERVABLES = {"massInHopper": ("mass in the hopper [g]", "what a scale reads"), "particleHeight": ("height of the particle [mm]", "")}
 
 
 class View:
@@ -76,14 +76,14 @@ def wholeExtent(walls):
 class Moment:
     """What is drawn of one written time."""
 
-    def __init__(self, case, view, at, beads, folder):
-        """beads, folder: of writtenTimes()."""
+    def __init__(self, case, view, at, particles, folder):
+        """particles, folder: of writtenTimes()."""
         self.at = at
-        self.position, self.radius, velocity = beadFiles.readBeads(beads)
+        self.position, self.radius, velocity = particleFiles.readParticles(particles)
         self.speed = np.linalg.norm(velocity, axis=1)
         self.across, self.up = water(case, folder, view) if folder else (None, None)
 
-    def fastestBead(self, view):
+    def fastestParticle(self, view):
         """The fastest few of a crowd do not count: one that bounces would take the colours from all others."""
         seen = self.speed[view.shows(self.position)]
         return np.percentile(seen, 99) if len(seen) else 0
@@ -101,11 +101,11 @@ def fieldTimes(case):
 
 
 def writtenTimes(case):
-    """{time: (file of beads, folder with U or None)}: in a run with water the times of which both are there."""
-    fields, beads = fieldTimes(case), beadFiles.writtenTimes(case)
-    # a folder's name has fewer digits than the beads' time
-    named = {at: next((name for time, name in fields.items() if abs(time - at) <= 1e-6 * at), None) for at in beads}
-    return {at: (file, named[at]) for at, file in beads.items() if named[at] or not fields}
+    """{time: (file of particles, folder with U or None)}: in a run with water the times of which both are there."""
+    fields, particles = fieldTimes(case), particleFiles.writtenTimes(case)
+    # a folder's name has fewer digits than the particles' time
+    named = {at: next((name for time, name in fields.items() if abs(time - at) <= 1e-6 * at), None) for at in particles}
+    return {at: (file, named[at]) for at, file in particles.items() if named[at] or not fields}
 
 
 def water(case, time, view):
@@ -129,7 +129,7 @@ def water(case, time, view):
 
 
 def observable(case):
-    """What stands beside the beads: label, title, times, values. None where the case writes none of them."""
+    """What stands beside the particles: label, title, times, values. None where the case writes none of them."""
     for name, (label, title) in OBSERVABLES.items():
         if caseFiles.startDirectories(case, name):
             time, value = caseFiles.columns(case, name)[:2]
@@ -137,7 +137,7 @@ def observable(case):
     return None
 
 
-def draw(case, view, moment, fastestBead, fastestWater, height=6.2):
+def draw(case, view, moment, fastestParticle, fastestWater, height=6.2):
     """A figure of this height in inches."""
     beside = observable(case)
     wide = height * (view.width / view.height) + (1.4 if moment.across is None else 2.6)
@@ -151,11 +151,11 @@ def draw(case, view, moment, fastestBead, fastestWater, height=6.2):
         if fastestWater:
             axes.streamplot(x, z, moment.across, moment.up, color=pictureStyle.STREAMLINES, linewidth=0.6, arrowsize=0.7, density=1.2, zorder=1)
         figure.colorbar(shown, ax=axes, location="right", shrink=0.7, label="water [m/s]")
-    circles = drawBeads(axes, view, moment, fastestBead or 1)
+    circles = drawParticles(axes, view, moment, fastestParticle or 1)
     axes.add_collection(LineCollection(1e3 * np.array(view.walls), colors="black", linewidths=2, zorder=4))
     axes.set(xlim=(1e3 * view.x0, 1e3 * view.x1), ylim=(1e3 * view.z0, 1e3 * view.z1), aspect="equal", xlabel="x [mm]", ylabel="height [mm]",
              title=f"{case.resolve().name}, t = {moment.at:.2f} s")
-    figure.colorbar(circles, ax=axes, location="right", shrink=0.7, label="beads [m/s]", extend="max")
+    figure.colorbar(circles, ax=axes, location="right", shrink=0.7, label="particles [m/s]", extend="max")
     if beside:
         label, title, time, value = beside
         until = time <= moment.at
@@ -167,13 +167,13 @@ def draw(case, view, moment, fastestBead, fastestWater, height=6.2):
     return figure
 
 
-def drawBeads(axes, view, moment, fastest):
-    """Whole spheres, of the beads that the plane cuts, the farthest first. Returns what a colour bar is made of."""
+def drawParticles(axes, view, moment, fastest):
+    """Whole spheres, of the particles that the plane cuts, the farthest first. Returns what a colour bar is made of."""
     cut = np.flatnonzero((np.abs(moment.position[:, 1]) < moment.radius) & view.shows(moment.position))
     cut = cut[np.argsort(-moment.position[cut, 1])]
-    colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, fastest), pictureStyle.BEADS)
+    colours = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0, fastest), pictureStyle.PARTICLES)
     position, radius = 1e3 * moment.position[cut][:, [0, 2]], 1e3 * moment.radius[cut, None]
-    # each sphere and its gleam, one after the other: a gleam must not shine through the bead before it
+    # each sphere and its gleam, one after the other: a gleam must not shine through the particle before it
     offsets = np.stack([position, position + radius * (-0.3, 0.35)], axis=1).reshape(-1, 2)
     widths = (radius * (2, 0.6)).ravel()
     faces = np.stack([colours.to_rgba(moment.speed[cut]), np.tile((1, 1, 1, 0.55), (len(cut), 1))], axis=1).reshape(-1, 4)

@@ -1,9 +1,9 @@
 """Colours and lines that all pictures of runs share."""
 
-BEADS = "YlOrRd"                # by speed: beads at rest are pale, not black
+PARTICLES = "YlOrRd"                # by speed: particles at rest are pale, not black
 WATER = "Blues"                 # by speed
 STREAMLINES = "tab:blue"
 LINE, MARK = "tab:blue", "tab:red"
-STAGES = {"dry": "tab:red", "submerged": "tab:blue"}
+STEPS = {"dry": "tab:red", "submerged": "tab:blue"}
 CELL, CELL_EDGE = "#edf2ff", "#404d66"
 DPI = 130

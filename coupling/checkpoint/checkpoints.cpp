@@ -29,9 +29,9 @@ namespace fs = std::filesystem;
 const std::string folderName("checkpoints");
 const std::string completeName("complete");
 /// A file for each rank, see DemEngine::writeCheckpoint().
-const std::string beadsName("beads.%.restart");
-/// What held the beads of all ranks before.
-const std::string oldBeadsName("beads.restart");
+const std::string particlesName("particles.%.restart");
+/// What held the particles of all ranks before.
+const std::string oldParticlesName("particles.restart");
 /// Holds the time of the fresh start, whose fields are the user's own.
 const std::string beginningName("beginning");
 /// In each time folder that this program has written: it is half of a checkpoint.
@@ -81,25 +81,25 @@ bool startsWith(const std::string& text, const std::string& beginning)
     return text.compare(0, beginning.size(), beginning) == 0;
 }
 
-bool isBeadsFile(const Manifest::File& file)
+bool isParticlesFile(const Manifest::File& file)
 {
     return startsWith(file.name, folderName + '/');
 }
 
-/// The folder of the beads, relative to the case, in which the program runs: LIGGGHTS would take a `%` of the case's own
+/// The folder of the particles, relative to the case, in which the program runs: LIGGGHTS would take a `%` of the case's own
 /// path for the rank.
-fs::path beadsOf(const std::string& timeName)
+fs::path particlesOf(const std::string& timeName)
 {
     return fs::path(folderName) / timeName;
 }
 
-/// What this rank finds wrong with the beads' files, which are shared out evenly, whichever ranks have written them.
-std::string mismatchOfBeads(const fs::path& caseDirectory, const Manifest& manifest)
+/// What this rank finds wrong with the particles' files, which are shared out evenly, whichever ranks have written them.
+std::string mismatchOfParticles(const fs::path& caseDirectory, const Manifest& manifest)
 {
     int turn = 0;
     for (const Manifest::File& file : manifest.files)
     {
-        if (isBeadsFile(file) && turn++ % Pstream::nProcs() == Pstream::myProcNo())
+        if (isParticlesFile(file) && turn++ % Pstream::nProcs() == Pstream::myProcNo())
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
@@ -115,7 +115,7 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
 {
     for (const Manifest::File& file : manifest.files)
     {
-        if (!isBeadsFile(file) && startsWith(file.name, partPrefix()))
+        if (!isParticlesFile(file) && startsWith(file.name, partPrefix()))
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
@@ -132,7 +132,7 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
 {
     for (const Manifest::File& file : manifest.files)
     {
-        if (isBeadsFile(file))
+        if (isParticlesFile(file))
         {
             continue;
         }
@@ -166,7 +166,7 @@ std::string damageOf(const fileName& caseDirectory, const std::string& timeName,
     {
         manifest = Manifest::read(folder / folderName / timeName / completeName);
         found = manifest.time != timeName ? "it has the manifest of time " + manifest.time
-                                          : mismatchOfBeads(folder, manifest);
+                                          : mismatchOfParticles(folder, manifest);
         if (found.empty())
         {
             found = manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
@@ -227,7 +227,7 @@ bool startsFromLatestTime(const fileName& caseDirectory)
 }
 
 /// OpenFOAM's purgeWrite has removed the other half of these checkpoints.
-void removeBeadsWithoutFields(const fileName& caseDirectory)
+void removeParticlesWithoutFields(const fileName& caseDirectory)
 {
     const fileNameList parts = partsOf(caseDirectory);
     for (const fileName& time : readDir(caseDirectory / folderName, fileName::DIRECTORY))
@@ -270,9 +270,9 @@ void requireFunctionState(const Time& time)
 }
 
 /// The lines of a manifest for what this rank has written. \throws FileError
-/// \param beads  files of the beads, relative to the case
+/// \param particles  files of the particles, relative to the case
 std::string linesOfThisRank(
-    const fs::path& caseDirectory, const std::string& timeName, const std::vector<fs::path>& beads)
+    const fs::path& caseDirectory, const std::string& timeName, const std::vector<fs::path>& particles)
 {
     std::vector<std::string> names;
     for (const auto& entry : fs::recursive_directory_iterator(caseDirectory / (partPrefix() + timeName)))
@@ -283,7 +283,7 @@ std::string linesOfThisRank(
             names.push_back(entry.path().lexically_relative(caseDirectory));
         }
     }
-    names.insert(names.end(), beads.begin(), beads.end());
+    names.insert(names.end(), particles.begin(), particles.end());
     std::sort(names.begin(), names.end());
     std::string lines;
     for (const std::string& name : names)
@@ -427,10 +427,10 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
                              << "afresh remove the folder " << folder << " and all times after " << beginning.name()
                              << exit(FatalError);
     }
-    const fs::path oldBeads = beadsOf(start) / oldBeadsName;
+    const fs::path oldParticles = particlesOf(start) / oldParticlesName;
     const bool old = std::any_of(manifest.files.begin(), manifest.files.end(),
-        [&](const Manifest::File& file) { return file.name == oldBeads.string(); });
-    resumeFrom_ = old ? oldBeads : beadsOf(start) / beadsName;
+        [&](const Manifest::File& file) { return file.name == oldParticles.string(); });
+    resumeFrom_ = old ? oldParticles : particlesOf(start) / particlesName;
     Info << "Resuming from the checkpoint of time " << start << nl << endl;
 }
 
@@ -441,7 +441,7 @@ void Checkpoints::startAfresh(bool writes)
     {
         FatalErrorInFunction
             << "The fields of time " << time_.timeName() << " are half of a checkpoint whose other half, "
-            << "the beads, is gone from " << time_.globalPath() / folderName
+            << "the particles, is gone from " << time_.globalPath() / folderName
             << ". To start afresh remove that time and all others that were written, or copy what is to "
             << "be kept of it into a new case" << exit(FatalError);
     }
@@ -465,7 +465,7 @@ void Checkpoints::begin() const
 {
     if (Pstream::master())
     {
-        // OpenFOAM would make the folders anew, and the run would end where nobody looks for it.
+        // OpenFOAM would make the folders again, and the run would end where nobody looks for it.
         if (!isFile(time_.globalPath() / folderName / beginningName))
         {
             FatalErrorInFunction << "There is no " << time_.globalPath() / folderName / beginningName
@@ -487,19 +487,19 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         mkDir(checkpoint.c_str());
     }
-    std::vector<fs::path> beads;
+    std::vector<fs::path> particles;
     List<string> linesOfRanks(Pstream::nProcs());
     const std::function<void()> steps[] = {
         [&] {
             const fileName half = time_.path() / timeName / halfName;
             mkDir(half.path());
             writeWhole(
-                half.c_str(), "The beads of this time are in " + folderName + '/' + timeName + " of the case.\n");
+                half.c_str(), "The particles of this time are in " + folderName + '/' + timeName + " of the case.\n");
         },
-        [&] { beads = engine.writeCheckpoint(beadsOf(timeName) / beadsName); },
+        [&] { particles = engine.writeCheckpoint(particlesOf(timeName) / particlesName); },
         [&] {
             requireFunctionState(time_);
-            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeName, beads);
+            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeName, particles);
         },
         [&] {
             Pstream::gatherList(linesOfRanks);
@@ -527,7 +527,7 @@ void Checkpoints::complete(DemEngine& engine) const
     }
     if (Pstream::master() && time_.controlDict().getOrDefault<label>("purgeWrite", 0) > 0)
     {
-        removeBeadsWithoutFields(time_.globalPath());
+        removeParticlesWithoutFields(time_.globalPath());
     }
 }
 

@@ -13,11 +13,11 @@ class DemEngine;
 /// The states of a run on disk, from which `startFrom latestTime` goes on.
 ///
 /// A checkpoint of time t is OpenFOAM's fields and the state of function objects in <t>/ (or processor*/<t>/), together
-/// with checkpoints/<t>/, which holds the beads and, written last, the manifest `complete`: every file that a resume
+/// with checkpoints/<t>/, which holds the particles and, written last, the manifest `complete`: every file that a resume
 /// reads, with its checksum. So a run that is killed while it writes leaves no manifest, and what is damaged later is
 /// found before it is read. With `latestTime` the run then goes on from the last checkpoint that is whole, and sets aside
-/// what is later. Each rank writes a file of its own beads, and any number of ranks can read them: to go on with another
-/// number, reconstruct and decompose the fields as ever. A checkpoint of one file with all beads, as they were, is read, too.
+/// what is later. Each rank writes a file of its own particles, and any number of ranks can read them: to go on with another
+/// number, reconstruct and decompose the fields as ever. A checkpoint of one file with all particles, as they were, is read, too.
 class Checkpoints
 {
 public:
@@ -35,8 +35,8 @@ public:
     /// \param writes  false where the case must stay as it is
     explicit Checkpoints(const Foam::Time& time, bool writes = true);
 
-    /// The beads to resume from, relative to the case, as DemEngine::writeCheckpoint() was told; empty for a fresh start.
-    const std::filesystem::path& beads() const
+    /// The particles to resume from, relative to the case, as DemEngine::writeCheckpoint() was reported; empty for a fresh start.
+    const std::filesystem::path& particles() const
     {
         return resumeFrom_;
     }

@@ -47,7 +47,7 @@ void RunTime::resume(double beginning)
     requireWholeState();
     value() = written.get<scalar>("value");
     beginning_ = beginning;
-    // With adjustableInterval that of controlDict is only the first, and may reach beyond the next write time or the end.
+    // With adjustableCouplingTimeStep that of controlDict is only the first, and may reach beyond the next write time or the end.
     setDeltaT(written.get<scalar>("deltaT"), false);
     if (writesByTime())
     {

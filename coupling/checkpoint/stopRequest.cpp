@@ -21,7 +21,7 @@ void noteSignal(int signal)
 {
     signalCame = 1;
     constexpr std::string_view answer =
-        "\nStopping: a checkpoint is written at the end of this coupling interval. Once more ends the run at once.\n";
+        "\nStopping: a checkpoint is written at the end of this coupling step. Once more ends the run at once.\n";
     static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
     std::signal(signal, SIG_DFL);
 }

@@ -8,10 +8,10 @@
 ///
 /// F counts the drag without the pressure gradient's share: model A's (at Re = 0 and large phi it gives Carman's
 /// pressure drop). Range: Re up to 1000, phi 0.1..0.6, from the lattice-Boltzmann runs; at eps = 1 and
-/// Re = 100 it is 16 % above Schiller & Naumann's drag of a lone bead. Monodisperse form; the paper's polydisperse correction is not here.
+/// Re = 100 it is 16 % above Schiller & Naumann's drag of an isolated particle. Monodisperse form; the paper's polydisperse correction is not here.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
@@ -21,20 +21,20 @@ struct BeetstraDrag
     static constexpr const char* name = "BeetstraDrag";
     static constexpr const char* line = "drag of beds, Re to 1000 (Beetstra et al. 2007)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
         constexpr double logOf10 = 2.302585092994045684;
-        const double eps = bead.voidFraction;
+        const double eps = particle.voidFraction;
         const double eps2 = eps * eps;
-        const double phi = solidFraction(bead);
-        const double reynolds = superficialReynolds(bead);
+        const double phi = solidFraction(particle);
+        const double reynolds = superficialReynolds(particle);
         const double logRe = logReynolds(reynolds);
 
         const double creeping = 10.0 * phi / eps2 + eps2 * (1.0 + 1.5 * std::sqrt(phi));
         const double inertial = 0.413 * reynolds / (24.0 * eps2)
                                 * (1.0 / eps + 3.0 * phi * eps + 8.4 * std::exp(-0.343 * logRe))
                                 / (1.0 + std::exp(3.0 * phi * logOf10 - 0.5 * (1.0 + 4.0 * phi) * logRe));
-        return stokesCoefficient(bead) * eps * (creeping + inertial);
+        return stokesCoefficient(particle) * eps * (creeping + inertial);
     }
 };
 

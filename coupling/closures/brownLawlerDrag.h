@@ -1,5 +1,5 @@
 /// \file
-/// P. P. Brown & D. F. Lawler, J. Environ. Eng. 129, 222 (2003): a fit to 480 measured points of lone spheres,
+/// P. P. Brown & D. F. Lawler, J. Environ. Eng. 129, 222 (2003): a fit to 480 measured points of isolated spheres,
 /// corrected for the walls of the vessels.
 ///
 ///     C_d = 24/Re (1 + 0.150 Re^0.681) + 0.407/(1 + 8710/Re),      Re = rho |U_r| d/mu < 2e5
@@ -8,7 +8,7 @@
 /// The yardstick for the other laws at eps = 1. The void fraction plays no part: dilute only.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
@@ -16,14 +16,14 @@ namespace clepsydra::closures
 struct BrownLawlerDrag
 {
     static constexpr const char* name = "BrownLawlerDrag";
-    static constexpr const char* line = "drag of lone beads, fit to measured ones (Brown & Lawler 2003)";
+    static constexpr const char* line = "drag of isolated particles, fit to measured ones (Brown & Lawler 2003)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double reynolds = loneReynolds(bead);
+        const double reynolds = isolatedReynolds(particle);
         const double factor = 1.0 + 0.150 * std::exp(0.681 * logReynolds(reynolds))
                               + 0.407 / 24.0 * reynolds * reynolds / (reynolds + 8710.0);
-        return stokesCoefficient(bead) * factor;
+        return stokesCoefficient(particle) * factor;
     }
 };
 

@@ -7,7 +7,7 @@
 #include "closures/richardsonZaki.h"
 #include "closures/terminalVelocity.h"
 #include "closures/wallCorrection.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include <CLI/CLI.hpp>
 
@@ -28,8 +28,8 @@ using namespace clepsydra::closures;
 /// What the formulas ask for; each formula reads its own part of it.
 struct Input
 {
-    double beadDiameter = 0;
-    double beadDensity = 0;
+    double particleDiameter = 0;
+    double particleDensity = 0;
     double fluidDensity = 0;
     double fluidViscosity = 0; // kinematic, as in `parameters`
     double gravity = usualGravity;
@@ -47,20 +47,20 @@ struct Input
         return fluidDensity * fluidViscosity;
     }
 
-    SettlingBead settlingBead(double eps = 1) const
+    SettlingParticle settlingParticle(double eps = 1) const
     {
-        return {beadDiameter, beadDensity, fluidDensity, dynamicViscosity(), gravity, eps};
+        return {particleDiameter, particleDensity, fluidDensity, dynamicViscosity(), gravity, eps};
     }
 
-    BeadInFluid beadInFluid(double slipSpeed) const
+    ParticleInFluid particleInFluid(double slipSpeed) const
     {
-        return makeBeadInFluid(
-            beadDiameter, voidFraction.empty() ? 1 : voidFraction.front(), slipSpeed, fluidDensity, dynamicViscosity());
+        return makeParticleInFluid(particleDiameter, voidFraction.empty() ? 1 : voidFraction.front(), slipSpeed,
+            fluidDensity, dynamicViscosity());
     }
 
     PackedBed bed(double eps) const
     {
-        return {beadDiameter, eps, fluidDensity, dynamicViscosity()};
+        return {particleDiameter, eps, fluidDensity, dynamicViscosity()};
     }
 };
 
@@ -72,14 +72,14 @@ public:
         : command_(program.add_subcommand(name, description))
     {}
 
-    Formula& bead()
+    Formula& particle()
     {
-        return positive("--beadDiameter", input_->beadDiameter, "[m]");
+        return positive("--particleDiameter", input_->particleDiameter, "[m]");
     }
 
-    Formula& beadDensity()
+    Formula& particleDensity()
     {
-        return positive("--beadDensity", input_->beadDensity, "[kg/m3]");
+        return positive("--particleDensity", input_->particleDensity, "[kg/m3]");
     }
 
     Formula& fluid()
@@ -94,9 +94,9 @@ public:
         return *this;
     }
 
-    Formula& settlingBead()
+    Formula& settlingParticle()
     {
-        return bead().beadDensity().fluid().gravity();
+        return particle().particleDensity().fluid().gravity();
     }
 
     Formula& dragLaw()
@@ -179,58 +179,58 @@ void addDrag(CLI::App& program)
     });
     Formula(program, "drag", "Sp [kg/s] of model A's drag Sp (U_f - u_p), at each interstitial slip speed")
         .dragLaw()
-        .bead()
+        .particle()
         .fluid()
         .oneVoidFraction()
         .speeds("--slipSpeed")
         .prints([](const Input& in) {
-            return forEach(in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.beadInFluid(slip)); });
+            return forEach(in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.particleInFluid(slip)); });
         });
     Formula(program, "dragCoefficient", "C_d [-] = Sp/(pi/8 rho d^2 |U_r|), at each slip speed (> 0)")
         .dragLaw()
-        .bead()
+        .particle()
         .fluid()
         .oneVoidFraction()
         .speeds("--slipSpeed")
         .prints([](const Input& in) {
-            const double scale = pi / 8 * in.fluidDensity * in.beadDiameter * in.beadDiameter;
+            const double scale = pi / 8 * in.fluidDensity * in.particleDiameter * in.particleDiameter;
             return forEach(
-                in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.beadInFluid(slip)) / (scale * slip); });
+                in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.particleInFluid(slip)) / (scale * slip); });
         });
 }
 
 void addSettling(CLI::App& program)
 {
-    Formula(program, "terminalVelocity", "[m/s] of a lone bead in still fluid")
+    Formula(program, "terminalVelocity", "[m/s] of an isolated particle in still fluid")
         .dragLaw()
-        .settlingBead()
+        .settlingParticle()
         .prints([](const Input& in) {
-            return std::vector<double>{terminalVelocity(dragLaw(in.dragLaw), in.settlingBead())};
+            return std::vector<double>{terminalVelocity(dragLaw(in.dragLaw), in.settlingParticle())};
         });
     Formula(program, "hinderedSettlingVelocity", "[m/s] against the vessel; superficial one that fluidises to it, too")
         .dragLaw()
-        .settlingBead()
+        .settlingParticle()
         .voidFractions()
         .prints([](const Input& in) {
             return forEach(in.voidFraction,
-                [&](double eps) { return hinderedSettlingVelocity(dragLaw(in.dragLaw), in.settlingBead(eps)); });
+                [&](double eps) { return hinderedSettlingVelocity(dragLaw(in.dragLaw), in.settlingParticle(eps)); });
         });
 
     Formula richardsonZaki(program, "richardsonZakiExponent", "n [-] of v/v_t = eps^n, Richardson & Zaki 1954");
-    richardsonZaki.positive("--reynolds", richardsonZaki.input().reynolds, "of the lone bead at v_t")
-        .fraction("--diameterRatio", "bead over column")
+    richardsonZaki.positive("--reynolds", richardsonZaki.input().reynolds, "of the isolated particle at v_t")
+        .fraction("--diameterRatio", "particle over column")
         .prints([](const Input& in) { return std::vector<double>{richardsonZakiExponent(in.reynolds, in.ratio)}; });
     Formula rowe(program, "roweExponent", "n [-], smooth form of Rowe 1987");
-    rowe.positive("--reynolds", rowe.input().reynolds, "of the lone bead at v_t").prints([](const Input& in) {
+    rowe.positive("--reynolds", rowe.input().reynolds, "of the isolated particle at v_t").prints([](const Input& in) {
         return std::vector<double>{roweExponent(in.reynolds)};
     });
 }
 
 void addWalls(CLI::App& program)
 {
-    Formula tube(program, "tubeVelocityRatio", "v/v_t [-] of a bead on the axis of a tube, Di Felice 1996");
-    tube.fraction("--diameterRatio", "bead over tube")
-        .positive("--reynolds", tube.input().reynolds, "of the free bead at v_t")
+    Formula tube(program, "tubeVelocityRatio", "v/v_t [-] of a particle on the axis of a tube, Di Felice 1996");
+    tube.fraction("--diameterRatio", "particle over tube")
+        .positive("--reynolds", tube.input().reynolds, "of the free particle at v_t")
         .prints([](const Input& in) { return std::vector<double>{diFeliceWallVelocityRatio(in.ratio, in.reynolds)}; });
     Formula(program, "faxenParallelFactor", "drag over free drag [-], creeping motion along a plane wall")
         .fraction("--lambda", "radius over distance of the centre")
@@ -245,7 +245,7 @@ void addWalls(CLI::App& program)
 void addBeds(CLI::App& program)
 {
     Formula(program, "ergunPressureGradient", "[Pa/m] at each void fraction and superficial velocity")
-        .bead()
+        .particle()
         .fluid()
         .voidFractions()
         .speeds("--superficialVelocity")
@@ -261,31 +261,33 @@ void addBeds(CLI::App& program)
             return values;
         });
     Formula(program, "minimumFluidisationVelocity", "[m/s], superficial, by Ergun, at each void fraction")
-        .settlingBead()
+        .settlingParticle()
         .voidFractions()
         .prints([](const Input& in) {
             return forEach(in.voidFraction,
-                [&](double eps) { return minimumFluidisationVelocity(in.bed(eps), in.beadDensity, in.gravity); });
+                [&](double eps) { return minimumFluidisationVelocity(in.bed(eps), in.particleDensity, in.gravity); });
         });
 }
 
 void addHoppers(CLI::App& program)
 {
     Formula dry(program, "beverlooRate", "[kg/s], dry, C = .58, k = 1.4");
-    dry.bead()
+    dry.particle()
         .positive("--bulkDensity", dry.input().bulkDensity, "of the flowing bed [kg/m3]")
         .positive("--orificeDiameter", dry.input().orificeDiameter, "[m]")
         .gravity()
         .prints([](const Input& in) {
-            return std::vector<double>{beverlooRate(in.bulkDensity, in.gravity, in.orificeDiameter, in.beadDiameter)};
+            return std::vector<double>{
+                beverlooRate(in.bulkDensity, in.gravity, in.orificeDiameter, in.particleDiameter)};
         });
     Formula submerged(program, "modifiedBeverlooRate", "[kg/s], submerged, v_t by the drag law, C = .4, k = 2.4");
     submerged.dragLaw()
-        .settlingBead()
+        .settlingParticle()
         .positive("--orificeDiameter", submerged.input().orificeDiameter, "[m]")
         .prints([](const Input& in) {
-            const double fall = terminalVelocity(dragLaw(in.dragLaw), in.settlingBead());
-            return std::vector<double>{modifiedBeverlooRate(in.beadDensity, fall, in.orificeDiameter, in.beadDiameter)};
+            const double fall = terminalVelocity(dragLaw(in.dragLaw), in.settlingParticle());
+            return std::vector<double>{
+                modifiedBeverlooRate(in.particleDensity, fall, in.orificeDiameter, in.particleDiameter)};
         });
 }
 

@@ -1,24 +1,24 @@
 /// \file
-/// R. Di Felice, Int. J. Multiphase Flow 20, 153 (1994), with Dallavalle's (1948) drag of the lone bead, in the form
+/// R. Di Felice, Int. J. Multiphase Flow 20, 153 (1994), with Dallavalle's (1948) drag of the isolated particle, in the form
 /// of Zhu, Zhou, Yang & Yu, Chem. Eng. Sci. 62, 3378 (2007) and Zhou et al., J. Fluid Mech. 661 (2010).
 ///
 ///     F   = 1/8 C_d rho pi d^2 eps^2 |U_r| U_r eps^-chi,     Re = rho eps |U_r| d/mu
 ///     C_d = (0.63 + 4.8/sqrt(Re))^2,     chi = 3.7 - 0.65 exp(-(1.5 - log10 Re)^2/2)
 ///
-/// Published per bead, and used so as model A's drag; nothing to convert. With C_d Re = (0.63 sqrt(Re) + 4.8)^2 it
+/// Published per particle, and used so as model A's drag; nothing to convert. With C_d Re = (0.63 sqrt(Re) + 4.8)^2 it
 /// becomes Sp = pi/8 mu d eps^(1 - chi) (0.63 sqrt(Re) + 4.8)^2, regular at rest.
 ///
-/// Range: fixed and fluidised beds and lone beads, Re up to 1e4. The creeping limit of a lone bead is 0.96 of Stokes'
-/// drag. At Re 37..530 Dallavalle's C_d is 13..27 % above Brown & Lawler's, so that the hopper paper's beads settle
+/// Range: fixed and fluidised beds and isolated particles, Re up to 1e4. The creeping limit of an isolated particle is 0.96 of Stokes'
+/// drag. At Re 37..530 Dallavalle's C_d is 13..27 % above Brown & Lawler's, so that the hopper paper's particles settle
 /// 8..13 % too slowly by it.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
 
-/// C_d Re/24 of a lone bead after Dallavalle.
+/// C_d Re/24 of an isolated particle after Dallavalle.
 inline double dallavalleFactor(double reynolds) noexcept
 {
     const double root = 0.63 * std::sqrt(reynolds) + 4.8;
@@ -36,13 +36,13 @@ inline double transitionBump(double reynolds) noexcept
 struct DiFeliceDrag
 {
     static constexpr const char* name = "DiFeliceDrag";
-    static constexpr const char* line = "drag from beds to lone beads, Re to 1e4 (Di Felice 1994)";
+    static constexpr const char* line = "drag from beds to isolated particles, Re to 1e4 (Di Felice 1994)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double reynolds = superficialReynolds(bead);
+        const double reynolds = superficialReynolds(particle);
         const double chi = 3.7 - 0.65 * transitionBump(reynolds);
-        return stokesCoefficient(bead) * dallavalleFactor(reynolds) * powerOfVoidFraction(bead, 1.0 - chi);
+        return stokesCoefficient(particle) * dallavalleFactor(reynolds) * powerOfVoidFraction(particle, 1.0 - chi);
     }
 };
 

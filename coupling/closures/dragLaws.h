@@ -39,8 +39,8 @@ using DragLaws = std::tuple<
 // clang-format on
 
 /// Calls visit(law) with each drag law.
-template<class Visitor>
-void forEachDragLaw(Visitor visit)
+template<class Ghost>
+void forEachDragLaw(Ghost visit)
 {
     std::apply([&](const auto&... law) { (visit(law), ...); }, DragLaws{});
 }
@@ -53,7 +53,7 @@ inline std::vector<std::string> dragLawNames()
 }
 
 /// A law whose name is known at run time only: too slow for the time loop.
-using AnyDragLaw = std::function<double(const BeadInFluid&)>;
+using AnyDragLaw = std::function<double(const ParticleInFluid&)>;
 
 /// Throws std::invalid_argument where there is no law of that name.
 inline AnyDragLaw dragLaw(const std::string& name)

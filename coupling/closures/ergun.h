@@ -14,7 +14,7 @@ namespace clepsydra::closures
 
 struct PackedBed
 {
-    double diameter;         // of the beads, m
+    double diameter;         // of the particles, m
     double voidFraction;     // -
     double density;          // of the fluid, kg/m3
     double dynamicViscosity; // Pa s
@@ -43,17 +43,17 @@ inline double ergunPressureGradient(const PackedBed& bed, double superficialVelo
 }
 
 /// Buoyant weight of a bed per volume [N/m3]: the pressure gradient of any fluidised bed.
-inline double buoyantWeightGradient(const PackedBed& bed, double beadDensity, double gravity) noexcept
+inline double buoyantWeightGradient(const PackedBed& bed, double particleDensity, double gravity) noexcept
 {
-    return (1.0 - bed.voidFraction) * (beadDensity - bed.density) * gravity;
+    return (1.0 - bed.voidFraction) * (particleDensity - bed.density) * gravity;
 }
 
 /// Superficial velocity at which Ergun's pressure drop carries the bed's buoyant weight [m/s]. Expects
-/// beadDensity >= density; written so that nothing cancels for fine beads.
-inline double minimumFluidisationVelocity(const PackedBed& bed, double beadDensity, double gravity) noexcept
+/// particleDensity >= density; written so that nothing cancels for fine particles.
+inline double minimumFluidisationVelocity(const PackedBed& bed, double particleDensity, double gravity) noexcept
 {
     const ErgunCoefficients c = ergunCoefficients(bed);
-    const double weight = buoyantWeightGradient(bed, beadDensity, gravity);
+    const double weight = buoyantWeightGradient(bed, particleDensity, gravity);
     return 2.0 * weight / (c.linear + std::sqrt(c.linear * c.linear + 4.0 * c.quadratic * weight));
 }
 

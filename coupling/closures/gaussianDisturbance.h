@@ -1,5 +1,5 @@
 /// \file
-/// The velocity that a bead's own force gives the fluid at its place when the force is spread over a Gaussian.
+/// The velocity that a particle's own force gives the fluid at its place when the force is spread over a Gaussian.
 ///
 /// A force F spread as F exp(-r2/b2)/(pi^1.5 b3), past which the fluid flows at U, through neighbours that resist with
 /// beta [kg/(m3 s)]: Oseen's linear equations with Brinkman's term, unbounded,

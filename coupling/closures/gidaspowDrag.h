@@ -10,7 +10,7 @@
 /// beta is model A's: with eps grad p = -beta U_r the first line is Ergun's equation for the pressure drop.
 ///
 /// THE LAW JUMPS at eps = 0.8, and it is left so (the tests hold the size): seen from Ergun's side the drag drops to
-/// 0.87 at rest, 0.95 at Re = 10, 0.58 at Re = 100, 0.35 at Re = 465, 0.27 at Re = 1000. For 2 mm beads in water that
+/// 0.87 at rest, 0.95 at Re = 10, 0.58 at Re = 100, 0.35 at Re = 465, 0.27 at Re = 1000. For 2 mm particles in water that
 /// is a factor of three. ErgunDrag and WenYuDrag are here by themselves too.
 #pragma once
 
@@ -25,11 +25,12 @@ struct ErgunDrag
     static constexpr const char* name = "ErgunDrag";
     static constexpr const char* line = "drag of packed beds only (Ergun 1952)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double eps = bead.voidFraction;
+        const double eps = particle.voidFraction;
         // V_p/(1 - eps) beta = 3 pi mu d [150/18 (1 - eps)/eps + 1.75/18 Re/eps]
-        return stokesCoefficient(bead) * (150.0 * (1.0 - eps) + 1.75 * superficialReynolds(bead)) / (18.0 * eps);
+        return stokesCoefficient(particle) * (150.0 * (1.0 - eps) + 1.75 * superficialReynolds(particle))
+               / (18.0 * eps);
     }
 };
 
@@ -39,10 +40,10 @@ struct WenYuDrag
     static constexpr const char* name = "WenYuDrag";
     static constexpr const char* line = "drag of dilute suspensions (Wen & Yu 1966)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        return stokesCoefficient(bead) * schillerNaumannFactor(superficialReynolds(bead))
-               * powerOfVoidFraction(bead, -2.65);
+        return stokesCoefficient(particle) * schillerNaumannFactor(superficialReynolds(particle))
+               * powerOfVoidFraction(particle, -2.65);
     }
 };
 
@@ -52,9 +53,9 @@ struct GidaspowDrag
     static constexpr const char* line = "drag: Ergun in beds, Wen & Yu above a void fraction of 0.8 (Gidaspow 1994)";
     static constexpr double switchingVoidFraction = 0.8;
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        return bead.voidFraction > switchingVoidFraction ? WenYuDrag{}(bead) : ErgunDrag{}(bead);
+        return particle.voidFraction > switchingVoidFraction ? WenYuDrag{}(particle) : ErgunDrag{}(particle);
     }
 };
 

@@ -1,5 +1,5 @@
 /// \file
-/// History force: the boundary layer and wake that a bead's earlier accelerations have left in the fluid.
+/// History force: the boundary layer and wake that a particle's earlier accelerations have left in the fluid.
 ///
 ///     F = -C int_-inf^t K(t - s) d(v - U)/ds ds,     C = 3/2 d2 sqrt(pi rho mu)
 ///
@@ -8,15 +8,15 @@
 ///
 ///     K = tau^-1/2 (1 + (tau/tau_M)^3/4)^-2,     tau_M^3/4 = (pi nu/R2)^1/4/(pi/2 V3/(R nu f3))^1/2,  f = .75 + .105 Re
 ///
-/// Constant memory per bead, as M. A. T. van Hinsberg, J. H. M. ten Thije Boonkkamp & H. J. H. Clercx, J. Comput. Phys.
+/// Constant memory per particle, as M. A. T. van Hinsberg, J. H. M. ten Thije Boonkkamp & H. J. H. Clercx, J. Comput. Phys.
 /// 230, 1465 (2011) do it: the kernel is a sum of exponentials, each of which needs its own last value only. Theirs are
 /// fitted; here tau^-1/2 = 1/sqrt(pi) int exp(-tau r) r^1/2 d(ln r) is summed by the trapezoidal rule in ln r at steps of
 /// 1, which is off by 2.8 exp(-pi^2) = 1.5e-4 (G. Beylkin & L. Monzon, Appl. Comput. Harmon. Anal. 28, 131 (2010)). Mei
 /// & Adrian's kernel is the same sum with each weight times a share of its rate and tau_M. The last step's part, where the
-/// kernel is singular, is exact and implicit in the bead's inertia, as an added mass is.
+/// kernel is singular, is exact and implicit in the particle's inertia, as an added mass is.
 ///
 /// Range: steps from 1e-7 s, motion of up to 100 s. Mei & Adrian: Re to 100, small changes of speed; after a reversal,
-/// when the bead meets its own wake, neither is known to hold.
+/// when the particle meets its own wake, neither is known to hold.
 #pragma once
 
 #include "closures/constants.h"
@@ -72,7 +72,7 @@ struct HistoryStep
     }
 };
 
-/// ln of tau_M [s]; very large at rest. \param speed  of the bead past the fluid \param viscosity  kinematic
+/// ln of tau_M [s]; very large at rest. \param speed  of the particle past the fluid \param viscosity  kinematic
 inline double meiAdrianLogTime(double diameter, double speed, double viscosity) noexcept
 {
     const double radius = 0.5 * diameter;

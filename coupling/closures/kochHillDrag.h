@@ -16,10 +16,10 @@
 /// comparing with CFDEMcoupling: its "135/64" is an integer division there, 2 instead of 2.109.
 ///
 /// Range: Re up to about 100, phi up to 0.64; monodisperse. At eps = 1 the drag is Stokes' (1 + 0.045 Re), linear in
-/// Re: no law for a lone bead at Re beyond some 100.
+/// Re: no law for an isolated particle at Re beyond some 100.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
@@ -30,24 +30,24 @@ struct KochHillDrag
     static constexpr const char* line = "drag of beds, Re to about 100 (Hill, Koch & Ladd 2001)";
     static constexpr double switchingSolidFraction = 0.4;
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double eps = bead.voidFraction;
+        const double eps = particle.voidFraction;
         const double eps2 = eps * eps;
         const double f3 = 0.0673 + 0.212 * (1.0 - eps) + 0.0232 / (eps2 * eps2 * eps);
-        return stokesCoefficient(bead) * eps2 * (creeping(bead) + 0.5 * f3 * superficialReynolds(bead));
+        return stokesCoefficient(particle) * eps2 * (creeping(particle) + 0.5 * f3 * superficialReynolds(particle));
     }
 
     /// F0, the part that does not depend on Re.
-    static double creeping(const BeadInFluid& bead) noexcept
+    static double creeping(const ParticleInFluid& particle) noexcept
     {
-        const double phi = solidFraction(bead);
+        const double phi = solidFraction(particle);
         if (phi < switchingSolidFraction)
         {
             return (1.0 + 3.0 * std::sqrt(0.5 * phi) + 135.0 / 64.0 * phi * std::log(phi) + 16.14 * phi)
                    / (1.0 + phi * (0.681 + phi * (-8.48 + phi * 8.14)));
         }
-        const double eps = bead.voidFraction;
+        const double eps = particle.voidFraction;
         return 10.0 * phi / (eps * eps * eps);
     }
 };

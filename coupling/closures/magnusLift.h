@@ -1,5 +1,5 @@
 /// \file
-/// Lift by rotation. w = omega_p - curl U/2: the bead's rotation against the fluid's; Re_r = rho |w| d^2/mu.
+/// Lift by rotation. w = omega_p - curl U/2: the particle's rotation against the fluid's; Re_r = rho |w| d^2/mu.
 ///
 /// S. I. Rubinow & J. B. Keller, J. Fluid Mech. 11, 447 (1961), exact for Re, Re_r -> 0:
 ///
@@ -13,7 +13,7 @@
 /// At Re = 100, Re_r = 200 Rubinow & Keller's lift is 2.9 times as large.
 #pragma once
 
-#include "closures/liftOnBead.h"
+#include "closures/liftOnParticle.h"
 
 namespace clepsydra::closures
 {
@@ -21,30 +21,30 @@ namespace clepsydra::closures
 struct RubinowKellerLift
 {
     static constexpr const char* name = "MagnusLiftForce";
-    static constexpr const char* line = "lift of turning beads, Re -> 0 (Rubinow & Keller 1961)";
-    static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
+    static constexpr const char* line = "lift of turning particles, Re -> 0 (Rubinow & Keller 1961)";
+    static constexpr Rotation rotation = Rotation::ofParticleAgainstFluid;
 
-    double operator()(const BeadInRotation& bead) const noexcept
+    double operator()(const ParticleInRotation& particle) const noexcept
     {
-        return pi / 8.0 * bead.density * bead.diameter * bead.diameter * bead.diameter;
+        return pi / 8.0 * particle.density * particle.diameter * particle.diameter * particle.diameter;
     }
 };
 
 struct OesterleBuiDinhLift
 {
     static constexpr const char* name = "MagnusLiftForceOesterle";
-    static constexpr const char* line = "lift of turning beads, Re to 140 (Oesterle & Bui Dinh 1998)";
-    static constexpr Rotation rotation = Rotation::ofBeadAgainstFluid;
+    static constexpr const char* line = "lift of turning particles, Re to 140 (Oesterle & Bui Dinh 1998)";
+    static constexpr Rotation rotation = Rotation::ofParticleAgainstFluid;
 
-    double operator()(const BeadInRotation& bead) const noexcept
+    double operator()(const ParticleInRotation& particle) const noexcept
     {
         constexpr double slowest = 1e-30; // 1/s: no rotation, no force
-        const double turning = std::max(bead.rotation, slowest);
+        const double turning = std::max(particle.rotation, slowest);
         const double decay =
-            std::exp(-0.05684 * std::pow(rotationReynolds(bead), 0.4) * std::pow(slipReynolds(bead), 0.3));
+            std::exp(-0.05684 * std::pow(rotationReynolds(particle), 0.4) * std::pow(slipReynolds(particle), 0.3));
         // C |U_r|/(d |w|), regular at U_r = 0
-        const double part = decay + 0.45 * (1.0 - decay) * bead.slipSpeed / (bead.diameter * turning);
-        return RubinowKellerLift{}(bead)*part;
+        const double part = decay + 0.45 * (1.0 - decay) * particle.slipSpeed / (particle.diameter * turning);
+        return RubinowKellerLift{}(particle)*part;
     }
 };
 

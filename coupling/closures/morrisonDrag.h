@@ -6,11 +6,11 @@
 ///     x = Re/2.63e5, y = Re/1e6, Re = rho |U_r| d/mu < 1e6 (through the drag crisis)
 ///     F = pi/8 C_d rho d^2 |U_r| U_r
 ///
-/// The third term is written x^0.06/(1 + x^8) here: the same, and regular at rest. A lone bead: the void fraction
+/// The third term is written x^0.06/(1 + x^8) here: the same, and regular at rest. An isolated particle: the void fraction
 /// plays no part.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
@@ -18,11 +18,11 @@ namespace clepsydra::closures
 struct MorrisonDrag
 {
     static constexpr const char* name = "MorrisonDrag";
-    static constexpr const char* line = "drag of lone beads, the hopper paper's C_d (Morrison 2013)";
+    static constexpr const char* line = "drag of isolated particles, the hopper paper's C_d (Morrison 2013)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double reynolds = loneReynolds(bead);
+        const double reynolds = isolatedReynolds(particle);
         const double fifth = reynolds / 5.0;
         const double x = reynolds / 2.63e5;
         const double x2 = x * x;
@@ -30,7 +30,7 @@ struct MorrisonDrag
         const double y = reynolds / 1e6;
         const double inertial = 2.6 * fifth / (1.0 + std::exp(1.52 * logReynolds(fifth)))
                                 + 0.411 * std::exp(0.06 * logReynolds(x)) / (1.0 + x8) + 0.25 * y / (1.0 + y);
-        return stokesCoefficient(bead) * (1.0 + reynolds / 24.0 * inertial);
+        return stokesCoefficient(particle) * (1.0 + reynolds / 24.0 * inertial);
     }
 };
 

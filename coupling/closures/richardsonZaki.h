@@ -1,7 +1,7 @@
 /// \file
 /// Hindered settling, v/v_t = eps^n: J. F. Richardson & W. N. Zaki, Trans. Inst. Chem. Eng. 32, 35 (1954), and a
 /// smooth exponent by P. N. Rowe, Chem. Eng. Sci. 42, 2795 (1987). v is against the vessel (closed, no net flux), or
-/// the superficial velocity of a liquid-fluidised bed; v_t and Re = rho v_t d/mu are the lone bead's.
+/// the superficial velocity of a liquid-fluidised bed; v_t and Re = rho v_t d/mu are the isolated particle's.
 #pragma once
 
 #include <cmath>

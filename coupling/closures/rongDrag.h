@@ -22,12 +22,12 @@ struct RongDrag
     static constexpr const char* name = "RongDrag";
     static constexpr const char* line = "drag of beds, Re to 3000 (Rong et al. 2013)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        const double eps = bead.voidFraction;
-        const double reynolds = superficialReynolds(bead);
+        const double eps = particle.voidFraction;
+        const double reynolds = superficialReynolds(particle);
         const double beta = 2.65 * (eps + 1.0) - (5.3 - 3.5 * eps) * eps * eps * transitionBump(reynolds);
-        return stokesCoefficient(bead) * dallavalleFactor(reynolds) * powerOfVoidFraction(bead, 1.0 - beta);
+        return stokesCoefficient(particle) * dallavalleFactor(reynolds) * powerOfVoidFraction(particle, 1.0 - beta);
     }
 };
 

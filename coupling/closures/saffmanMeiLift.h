@@ -6,11 +6,11 @@
 ///     f = (1 - a) exp(-Re/10) + a,  a = .3314 sqrt(Re_s/(2 Re))     Re <= 40
 ///     f = .0524 sqrt(Re_s/2)                                        Re >  40
 ///
-/// Range: lone bead, .005 < Re_s/(2 Re) < .4, Re up to 100, linear shear. As published, f jumps
+/// Range: isolated particle, .005 < Re_s/(2 Re) < .4, Re up to 100, linear shear. As published, f jumps
 /// down by .018 at Re = 40 (17 % of it at Re_s/(2 Re) = .1). Not valid near a wall or in a bed.
 #pragma once
 
-#include "closures/liftOnBead.h"
+#include "closures/liftOnParticle.h"
 
 namespace clepsydra::closures
 {
@@ -21,13 +21,13 @@ struct SaffmanMeiLift
     static constexpr const char* line = "lift in sheared fluid, Re to 100 (Saffman 1965, Mei 1992)";
     static constexpr Rotation rotation = Rotation::ofFluid;
 
-    double operator()(const BeadInRotation& bead) const noexcept
+    double operator()(const ParticleInRotation& particle) const noexcept
     {
         // So low that the force is below rounding there.
         constexpr double smallest = 1e-30;
-        const double shear = std::max(rotationReynolds(bead), smallest);
-        return 1.615 * bead.density * bead.diameter * bead.diameter * bead.diameter / std::sqrt(shear)
-               * meiFactor(slipReynolds(bead), shear);
+        const double shear = std::max(rotationReynolds(particle), smallest);
+        return 1.615 * particle.density * particle.diameter * particle.diameter * particle.diameter / std::sqrt(shear)
+               * meiFactor(slipReynolds(particle), shear);
     }
 
     /// f

@@ -1,9 +1,9 @@
 /// \file
 /// G. G. Stokes, Trans. Camb. Phil. Soc. 9, 8 (1851): F = 3 pi mu d U_r.
-/// A lone bead in creeping flow, Re << 1. The void fraction plays no part, so models A and B agree only at eps = 1.
+/// An isolated particle in creeping flow, Re << 1. The void fraction plays no part, so models A and B agree only at eps = 1.
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 namespace clepsydra::closures
 {
@@ -11,11 +11,11 @@ namespace clepsydra::closures
 struct StokesDrag
 {
     static constexpr const char* name = "StokesDrag";
-    static constexpr const char* line = "drag of lone beads, Re << 1 (Stokes 1851)";
+    static constexpr const char* line = "drag of isolated particles, Re << 1 (Stokes 1851)";
 
-    double operator()(const BeadInFluid& bead) const noexcept
+    double operator()(const ParticleInFluid& particle) const noexcept
     {
-        return stokesCoefficient(bead);
+        return stokesCoefficient(particle);
     }
 };
 

@@ -10,7 +10,7 @@
 /// A sphere that sinks through the edge carries liquid from above along: M. Manga & H. A. Stone, J. Fluid Mech. 287, 279
 /// (1995). In place of that flow it is taken to feel, at h, the liquid at h + lag d.
 ///
-/// Range: densities that differ by much less than that of the bead and the liquid; an edge that stays where it is.
+/// Range: densities that differ by much less than that of the particle and the liquid; an edge that stays where it is.
 #pragma once
 
 #include <cmath>
@@ -23,7 +23,7 @@ struct Stratification
     double step = 0;     // ln of the lower liquid's viscosity over the upper one's
     double height = 0;   // of the edge's middle, m
     double width = 1;    // of the edge, m, > 0
-    double lag = 0;      // in diameters of the bead
+    double lag = 0;      // in diameters of the particle
     double gradient = 0; // d(ln nu)/dh beside the step, 1/m
 
     bool isThere() const noexcept
@@ -31,7 +31,7 @@ struct Stratification
         return step != 0 || gradient != 0;
     }
 
-    /// nu/nu_lower [-]. \param diameter  of the bead that feels it; 0: of the liquid as it lies
+    /// nu/nu_lower [-]. \param diameter  of the particle that feels it; 0: of the liquid as it lies
     double factor(double h, double diameter) const noexcept
     {
         const double above = h + lag * diameter - height;

@@ -1,5 +1,5 @@
 /// \file
-/// Times that the DEM step and the coupling interval must resolve. Seconds throughout.
+/// Times that the DEM step and the coupling step must resolve. Seconds throughout.
 #pragma once
 
 #include "closures/constants.h"
@@ -15,7 +15,7 @@ inline double shearModulus(double youngsModulus, double poissonRatio) noexcept
     return 0.5 * youngsModulus / (1.0 + poissonRatio);
 }
 
-/// Time of a Rayleigh wave over half a bead's circumference, pi R sqrt(rho/G)/(0.1631 nu + 0.8766): what LIGGGHTS
+/// Time of a Rayleigh wave over half a particle's circumference, pi R sqrt(rho/G)/(0.1631 nu + 0.8766): what LIGGGHTS
 /// calls the Rayleigh time. DEM steps are usually 0.1..0.3 of it. Li, Xu & Thornton, Powder Technol. 160, 219 (2005).
 inline double rayleighTime(double radius, double density, double shearModulus, double poissonRatio) noexcept
 {
@@ -32,7 +32,7 @@ inline double hertzCollisionTime(
     return 2.8682656992 * std::pow(ratio * ratio / (effectiveRadius * approachSpeed), 0.2);
 }
 
-/// The same for two alike beads of one material: m* = m/2, R* = R/2, E* = E/(2 (1 - nu^2)).
+/// The same for two alike particles of one material: m* = m/2, R* = R/2, E* = E/(2 (1 - nu^2)).
 inline double hertzCollisionTimeOfTwins(
     double radius, double density, double youngsModulus, double poissonRatio, double approachSpeed) noexcept
 {
@@ -41,7 +41,7 @@ inline double hertzCollisionTimeOfTwins(
         0.5 * mass, 0.5 * radius, 0.5 * youngsModulus / (1.0 - poissonRatio * poissonRatio), approachSpeed);
 }
 
-/// inertia/Sp: how fast drag brings a bead to the fluid's velocity. inertia is the bead's mass, plus its added mass
+/// inertia/Sp: how fast drag brings a particle to the fluid's velocity. inertia is the particle's mass, plus its added mass
 /// where that is switched on.
 inline double relaxationTime(double inertia, double dragCoefficient) noexcept
 {

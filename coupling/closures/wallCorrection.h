@@ -1,12 +1,12 @@
 /// \file
-/// What walls do to the drag of a bead beside them.
+/// What walls do to the drag of a particle beside them.
 ///
 /// Tube, any Re: R. Di Felice, Int. J. Multiphase Flow 22, 527 (1996), fitted to measured settling velocities on the
-/// axis of a tube, lambda = d/D, Re_t of the bead in unbounded fluid:
+/// axis of a tube, lambda = d/D, Re_t of the particle in unbounded fluid:
 ///
 ///     v/v_t = k = ((1 - lambda)/(1 - .33 lambda))^n,     (3.3 - n)/(n - .85) = .1 Re_t
 ///
-/// The same force moves the bead k times as fast; so at a given speed v the drag is that of a free bead at v/k. Range:
+/// The same force moves the particle k times as fast; so at a given speed v the drag is that of a free particle at v/k. Range:
 /// lambda < .9; at Re -> 0 within 1 % of Faxen's series for a tube's axis for lambda <= .2, 3 % faster at .3, 9 % at .5.
 ///
 /// Plane, creeping flow, motion along it: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), series in lambda = R/h, h from
@@ -42,7 +42,7 @@ inline double diFeliceWallVelocityRatio(double lambda, double freeReynolds) noex
     return std::pow((1.0 - lambda) / (1.0 - 0.33 * lambda), diFeliceWallExponent(freeReynolds));
 }
 
-/// k for a bead of a given speed in the tube, Re = rho v d/mu; the free bead's is Re_t = Re/k(Re_t), which is solved by
+/// k for a particle of a given speed in the tube, Re = rho v d/mu; the free particle's is Re_t = Re/k(Re_t), which is solved by
 /// Newton's iteration for ln k.
 inline double diFeliceWallVelocityRatioAtSpeed(double lambda, double reynolds) noexcept
 {

@@ -23,7 +23,7 @@ constexpr double infinitelyFar = std::numeric_limits<double>::infinity();
 constexpr double sameSideCosine = 0.9;
 /// Sides whose normals are within about 60 degrees of opposite bound the same slab.
 constexpr double oppositeCosine = -0.5;
-/// Exponent: of two cells behind whose walls a bead is, the one behind whose wall it is half as far gets nearly all.
+/// Exponent: of two cells behind whose walls a particle is, the one behind whose wall it is half as far gets nearly all.
 constexpr double leastBehindCounts = 8;
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
@@ -131,7 +131,7 @@ double CellSlabs::fractionInside(const Side& side, const Vector3d& centre, const
     return fraction;
 }
 
-double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double beadRadius) const
+double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double particleRadius) const
 {
     double nearestPlane = 0;
     for (int slab = firstSlab_[cell]; slab < firstSlab_[cell + 1]; ++slab)
@@ -144,8 +144,9 @@ double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double bea
             }
         }
     }
-    return nearestPlane == 0 ? 1
-                             : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / beadRadius), leastBehindCounts);
+    return nearestPlane == 0
+               ? 1
+               : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / particleRadius), leastBehindCounts);
 }
 
 template<class Cut>
@@ -161,9 +162,9 @@ double CellSlabs::shareInSlabs(label cell, const Vector3d& centre, const Cut& cu
     return share;
 }
 
-double CellSlabs::share(label cell, const Vector3d& centre, double radius, double beadRadius) const
+double CellSlabs::share(label cell, const Vector3d& centre, double radius, double particleRadius) const
 {
-    const double before = partBeforeWalls(cell, centre, beadRadius);
+    const double before = partBeforeWalls(cell, centre, particleRadius);
     if (before == 0)
     {
         return 0;
@@ -187,9 +188,9 @@ double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius
     return sphereInBox_(slabs);
 }
 
-double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double beadRadius) const
+double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double particleRadius) const
 {
-    const double before = partBeforeWalls(cell, centre, beadRadius);
+    const double before = partBeforeWalls(cell, centre, particleRadius);
     const auto cut = [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); };
     return before == 0 ? 0 : before * shareInSlabs(cell, centre, cut);
 }

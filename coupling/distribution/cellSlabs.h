@@ -1,7 +1,7 @@
 #pragma once
 
 #include "distribution/sphereInBox.h"
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include "fvMesh.H"
 #include "volFields.H"
@@ -22,12 +22,12 @@ namespace clepsydra
 /// continuous derivative in the sphere's position, and depends on nothing but the sphere and the cell: not on the host
 /// cell of the last interval, not on how the mesh is decomposed.
 ///
-/// A wall bounds no share: a bead does not reach through a wall, it touches it. So a cell has the full share on the
-/// fluid's side of its wall faces, and next to none, behindWall at most, of a bead whose centre lies behind one. This is
+/// A wall bounds no share: a particle does not reach through a wall, it touches it. So a cell has the full share on the
+/// fluid's side of its wall faces, and next to none, behindWall at most, of a particle whose centre lies behind one. This is
 /// what keeps the solid volume from leaking through baffles of zero thickness.
 ///
 /// Next to none and not none, because the mesh's walls are not quite the engine's: snappyHexMesh cuts an edge short that
-/// a small bead rolls into. A bead whose centre is in front of no cell's walls so belongs to the cells whose walls it is
+/// a small particle rolls into. A particle whose centre is in front of no cell's walls so belongs to the cells whose walls it is
 /// the least behind, as long as that is less than its radius.
 class CellSlabs
 {
@@ -39,11 +39,11 @@ public:
 
     /// Share of a sphere in one cell, not normalised, in [0, 1].
     /// \param radius      of the sphere [m]
-    /// \param beadRadius  how far behind a wall its centre may be [m]
-    double share(Foam::label cell, const Vector3d& centre, double radius, double beadRadius) const;
+    /// \param particleRadius  how far behind a wall its centre may be [m]
+    double share(Foam::label cell, const Vector3d& centre, double radius, double particleRadius) const;
 
     /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; the same rule at walls.
-    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double beadRadius) const;
+    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double particleRadius) const;
 
     /// Cells whose bounding box meets the cube about the sphere, by growing label.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
@@ -93,7 +93,7 @@ private:
     double fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const;
     template<class Cut>
     double shareInSlabs(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
-    double partBeforeWalls(Foam::label cell, const Vector3d& centre, double beadRadius) const;
+    double partBeforeWalls(Foam::label cell, const Vector3d& centre, double particleRadius) const;
     void addCell(const Foam::fvMesh& mesh, Foam::label cell);
     void makeBins(const Foam::fvMesh& mesh);
     Eigen::Vector3i binOf(const Vector3d& point) const;

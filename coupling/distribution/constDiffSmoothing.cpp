@@ -11,9 +11,9 @@ namespace
 {
 
 /// Diffusion over a fixed pseudo-time: Sun & Xiao, "Diffusion-based coarse graining in hybrid continuum-discrete
-/// solvers", Int. J. Multiphase Flow 72 (2015). With bandwidth b = smoothingLength it diffuses over D t = b2/4, exactly
+/// solvers", Int. J. Multiphase Flow 72 (2015). With bandwidth b = `bandwidth` it diffuses over D t = b2/4, exactly
 /// in t: the operator is exp(-b2/4 L), on a fine mesh a Gaussian exp(-r2/b2), of variance b2/2 along each axis on a mesh
-/// of any size. (One implicit Euler step, Sun & Xiao's choice, has exp(-2 r/b)/r instead, with a peak at the bead.)
+/// of any size. (One implicit Euler step, Sun & Xiao's choice, has exp(-2 r/b)/r instead, with a peak at the particle.)
 ///
 /// Walls and baffles are faces without neighbour: nothing diffuses through them, and going round an edge costs the
 /// length of the way.
@@ -23,19 +23,19 @@ public:
     TypeName("constDiffSmoothing");
 
     ConstDiffSmoothing(const dictionary& coefficients, const fvMesh& mesh)
-        : smoothingLength_(positiveEntry(coefficients, "smoothingLength")),
+        : smoothingBandwidth_(positiveEntry(coefficients, "bandwidth")),
           diffusion_(mesh),
           series_(chebyshevExponential(
-              0.5 * diffusion_.largestEigenvalue() * smoothingLength_ * smoothingLength_ / 4, tolerance))
+              0.5 * diffusion_.largestEigenvalue() * smoothingBandwidth_ * smoothingBandwidth_ / 4, tolerance))
     {
-        requireKnownEntries(coefficients, {"smoothingLength"});
+        requireKnownEntries(coefficients, {"bandwidth"});
     }
 
     void nearTo(const std::vector<Foam::label>& cells) override
     {
         // Beyond, the Gaussian has less than a part in a million; on cells as wide as it, whose steps reach farther, the
         // two cells more that restrictTo() takes keep it so.
-        diffusion_.restrictTo(cells, 4 * smoothingLength_);
+        diffusion_.restrictTo(cells, 4 * smoothingBandwidth_);
     }
 
     void smooth(Eigen::MatrixXd& densities) const override
@@ -45,12 +45,12 @@ public:
 
     double bandwidth() const override
     {
-        return smoothingLength_;
+        return smoothingBandwidth_;
     }
 
     Foam::string description() const override
     {
-        return "constDiffSmoothing: Gaussian of smoothingLength " + Foam::name(smoothingLength_) + " m, in "
+        return "constDiffSmoothing: Gaussian of bandwidth " + Foam::name(smoothingBandwidth_) + " m, in "
                + Foam::name(static_cast<label>(series_.size() - 1)) + " sweeps over the mesh";
     }
 
@@ -59,7 +59,7 @@ private:
     /// and reaction do not depend on it: they are kept to rounding.
     static constexpr double tolerance = 1e-5;
 
-    const double smoothingLength_;
+    const double smoothingBandwidth_;
     CellDiffusion diffusion_;
     const std::vector<double> series_;
 };
@@ -67,7 +67,7 @@ private:
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, ConstDiffSmoothing, dictionary);
 const ModelLines lines(
-    "smoothingModel", {{ConstDiffSmoothing::typeName_(), "diffusion over smoothingLength, stopped by walls"}});
+    "smoothingModel", {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of `bandwidth`, stopped by walls"}});
 
 } // namespace
 

@@ -11,10 +11,10 @@ namespace clepsydra
 namespace
 {
 
-/// In units of a bead's reach. Larger: fewer searches, more cells to look at in between.
+/// In units of a particle's reach. Larger: fewer searches, more cells to look at in between.
 constexpr double marginOfNeighbourhood = 0.3;
 
-/// A bead at a cyclic patch would have to be at two places, in the fluid and among its neighbours.
+/// A particle at a cyclic patch would have to be at two places, in the fluid and among its neighbours.
 const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh())
@@ -26,7 +26,7 @@ const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
             FatalErrorInFunction << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
                                  << " is of type " << patch.type()
                                  << "; allowed: wall, patch, symmetryPlane and others "
-                                 << "that join no cells, and processor between ranks: a bead is in one place only"
+                                 << "that join no cells, and processor between ranks: a particle is in one place only"
                                  << Foam::exit(Foam::FatalError);
         }
     }
@@ -42,54 +42,54 @@ Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foa
       smoothing_(SmoothingModel::New(couplingProperties, mesh))
 {}
 
-Eigen::MatrixXd Distribution::findCells(const std::vector<VisitingBead>& visitors)
+Eigen::MatrixXd Distribution::findCells(const std::vector<GhostParticle>& ghosts)
 {
     ++call_;
     shares_.swap(lastShares_);
     firstShare_.swap(lastFirstShare_);
     shares_.clear();
     firstShare_.assign(1, 0);
-    Eigen::MatrixXd shareSums = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(visitors.size()));
-    for (std::size_t visitor = 0; visitor < visitors.size(); ++visitor)
+    Eigen::MatrixXd shareSums = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(ghosts.size()));
+    for (std::size_t ghost = 0; ghost < ghosts.size(); ++ghost)
     {
-        const VisitingBead& bead = visitors[visitor];
-        Neighbourhood& near = known_[std::lround(bead.id)];
-        addShares(bead, near);
+        const GhostParticle& particle = ghosts[ghost];
+        Neighbourhood& near = known_[std::lround(particle.id)];
+        addShares(particle, near);
         near.call = call_;
-        near.position = bead.position;
-        near.visitor = visitor;
+        near.position = particle.position;
+        near.ghost = ghost;
         for (std::size_t i = firstShare_.back(); i < shares_.size(); ++i)
         {
-            shareSums(0, static_cast<Eigen::Index>(visitor)) += shares_[i].share;
+            shareSums(0, static_cast<Eigen::Index>(ghost)) += shares_[i].share;
         }
         firstShare_.push_back(shares_.size());
     }
-    forgetTheLongGone(visitors.size());
+    pruneCache(ghosts.size());
     return shareSums;
 }
 
-void Distribution::addShares(const VisitingBead& bead, Neighbourhood& near)
+void Distribution::addShares(const GhostParticle& particle, Neighbourhood& near)
 {
-    const double reach = voidFraction_->reach(bead);
+    const double reach = voidFraction_->reach(particle);
     const bool alike = near.reach == reach;
-    if (alike && near.call == call_ - 1 && near.position == bead.position)
+    if (alike && near.call == call_ - 1 && near.position == particle.position)
     {
-        shares_.insert(shares_.end(), lastShares_.begin() + lastFirstShare_[near.visitor],
-            lastShares_.begin() + lastFirstShare_[near.visitor + 1]);
+        shares_.insert(shares_.end(), lastShares_.begin() + lastFirstShare_[near.ghost],
+            lastShares_.begin() + lastFirstShare_[near.ghost + 1]);
         return;
     }
     const double margin = marginOfNeighbourhood * reach;
-    if (!alike || (bead.position - near.centre).cwiseAbs().maxCoeff() > margin)
+    if (!alike || (particle.position - near.centre).cwiseAbs().maxCoeff() > margin)
     {
-        near.centre = bead.position;
+        near.centre = particle.position;
         near.reach = reach;
-        cells_.cellsNear(bead.position, reach + margin, near.cells);
+        cells_.cellsNear(particle.position, reach + margin, near.cells);
     }
     const auto first = static_cast<std::ptrdiff_t>(shares_.size());
     double largest = 0;
     for (const Foam::label cell : near.cells)
     {
-        const double share = cells_.isNear(cell, bead.position, reach) ? voidFraction_->share(cell, bead) : 0;
+        const double share = cells_.isNear(cell, particle.position, reach) ? voidFraction_->share(cell, particle) : 0;
         if (share > 0)
         {
             shares_.push_back({cell, share});
@@ -104,10 +104,10 @@ void Distribution::addShares(const VisitingBead& bead, Neighbourhood& near)
     }
 }
 
-void Distribution::forgetTheLongGone(std::size_t visitorCount)
+void Distribution::pruneCache(std::size_t ghostCount)
 {
-    // Beads come back to a rank that they have just left, so not each at once.
-    if (known_.size() > 2 * visitorCount + 1000)
+    // Particles come back to a rank that they have just left, so not each at once.
+    if (known_.size() > 2 * ghostCount + 1000)
     {
         known_.clear();
     }
@@ -118,7 +118,7 @@ void Distribution::normalise(const Eigen::MatrixXd& shareSums)
     normalisation_ = shareSums.row(0).cwiseInverse();
 }
 
-void Distribution::smoothNearBeads()
+void Distribution::smoothNearParticles()
 {
     std::vector<Foam::label> cells;
     cells.reserve(shares_.size());
@@ -133,10 +133,10 @@ Eigen::MatrixXd Distribution::densities(const Eigen::MatrixXd& amounts) const
 {
     Eigen::MatrixXd densities = Eigen::MatrixXd::Zero(amounts.rows(), mesh_.nCells());
     Eigen::VectorXd amount(amounts.rows());
-    for (Eigen::Index visitor = 0; visitor < amounts.cols(); ++visitor)
+    for (Eigen::Index ghost = 0; ghost < amounts.cols(); ++ghost)
     {
-        amount = normalisation_[visitor] * amounts.col(visitor);
-        for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
+        amount = normalisation_[ghost] * amounts.col(ghost);
+        for (std::size_t i = firstShare_[ghost]; i < firstShare_[ghost + 1]; ++i)
         {
             densities.col(shares_[i].cell) += shares_[i].share * amount;
         }
@@ -153,13 +153,13 @@ Eigen::MatrixXd Distribution::sample(const Eigen::MatrixXd& cellValues) const
 {
     Eigen::MatrixXd values =
         Eigen::MatrixXd::Zero(cellValues.rows(), static_cast<Eigen::Index>(firstShare_.size()) - 1);
-    for (Eigen::Index visitor = 0; visitor < values.cols(); ++visitor)
+    for (Eigen::Index ghost = 0; ghost < values.cols(); ++ghost)
     {
-        for (std::size_t i = firstShare_[visitor]; i < firstShare_[visitor + 1]; ++i)
+        for (std::size_t i = firstShare_[ghost]; i < firstShare_[ghost + 1]; ++i)
         {
-            values.col(visitor) += shares_[i].share * cellValues.col(shares_[i].cell);
+            values.col(ghost) += shares_[i].share * cellValues.col(shares_[i].cell);
         }
-        values.col(visitor) *= normalisation_[visitor];
+        values.col(ghost) *= normalisation_[ghost];
     }
     return values;
 }

@@ -10,13 +10,13 @@ namespace clepsydra
 namespace
 {
 
-/// A Gaussian exp(-r2/b2) about the bead's centre, integrated over each cell (exactly so over bricks) and normalised
+/// A Gaussian exp(-r2/b2) about the particle's centre, integrated over each cell (exactly so over bricks) and normalised
 /// over the cells that it reaches, up to 3 b.
 ///
 ///     GaussianProps { bandwidth 2e-3; }    // b [m]
 ///
 /// A wall cell keeps what would lie behind its wall. A baffle of zero thickness is seen by the cells at it only: where
-/// 3 b is more than a bead's radius and a cell's width behind the baffle, the kernel leaks into the second cell behind.
+/// 3 b is more than a particle's radius and a cell's width behind the baffle, the kernel leaks into the second cell behind.
 /// constDiffSmoothing does not.
 class Gaussian : public VoidFractionModel
 {
@@ -30,9 +30,9 @@ public:
         requireKnownEntries(coefficients, {"bandwidth", "alphaMin"});
     }
 
-    double reach(const VisitingBead& bead) const override
+    double reach(const GhostParticle& particle) const override
     {
-        return std::max(bead.radius, commonReach());
+        return std::max(particle.radius, commonReach());
     }
 
     double commonReach() const override
@@ -41,9 +41,9 @@ public:
         return 3 * bandwidth_;
     }
 
-    double share(Foam::label cell, const VisitingBead& bead) const override
+    double share(Foam::label cell, const GhostParticle& particle) const override
     {
-        return cells().gaussianShare(cell, bead.position, bandwidth_, bead.radius);
+        return cells().gaussianShare(cell, particle.position, bandwidth_, particle.radius);
     }
 
     Foam::string description() const override

@@ -21,10 +21,10 @@ inline double meanCellWidth(const Foam::fvMesh& mesh)
     return std::cbrt(Foam::gSum(mesh.cellVolumes()) / mesh.globalData().nTotalCells());
 }
 
-/// The length over which the fluid changes that a bead meets [m]: the smoothing length, or a cell where that is wider.
-inline double lengthOfChange(double smoothingLength, double cellWidth)
+/// The length over which the fluid changes that a particle meets [m]: the smoothing bandwidth, or a cell where that is wider.
+inline double lengthOfChange(double smoothingBandwidth, double cellWidth)
 {
-    return std::max(smoothingLength, cellWidth);
+    return std::max(smoothingBandwidth, cellWidth);
 }
 
 } // namespace clepsydra

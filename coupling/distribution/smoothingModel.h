@@ -10,11 +10,11 @@
 namespace clepsydra
 {
 
-/// A linear, conservative and self-adjoint smoothing of what the beads put into the cells. Selected by
+/// A linear, conservative and self-adjoint smoothing of what the particles put into the cells. Selected by
 /// `smoothingModel` in couplingProperties, coefficients in `<name>Props`.
 ///
 /// Conservative: the integral over the mesh stays to rounding. Self-adjoint in the volume-weighted product: the same
-/// operator samples the fluid for the beads, so that action equals reaction.
+/// operator samples the fluid for the particles, so that action equals reaction.
 class SmoothingModel
 {
 public:

@@ -19,7 +19,7 @@ Foam::autoPtr<VoidFractionModel> VoidFractionModel::New(
 namespace
 {
 
-/// The bead's own sphere cut by the cells.
+/// The particle's own sphere cut by the cells.
 class Divided : public VoidFractionModel
 {
 public:
@@ -31,14 +31,14 @@ public:
         requireKnownEntries(coefficients, {"alphaMin"});
     }
 
-    double reach(const VisitingBead& bead) const override
+    double reach(const GhostParticle& particle) const override
     {
-        return bead.radius;
+        return particle.radius;
     }
 
-    double share(Foam::label cell, const VisitingBead& bead) const override
+    double share(Foam::label cell, const GhostParticle& particle) const override
     {
-        return cells().share(cell, bead.position, bead.radius, bead.radius);
+        return cells().share(cell, particle.position, particle.radius, particle.radius);
     }
 
     Foam::string description() const override
@@ -47,7 +47,7 @@ public:
     }
 };
 
-/// All of the bead in the cell that holds its centre.
+/// All of the particle in the cell that holds its centre.
 class Centre : public VoidFractionModel
 {
 public:
@@ -59,19 +59,19 @@ public:
         requireKnownEntries(coefficients, {"alphaMin"});
     }
 
-    double reach(const VisitingBead& bead) const override
+    double reach(const GhostParticle& particle) const override
     {
-        return bead.radius;
+        return particle.radius;
     }
 
-    double share(Foam::label cell, const VisitingBead& bead) const override
+    double share(Foam::label cell, const GhostParticle& particle) const override
     {
-        return cells().share(cell, bead.position, smallPart * bead.radius, bead.radius);
+        return cells().share(cell, particle.position, smallPart * particle.radius, particle.radius);
     }
 
     Foam::string description() const override
     {
-        return "centre: whole bead in the cell of its centre; jumps in time, use with smoothing";
+        return "centre: whole particle in the cell of its centre; jumps in time, use with smoothing";
     }
 
 private:
@@ -83,9 +83,9 @@ defineTypeNameAndDebug(Divided, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
 defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
-const ModelLines lines(
-    "voidFractionModel", {{Divided::typeName_(), "each cell has the part of the sphere in it"},
-                             {Centre::typeName_(), "the cell of the centre has all of the bead; with smoothing only"}});
+const ModelLines lines("voidFractionModel",
+    {{Divided::typeName_(), "each cell has the part of the sphere in it"},
+        {Centre::typeName_(), "the cell of the centre has all of the particle; with smoothing only"}});
 
 } // namespace
 

@@ -1,14 +1,14 @@
 #pragma once
 
 #include "distribution/cellSlabs.h"
-#include "exchange/beadExchange.h"
+#include "exchange/particleExchange.h"
 
 #include "runTimeSelection.h"
 
 namespace clepsydra
 {
 
-/// How a bead is shared among the cells around it, before any smoothing. Selected by `voidFractionModel` in
+/// How a particle is shared among the cells around it, before any smoothing. Selected by `voidFractionModel` in
 /// couplingProperties, coefficients in `<name>Props`.
 class VoidFractionModel
 {
@@ -27,17 +27,17 @@ public:
 
     virtual ~VoidFractionModel() = default;
 
-    /// How far from its centre a bead acts [m].
-    virtual double reach(const VisitingBead& bead) const = 0;
+    /// How far from its centre a particle acts [m].
+    virtual double reach(const GhostParticle& particle) const = 0;
 
-    /// A reach that all beads have, if farther than their radius: they visit the ranks with cells that near [m].
+    /// A reach that all particles have, if farther than their radius: they visit the ranks with cells that near [m].
     virtual double commonReach() const
     {
         return 0;
     }
 
-    /// Share of the bead in a cell, not normalised, >= 0.
-    virtual double share(Foam::label cell, const VisitingBead& bead) const = 0;
+    /// Share of the particle in a cell, not normalised, >= 0.
+    virtual double share(Foam::label cell, const GhostParticle& particle) const = 0;
 
     /// One line for the start of the log.
     virtual Foam::string description() const = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include <filesystem>
 #include <stdexcept>
@@ -17,17 +17,17 @@ public:
     using std::runtime_error::runtime_error;
 };
 
-/// Gives the force of the fluid on the beads at one DEM step. Implemented by the coupling, called by the engine.
+/// Gives the force of the fluid on the particles at one DEM step. Implemented by the coupling, called by the engine.
 class FluidForces
 {
 public:
     virtual ~FluidForces() = default;
 
-    /// \param beads  the beads of this rank as they are now; `beads.otherForce` is the sum of all other forces of this
-    ///               step, `beads.state` the coupling's own, to read and to write
+    /// \param particles  the particles of this rank as they are now; `particles.otherForce` is the sum of all other forces of this
+    ///               step, `particles.state` the coupling's own, to read and to write
     /// \param timeStep  DEM step [s]
-    /// \param force  3 x beads.size(), overwritten with the force on each bead [N]
-    virtual void evaluate(const BeadsView& beads, double timeStep, Vectors force) = 0;
+    /// \param force  3 x particles.size(), overwritten with the force on each particle [N]
+    virtual void evaluate(const ParticlesView& particles, double timeStep, Vectors force) = 0;
 };
 
 /// What the time scales of the contacts depend on, one entry per material of the engine's script.
@@ -37,7 +37,7 @@ struct ContactMaterial
     double poissonRatio;
 };
 
-/// A discrete-element program that advances beads and their contacts, in the same process.
+/// A discrete-element program that advances particles and their contacts, in the same process.
 ///
 /// Life: constructed (its script has run) -> initialise() once -> advance() any number of times -> destroyed.
 /// All members are collective over the ranks unless marked local. Any may throw DemEngineError; after that only
@@ -50,43 +50,43 @@ public:
     DemEngine& operator=(const DemEngine&) = delete;
     virtual ~DemEngine() = default;
 
-    /// Asks for BeadsView::pairs: at every step at least all pairs of beads whose surfaces are closer than
+    /// Asks for ParticlesView::pairs: at every step at least all pairs of particles whose surfaces are closer than
     /// `reach` times the sum of their radii. \pre not yet initialised, reach > 0.
-    virtual void seePairs(double reach) = 0;
+    virtual void requestPairs(double reach) = 0;
 
-    /// Asks for BeadsView::state. \pre not yet initialised.
-    /// \param ofNewBead  the numbers of the state of beads that are read, made or inserted
-    virtual void keepState(const std::vector<double>& ofNewBead) = 0;
+    /// Asks for ParticlesView::state. \pre not yet initialised.
+    /// \param ofNewParticle  the numbers of the state of particles that are read, made or inserted
+    virtual void keepState(const std::vector<double>& ofNewParticle) = 0;
 
-    /// Asks for BeadsView::memory: so many numbers per bead, zero for a new bead, that travel with it and are part of
+    /// Asks for ParticlesView::memory: so many numbers per particle, zero for a new particle, that travel with it and are part of
     /// checkpoints. \pre not yet initialised, numbers > 0.
     virtual void keepMemory(int numbers) = 0;
 
     /// Makes the engine ready to advance.
-    /// \pre  not yet initialised. \post beads() is valid; each bead has the state of a new one and, until feelFluid(), no
+    /// \pre  not yet initialised. \post particles() is valid; each particle has the state of a new one and, until evaluateFluidForces(), no
     ///       force of the fluid but what a checkpoint holds.
     /// \param forces  called at every DEM step until the engine is destroyed; nullptr: no fluid.
     virtual void initialise(FluidForces* forces) = 0;
 
-    /// Advances by `steps` DEM steps; the beads' states change by FluidForces only.
+    /// Advances by `steps` DEM steps; the particles' states change by FluidForces only.
     /// \pre  initialised, steps > 0. \post earlier views are invalid.
     virtual void advance(int steps) = 0;
 
-    /// Makes neighbour lists anew from the beads as they stand, as if this process had just been resumed from a checkpoint
+    /// Makes neighbour lists again from the particles as they stand, as if this process had just been resumed from a checkpoint
     /// written now. Forces stay those of the last step, with which the next one begins.
     /// \pre initialised. \post views are invalid.
     virtual void prepare() = 0;
 
-    /// As prepare(), but forces are made anew, the fluid's from the beads' states as they stand: those with which the first
+    /// As prepare(), but forces are made again, the fluid's from the particles' states as they stand: those with which the first
     /// step of a run begins. \pre initialised with forces. \post views are invalid.
-    virtual void feelFluid() = 0;
+    virtual void evaluateFluidForces() = 0;
 
-    /// Takes beads out, from wherever they are. \pre initialised. \post views are invalid; prepare() must follow.
-    /// \param ids  of this rank's beads
+    /// Takes particles out, from wherever they are. \pre initialised. \post views are invalid; prepare() must follow.
+    /// \param ids  of this rank's particles
     virtual void remove(const std::vector<int>& ids) = 0;
 
-    /// Local: the beads of this rank. \pre initialised.
-    virtual BeadsView beads() = 0;
+    /// Local: the particles of this rank. \pre initialised.
+    virtual ParticlesView particles() = 0;
 
     /// Local: the DEM step [s].
     virtual double timeStep() const = 0;
@@ -99,7 +99,7 @@ public:
 
     /// Writes everything the engine needs to go on as if never stopped. The files are complete when this returns.
     /// \param name  a file, through which the first rank writes what all send to it; or, with a `%` in it, a file for each
-    ///              rank, whose number takes the place of `%`, and one with `base` there: no rank gets the others' beads
+    ///              rank, whose number takes the place of `%`, and one with `base` there: no rank gets the others' particles
     /// \return those that this rank has written
     /// \pre initialised. \throws FileError where one cannot be written, on the rank that writes it.
     virtual std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& name) = 0;

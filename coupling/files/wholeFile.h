@@ -66,8 +66,8 @@ void requireUndamaged(const std::filesystem::path& file);
 /// into a pipe; what comes out of it is written here, and checked. While this lives there is a link to the pipe beside the
 /// file, for a library that makes the names of several files of one.
 ///
-///     FileThroughPipe checkpoint("beads.restart");
-///     library.writeTo(FileThroughPipe::entrance("beads.restart"));
+///     FileThroughPipe checkpoint("particles.restart");
+///     library.writeTo(FileThroughPipe::entrance("particles.restart"));
 ///     checkpoint.finish();
 class FileThroughPipe
 {

@@ -10,7 +10,7 @@ namespace
 {
 
 /// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: times a number, and for
-/// beads beside walls.
+/// particles beside walls.
 template<class Law>
 class Drag : public ForceModel
 {
@@ -24,16 +24,16 @@ public:
         requireKnownEntries(coefficients, {"factor"}, {"wallCorrection"});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        ManyBeadsInFluid many;
+        ManyParticlesInFluid many;
         many.density = fluid_.density;
-        // Beads that are taken together are in liquid of one viscosity.
+        // Particles that are taken together are in liquid of one viscosity.
         const Eigen::Index atATime = fluid_.stratification.isThere() ? 1 : most;
-        for (Eigen::Index first = 0; first < beads.size(); first += atATime)
+        for (Eigen::Index first = 0; first < particles.size(); first += atATime)
         {
-            many.dynamicViscosity = fluid_.viscosityAt(beads.position.col(first), 2 * beads.radius[first]);
-            addTo(beads, first, std::min(atATime, beads.size() - first), many, sum);
+            many.dynamicViscosity = fluid_.viscosityAt(particles.position.col(first), 2 * particles.radius[first]);
+            addTo(particles, first, std::min(atATime, particles.size() - first), many, sum);
         }
     }
 
@@ -45,18 +45,18 @@ public:
     }
 
 private:
-    static constexpr Eigen::Index most = ManyBeadsInFluid::most;
+    static constexpr Eigen::Index most = ManyParticlesInFluid::most;
 
-    void addTo(
-        const BeadsView& beads, Eigen::Index first, Eigen::Index count, ManyBeadsInFluid& many, ForceSum& sum) const
+    void addTo(const ParticlesView& particles, Eigen::Index first, Eigen::Index count, ManyParticlesInFluid& many,
+        ForceSum& sum) const
     {
         std::array<double, most> velocityRatio;
         many.count = static_cast<std::size_t>(count);
         for (Eigen::Index i = 0; i < count; ++i)
         {
-            const FluidAtBead& at = beads.state[first + i].fluid;
-            closures::BeadInFluid inFluid{2 * beads.radius[first + i], at.voidFraction, at.logVoidFraction,
-                slip(beads, first + i).norm(), many.density, many.dynamicViscosity};
+            const FluidAtParticle& at = particles.state[first + i].fluid;
+            closures::ParticleInFluid inFluid{2 * particles.radius[first + i], at.voidFraction, at.logVoidFraction,
+                slip(particles, first + i).norm(), many.density, many.dynamicViscosity};
             velocityRatio[i] = walls_.tubeVelocityRatio(inFluid);
             many.diameter[i] = inFluid.diameter;
             many.voidFraction[i] = inFluid.voidFraction;
@@ -67,20 +67,21 @@ private:
         law_(many, coefficients);
         for (Eigen::Index i = 0; i < count; ++i)
         {
-            const Eigen::Index bead = first + i;
+            const Eigen::Index particle = first + i;
             const double coefficient = factor_ * coefficients[i] / velocityRatio[i];
-            sum.implicitCoefficient[bead] += coefficient;
+            sum.implicitCoefficient[particle] += coefficient;
             if (walls_.hasPlanes())
             {
-                sum.source.col(bead) +=
-                    coefficient * walls_.addedSlip(slip(beads, bead), beads.position.col(bead), beads.radius[bead]);
+                sum.source.col(particle) += coefficient
+                                            * walls_.addedSlip(slip(particles, particle),
+                                                particles.position.col(particle), particles.radius[particle]);
             }
         }
     }
 
-    static Vector3d slip(const BeadsView& beads, Eigen::Index bead)
+    static Vector3d slip(const ParticlesView& particles, Eigen::Index particle)
     {
-        return beads.state[bead].fluid.velocity - beads.velocity.col(bead);
+        return particles.state[particle].fluid.velocity - particles.velocity.col(particle);
     }
 
     const FluidProperties fluid_;

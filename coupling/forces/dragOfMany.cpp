@@ -12,13 +12,14 @@ namespace
 {
 
 template<class Law>
-CLEPSYDRA_FOR_VECTOR_UNITS void evaluate(const ManyBeadsInFluid& beads, ManyCoefficients& coefficients)
+CLEPSYDRA_FOR_VECTOR_UNITS void evaluate(const ManyParticlesInFluid& particles, ManyCoefficients& coefficients)
 {
     const Law law;
-    for (std::size_t bead = 0; bead < beads.count; ++bead)
+    for (std::size_t particle = 0; particle < particles.count; ++particle)
     {
-        coefficients[bead] = law({beads.diameter[bead], beads.voidFraction[bead], beads.logVoidFraction[bead],
-            beads.slipSpeed[bead], beads.density, beads.dynamicViscosity});
+        coefficients[particle] =
+            law({particles.diameter[particle], particles.voidFraction[particle], particles.logVoidFraction[particle],
+                particles.slipSpeed[particle], particles.density, particles.dynamicViscosity});
     }
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 
 #include <array>
 #include <cstddef>
@@ -9,8 +9,8 @@
 namespace clepsydra
 {
 
-/// What closures::BeadInFluid holds, of many beads. SI units.
-struct ManyBeadsInFluid
+/// What closures::ParticleInFluid holds, of many particles. SI units.
+struct ManyParticlesInFluid
 {
     static constexpr std::size_t most = 256;
 
@@ -23,11 +23,11 @@ struct ManyBeadsInFluid
     double dynamicViscosity = 0;
 };
 
-using ManyCoefficients = std::array<double, ManyBeadsInFluid::most>;
+using ManyCoefficients = std::array<double, ManyParticlesInFluid::most>;
 
-/// A drag law for many beads at once, in vector units: a sixth of the time of one bead after the other. Exponentials and
+/// A drag law for many particles at once, in vector units: a sixth of the time of one particle after the other. Exponentials and
 /// logarithms are good to 4 units in the last place, not to one.
-using DragOfMany = void (*)(const ManyBeadsInFluid& beads, ManyCoefficients& coefficients);
+using DragOfMany = void (*)(const ManyParticlesInFluid& particles, ManyCoefficients& coefficients);
 
 /// \param name  of one of closures::DragLaws; \throws std::invalid_argument for another
 DragOfMany dragOfMany(const std::string& name);

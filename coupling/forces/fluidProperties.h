@@ -1,7 +1,7 @@
 #pragma once
 
 #include "closures/stratifiedViscosity.h"
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include "boundBox.H"
 #include "dictionary.H"
@@ -18,7 +18,7 @@ struct FluidProperties
     Vector3d gravity;
     closures::Stratification stratification = {};
 
-    /// Dynamic [Pa s]. \param diameter  of the bead that feels it; 0: of the liquid as it lies
+    /// Dynamic [Pa s]. \param diameter  of the particle that feels it; 0: of the liquid as it lies
     double viscosityAt(const Vector3d& position, double diameter = 0) const
     {
         return stratification.isThere()
@@ -34,7 +34,7 @@ struct FluidProperties
 ///         height      0.243;  // of the edge [m], against gravity from the origin
 ///         width       0.008;  // of the edge, its standard deviation [m]
 ///         step        0.66;   // ln of the lower liquid's viscosity, nu, over the upper one's; default 0
-///         lag         1.5;    // a bead feels the liquid so many diameters above it; default 0
+///         lag         1.5;    // a particle feels the liquid so many diameters above it; default 0
 ///         gradient    0;      // of ln(nu) [1/m] besides; default 0
 ///     }
 ///

@@ -20,11 +20,12 @@ public:
         requireKnownEntries(coefficients, {});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            sum.shared.col(bead) -= sphereVolume(beads.radius[bead]) * beads.state[bead].fluid.pressureGradient;
+            sum.shared.col(particle) -=
+                sphereVolume(particles.radius[particle]) * particles.state[particle].fluid.pressureGradient;
         }
     }
 
@@ -39,7 +40,7 @@ public:
     }
 };
 
-/// V_p div(tau): the viscous stress of the undisturbed flow on the bead.
+/// V_p div(tau): the viscous stress of the undisturbed flow on the particle.
 class ViscousForce : public ForceModel
 {
 public:
@@ -50,11 +51,12 @@ public:
         requireKnownEntries(coefficients, {});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            sum.source.col(bead) += sphereVolume(beads.radius[bead]) * beads.state[bead].fluid.viscousStressDivergence;
+            sum.source.col(particle) +=
+                sphereVolume(particles.radius[particle]) * particles.state[particle].fluid.viscousStressDivergence;
         }
     }
 
@@ -88,11 +90,11 @@ public:
         requireKnownEntries(coefficients, {});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            sum.shared.col(bead) -= sphereVolume(beads.radius[bead]) * weightDensity_;
+            sum.shared.col(particle) -= sphereVolume(particles.radius[particle]) * weightDensity_;
         }
     }
 

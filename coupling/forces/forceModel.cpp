@@ -8,13 +8,13 @@ namespace clepsydra
 defineTypeNameAndDebug(ForceModel, 0);
 defineRunTimeSelectionTable(ForceModel, dictionary);
 
-void ForceSum::setZero(Eigen::Index beadCount)
+void ForceSum::setZero(Eigen::Index particleCount)
 {
-    implicitCoefficient.setZero(beadCount);
-    source.setZero(3, beadCount);
-    shared.setZero(3, beadCount);
-    mutual.setZero(3, beadCount);
-    addedMass.setZero(beadCount);
+    implicitCoefficient.setZero(particleCount);
+    source.setZero(3, particleCount);
+    shared.setZero(3, particleCount);
+    mutual.setZero(3, particleCount);
+    addedMass.setZero(particleCount);
 }
 
 Foam::autoPtr<ForceModel> ForceModel::New(

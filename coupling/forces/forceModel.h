@@ -16,20 +16,20 @@ struct ForceNeeds
     bool vorticity = false;
     /// div(tau)
     bool viscousStress = false;
-    /// BeadsView::pairs up to this gap, in units of the sum of the two radii; 0: none.
+    /// ParticlesView::pairs up to this gap, in units of the sum of the two radii; 0: none.
     double pairReach = 0;
-    /// BeadsView::memory: numbers per bead kept from step to step; 0: none. One force of a run may ask for it.
+    /// ParticlesView::memory: numbers per particle kept from step to step; 0: none. One force of a run may ask for it.
     int memory = 0;
 };
 
-/// The forces of one DEM step on the beads of one rank, split by what is implicit and by whose reaction the fluid
-/// must be handed. Force on bead i, dv_i/dt being its acceleration:
+/// The forces of one DEM step on the particles of one rank, split by what is implicit and by whose reaction the fluid
+/// must be handed. Force on particle i, dv_i/dt being its acceleration:
 ///
 ///     implicitCoefficient[i] (U_fluid - v_i) + source.col(i) + addedMass[i] (DU/Dt - dv_i/dt)    handed to the fluid
 ///     + shared.col(i)                                                                            in its equation
 ///     + mutual.col(i)                                                                            not the fluid's
 ///
-/// In model B what is handed over is the same divided by the void fraction (BeadForces does that, no force model does).
+/// In model B what is handed over is the same divided by the void fraction (ParticleForces does that, no force model does).
 struct ForceSum
 {
     /// Sp [kg/s]. Reaction: handed to the fluid.
@@ -38,19 +38,19 @@ struct ForceSum
     Eigen::Matrix3Xd source;
     /// Su [N]. Reaction: already in the fluid's equation (model A's eps grad p; the hydrostatic part of p).
     Eigen::Matrix3Xd shared;
-    /// Su [N] between two beads, or a bead and a wall: the other one has the reaction.
+    /// Su [N] between two particles, or a particle and a wall: the other one has the reaction.
     Eigen::Matrix3Xd mutual;
-    /// m_a [kg], implicit in the bead's inertia. Reaction: handed to the fluid.
+    /// m_a [kg], implicit in the particle's inertia. Reaction: handed to the fluid.
     Eigen::ArrayXd addedMass;
     /// Over which they act [s].
     double timeStep = 0;
 
-    void setZero(Eigen::Index beadCount);
+    void setZero(Eigen::Index particleCount);
 };
 
-/// One force of the fluid on beads, selected by name in `forceModels (...)` of couplingProperties, coefficients in
-/// `<name>Props`. A model adds its part for all beads of the rank at once; what it keeps between calls is in
-/// BeadsView::memory, for beads change ranks.
+/// One force of the fluid on particles, selected by name in `forceModels (...)` of couplingProperties, coefficients in
+/// `<name>Props`. A model adds its part for all particles of the rank at once; what it keeps between calls is in
+/// ParticlesView::memory, for particles change ranks.
 class ForceModel
 {
 public:
@@ -64,7 +64,7 @@ public:
 
     virtual ~ForceModel() = default;
 
-    virtual void add(const BeadsView& beads, ForceSum& sum) const = 0;
+    virtual void add(const ParticlesView& particles, ForceSum& sum) const = 0;
 
     virtual ForceNeeds needs() const
     {

@@ -16,19 +16,19 @@ using closures::historyModes;
 const ModelLines laws(
     "historyForceProps { law }", {{"Basset", "creeping flow"}, {"MeiAdrian", "finite Re (the default)"}});
 
-/// What a bead keeps, all zero before its first step.
+/// What a particle keeps, all zero before its first step.
 struct MotionHistory
 {
     /// 1 after it.
     double begun;
-    /// Of the bead past the fluid, at the last step [m/s].
+    /// Of the particle past the fluid, at the last step [m/s].
     Vector3d velocity;
     /// Changes of that velocity, faded with each mode's rate.
     Eigen::Matrix<double, 3, historyModes, Eigen::DontAlign> modes;
 };
-static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as plain doubles beside the bead");
+static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as plain doubles beside the particle");
 
-/// -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A bead's history begins at its first step with the
+/// -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A particle's history begins at its first step with the
 /// coupling; before, it is taken to have always moved as then. The last DEM step's part is implicit in its inertia.
 ///
 ///     historyForceProps { law Basset; }         // creeping flow
@@ -52,16 +52,16 @@ public:
         }
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
         const closures::HistoryStep step(sum.timeStep);
         const Eigen::Map<const Modes> fades(step.fades.data());
         const Eigen::Map<const Modes> mean(step.mean.data());
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            auto& history = *reinterpret_cast<MotionHistory*>(beads.memory + bead * beads.memorySize);
-            const Vector3d velocity = beads.velocity.col(bead) - beads.state[bead].fluid.velocity;
-            if (beads.memoryAges)
+            auto& history = *reinterpret_cast<MotionHistory*>(particles.memory + particle * particles.memorySize);
+            const Vector3d velocity = particles.velocity.col(particle) - particles.state[particle].fluid.velocity;
+            if (particles.memoryAges)
             {
                 const Vector3d change = history.begun * (velocity - history.velocity);
                 history.modes = history.modes * fades.matrix().asDiagonal();
@@ -69,11 +69,11 @@ public:
                 history.velocity = velocity;
                 history.begun = 1;
             }
-            const double diameter = 2 * beads.radius[bead];
-            const double viscosity = fluid_.viscosityAt(beads.position.col(bead), diameter);
+            const double diameter = 2 * particles.radius[particle];
+            const double viscosity = fluid_.viscosityAt(particles.position.col(particle), diameter);
             const double coefficient = closures::historyCoefficient(diameter, fluid_.density, viscosity);
-            sum.addedMass[bead] += coefficient * step.ownPart;
-            sum.source.col(bead) -=
+            sum.addedMass[particle] += coefficient * step.ownPart;
+            sum.source.col(particle) -=
                 coefficient
                 * (history.modes * (mean * weights(diameter, velocity.norm(), viscosity / fluid_.density)).matrix());
         }
@@ -117,8 +117,8 @@ private:
 
 defineTypeNameAndDebug(HistoryForce, 0);
 addToRunTimeSelectionTable(ForceModel, HistoryForce, dictionary);
-const ModelLines lines(
-    "forceModels", {{HistoryForce::typeName_(), "drag that remembers how the bead moved (Basset; Mei & Adrian 1992)"}});
+const ModelLines lines("forceModels",
+    {{HistoryForce::typeName_(), "drag that remembers how the particle moved (Basset; Mei & Adrian 1992)"}});
 
 } // namespace
 

@@ -19,20 +19,20 @@ public:
         requireKnownEntries(coefficients, {});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
         const Law law;
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            const FluidAtBead& at = beads.state[bead].fluid;
-            const Vector3d slip = at.velocity - beads.velocity.col(bead);
+            const FluidAtParticle& at = particles.state[particle].fluid;
+            const Vector3d slip = at.velocity - particles.velocity.col(particle);
             const Vector3d rotation = Law::rotation == closures::Rotation::ofFluid
                                           ? at.vorticity
-                                          : Vector3d(beads.angularVelocity.col(bead) - 0.5 * at.vorticity);
-            const double diameter = 2 * beads.radius[bead];
-            const double coefficient = law(closures::BeadInRotation{diameter, slip.norm(), rotation.norm(),
-                fluid_.density, fluid_.viscosityAt(beads.position.col(bead), diameter)});
-            sum.source.col(bead) += coefficient * slip.cross(rotation);
+                                          : Vector3d(particles.angularVelocity.col(particle) - 0.5 * at.vorticity);
+            const double diameter = 2 * particles.radius[particle];
+            const double coefficient = law(closures::ParticleInRotation{diameter, slip.norm(), rotation.norm(),
+                fluid_.density, fluid_.viscosityAt(particles.position.col(particle), diameter)});
+            sum.source.col(particle) += coefficient * slip.cross(rotation);
         }
     }
 

@@ -10,7 +10,7 @@ namespace clepsydra
 namespace
 {
 
-/// The fluid squeezed out between two beads or a bead and a wall resists their approach: see closures/lubrication.h.
+/// The fluid squeezed out between two particles or a particle and a wall resists their approach: see closures/lubrication.h.
 /// Equal and opposite on the two; nothing of it is handed to the fluid's equation.
 ///
 ///     lubricationForceProps
@@ -38,12 +38,12 @@ public:
         requireKnownEntries(coefficients, {"roughness", "reach", "wallReach", "walls"});
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        addBetweenBeads(beads, sum);
+        addBetweenParticles(particles, sum);
         for (const WallPlane& wall : walls_)
         {
-            addAtWall(wall, beads, sum);
+            addAtWall(wall, particles, sum);
         }
     }
 
@@ -62,9 +62,9 @@ public:
     }
 
 private:
-    void addBetweenBeads(const BeadsView& beads, ForceSum& sum) const
+    void addBetweenParticles(const ParticlesView& particles, ForceSum& sum) const
     {
-        const BeadPairs& near = beads.pairs;
+        const ParticlePairs& near = particles.pairs;
         for (Eigen::Index pair = 0; pair < near.list.cols(); ++pair)
         {
             const int first = near.list(0, pair);
@@ -83,28 +83,28 @@ private:
                 closures::squeezeCoefficient(fluid_.viscosityAt(near.position.col(first) + 0.5 * apart),
                     closures::effectiveRadius(near.radius[first], near.radius[second]), distance - radii, roughness_,
                     reach);
-            requireStable(coefficient, beads.mass[first], sum.timeStep);
+            requireStable(coefficient, particles.mass[first], sum.timeStep);
             const Vector3d force = coefficient * approach * normal;
             sum.mutual.col(first) -= force;
             // Otherwise another rank's, which sees it first.
-            if (second < beads.size())
+            if (second < particles.size())
             {
-                requireStable(coefficient, beads.mass[second], sum.timeStep);
+                requireStable(coefficient, particles.mass[second], sum.timeStep);
                 sum.mutual.col(second) += force;
             }
         }
     }
 
-    void addAtWall(const WallPlane& wall, const BeadsView& beads, ForceSum& sum) const
+    void addAtWall(const WallPlane& wall, const ParticlesView& particles, ForceSum& sum) const
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            const double radius = beads.radius[bead];
-            const double gap = wall.distance(beads.position.col(bead)) - radius;
+            const double radius = particles.radius[particle];
+            const double gap = wall.distance(particles.position.col(particle)) - radius;
             const double coefficient = closures::wallSqueezeCoefficient(
-                fluid_.viscosityAt(beads.position.col(bead)), radius, gap, roughness_, 2 * radius * wallReach_);
-            requireStable(coefficient, beads.mass[bead], sum.timeStep);
-            sum.mutual.col(bead) -= coefficient * wall.normal.dot(beads.velocity.col(bead)) * wall.normal;
+                fluid_.viscosityAt(particles.position.col(particle)), radius, gap, roughness_, 2 * radius * wallReach_);
+            requireStable(coefficient, particles.mass[particle], sum.timeStep);
+            sum.mutual.col(particle) -= coefficient * wall.normal.dot(particles.velocity.col(particle)) * wall.normal;
         }
     }
 
@@ -113,7 +113,7 @@ private:
         constexpr double largestPart = 0.5;
         if (coefficient * timeStep > largestPart * mass)
         {
-            FatalErrorInFunction << "lubricationForce damps a bead of " << mass << " kg at the rate "
+            FatalErrorInFunction << "lubricationForce damps a particle of " << mass << " kg at the rate "
                                  << coefficient / mass << " 1/s, too fast for DEM steps of " << timeStep
                                  << " s; allowed: steps up to " << largestPart * mass / coefficient
                                  << " s, or a larger roughness than " << roughness_ << " m"
@@ -130,8 +130,9 @@ private:
 
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
-const ModelLines lines("forceModels",
-    {{LubricationForce::typeName_(), "fluid squeezed from the gap of two beads, or a bead and a wall (Cox 1974)"}});
+const ModelLines lines(
+    "forceModels", {{LubricationForce::typeName_(),
+                       "fluid squeezed from the gap of two particles, or a particle and a wall (Cox 1974)"}});
 
 } // namespace
 

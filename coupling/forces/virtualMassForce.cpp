@@ -10,10 +10,10 @@ namespace
 {
 
 const ModelLines laws(
-    "virtualMassForceProps { law }", {{"constant", "Cadd of the bead's volume: 0.5 unless given (the default)"},
+    "virtualMassForceProps { law }", {{"constant", "Cadd of the particle's volume: 0.5 unless given (the default)"},
                                          {"Zuber", "grows with the solid fraction (Zuber 1964)"}});
 
-/// m_a (DU/Dt - dv/dt), implicit in the bead's inertia: see closures/addedMass.h and ForceSum::addedMass.
+/// m_a (DU/Dt - dv/dt), implicit in the particle's inertia: see closures/addedMass.h and ForceSum::addedMass.
 ///
 ///     virtualMassForceProps { law constant; Cadd 0.5; }     // the default
 ///     virtualMassForceProps { law Zuber; }                  // grows with the solid fraction
@@ -36,13 +36,15 @@ public:
         }
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             const double coefficient =
-                zuber_ ? closures::zuberAddedMassCoefficient(beads.state[bead].fluid.voidFraction) : coefficient_;
-            sum.addedMass[bead] += closures::addedMass(coefficient, fluidDensity_, sphereVolume(beads.radius[bead]));
+                zuber_ ? closures::zuberAddedMassCoefficient(particles.state[particle].fluid.voidFraction)
+                       : coefficient_;
+            sum.addedMass[particle] +=
+                closures::addedMass(coefficient, fluidDensity_, sphereVolume(particles.radius[particle]));
         }
     }
 
@@ -61,7 +63,7 @@ public:
 
 private:
     const double fluidDensity_;
-    double coefficient_ = closures::loneAddedMassCoefficient;
+    double coefficient_ = closures::isolatedAddedMassCoefficient;
     bool zuber_ = false;
 };
 

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 #include "closures/wallCorrection.h"
-#include "engine/beads.h"
+#include "engine/particles.h"
 #include "forces/wallPlanes.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline const ModelLines wallCorrections("<drag law>Props { wallCorrection { law 
 ///     wallCorrection { law Faxen; walls ( ((0 0 0) (0 0 1)) ); }          // point and normal of planes, Re << 1
 ///
 /// Towards a plane it is Brenner's factor, and from a gap of a fifth of a radius on constant: that is where
-/// lubricationForce begins, by default, which adds what is left of it. Several planes add up (Oseen). The drag of a bead is then F = Sp (slip + addedSlip).
+/// lubricationForce begins, by default, which adds what is left of it. Several planes add up (Oseen). The drag of a particle is then F = Sp (slip + addedSlip).
 class WallCorrection
 {
 public:
@@ -45,22 +45,22 @@ public:
         }
     }
 
-    /// Speed of the bead over that of a free bead with the same drag; 1 without a tube. FatalError for a bead as wide
+    /// Speed of the particle over that of a free particle with the same drag; 1 without a tube. FatalError for a particle as wide
     /// as the tube.
-    double tubeVelocityRatio(const closures::BeadInFluid& bead) const
+    double tubeVelocityRatio(const closures::ParticleInFluid& particle) const
     {
         if (tubeDiameter_ == 0)
         {
             return 1;
         }
-        const double lambda = bead.diameter / tubeDiameter_;
+        const double lambda = particle.diameter / tubeDiameter_;
         if (lambda >= 1)
         {
-            FatalErrorInFunction << "A bead of diameter " << bead.diameter << " m in wallCorrection's tube of "
-                                 << tubeDiameter_ << " m; allowed: beads narrower than tubeDiameter"
+            FatalErrorInFunction << "A particle of diameter " << particle.diameter << " m in wallCorrection's tube of "
+                                 << tubeDiameter_ << " m; allowed: particles narrower than tubeDiameter"
                                  << Foam::exit(Foam::FatalError);
         }
-        return closures::diFeliceWallVelocityRatioAtSpeed(lambda, closures::loneReynolds(bead));
+        return closures::diFeliceWallVelocityRatioAtSpeed(lambda, closures::isolatedReynolds(particle));
     }
 
     bool hasPlanes() const
@@ -68,7 +68,7 @@ public:
         return !planes_.empty();
     }
 
-    /// By how much more slip a free bead would have the same drag [m/s]. FatalError for a bead behind a plane.
+    /// By how much more slip a free particle would have the same drag [m/s]. FatalError for a particle behind a plane.
     Vector3d addedSlip(const Vector3d& slip, const Vector3d& position, double radius) const
     {
         Vector3d added = Vector3d::Zero();
@@ -77,10 +77,10 @@ public:
             const double distance = plane.distance(position);
             if (distance < 0)
             {
-                FatalErrorInFunction << "The centre of a bead at " << toFoam(position) << " m is " << -distance
+                FatalErrorInFunction << "The centre of a particle at " << toFoam(position) << " m is " << -distance
                                      << " m behind wallCorrection's plane through " << toFoam(plane.point)
                                      << " with the normal " << toFoam(plane.normal)
-                                     << "; allowed: planes whose normal points to the beads"
+                                     << "; allowed: planes whose normal points to the particles"
                                      << Foam::exit(Foam::FatalError);
             }
             const double lambda = radius / std::max(radius, distance);

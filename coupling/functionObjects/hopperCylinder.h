@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include "polyPatch.H"
 
@@ -9,8 +9,8 @@ namespace clepsydra
 
 /// The upright cylinder that a hopper's wall patch spans, over all ranks. Lengths in m.
 ///
-/// A bead is in the hopper if its centre is above the lowest point of the wall and no further from the axis than the
-/// wall's furthest point. There is no upper bound: beads above the rim while pouring count, too.
+/// A particle is in the hopper if its centre is above the lowest point of the wall and no further from the axis than the
+/// wall's furthest point. There is no upper bound: particles above the rim while filling count, too.
 class HopperCylinder
 {
 public:

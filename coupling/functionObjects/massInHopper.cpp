@@ -1,10 +1,10 @@
 #include "functionObjects/massInHopper.h"
 
 #include "functionObjects/observableTable.h"
-#include "functionObjects/observedBeads.h"
+#include "functionObjects/observedParticles.h"
 #include "modelLines.h"
 #include "vectors.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
@@ -16,12 +16,12 @@ namespace clepsydra
 defineTypeNameAndDebug(MassInHopper, 0);
 addToRunTimeSelectionTable(functionObject, MassInHopper, dictionary);
 static const ModelLines lines("functions { type }",
-    {{MassInHopper::typeName_(), "mass, number and rate of the beads in a hopper: what a scale reads"}});
+    {{MassInHopper::typeName_(), "mass, number and rate of the particles in a hopper: what a scale reads"}});
 
 namespace
 {
 
-const word countEntry = "beadsInHopper";
+const word countEntry = "particlesInHopper";
 const word lastDepartureEntry = "lastDeparture";
 /// Times and masses in turn, as text: OpenFOAM would write numbers with the fields' digits, and the rate would differ.
 const word samplesEntry = "samplesOfRate";
@@ -62,18 +62,18 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     resetFile(name);
 
     Ostream& os = file();
-    writeHeader(os, "Beads in the hopper, patch '" + dict.get<word>("patch") + "'");
+    writeHeader(os, "Particles in the hopper, patch '" + dict.get<word>("patch") + "'");
     writeHeaderValue(os, "Foot of its axis [m]", toFoam(hopper_->foot()));
     writeHeaderValue(os, "Radius [m]", hopper_->radius());
     writeCommented(os, "time [s]");
     writeTabbed(os, "mass [kg]");
-    writeTabbed(os, "beads [-]");
+    writeTabbed(os, "particles [-]");
     writeTabbed(os, "rate [kg/s]");
     os << endl;
 
     resume(rowsThatStay);
     // OpenFOAM executes function objects after the first step only; the curve should start at the start.
-    if (lastSample_ < 0 && mesh_.foundObject<ObservedBeads>(ObservedBeads::registryName))
+    if (lastSample_ < 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
         sample();
     }
@@ -89,7 +89,7 @@ void MassInHopper::resume(label rowsThatStay)
         return;
     }
     getProperty(rowsEntry, rows_);
-    getProperty(countEntry, lastBeads_);
+    getProperty(countEntry, lastParticles_);
     const scalar lastSample = samples.back().time;
     if (isRowOfNow(time_, lastSample))
     {
@@ -136,7 +136,7 @@ bool MassInHopper::read(const dictionary& dict)
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
     sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
-    // Not the last interval, which may be longer with adjustableInterval: what a fresh start takes, a resumed run takes.
+    // Not the last interval, which may be longer with adjustableCouplingTimeStep: what a fresh start takes, a resumed run takes.
     const auto timeStep = time_.controlDict().get<scalar>("deltaT");
     if (sampleInterval_ > 0 && sampleInterval_ < timeStep * (1 - roundingOfTime))
     {
@@ -171,14 +171,14 @@ void MassInHopper::sample()
         return;
     }
 
-    const BeadsView beads = mesh_.lookupObject<ObservedBeads>(ObservedBeads::registryName).beads();
+    const ParticlesView particles = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
     scalar mass = 0;
     label count = 0;
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        if (hopper_->contains(beads.position.col(bead)))
+        if (hopper_->contains(particles.position.col(particle)))
         {
-            mass += beads.mass[bead];
+            mass += particles.mass[particle];
             ++count;
         }
     }
@@ -191,7 +191,7 @@ void MassInHopper::sample()
        << rate_->add(now, mass) << endl;
     requireWritten(os);
 
-    if (count < lastBeads_)
+    if (count < lastParticles_)
     {
         setProperty(lastDepartureEntry, now);
     }
@@ -199,7 +199,7 @@ void MassInHopper::sample()
     setProperty(countEntry, count);
     setProperty(samplesEntry, textOf(rate_->samples()));
     setProperty(rowsEntry, ++rows_);
-    lastBeads_ = count;
+    lastParticles_ = count;
     lastSample_ = now;
 }
 
@@ -212,7 +212,7 @@ void MassInHopper::stopIfFlowStopped()
         return;
     }
     stopping_ = true;
-    Info << type() << ' ' << name() << ": no bead has left since " << lastDeparture << " s, " << lastBeads_
+    Info << type() << ' ' << name() << ": no particle has left since " << lastDeparture << " s, " << lastParticles_
          << " remain; ending the run" << endl;
     time_.stopAt(Time::saWriteNow);
 }

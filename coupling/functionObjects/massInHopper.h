@@ -12,7 +12,7 @@
 namespace clepsydra
 {
 
-/// Function object: the beads in the hopper over time.
+/// Function object: the particles in the hopper over time.
 ///
 ///     massInHopper
 ///     {
@@ -21,12 +21,12 @@ namespace clepsydra
 ///         axis                (0 0 1);    // upwards; default (0 0 1)
 ///         sampleInterval      0.01;       // s; rows are at most that far apart. Default: a row per execution
 ///         rateWindow          0.1;        // s; the rate is the mean over that time. Default 0.1
-///         stopWhenFlowStops   1;          // s; optional: ends the run, with its fields written, when beads have left
+///         stopWhenFlowStops   1;          // s; optional: ends the run, with its fields written, when particles have left
 ///                                         // and then none has for so long
 ///     }
 ///
-/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], mass [kg], beads [-], rate [kg/s] (positive when
-/// the hopper empties). Which beads are in the hopper: see HopperCylinder. A restart continues in a folder of its
+/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], mass [kg], particles [-], rate [kg/s] (positive when
+/// the hopper empties). Which particles are in the hopper: see HopperCylinder. A restart continues in a folder of its
 /// own start time, with the rows that it would have written had it not been stopped.
 ///
 /// FatalIOError where the mesh has no such patch (its patches are listed) or an entry is out of range.
@@ -51,7 +51,7 @@ public:
     /// Adds the last row. Collective.
     bool end() override;
 
-    /// Beads in the hopper as last counted by the function object of this type in `functions`, over all ranks;
+    /// Particles in the hopper as last counted by the function object of this type in `functions`, over all ranks;
     /// -1 where there is none or it has not counted yet. Local.
     static Foam::label lastCount(const Foam::Time& time);
 
@@ -67,7 +67,7 @@ private:
     Foam::scalar sampleInterval_ = 0;
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
-    Foam::label lastBeads_ = -1;
+    Foam::label lastParticles_ = -1;
     /// In all tables, since the fresh start.
     Foam::label rows_ = 0;
     bool stopping_ = false;

@@ -6,7 +6,7 @@
 namespace clepsydra
 {
 
-/// How fast an amount falls, as the mean over a trailing window: single beads make its derivative a row of spikes.
+/// How fast an amount falls, as the mean over a trailing window: single particles make its derivative a row of spikes.
 class TrailingRate
 {
 public:

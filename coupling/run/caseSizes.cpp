@@ -16,10 +16,10 @@ namespace
 /// Below it a rank has more to send than to solve.
 constexpr label fewCellsOfRank = 100;
 
-/// In lengths of the mesh. Two spread the disturbance of a lone bead evenly, and cases do so on purpose; more is a slip.
+/// In lengths of the mesh. Two spread the disturbance of an isolated particle evenly, and cases do so on purpose; more is a slip.
 constexpr scalar longestSmoothing = 10;
 
-bool isBeadDiameter(const std::string& name)
+bool isParticleDiameter(const std::string& name)
 {
     return name.find("ead") != std::string::npos && name.find("iameter") != std::string::npos;
 }
@@ -34,25 +34,26 @@ void warn(const std::string& message)
 
 } // namespace
 
-void requireBeadsWithinMesh(const dictionary& variables, const boundBox& mesh)
+void requireParticlesWithinMesh(const dictionary& variables, const boundBox& mesh)
 {
     for (const word& name : variables.toc())
     {
         scalar diameter = 0;
         const bool isNumber = variables.lookup(name).size() == 1 && variables.lookup(name)[0].isNumber();
-        if (isBeadDiameter(name) && isNumber && variables.readEntry(name, diameter) && diameter > cmptMax(mesh.span()))
+        if (isParticleDiameter(name) && isNumber && variables.readEntry(name, diameter)
+            && diameter > cmptMax(mesh.span()))
         {
             FatalIOErrorInFunction(variables)
                 << "Entry '" << name << "' is " << diameter << " m and the mesh spans " << mesh.span()
-                << " m; allowed: beads that are smaller than the mesh, all lengths in m" << exit(FatalIOError);
+                << " m; allowed: particles that are smaller than the mesh, all lengths in m" << exit(FatalIOError);
         }
     }
 }
 
 void checkCaseSizes(
-    const fvMesh& mesh, const BeadsView& beads, double smoothingLength, const dictionary& couplingProperties)
+    const fvMesh& mesh, const ParticlesView& particles, double smoothingBandwidth, const dictionary& couplingProperties)
 {
-    const double largest = returnReduce(beads.size() > 0 ? 2 * beads.radius.maxCoeff() : 0.0, maxOp<scalar>());
+    const double largest = returnReduce(particles.size() > 0 ? 2 * particles.radius.maxCoeff() : 0.0, maxOp<scalar>());
     const vector span = mesh.bounds().span();
     const label cells = mesh.globalData().nTotalCells();
     const double cellWidth = meanCellWidth(mesh);
@@ -60,27 +61,27 @@ void checkCaseSizes(
 
     Info << "Sizes" << nl << "    mesh           " << span << " m, " << cells << " cells of " << cellWidth
          << " m in the mean, at least " << fewestCells << " on each of " << Pstream::nProcs() << " ranks" << nl
-         << "    largest bead   " << largest << " m, " << largest / cellWidth << " cells" << nl << "    smoothing      "
-         << smoothingLength << " m" << nl << endl;
+         << "    largest particle   " << largest << " m, " << largest / cellWidth << " cells" << nl
+         << "    smoothing      " << smoothingBandwidth << " m" << nl << endl;
 
     if (largest > cmptMin(span))
     {
         FatalIOErrorInFunction(couplingProperties)
-            << "A bead of the DEM script has a diameter of " << largest << " m and the mesh spans " << span
-            << " m; allowed: beads that are smaller than the mesh is thin" << exit(FatalIOError);
+            << "A particle of the DEM script has a diameter of " << largest << " m and the mesh spans " << span
+            << " m; allowed: particles that are smaller than the mesh is thin" << exit(FatalIOError);
     }
-    if (smoothingLength > longestSmoothing * cmptMax(span))
+    if (smoothingBandwidth > longestSmoothing * cmptMax(span))
     {
         FatalIOErrorInFunction(couplingProperties)
-            << "Entry 'smoothingLength' is " << smoothingLength << " m and the mesh spans " << span
-            << " m; allowed: at most " << longestSmoothing << " times its length, which spreads beads evenly over it"
-            << exit(FatalIOError);
+            << "Entry 'bandwidth' is " << smoothingBandwidth << " m and the mesh spans " << span
+            << " m; allowed: at most " << longestSmoothing
+            << " times its length, which spreads particles evenly over it" << exit(FatalIOError);
     }
-    if (largest > lengthOfChange(smoothingLength, cellWidth))
+    if (largest > lengthOfChange(smoothingBandwidth, cellWidth))
     {
-        warn("A bead of " + Foam::name(largest) + " m is wider than the cells, " + Foam::name(cellWidth)
-             + " m, and than the smoothing length, " + Foam::name(smoothingLength)
-             + " m: the void fraction near it may be clipped; usual is a smoothingLength of 2 to 4 diameters");
+        warn("A particle of " + Foam::name(largest) + " m is wider than the cells, " + Foam::name(cellWidth)
+             + " m, and than the smoothing bandwidth, " + Foam::name(smoothingBandwidth)
+             + " m: the void fraction near it may be clipped; usual is a bandwidth of 2 to 4 diameters");
     }
     if (fewestCells < fewCellsOfRank && Pstream::parRun())
     {

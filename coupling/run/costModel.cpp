@@ -9,10 +9,10 @@ namespace clepsydra
 namespace
 {
 
-/// Where there are no beads yet, steps take their time all the same.
-double atLeastOne(double beads)
+/// Where there are no particles yet, steps take their time all the same.
+double atLeastOne(double particles)
 {
-    return std::max(beads, 1.0);
+    return std::max(particles, 1.0);
 }
 
 } // namespace
@@ -21,15 +21,15 @@ CostModel::CostModel(std::map<std::string, double> seconds)
     : before_(std::move(seconds))
 {}
 
-void CostModel::add(double beads, double demSteps)
+void CostModel::add(double particles, double demSteps)
 {
     ++intervals_;
-    beadIntervals_ += atLeastOne(beads);
-    beadSteps_ += atLeastOne(beads) * demSteps;
+    particleIntervals_ += atLeastOne(particles);
+    particleSteps_ += atLeastOne(particles) * demSteps;
 }
 
 double CostModel::secondsLeft(
-    const std::map<std::string, double>& seconds, double beads, double demSteps, double intervals) const
+    const std::map<std::string, double>& seconds, double particles, double demSteps, double intervals) const
 {
     double left = 0;
     for (const auto& [phase, total] : seconds)
@@ -42,11 +42,11 @@ double CostModel::secondsLeft(
         const double taken = total - (earlier == before_.end() ? 0 : earlier->second);
         if (phase == "DEM" || phase == "forces")
         {
-            left += taken / beadSteps_ * atLeastOne(beads) * demSteps;
+            left += taken / particleSteps_ * atLeastOne(particles) * demSteps;
         }
         else if (phase == "locate" || phase == "exchange")
         {
-            left += taken / beadIntervals_ * atLeastOne(beads) * intervals;
+            left += taken / particleIntervals_ * atLeastOne(particles) * intervals;
         }
         else
         {

@@ -8,11 +8,11 @@ namespace clepsydra
 
 /// How long the rest of a run will take, from what the run itself has taken so far:
 ///
-///     seconds = perBeadStep n_beads n_steps + (perBead n_beads + perInterval) n_intervals
+///     seconds = perParticleStep n_particles n_steps + (perParticle n_particles + perInterval) n_intervals
 ///
 /// Its speeds are measured on the spot, each from the time of its own phases: DEM and forces; finding cells and the
 /// exchange; all the rest, which goes with the cells of the mesh. So the estimate holds on any machine and on any number of
-/// ranks, and follows where beads come and go, or the interval's length changes; not where the flow itself changes what an
+/// ranks, and follows where particles come and go, or the interval's length changes; not where the flow itself changes what an
 /// iteration or a contact costs. (scripts/benchmarks/costModel.py has the last term by the number of cells.)
 class CostModel
 {
@@ -21,7 +21,7 @@ public:
     explicit CostModel(std::map<std::string, double> seconds = {});
 
     /// One more interval has been done.
-    void add(double beads, double demSteps);
+    void add(double particles, double demSteps);
 
     double intervals() const
     {
@@ -29,15 +29,15 @@ public:
     }
 
     /// \param seconds  of each phase so far
-    /// \param beads  in all that is left, as DEM steps and intervals are. \pre intervals() > 0
+    /// \param particles  in all that is left, as DEM steps and intervals are. \pre intervals() > 0
     double secondsLeft(
-        const std::map<std::string, double>& seconds, double beads, double demSteps, double intervals) const;
+        const std::map<std::string, double>& seconds, double particles, double demSteps, double intervals) const;
 
 private:
     std::map<std::string, double> before_;
     double intervals_ = 0;
-    double beadIntervals_ = 0;
-    double beadSteps_ = 0;
+    double particleIntervals_ = 0;
+    double particleSteps_ = 0;
 };
 
 } // namespace clepsydra

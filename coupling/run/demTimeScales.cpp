@@ -33,12 +33,12 @@ private:
     Foam::scalar shortest_ = Foam::GREAT;
 };
 
-double relaxationTime(const BeadsView& beads, Eigen::Index bead, const FluidProperties& fluid)
+double relaxationTime(const ParticlesView& particles, Eigen::Index particle, const FluidProperties& fluid)
 {
-    const double diameter = 2 * beads.radius[bead];
-    const auto inFluid = closures::makeBeadInFluid(
-        diameter, 1.0, DemTimeScales::speed, fluid.density, fluid.viscosityAt(beads.position.col(bead), diameter));
-    return closures::relaxationTime(beads.mass[bead], closures::SchillerNaumannDrag{}(inFluid));
+    const double diameter = 2 * particles.radius[particle];
+    const auto inFluid = closures::makeParticleInFluid(diameter, 1.0, DemTimeScales::speed, fluid.density,
+        fluid.viscosityAt(particles.position.col(particle), diameter));
+    return closures::relaxationTime(particles.mass[particle], closures::SchillerNaumannDrag{}(inFluid));
 }
 
 /// Through the faces' projected areas, as OpenFOAM's Courant number has it: right for flat cells and for cells with
@@ -66,18 +66,18 @@ void seeCells(const Foam::fvMesh& mesh, Shortest& courant)
 } // namespace
 
 DemTimeScales demTimeScales(
-    DemEngine& engine, double couplingInterval, const FluidProperties* fluid, const Foam::fvMesh& mesh)
+    DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid, const Foam::fvMesh& mesh)
 {
     Shortest rayleigh;
     Shortest collision;
     Shortest relaxation;
     Shortest courant;
-    const BeadsView beads = engine.beads();
+    const ParticlesView particles = engine.particles();
     const std::vector<ContactMaterial> materials = engine.contactMaterials();
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        const double radius = beads.radius[bead];
-        const double density = beads.mass[bead] / sphereVolume(radius);
+        const double radius = particles.radius[particle];
+        const double density = particles.mass[particle] / sphereVolume(radius);
         for (const auto& [young, poisson] : materials)
         {
             rayleigh.see(closures::rayleighTime(radius, density, closures::shearModulus(young, poisson), poisson));
@@ -85,15 +85,16 @@ DemTimeScales demTimeScales(
         }
         if (fluid != nullptr)
         {
-            relaxation.see(relaxationTime(beads, bead, *fluid));
+            relaxation.see(relaxationTime(particles, particle, *fluid));
         }
     }
     if (fluid != nullptr)
     {
         seeCells(mesh, courant);
     }
-    const auto allBeads = Foam::returnReduce(static_cast<Foam::label>(beads.size()), Foam::sumOp<Foam::label>());
-    return {engine.timeStep(), couplingInterval, allBeads, rayleigh.ofAllRanks(), collision.ofAllRanks(),
+    const auto allParticles =
+        Foam::returnReduce(static_cast<Foam::label>(particles.size()), Foam::sumOp<Foam::label>());
+    return {engine.timeStep(), couplingTimeStep, allParticles, rayleigh.ofAllRanks(), collision.ofAllRanks(),
         relaxation.ofAllRanks(), courant.ofAllRanks()};
 }
 

@@ -10,7 +10,7 @@
 namespace clepsydra
 {
 
-/// The times that a run's steps must resolve, and those steps, over all ranks [s]. What cannot be known (no beads
+/// The times that a run's steps must resolve, and those steps, over all ranks [s]. What cannot be known (no particles
 /// yet, no contact material in the engine's script, no fluid) is empty.
 struct DemTimeScales
 {
@@ -18,13 +18,13 @@ struct DemTimeScales
     static constexpr double speed = 1.0;
 
     double demStep;
-    double couplingInterval;
-    long beads;
-    /// Rayleigh time, the shortest of any bead in any material.
+    double couplingTimeStep;
+    long particles;
+    /// Rayleigh time, the shortest of any particle in any material.
     std::optional<double> rayleigh;
-    /// Hertz collision of two alike beads at `speed`, the shortest of any bead in any material.
+    /// Hertz collision of two alike particles at `speed`, the shortest of any particle in any material.
     std::optional<double> collision;
-    /// Relaxation of a lone bead that slips at `speed`, by Schiller-Naumann's drag, the shortest of any bead.
+    /// Relaxation of an isolated particle that slips at `speed`, by Schiller-Naumann's drag, the shortest of any particle.
     std::optional<double> relaxation;
     /// The step at which a uniform flow of `speed` along an axis has the Courant number one in some cell.
     std::optional<double> courant;
@@ -32,6 +32,6 @@ struct DemTimeScales
 
 /// Collective. \param fluid  null in a dry run. \pre the engine is initialised.
 DemTimeScales demTimeScales(
-    DemEngine& engine, double couplingInterval, const FluidProperties* fluid, const Foam::fvMesh& mesh);
+    DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid, const Foam::fvMesh& mesh);
 
 } // namespace clepsydra

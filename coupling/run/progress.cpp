@@ -73,9 +73,9 @@ std::string describe(const ProgressState& state)
 {
     std::ostringstream text;
     text << "t = " << std::setprecision(4) << state.time << '/' << state.endTime << " s";
-    if (state.beads >= 0)
+    if (state.particles >= 0)
     {
-        text << ", " << state.beads << " beads in the hopper";
+        text << ", " << state.particles << " particles in the hopper";
     }
     const double simulated = state.time - state.startTime;
     if (simulated > 0 && state.wallTime > 0)
@@ -104,7 +104,7 @@ Progress::~Progress()
     clear();
 }
 
-void Progress::update(double time, double endTime, long beadsInHopper, double wallLeft, bool atWriteTime)
+void Progress::update(double time, double endTime, long particlesInHopper, double wallLeft, bool atWriteTime)
 {
     if (!Foam::Pstream::master())
     {
@@ -117,8 +117,8 @@ void Progress::update(double time, double endTime, long beadsInHopper, double wa
         startTime_ = time;
         wallStart_ = now;
     }
-    const ProgressState state{
-        time, startTime_, endTime, std::chrono::duration<double>(now - wallStart_).count(), beadsInHopper, wallLeft};
+    const ProgressState state{time, startTime_, endTime, std::chrono::duration<double>(now - wallStart_).count(),
+        particlesInHopper, wallLeft};
 
     if (atWriteTime)
     {

@@ -14,11 +14,11 @@ struct ProgressState
     double startTime; // simulated [s]
     double endTime;   // simulated [s]
     double wallTime;  // since the start [s]
-    long beads;       // in the hopper; negative: not known
+    long particles;   // in the hopper; negative: not known
     double wallLeft;  // [s]; negative: not known
 };
 
-/// "t = 0.1/2 s, 2931 beads in the hopper, 120 s per simulated s, 00:03:48 to go"
+/// "t = 0.1/2 s, 2931 particles in the hopper, 120 s per simulated s, 00:03:48 to go"
 std::string describe(const ProgressState& state);
 
 /// Shows how far the run is: on a terminal a bar on one line that is rewritten in place, in a log a plain line at each
@@ -40,10 +40,10 @@ public:
 
     /// Call after each interval; on a terminal it prints at most five times a second. Local.
     /// \param time, endTime  simulated [s]; the first call's `time` counts as the start
-    /// \param beadsInHopper  negative: not known
+    /// \param particlesInHopper  negative: not known
     /// \param wallLeft  to the end [s]; negative: not known
     /// \param atWriteTime  true: prints a line that stays
-    void update(double time, double endTime, long beadsInHopper, double wallLeft, bool atWriteTime = false);
+    void update(double time, double endTime, long particlesInHopper, double wallLeft, bool atWriteTime = false);
 
     bool isTerminal() const
     {

@@ -23,16 +23,16 @@ constexpr double farthestTravel = 10;
 
 } // namespace
 
-RunChecks::RunChecks(const fvMesh& mesh, double smoothingLength)
+RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
     : mesh_(mesh),
-      lengthOfChange_(lengthOfChange(smoothingLength, meanCellWidth(mesh)))
+      lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
-void RunChecks::afterInterval(const BeadsView& beads)
+void RunChecks::afterInterval(const ParticlesView& particles)
 {
     ++intervals_;
     checkConvergence();
-    checkTravel(beads);
+    checkTravel(particles);
 }
 
 void RunChecks::checkConvergence()
@@ -64,10 +64,10 @@ void RunChecks::checkConvergence()
     }
 }
 
-void RunChecks::checkTravel(const BeadsView& beads)
+void RunChecks::checkTravel(const ParticlesView& particles)
 {
     Eigen::Index fastest = 0;
-    const double here = beads.size() > 0 ? beads.velocity.colwise().norm().maxCoeff(&fastest) : 0;
+    const double here = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff(&fastest) : 0;
     const double speed = returnReduce(here, maxOp<scalar>());
     const double interval = mesh_.time().deltaTValue();
     const double travel = speed * interval / lengthOfChange_;
@@ -77,18 +77,19 @@ void RunChecks::checkTravel(const BeadsView& beads)
     }
     ++fast_;
     std::ostringstream text;
-    text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling interval of " << interval
-         << " s. That is " << travel << " times the length over which the fluid changes (smoothing length or cell), "
-         << lengthOfChange_ << " m, and the fluid at a bead is frozen for an interval";
+    text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling step of " << interval
+         << " s. That is " << travel << " times the length over which the fluid changes (smoothing bandwidth or cell), "
+         << lengthOfChange_ << " m, and the fluid at a particle is frozen for an interval";
     if (travel > farthestTravel && here == speed)
     {
-        FatalErrorInFunction << "Bead " << beads.id[fastest] << ' ' << text.str().c_str() << "; allowed: at most "
-                             << farthestTravel << " times, by a shorter couplingInterval (and deltaT), "
+        FatalErrorInFunction << "Particle " << particles.id[fastest] << ' ' << text.str().c_str()
+                             << "; allowed: at most " << farthestTravel
+                             << " times, by a shorter couplingTimeStep (and deltaT), "
                              << farthestTravel * lengthOfChange_ / speed << " s here" << exit(FatalError);
     }
     if (fast_ == 1 && Pstream::master())
     {
-        WarningInFunction << "A bead " << text.str().c_str() << ". This is said once, and counted" << endl;
+        WarningInFunction << "A particle " << text.str().c_str() << ". This is said once, and counted" << endl;
     }
 }
 
@@ -101,8 +102,8 @@ void RunChecks::report() const
     }
     if (fast_ > 0)
     {
-        Info << "WARNING: beads moved farther than the fluid's length of change in " << label(fast_) << " of "
-             << label(intervals_) << " intervals: couplingInterval is long" << nl;
+        Info << "WARNING: particles moved farther than the fluid's length of change in " << label(fast_) << " of "
+             << label(intervals_) << " intervals: couplingTimeStep is long" << nl;
     }
 }
 

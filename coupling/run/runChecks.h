@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/beads.h"
+#include "engine/particles.h"
 
 #include "fvMesh.H"
 
@@ -8,24 +8,24 @@ namespace clepsydra
 {
 
 /// What is looked at after every interval of a run with fluid: whether the pressure was solved to its tolerance,
-/// and whether beads move on little enough in an interval for the fluid at them to be taken as frozen.
+/// and whether particles move on little enough in an interval for the fluid at them to be taken as frozen.
 ///
 /// Both are warnings at first, and counted; a run that goes on like that is ended by a FatalError.
 class RunChecks
 {
 public:
-    /// \param smoothingLength  [m], 0 without smoothing
-    RunChecks(const Foam::fvMesh& mesh, double smoothingLength);
+    /// \param smoothingBandwidth  [m], 0 without smoothing
+    RunChecks(const Foam::fvMesh& mesh, double smoothingBandwidth);
 
     /// Collective; when the fluid is solved.
-    void afterInterval(const BeadsView& beads);
+    void afterInterval(const ParticlesView& particles);
 
     /// How often there was reason to warn, where there was.
     void report() const;
 
 private:
     void checkConvergence();
-    void checkTravel(const BeadsView& beads);
+    void checkTravel(const ParticlesView& particles);
 
     const Foam::fvMesh& mesh_;
     /// By the cells' mean width [m]: refined cells somewhere are no reason to warn.

@@ -26,7 +26,7 @@ std::string describe(const closures::Stratification& liquid)
 {
     std::ostringstream line;
     line << "viscosity      of layers: ln(nu) less by " << liquid.step << " above " << liquid.height << " m, the edge "
-         << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; beads feel what is "
+         << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; particles feel what is "
          << liquid.lag << " d above them";
     return line.str();
 }
@@ -40,15 +40,14 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints,
-    bool dryRun)
+    DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints, bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
       engine_(engine),
       interval_(interval),
       checkpoints_(checkpoints),
-      observedBeads_(mesh, engine),
+      observedParticles_(mesh, engine),
       stopRequest_(time)
 {
     if (dryRun)
@@ -56,13 +55,13 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
         scratch_ = std::make_unique<ScratchFolder>();
     }
     startTime_ = time_.value();
-    intervals_ = (time_.endTime().value() - startTime_) / settings_.couplingInterval();
+    intervals_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
     printReport(fluid, models);
     if (models)
     {
-        const double smoothingLength = models->distribution.smoothingModel().bandwidth();
-        checkCaseSizes(mesh_, engine_.beads(), smoothingLength, settings_.dict());
-        runChecks_ = std::make_unique<RunChecks>(mesh_, smoothingLength);
+        const double smoothingBandwidth = models->distribution.smoothingModel().bandwidth();
+        checkCaseSizes(mesh_, engine_.particles(), smoothingBandwidth, settings_.dict());
+        runChecks_ = std::make_unique<RunChecks>(mesh_, smoothingBandwidth);
     }
 }
 
@@ -86,21 +85,21 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     {
         lines.push_back(choice);
     }
-    const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), models ? &fluid : nullptr, mesh_);
+    const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_);
     printStartReport(engine_, lines, scales, settings_.demDict());
     checkDemStep(scales, settings_.demDict());
-    demStepChecked_ = scales.beads > 0;
+    demStepChecked_ = scales.particles > 0;
 }
 
 double RunOutput::estimate()
 {
     const PhaseTimers& timers = interval_.timers();
-    const auto beads = static_cast<double>(interval_.ledger().beads());
+    const auto particles = static_cast<double>(interval_.conservation().particles());
     const double interval = time_.deltaTValue();
     const double timeLeft = std::max(0.0, time_.endTime().value() - time_.value());
     const auto left = [&](CostModel& cost, const std::map<std::string, double>& seconds) {
-        cost.add(beads, interval / engine_.timeStep());
-        return cost.secondsLeft(seconds, beads, timeLeft / engine_.timeStep(), timeLeft / interval);
+        cost.add(particles, interval / engine_.timeStep());
+        return cost.secondsLeft(seconds, particles, timeLeft / engine_.timeStep(), timeLeft / interval);
     };
     const double wall = left(wallCost_, timers.wallSeconds());
     const double processor = left(processorCost_, timers.processorSeconds());
@@ -108,7 +107,8 @@ double RunOutput::estimate()
     constexpr double fewest = 5;
     if (!firstIntervalSeconds_)
     {
-        firstIntervalSeconds_ = wallCost_.secondsLeft(timers.wallSeconds(), beads, interval / engine_.timeStep(), 1);
+        firstIntervalSeconds_ =
+            wallCost_.secondsLeft(timers.wallSeconds(), particles, interval / engine_.timeStep(), 1);
         // It also fetches all memory.
         wallCost_ = CostModel(timers.wallSeconds());
         processorCost_ = CostModel(timers.processorSeconds());
@@ -152,18 +152,18 @@ void RunOutput::start()
     }
     if (settings_.writeVtk())
     {
-        beadWriter_ = std::make_unique<BeadWriter>(time_);
-        beadWriter_->write(engine_.beads(), time_.value());
+        particleWriter_ = std::make_unique<ParticleWriter>(time_);
+        particleWriter_->write(engine_.particles(), time_.value());
     }
 }
 
 void RunOutput::checkDemStepOnce()
 {
-    if (!demStepChecked_ && interval_.ledger().beads() > 0)
+    if (!demStepChecked_ && interval_.conservation().particles() > 0)
     {
-        const DemTimeScales scales = demTimeScales(engine_, settings_.couplingInterval(), nullptr, mesh_);
+        const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), nullptr, mesh_);
         checkDemStep(scales, settings_.demDict());
-        demStepChecked_ = scales.beads > 0;
+        demStepChecked_ = scales.particles > 0;
     }
 }
 
@@ -173,7 +173,7 @@ bool RunOutput::afterInterval()
     checkDemStepOnce();
     if (runChecks_)
     {
-        runChecks_->afterInterval(engine_.beads());
+        runChecks_->afterInterval(engine_.particles());
     }
     const double wallLeft = estimate();
     if (scratch_)
@@ -202,11 +202,11 @@ bool RunOutput::afterInterval()
     {
         writeCheckpoint();
         progress_.clear();
-        if (beadWriter_)
+        if (particleWriter_)
         {
-            beadWriter_->write(engine_.beads(), time_.value());
+            particleWriter_->write(engine_.particles(), time_.value());
         }
-        interval_.ledger().report();
+        interval_.conservation().report();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), wallLeft, atWriteTime);
     return atWriteTime;
@@ -230,7 +230,7 @@ void RunOutput::finish()
     {
         time_.functionObjects().end();
     }
-    interval_.ledger().report();
+    interval_.conservation().report();
     if (runChecks_)
     {
         runChecks_->report();
@@ -267,7 +267,7 @@ void RunOutput::finish()
         return;
     }
     const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
-    interval_.ledger().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
+    interval_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
 }
 
 } // namespace clepsydra

@@ -3,9 +3,9 @@
 #include "checkpoint/checkpoints.h"
 #include "checkpoint/runTime.h"
 #include "checkpoint/stopRequest.h"
-#include "functionObjects/observedBeads.h"
-#include "interval/couplingInterval.h"
-#include "output/beadWriter.h"
+#include "functionObjects/observedParticles.h"
+#include "couplingStep/couplingStep.h"
+#include "output/particleWriter.h"
 #include "run/costModel.h"
 #include "run/progress.h"
 #include "run/runChecks.h"
@@ -17,8 +17,8 @@
 namespace clepsydra
 {
 
-/// What a run prints and writes: the report at its start, progress, and at write times OpenFOAM's fields, the beads
-/// for ParaView and the ledger's line. Or, of a run that only tries the case (`-dryRun`), the report and what one
+/// What a run prints and writes: the report at its start, progress, and at write times OpenFOAM's fields, the particles
+/// for ParaView and the conservation check's line. Or, of a run that only tries the case (`-dryRun`), the report and what one
 /// interval has taken; files of function objects then go to a scratch folder.
 class RunOutput
 {
@@ -26,10 +26,10 @@ public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     /// \param models  null in a dry run
     RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, const FluidModels* models, CouplingInterval& interval, const Checkpoints& checkpoints,
+        DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints,
         bool dryRun = false);
 
-    /// Starts the function objects and writes the first beads. Collective; once all fields exist.
+    /// Starts the function objects and writes the first particles. Collective; once all fields exist.
     void start();
 
     /// True where a bar shows the progress, and other lines would break it.
@@ -48,7 +48,7 @@ public:
         return stopped_;
     }
 
-    /// Collective; after the last interval: the table of phases, and the ledger's summary.
+    /// Collective; after the last interval: the table of phases, and the conservation check's summary.
     void finish();
 
 private:
@@ -62,11 +62,11 @@ private:
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
-    CouplingInterval& interval_;
+    CouplingStep& interval_;
     const Checkpoints& checkpoints_;
     /// For function objects.
-    ObservedBeads observedBeads_;
-    std::unique_ptr<BeadWriter> beadWriter_;
+    ObservedParticles observedParticles_;
+    std::unique_ptr<ParticleWriter> particleWriter_;
     Progress progress_;
     StopRequest stopRequest_;
     std::unique_ptr<RunChecks> runChecks_;
@@ -79,7 +79,7 @@ private:
     std::optional<EstimatedSeconds> estimateOfRun_;
     double startTime_ = 0;
     double intervals_ = 0;
-    /// False while there are no beads yet: pouring starts without.
+    /// False while there are no particles yet: filling starts without.
     bool demStepChecked_ = false;
     bool stopped_ = false;
 };

@@ -57,14 +57,14 @@ void printStartReport(const DemEngine& engine, const std::vector<std::string>& m
     std::ostringstream speed;
     speed << " at " << DemTimeScales::speed << " m/s";
     const auto print = [](const std::string& line) { Info << line.c_str() << nl; };
-    Info << nl << "Time scales (DEM step " << scales.demStep << " s, coupling interval " << scales.couplingInterval
-         << " s, " << Foam::label(scales.beads) << " beads)" << nl;
+    Info << nl << "Time scales (DEM step " << scales.demStep << " s, coupling step " << scales.couplingTimeStep
+         << " s, " << Foam::label(scales.particles) << " particles)" << nl;
     print(scaleLine("Rayleigh time", scales.rayleigh, "DEM step", scales.demStep, maxRayleighFraction(demDict)));
     print(scaleLine(
         "Collision (Hertz)" + speed.str(), scales.collision, "DEM step", scales.demStep, maxCollisionFraction));
     print(scaleLine(
-        "Bead's relaxation by drag" + speed.str(), scales.relaxation, "coupling interval", scales.couplingInterval, 1));
-    print(scaleLine("Courant limit" + speed.str(), scales.courant, "coupling interval", scales.couplingInterval, 1));
+        "Particle's relaxation by drag" + speed.str(), scales.relaxation, "coupling step", scales.couplingTimeStep, 1));
+    print(scaleLine("Courant limit" + speed.str(), scales.courant, "coupling step", scales.couplingTimeStep, 1));
     Info << endl;
 }
 

@@ -43,7 +43,7 @@ void reportUnreadFields(const fvMesh& mesh)
             FatalErrorInFunction << "Nobody reads the field " << file.c_str() << nearest.c_str()
                                  << "; allowed: " << flatOutput(read) << exit(FatalError);
         }
-        WarningInFunction << "Unless a function object does, nobody reads the field " << file.c_str()
+        WarningInFunction << "Unless a function object does, is unknown the field " << file.c_str()
                           << "; those that are read: " << flatOutput(read) << endl;
     }
 }

@@ -66,7 +66,7 @@ double upperQuantile(std::vector<double> values, double share)
     return values[std::min(place, values.size()) - 1];
 }
 
-double misfitLimit(const std::vector<double>& draws, double sds)
+double chiSquareLimit(const std::vector<double>& draws, double sds)
 {
     const Eigen::ArrayXd roots = Eigen::Map<const Eigen::ArrayXd>(draws.data(), draws.size()).max(0.0).pow(1.0 / 3.0);
     const double sd = std::sqrt((roots - roots.mean()).square().mean());
@@ -91,7 +91,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     all(count) = peaks(count) = evidences.other;
     const double sum = logSumExp(all);
     return {sum - evidences.null, logSumExp(peaks) - evidences.null, (all.head(count).array() - sum).matrix(),
-        all(count) - sum, evidences.misfits, evidences.scatterMisfits, evidences.chanceOfMisfit};
+        all(count) - sum, evidences.chiSquares, evidences.scatterChiSquares, evidences.chanceOfChiSquare};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)
@@ -116,8 +116,8 @@ double marginOf(const Study& study, const Odds& odds, std::size_t effect)
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds)
 {
     auto members = numbersWhere(static_cast<std::size_t>(odds.effects.size()), [&](std::size_t e) {
-        return odds.effects(e) >= calibration.membership(e) && odds.misfits(e) <= calibration.misfits(e)
-               && odds.scatterMisfits(e) <= calibration.scatterMisfits(e) && std::isfinite(odds.effects(e));
+        return odds.effects(e) >= calibration.membership(e) && odds.chiSquares(e) <= calibration.chiSquares(e)
+               && odds.scatterChiSquares(e) <= calibration.scatterChiSquares(e) && std::isfinite(odds.effects(e));
     });
     std::sort(members.begin(), members.end(),
         [&](std::size_t a, std::size_t b) { return odds.effects(a) > odds.effects(b); });
@@ -160,7 +160,7 @@ double Calibration::pValue(const Odds& odds) const
     const double ofStatistic = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
     // Two questions. Draws lie anywhere where no run was made, and then look as odd as any data; what the runs at the null fit
     // leave does not.
-    return odds.chanceOfMisfit ? std::min(1.0, 2.0 * std::min(ofStatistic, *odds.chanceOfMisfit)) : ofStatistic;
+    return odds.chanceOfChiSquare ? std::min(1.0, 2.0 * std::min(ofStatistic, *odds.chanceOfChiSquare)) : ofStatistic;
 }
 
 bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds)
@@ -294,20 +294,21 @@ void Calibrator::setMembership()
         calibration_.membership(e) = quantileOf(e);
     }
     calibration_.otherMembership = quantileOf(study_.effects.size());
-    const auto limitsOf = [&](const Eigen::VectorXd Odds::*misfits, double sds) {
+    const auto limitsOf = [&](const Eigen::VectorXd Odds::*chiSquares, double sds) {
         Eigen::VectorXd limits(calibration_.membership.size());
         for (Eigen::Index e = 0; e < limits.size(); ++e)
         {
-            const auto own = ofTruth(e, [&](const Odds& odds) { return (odds.*misfits)(e); });
-            limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : misfitLimit(own, sds);
+            const auto own = ofTruth(e, [&](const Odds& odds) { return (odds.*chiSquares)(e); });
+            limits(e) = own.empty() ? std::numeric_limits<double>::infinity() : chiSquareLimit(own, sds);
         }
         return limits;
     };
-    calibration_.misfits = limitsOf(&Odds::misfits, meansStillFit).cwiseMin(evidence_.largestMisfit(meansStillFit));
-    calibration_.scatterMisfits = limitsOf(&Odds::scatterMisfits, scatterStillFits);
+    calibration_.chiSquares =
+        limitsOf(&Odds::chiSquares, meansStillFit).cwiseMin(evidence_.largestChiSquare(meansStillFit));
+    calibration_.scatterChiSquares = limitsOf(&Odds::scatterChiSquares, scatterStillFits);
 }
 
-/// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected foils
+/// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected decoys
 /// that is allowed. Each name has a threshold of its own, all at the same price of a wrong name.
 void Calibrator::setNaming()
 {
@@ -315,7 +316,7 @@ void Calibrator::setNaming()
     {
         double margin;
         double right; // weight among the library's draws, or
-        double wrong; // among the foils
+        double wrong; // among the decoys
     };
     const std::size_t count = study_.effects.size();
     std::vector<std::vector<Candidate>> candidates(count);
@@ -329,13 +330,13 @@ void Calibrator::setNaming()
     for (const auto& draw : detected_)
     {
         const double weight = 1.0 / (draws[draw.truth] * classes);
-        const auto add = [&](const Odds& odds, bool isFoil) {
+        const auto add = [&](const Odds& odds, bool isDecoy) {
             const auto sole = soleMember(study_, calibration_, odds);
             if (!sole)
             {
                 return;
             }
-            const bool isRight = !isFoil && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
+            const bool isRight = !isDecoy && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
             candidates[*sole].push_back(
                 {marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
         };

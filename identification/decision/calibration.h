@@ -17,11 +17,11 @@ struct Odds
     /// effect is from what the parameters do, which errors of its learnt columns enlarge: in draws, whose columns are learnt
     /// from what was learnt, twice.
     double statistic = 0.0;
-    Eigen::VectorXd effects; // log probability of each, given that there is something
-    double other = 0.0;      // the same of something else
-    Eigen::VectorXd misfits; // of each effect where it is likeliest, as in `Evidences`
-    Eigen::VectorXd scatterMisfits;
-    std::optional<double> chanceOfMisfit; // as in `Evidences`
+    Eigen::VectorXd effects;    // log probability of each, given that there is something
+    double other = 0.0;         // the same of something else
+    Eigen::VectorXd chiSquares; // of each effect where it is likeliest, as in `Evidences`
+    Eigen::VectorXd scatterChiSquares;
+    std::optional<double> chanceOfChiSquare; // as in `Evidences`
 };
 
 /// Thresholds of the decision, from trials in known worlds with this data set's own numbers of repeats: no runs.
@@ -32,11 +32,11 @@ struct Calibration
     // By effect:
     Eigen::VectorXd membership; // the share `coverage` of its detected draws has this log probability or more
     Eigen::VectorXd widths;     // of intervals that hold the amplitude as often as they say, over those of the fit
-    Eigen::VectorXd misfits;    // what fits worse than this is not explained by it
-    Eigen::VectorXd scatterMisfits;
+    Eigen::VectorXd chiSquares; // what fits worse than this is not explained by it
+    Eigen::VectorXd scatterChiSquares;
     Eigen::VectorXd naming;       // log odds, as of marginOf, above which it may be a name
     double otherMembership = 0.0; // as membership, for what is not in the library
-    double wrongNames = 0.0;      // of detected foils, at these thresholds
+    double wrongNames = 0.0;      // of detected decoys, at these thresholds
 
     double pValue(const Odds& odds) const;
 
@@ -44,9 +44,9 @@ struct Calibration
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
 
-/// What misfits, sums of squares, stay below but for chance: standard deviations above the mean of the draws' cube roots,
+/// What chiSquares, sums of squares, stay below but for chance: standard deviations above the mean of the draws' cube roots,
 /// which are all but normal (Wilson & Hilferty, PNAS 17, 684 (1931)).
-double misfitLimit(const std::vector<double>& draws, double sds);
+double chiSquareLimit(const std::vector<double>& draws, double sds);
 
 /// An effect explains data whose means, and whose scatter, fit it as well as its own draws do, within these [sd]. The scatter
 /// of few repeats has a long tail, behind which an effect that does not raise it would hide.

@@ -31,13 +31,13 @@ constexpr double spreadFreedom = 30.0;
 constexpr Eigen::Index fineSteps = 64;
 constexpr double unlikely = -12.0;
 
-/// Gauss-Newton steps for the parameters at most, how often one is halved, and the fall of the misfit that is still
+/// Gauss-Newton steps for the parameters at most, how often one is halved, and the fall of the chiSquare that is still
 /// worth one more: the emulator is all but linear in them.
 constexpr int parameterSteps = 8;
 constexpr int halvings = 6;
 constexpr double worthAStep = 1e-3;
 
-/// How often the place of an effect's fit is found anew, where the emulator is no polynomial.
+/// How often the place of an effect's fit is found again, where the emulator is no polynomial.
 constexpr int refinements = 3;
 
 /// Sum of the logs of positive numbers, with few calls of the logarithm.
@@ -150,7 +150,7 @@ void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& m
     for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
     {
         const Fit found = fits(explanationOf(effects), measured).front();
-        places_[effects] = {found.parameters, found.misfit};
+        places_[effects] = {found.parameters, found.chiSquare};
     }
 }
 
@@ -162,7 +162,7 @@ const Eigen::VectorXd& Evidence::placeOf(const std::vector<Present>& present) co
     {
         effects.push_back(one.effect);
         const auto alone = places_.find({one.effect});
-        if (alone != places_.end() && (best == nullptr || alone->second.misfit < best->misfit))
+        if (alone != places_.end() && (best == nullptr || alone->second.chiSquare < best->chiSquare))
         {
             best = &alone->second;
         }
@@ -275,11 +275,11 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
             otherNumbers += node.scatters[b] ? ownNumbers : 0.0;
         }
     }
-    const double misfit = otherNumbers > 0.0
-                              ? otherTrace - otherNumbers * (1.0 + std::log(std::max(otherTrace, 1e-12) / otherNumbers))
-                              : 0.0;
+    const double chiSquare =
+        otherNumbers > 0.0 ? otherTrace - otherNumbers * (1.0 + std::log(std::max(otherTrace, 1e-12) / otherNumbers))
+                           : 0.0;
     return {(spreadFreedom + trace) / (spreadFreedom + numbers),
-        logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant, misfit};
+        logSpread(trace, numbers, spreadFreedom) - 0.5 * node.spreadLogDeterminant, chiSquare};
 }
 
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
@@ -306,9 +306,9 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
             }
         }
     };
-    const auto misfitHere = [&] { return (weight * r.array().square()).sum() + t.squaredNorm(); };
+    const auto chiSquareHere = [&] { return (weight * r.array().square()).sum() + t.squaredNorm(); };
     residual();
-    solution.misfit = misfitHere();
+    solution.chiSquare = chiSquareHere();
     FewSquare factored;
     double fall = std::numeric_limits<double>::infinity();
     for (int step = 0; q > 0 && step < parameterSteps && fall > worthAStep; ++step)
@@ -336,23 +336,23 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
         factored = cholesky.matrixLLT();
         FewNumbers ahead = cholesky.solve(direction);
         const FewNumbers from = t;
-        const double before = solution.misfit;
+        const double before = solution.chiSquare;
         for (int halving = 0; halving < halvings; ++halving, ahead *= 0.5)
         {
             t = inRanges(FewNumbers(from + ahead));
             residual();
-            solution.misfit = misfitHere();
-            if (solution.misfit <= before)
+            solution.chiSquare = chiSquareHere();
+            if (solution.chiSquare <= before)
             {
                 break;
             }
         }
-        fall = before - solution.misfit;
+        fall = before - solution.chiSquare;
         if (fall < 0.0)
         {
             t = from;
             residual();
-            solution.misfit = before;
+            solution.chiSquare = before;
         }
     }
     solution.logVolume = -0.5 * (node.logDeterminant - logProduct(weight));
@@ -363,7 +363,7 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
     return solution;
 }
 
-double Evidence::largestMisfit(double sds) const
+double Evidence::largestChiSquare(double sds) const
 {
     if (!isExact())
     {
@@ -375,19 +375,19 @@ double Evidence::largestMisfit(double sds) const
            * boost::math::quantile(boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), beyond));
 }
 
-double Evidence::chanceOfMisfit(double misfit) const
+double Evidence::chanceOfChiSquare(double chiSquare) const
 {
     const auto rows = static_cast<double>(layout_.rows);
     return isExact() ? boost::math::cdf(
-               boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), misfit / rows))
+               boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), chiSquare / rows))
                      : 1.0;
 }
 
 /// The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
-double Evidence::logLikelihood(double misfit, double logVolume) const
+double Evidence::logLikelihood(double chiSquare, double logVolume) const
 {
     const double nu = layout_.noiseFreedom;
-    return logVolume - 0.5 * (nu + static_cast<double>(layout_.rows)) * std::log1p(misfit / nu);
+    return logVolume - 0.5 * (nu + static_cast<double>(layout_.rows)) * std::log1p(chiSquare / nu);
 }
 
 Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const
@@ -396,14 +396,14 @@ Evidence::AtNodes Evidence::atNodes(const Explanation& explanation, const Measur
     const auto columns = explanation.grids.front().amplitudes().size();
     const Eigen::MatrixXd empty(rows, columns);
     AtNodes found{empty, empty, empty, Eigen::MatrixXd(study_.parameters.size(), rows * columns)};
-    for (Eigen::Index i = 0; i < found.misfits.size(); ++i)
+    for (Eigen::Index i = 0; i < found.chiSquares.size(); ++i)
     {
         const Node& node = explanation.nodes[i];
         const Spread spread = node.scattersAnywhere ? spreadOf(node, measured) : usual;
         const Solution solution = solve(node, spread.factor, measured);
-        found.misfits(i) = solution.misfit;
+        found.chiSquares(i) = solution.chiSquare;
         found.volumes(i) = solution.logVolume + spread.logLikelihood;
-        found.scatterMisfits(i) = spread.misfit;
+        found.scatterChiSquares(i) = spread.chiSquare;
         found.parameters.col(i) = solution.parameters;
     }
     return found;
@@ -430,20 +430,20 @@ Evidence::Posterior Evidence::over(
         }
         logCell += effect.isSwitch ? 0.0 : std::log(cell / (effect.bounds.upper - effect.bounds.lower));
     }
-    // Misfits are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
+    // ChiSquares are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
     // likelihood is; the likelihood itself it would not.
-    const Eigen::MatrixXd misfit = posterior.interpolated(nodes.misfits);
+    const Eigen::MatrixXd chiSquare = posterior.interpolated(nodes.chiSquares);
     const Eigen::MatrixXd volume = posterior.interpolated(nodes.volumes);
-    posterior.logs.resize(misfit.rows(), misfit.cols());
-    for (Eigen::Index i = 0; i < misfit.size(); ++i)
+    posterior.logs.resize(chiSquare.rows(), chiSquare.cols());
+    for (Eigen::Index i = 0; i < chiSquare.size(); ++i)
     {
-        posterior.logs(i) = logCell + logLikelihood(std::max(0.0, misfit(i)), volume(i));
+        posterior.logs(i) = logCell + logLikelihood(std::max(0.0, chiSquare(i)), volume(i));
     }
     Eigen::Index row = 0;
     Eigen::Index column = 0;
     const double highest = posterior.logs.maxCoeff(&row, &column);
-    posterior.judgement = {logSumExp(posterior.logs.reshaped()), misfit(row, column),
-        posterior.interpolated(nodes.scatterMisfits)(row, column), highest - logCell};
+    posterior.judgement = {logSumExp(posterior.logs.reshaped()), chiSquare(row, column),
+        posterior.interpolated(nodes.scatterChiSquares)(row, column), highest - logCell};
     return posterior;
 }
 
@@ -493,10 +493,10 @@ Evidences Evidence::operator()(const Measured& measured) const
     Evidences evidences;
     const Spread usual = spreadOf(null_, measured);
     const Solution null = solve(null_, usual.factor, measured);
-    evidences.null = logLikelihood(null.misfit, null.logVolume) + usual.logLikelihood;
+    evidences.null = logLikelihood(null.chiSquare, null.logVolume) + usual.logLikelihood;
     evidences.effects.setConstant(effects_.size(), -std::numeric_limits<double>::infinity());
-    evidences.misfits.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
-    evidences.scatterMisfits = evidences.misfits;
+    evidences.chiSquares.setConstant(evidences.effects.size(), std::numeric_limits<double>::infinity());
+    evidences.scatterChiSquares = evidences.chiSquares;
     evidences.peaks = evidences.effects;
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {
@@ -504,15 +504,15 @@ Evidences Evidence::operator()(const Measured& measured) const
         {
             const Judgement found = posterior(effects_[e], atNodes(effects_[e], measured, usual)).judgement;
             evidences.effects(e) = found.logEvidence;
-            evidences.misfits(e) = found.misfit;
-            evidences.scatterMisfits(e) = found.scatterMisfit;
+            evidences.chiSquares(e) = found.chiSquare;
+            evidences.scatterChiSquares(e) = found.scatterChiSquare;
             evidences.peaks(e) = found.peak;
         }
     }
     evidences.other = otherEvidence(measured, usual, null);
     if (isExact())
     {
-        evidences.chanceOfMisfit = chanceOfMisfit(null.misfit);
+        evidences.chanceOfChiSquare = chanceOfChiSquare(null.chiSquare);
     }
     return evidences;
 }

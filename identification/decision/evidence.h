@@ -21,10 +21,10 @@ struct Evidences
     Eigen::VectorXd effects; // by effect of the study; -infinity for those that are not known
     double other = 0.0;      // something that is not in the library
     // Of each effect at its likeliest amplitude:
-    Eigen::VectorXd misfits;        // of the means, as in `Fit`
-    Eigen::VectorXd scatterMisfits; // of the spread between repeats, where it is not that of runs without effects
-    Eigen::VectorXd peaks;          // log likelihood
-    std::optional<double> chanceOfMisfit =
+    Eigen::VectorXd chiSquares;        // of the means, as in `Fit`
+    Eigen::VectorXd scatterChiSquares; // of the spread between repeats, where it is not that of runs without effects
+    Eigen::VectorXd peaks;             // log likelihood
+    std::optional<double> chanceOfChiSquare =
         std::nullopt; // of no effect, where runs do not scatter: how often noise alone does it
 };
 
@@ -38,7 +38,7 @@ struct Fit
     Eigen::VectorXd parameters; // in prior sd, from the prior's mean
     Eigen::MatrixXd covariance; // of these, at this amplitude
     Eigen::MatrixXd marginal;   // the same over all amplitudes: what they take from each other, too
-    double misfit = 0.0;        // sum of squares in units of noise, the parameters' priors included
+    double chiSquare = 0.0;     // sum of squares in units of noise, the parameters' priors included
 };
 
 /// One explanation at one amplitude, with all that does not depend on the measured numbers computed beforehand: in
@@ -84,12 +84,12 @@ public:
         return !emulator_.scatters();
     }
 
-    /// What the misfit of the truth stays below but for chance, this many standard deviations from the mean; where runs do
+    /// What the chiSquare of the truth stays below but for chance, this many standard deviations from the mean; where runs do
     /// not scatter, else infinite. No draw tells more: of what is not known, far from all runs, draws lie anywhere.
-    double largestMisfit(double sds) const;
+    double largestChiSquare(double sds) const;
 
-    /// How often noise alone makes a misfit as large as this; where runs scatter 1, for there draws tell.
-    double chanceOfMisfit(double misfit) const;
+    /// How often noise alone makes a chiSquare as large as this; where runs scatter 1, for there draws tell.
+    double chanceOfChiSquare(double chiSquare) const;
 
     Evidences operator()(const Measured& measured) const;
 
@@ -112,8 +112,8 @@ public:
     struct Judgement
     {
         double logEvidence = 0.0;
-        double misfit = 0.0; // at the likeliest amplitudes, as in `Evidences`
-        double scatterMisfit = 0.0;
+        double chiSquare = 0.0; // at the likeliest amplitudes, as in `Evidences`
+        double scatterChiSquare = 0.0;
         double peak = 0.0; // log likelihood there
     };
     Judgement judge(const Explanation& explanation, const Measured& measured) const;
@@ -146,7 +146,8 @@ private:
     {
         double factor = 1.0; // of the noise's variance
         double logLikelihood = 0.0;
-        double misfit = 0.0; // deviance, too small or too large, where the scatter is not that of runs without effects
+        double chiSquare =
+            0.0; // deviance, too small or too large, where the scatter is not that of runs without effects
     };
 
     using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, mostParameters, 1>;
@@ -164,15 +165,15 @@ private:
     {
         FewNumbers parameters;
         FewSquare precision;
-        double misfit = 0.0;
-        double logVolume = 0.0; // of the log likelihood, what is no misfit
+        double chiSquare = 0.0;
+        double logVolume = 0.0; // of the log likelihood, what is no chiSquare
     };
 
     /// Where an explanation fits.
     struct Place
     {
         Eigen::VectorXd parameters;
-        double misfit = 0.0;
+        double chiSquare = 0.0;
     };
 
     struct Discrepancy
@@ -187,7 +188,7 @@ private:
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     void fitParameters(const Node& node, const Measured& measured, Fit& fit) const;
-    double logLikelihood(double misfit, double logVolume) const;
+    double logLikelihood(double chiSquare, double logVolume) const;
     /// Over amplitudes of the first effect, and of the second if there is one, where they are likely.
     struct Posterior
     {
@@ -202,9 +203,9 @@ private:
     /// What is interpolated between nodes: rows for the second effect's amplitudes, columns for the first's.
     struct AtNodes
     {
-        Eigen::MatrixXd misfits;
-        Eigen::MatrixXd volumes; // log likelihood, what is no misfit
-        Eigen::MatrixXd scatterMisfits;
+        Eigen::MatrixXd chiSquares;
+        Eigen::MatrixXd volumes; // log likelihood, what is no chiSquare
+        Eigen::MatrixXd scatterChiSquares;
         Eigen::MatrixXd parameters; // by column: a node's
     };
     AtNodes atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const;

@@ -60,7 +60,7 @@ void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fi
     fit.parameters = solution.parameters;
     fit.covariance = solution.parameters.size() > 0 ? Eigen::MatrixXd(solution.precision.inverse()) : Eigen::MatrixXd();
     fit.marginal = fit.covariance;
-    fit.misfit = solution.misfit;
+    fit.chiSquare = solution.chiSquare;
 }
 
 Fit Evidence::fit(std::size_t effect, const Measured& measured) const
@@ -86,7 +86,7 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
     for (Eigen::Index p = 0; p < moves.rows(); ++p)
     {
         const Eigen::MatrixXd there =
-            found.interpolated(nodes.parameters.row(p).reshaped(nodes.misfits.rows(), nodes.misfits.cols()));
+            found.interpolated(nodes.parameters.row(p).reshaped(nodes.chiSquares.rows(), nodes.chiSquares.cols()));
         moves.row(p) = (there.array() - (share * there.array()).sum()).reshaped().transpose();
     }
     const Eigen::MatrixXd weighted = moves * share.reshaped().matrix().asDiagonal();

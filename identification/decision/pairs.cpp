@@ -201,24 +201,25 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         PairFinding& pair = pairs[i];
-        std::vector<double> misfits;
-        std::vector<double> scatterMisfits;
+        std::vector<double> chiSquares;
+        std::vector<double> scatterChiSquares;
         std::vector<double> improbabilities;
         for (int trial = 0; trial < trials; ++trial)
         {
             const Eigen::VectorXd parameters = around(pair.fits.front(), random);
             const auto [data, judge] = replicas.draw(drawn(study, pair, random), parameters, random);
             const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
-            misfits.push_back(own.judgements[i].misfit);
-            scatterMisfits.push_back(own.judgements[i].scatterMisfit);
+            chiSquares.push_back(own.judgements[i].chiSquare);
+            scatterChiSquares.push_back(own.judgements[i].scatterChiSquare);
             improbabilities.push_back(1.0 - own.probabilities(i));
         }
         const auto fitsWithin = [&](double sds) {
-            return verdict.judgements[i].misfit <= std::min(misfitLimit(misfits, sds), evidence.largestMisfit(sds));
+            return verdict.judgements[i].chiSquare
+                   <= std::min(chiSquareLimit(chiSquares, sds), evidence.largestChiSquare(sds));
         };
         pair.probability = verdict.probabilities(i);
         pair.inSet = fitsWithin(meansStillFit)
-                     && verdict.judgements[i].scatterMisfit <= misfitLimit(scatterMisfits, scatterStillFits)
+                     && verdict.judgements[i].scatterChiSquare <= chiSquareLimit(scatterChiSquares, scatterStillFits)
                      && 1.0 - pair.probability <= std::max(
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));
         pair.fitsWell = pair.inSet && fitsWithin(fitsWell);

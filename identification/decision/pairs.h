@@ -39,7 +39,7 @@ bool areVariants(const Study& study, const PairFinding& one, const PairFinding& 
 std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs);
 
 /// Whether pairs, once judged, leave one name: they are the only one or variants of the likeliest one, which fits well, and they
-/// leave no room for anything else. How often something that is not in the library passes for a pair is not learnt from foils.
+/// leave no room for anything else. How often something that is not in the library passes for a pair is not learnt from decoys.
 bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs);
 
 } // namespace clepsydra::identification

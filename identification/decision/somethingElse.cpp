@@ -112,8 +112,8 @@ double Evidence::otherEvidence(const Measured& measured, const Spread& usual, co
     for (Eigen::Index i = 0; i < logs.size(); ++i)
     {
         const Discrepancy& one = other_[i];
-        const double misfit = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
-        logs(i) = -0.5 * (nu + rows) * std::log1p(misfit / nu)
+        const double chiSquare = one.root.triangularView<Eigen::Lower>().solve(r).squaredNorm() / usual.factor;
+        logs(i) = -0.5 * (nu + rows) * std::log1p(chiSquare / nu)
                   - 0.5 * (one.logDeterminant + rows * std::log(usual.factor) + null_.logDeterminant);
     }
     const double pattern = logSumExp(logs) - std::log(static_cast<double>(other_.size()));

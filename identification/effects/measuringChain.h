@@ -17,7 +17,7 @@ struct ChainOperation
 
 /// By name:
 ///   lag         first-order filter of `size` seconds
-///   lead        value + size dv/dt: momentum of beads that leave, size = their speed over g [s]
+///   lead        value + size dv/dt: momentum of particles that leave, size = their speed over g [s]
 ///   shift       the record begins `size` seconds late
 ///   gain        value times 1 + size
 ///   offset      value plus size, SI units

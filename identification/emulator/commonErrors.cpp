@@ -16,58 +16,60 @@ constexpr double usualStep = 1.0;
 
 double stepOf(const Study& study)
 {
-    return study.rig.seedEntry.empty() ? usualStep : farStep;
+    return study.simulator.seedEntry.empty() ? usualStep : farStep;
 }
 
-Setting moved(const Simulator& simulator, std::size_t error, double z)
+Setting moved(const StudySimulator& studySimulator, std::size_t error, double z)
 {
-    Setting setting = simulator.plainSetting();
-    setting.errors = Eigen::VectorXd::Zero(simulator.study().commonErrors.size());
+    Setting setting = studySimulator.plainSetting();
+    setting.errors = Eigen::VectorXd::Zero(studySimulator.study().commonErrors.size());
     setting.errors(error) = z;
     return setting;
 }
 
 /// One side's runs of an error in the entries. Both sides have the same seeds.
-std::vector<SimulationOrder> ordersOf(const Simulator& simulator, std::size_t condition, std::size_t error, double z)
+std::vector<SimulationOrder> ordersOf(
+    const StudySimulator& studySimulator, std::size_t condition, std::size_t error, double z)
 {
-    const Study& study = simulator.study();
-    const int repeats = study.rig.seedEntry.empty() ? 1 : study.settings.repeatsAlone;
+    const Study& study = studySimulator.study();
+    const int repeats = study.simulator.seedEntry.empty() ? 1 : study.settings.repeatsAlone;
     std::vector<SimulationOrder> orders;
     orders.reserve(static_cast<std::size_t>(repeats));
     for (int number = 0; number < repeats; ++number)
     {
         orders.push_back(
-            {condition, moved(simulator, error, z), "common error: " + study.commonErrors[error].name, number});
+            {condition, moved(studySimulator, error, z), "common error: " + study.commonErrors[error].name, number});
     }
     return orders;
 }
 
 } // namespace
 
-std::vector<SimulationOrder> commonErrorOrders(const Simulator& simulator, std::size_t condition)
+std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition)
 {
-    const Study& study = simulator.study();
+    const Study& study = studySimulator.study();
     std::vector<SimulationOrder> all;
     for (std::size_t i = 0; i < study.commonErrors.size(); ++i)
     {
         if (contains(study.commonErrors[i].conditions, condition) && !study.commonErrors[i].entries.empty())
         {
-            append(all, ordersOf(simulator, condition, i, -stepOf(study)));
-            append(all, ordersOf(simulator, condition, i, stepOf(study)));
+            append(all, ordersOf(studySimulator, condition, i, -stepOf(study)));
+            append(all, ordersOf(studySimulator, condition, i, stepOf(study)));
         }
     }
     return all;
 }
 
-Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, const std::vector<Simulation>& plain)
+Eigen::MatrixXd commonErrorSlopes(
+    StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain)
 {
-    const Study& study = simulator.study();
+    const Study& study = studySimulator.study();
     const double step = stepOf(study);
     const auto meanAt = [&](std::size_t error, double z) {
         std::vector<Simulation> simulations;
         if (!study.commonErrors[error].entries.empty())
         {
-            simulations = simulator.run(ordersOf(simulator, condition, error, z));
+            simulations = studySimulator.run(ordersOf(studySimulator, condition, error, z));
         }
         else
         {
@@ -76,8 +78,8 @@ Eigen::MatrixXd commonErrorSlopes(Simulator& simulator, std::size_t condition, c
             {
                 if (simulation.condition == condition && !simulation.failed)
                 {
-                    simulation.features = simulator.featuresOf(
-                        simulator.throughChain(simulation.plain, condition, moved(simulator, error, z)));
+                    simulation.features = studySimulator.featuresOf(
+                        studySimulator.throughChain(simulation.plain, condition, moved(studySimulator, error, z)));
                 }
             }
         }

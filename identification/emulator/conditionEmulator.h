@@ -2,7 +2,7 @@
 
 #include "emulator/basis.h"
 #include "emulator/grid.h"
-#include "runner/simulator.h"
+#include "runner/studySimulator.h"
 
 #include <map>
 #include <optional>

@@ -41,7 +41,7 @@ void Scatter::add(const Eigen::MatrixXd& repeats)
     {
         const double count = static_cast<double>(column.array().isFinite().count());
         const double mean = column.array().isFinite().select(column, 0.0).sum() / std::max(count, 1.0);
-        // A lone value would count as a repeat without scatter.
+        // An isolated value would count as a repeat without scatter.
         const double scale = count > 1.0 ? std::sqrt(count / (count - 1.0)) : std::nan("");
         column = (column.array() - mean) * scale;
         most = std::max(most, count);

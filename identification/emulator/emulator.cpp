@@ -98,13 +98,13 @@ Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) cons
 
 //--- All conditions -------------------------------------------------------------------------------------------------
 
-Emulator::Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,
+Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Run>& runs,
     const std::vector<std::vector<Eigen::Index>>& features)
     : study_(&study),
       rows_(study.conditions.size()),
       conditions_(study.conditions.size()),
       known_(study.effects.size(), true),
-      scatters_(!study.rig.seedEntry.empty())
+      scatters_(!study.simulator.seedEntry.empty())
 {
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {
@@ -112,7 +112,7 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
         if (conditions_[c])
         {
             learnt_.push_back(c);
-            append(c, simulator, goodRuns(runs, c));
+            append(c, studySimulator, goodRuns(runs, c));
         }
     }
     learnNoiseAndScatter();
@@ -122,7 +122,7 @@ Emulator::Emulator(const Study& study, const Simulator& simulator, const std::ve
         {
             if (study.effects[e].isOfChain() && acts(study.effects[e], study.conditions[c]))
             {
-                learnChain(e, c, simulator, goodRuns(runs, c));
+                learnChain(e, c, studySimulator, goodRuns(runs, c));
             }
         }
     }
@@ -187,13 +187,13 @@ void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const 
     conditions_[c] = std::move(emulator);
 }
 
-void Emulator::append(std::size_t c, const Simulator& simulator, const std::vector<const Run*>& runs)
+void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const std::vector<const Run*>& runs)
 {
     const ConditionEmulator& emulator = *conditions_[c];
     Rows& rows = rows_[c];
     for (const auto* run : runs)
     {
-        const auto [setting, all] = beforeChain(*study_, simulator, *run);
+        const auto [setting, all] = beforeChain(*study_, studySimulator, *run);
         const Eigen::VectorXd values = all(emulator.features);
         if (!values.array().isFinite().all())
         {
@@ -281,25 +281,25 @@ void Emulator::chooseScales()
             {
                 continue;
             }
-            const auto misfit = [&](double logScale) {
+            const auto chiSquare = [&](double logScale) {
                 auto scales = scales_;
                 scales[kind] = std::exp(logScale);
                 return -logEvidence(scales);
             };
             std::uintmax_t most = mostEvaluations;
             scales_[kind] = std::exp(boost::math::tools::brent_find_minima(
-                misfit, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
+                chiSquare, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
                                          .first);
         }
         if (scatters_)
         {
-            const auto misfit = [&](double logSize) {
+            const auto chiSquare = [&](double logSize) {
                 lackOfFit_ = std::exp(logSize);
                 return -logEvidence(scales_);
             };
             std::uintmax_t most = mostEvaluations;
             lackOfFit_ = std::exp(
-                boost::math::tools::brent_find_minima(misfit, std::log(smallestScale), std::log(10.0), bits, most)
+                boost::math::tools::brent_find_minima(chiSquare, std::log(smallestScale), std::log(10.0), bits, most)
                     .first);
         }
     }

@@ -17,7 +17,7 @@ class Emulator
 {
 public:
     /// \param features  by condition of the study, those that are wanted; of these, what too many runs lack is left out
-    Emulator(const Study& study, const Simulator& simulator, const std::vector<Run>& runs,
+    Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Run>& runs,
         const std::vector<std::vector<Eigen::Index>>& features);
 
     /// By condition of the study; none where nothing is wanted or left.
@@ -82,15 +82,15 @@ private:
     };
 
     void choose(std::size_t condition, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted);
-    void append(std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& runs);
+    void append(std::size_t condition, const StudySimulator& studySimulator, const std::vector<const Run*>& runs);
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();
     void solve(std::size_t condition);
     void learnNoiseAndScatter();
     void learnNoise(bool ofPlainRuns);
     void learnScatter();
-    void learnChain(
-        std::size_t effect, std::size_t condition, const Simulator& simulator, const std::vector<const Run*>& runs);
+    void learnChain(std::size_t effect, std::size_t condition, const StudySimulator& studySimulator,
+        const std::vector<const Run*>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
     Eigen::MatrixXd whitened(std::size_t condition) const;
 

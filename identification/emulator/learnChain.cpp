@@ -10,7 +10,8 @@ namespace clepsydra::identification
 {
 
 /// The curves of runs without effects, once more through the chain.
-void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulator, const std::vector<const Run*>& runs)
+void Emulator::learnChain(
+    std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Run*>& runs)
 {
     const Effect& effect = study_->effects[e];
     const auto& kept = conditions_[c]->features;
@@ -20,7 +21,7 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
     std::vector<Eigen::VectorXd> features;
     for (const auto* run : runs)
     {
-        const auto [setting, all] = beforeChain(*study_, simulator, *run);
+        const auto [setting, all] = beforeChain(*study_, studySimulator, *run);
         if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())
         {
             curves.push_back(&run->simulation.plain);
@@ -63,14 +64,15 @@ void Emulator::learnChain(std::size_t e, std::size_t c, const Simulator& simulat
     chain.slopes.assign(q, chain.changes);
     for (Eigen::Index node = 0; node < amplitudes.size(); ++node)
     {
-        Setting setting = simulator.plainSetting();
+        Setting setting = studySimulator.plainSetting();
         setting.amplitudes(e) = amplitudes(node);
         Eigen::MatrixXd after(rows, before.cols());
         std::vector<Eigen::Index> good;
         for (Eigen::Index row = 0; row < rows; ++row)
         {
             const Curve& curve = *curves[row];
-            after.row(row) = simulator.featuresOf(simulator.throughChain(curve, c, setting))(kept).transpose();
+            after.row(row) =
+                studySimulator.featuresOf(studySimulator.throughChain(curve, c, setting))(kept).transpose();
             if (after.row(row).array().isFinite().all())
             {
                 good.push_back(row);

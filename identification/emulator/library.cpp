@@ -34,15 +34,15 @@ bool runsAlone(const Effect& effect)
 class Orders
 {
 public:
-    Orders(const Simulator& simulator, std::size_t condition)
-        : simulator_(simulator),
-          study_(simulator.study()),
+    Orders(const StudySimulator& studySimulator, std::size_t condition)
+        : studySimulator_(studySimulator),
+          study_(studySimulator.study()),
           condition_(condition)
     {}
 
     std::vector<SimulationOrder> scattering()
     {
-        add(simulator_.plainSetting(), "base", study_.settings.repeatsBase);
+        add(studySimulator_.plainSetting(), "base", study_.settings.repeatsBase);
         // In the design all parameters are at their ends, as are the effects: how a parameter bends is seen without them.
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
@@ -74,7 +74,7 @@ public:
 
     std::vector<SimulationOrder> exact()
     {
-        add(simulator_.plainSetting(), "base", 1);
+        add(studySimulator_.plainSetting(), "base", 1);
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
             add(at(p, -parameterStep), "design", 1);
@@ -99,7 +99,7 @@ public:
 private:
     Setting with(std::size_t effect, double amplitude) const
     {
-        Setting setting = simulator_.plainSetting();
+        Setting setting = studySimulator_.plainSetting();
         setting.amplitudes(effect) = amplitude;
         return setting;
     }
@@ -109,7 +109,7 @@ private:
     {
         const Parameter& own = study_.parameters[parameter];
         Setting setting =
-            own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : simulator_.plainSetting();
+            own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : studySimulator_.plainSetting();
         setting.parameters(parameter) = moved(own, sds);
         return setting;
     }
@@ -136,7 +136,7 @@ private:
         const Eigen::MatrixXd design = foldover(plackettBurman(factors));
         for (const auto& row : design.rowwise())
         {
-            Setting setting = simulator_.plainSetting();
+            Setting setting = studySimulator_.plainSetting();
             for (Eigen::Index p = 0; p < parameters; ++p)
             {
                 setting.parameters(p) = moved(study_.parameters[p], parameterStep * row(p));
@@ -151,7 +151,7 @@ private:
         }
     }
 
-    const Simulator& simulator_;
+    const StudySimulator& studySimulator_;
     const Study& study_;
     std::size_t condition_;
     std::vector<SimulationOrder> orders_;
@@ -173,9 +173,9 @@ std::vector<std::size_t> simulatedEffects(const Study& study, std::size_t condit
     });
 }
 
-std::vector<Run> makeRuns(Simulator& simulator, const std::vector<SimulationOrder>& orders)
+std::vector<Run> makeRuns(StudySimulator& studySimulator, const std::vector<SimulationOrder>& orders)
 {
-    auto simulations = simulator.run(orders);
+    auto simulations = studySimulator.run(orders);
     std::vector<Run> runs;
     for (std::size_t i = 0; i < orders.size(); ++i)
     {
@@ -197,23 +197,23 @@ std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condi
     return good;
 }
 
-std::vector<SimulationOrder> libraryOrders(const Simulator& simulator)
+std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
 {
-    const Study& study = simulator.study();
+    const Study& study = studySimulator.study();
     std::vector<SimulationOrder> all;
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        Orders orders(simulator, condition);
-        append(all, study.rig.seedEntry.empty() ? orders.exact() : orders.scattering());
-        append(all, commonErrorOrders(simulator, condition));
+        Orders orders(studySimulator, condition);
+        append(all, study.simulator.seedEntry.empty() ? orders.exact() : orders.scattering());
+        append(all, commonErrorOrders(studySimulator, condition));
     }
     return all;
 }
 
-Library makeLibrary(Simulator& simulator)
+Library makeLibrary(StudySimulator& studySimulator)
 {
-    const Study& study = simulator.study();
-    const auto orders = libraryOrders(simulator);
+    const Study& study = studySimulator.study();
+    const auto orders = libraryOrders(studySimulator);
     // The base runs first: where these fail, the many others would be in vain.
     std::vector<SimulationOrder> first;
     std::vector<SimulationOrder> rest;
@@ -224,22 +224,23 @@ Library makeLibrary(Simulator& simulator)
             (order.purpose == "base" ? first : rest).push_back(order);
         }
     }
-    Library library{makeRuns(simulator, first), {}};
+    Library library{makeRuns(studySimulator, first), {}};
     for (const auto condition : study.conditionsOf(Role::training))
     {
         if (goodRuns(library.runs, condition).empty())
         {
             throw std::runtime_error(
                 "condition '" + study.conditions[condition].name + "': all runs at the base setting have failed"
-                + (simulator.effort().failures.empty() ? "" : ": " + simulator.effort().failures.back().reason));
+                + (studySimulator.effort().failures.empty() ? ""
+                                                            : ": " + studySimulator.effort().failures.back().reason));
         }
     }
     const auto base = mapped(library.runs, [](const Run& run) { return run.simulation; });
-    append(library.runs, makeRuns(simulator, rest));
+    append(library.runs, makeRuns(studySimulator, rest));
     library.errorSlopes.resize(study.conditions.size());
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        library.errorSlopes[condition] = commonErrorSlopes(simulator, condition, base);
+        library.errorSlopes[condition] = commonErrorSlopes(studySimulator, condition, base);
     }
     return library;
 }

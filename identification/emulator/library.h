@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runner/simulator.h"
+#include "runner/studySimulator.h"
 
 #include <string>
 #include <vector>
@@ -16,12 +16,12 @@ struct Run
 };
 
 /// The orders and what came of them.
-std::vector<Run> makeRuns(Simulator& simulator, const std::vector<SimulationOrder>& orders);
+std::vector<Run> makeRuns(StudySimulator& studySimulator, const std::vector<SimulationOrder>& orders);
 
 /// Runs of one condition that have not failed.
 std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition);
 
-/// Runs of all training conditions. Made once per rig, used for every data set.
+/// Runs of all training conditions. Made once per simulator, used for every data set.
 ///
 /// Where runs scatter: repeats at the base setting, and with each parameter alone at either end; switches and effects that
 /// raise the scatter alone, at amplitude 1; all others, and the parameters, in a Plackett-Burman design and its foldover (Box
@@ -34,10 +34,10 @@ struct Library
 };
 
 /// All runs that makeLibrary asks for.
-std::vector<SimulationOrder> libraryOrders(const Simulator& simulator);
+std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator);
 
 /// \throws std::runtime_error where all runs at the base setting of a condition have failed
-Library makeLibrary(Simulator& simulator);
+Library makeLibrary(StudySimulator& studySimulator);
 
 /// The design, a row per run, followed by its mirror image.
 Eigen::MatrixXd foldover(const Eigen::MatrixXd& design);

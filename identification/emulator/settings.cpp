@@ -62,7 +62,7 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     return groups;
 }
 
-BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Run& run)
+BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Run& run)
 {
     BeforeChain before{run.setting, run.simulation.features};
     for (std::size_t e = 0; e < study.effects.size(); ++e)
@@ -71,7 +71,7 @@ BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Ru
         if (study.effects[e].isOfChain() && amplitude != 0.0)
         {
             amplitude = 0.0;
-            before.features = simulator.featuresOf(run.simulation.plain);
+            before.features = studySimulator.featuresOf(run.simulation.plain);
         }
     }
     return before;

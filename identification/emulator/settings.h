@@ -26,6 +26,6 @@ struct BeforeChain
     Eigen::VectorXd features;
 };
 
-BeforeChain beforeChain(const Study& study, const Simulator& simulator, const Run& run);
+BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Run& run);
 
 } // namespace clepsydra::identification

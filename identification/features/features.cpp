@@ -47,7 +47,7 @@ double rateSlope(const Curve& curve, const Parameters& p)
     return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
 }
 
-//--- Positions of a bead --------------------------------------------------------------------------------------------
+//--- Positions of a particle --------------------------------------------------------------------------------------------
 
 double speedBetweenLevels(const Curve& curve, double from, double to)
 {
@@ -79,7 +79,7 @@ double logMeanSpeed(const Curve& curve, const Parameters& p)
     return logOfPositive(std::abs(p.at("to") - p.at("from")) / (end - start));
 }
 
-/// Change of speed from the first half of the way to the second, as a logarithm: zero for a bead at terminal velocity.
+/// Change of speed from the first half of the way to the second, as a logarithm: zero for a particle at terminal velocity.
 double logSpeedRatio(const Curve& curve, const Parameters& p)
 {
     const double middle = (p.at("from") + p.at("to")) / 2;

@@ -52,10 +52,10 @@ struct FreeOperation
     Eigen::VectorXd parameters;
 };
 
-FreeOperation fitOneMore(const Simulator& simulator, const Library& library, const Answer& answer,
+FreeOperation fitOneMore(const StudySimulator& studySimulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training)
 {
-    Study study = simulator.study();
+    Study study = studySimulator.study();
     Effect operation;
     operation.name = "one more parameter";
     operation.chainOperation = study.settings.oneMoreParameter;
@@ -69,7 +69,7 @@ FreeOperation fitOneMore(const Simulator& simulator, const Library& library, con
         run.setting.amplitudes.conservativeResize(study.effects.size());
         run.setting.amplitudes.tail<1>().setZero();
     }
-    const Simulator extended(study, simulator.rig());
+    const StudySimulator extended(study, studySimulator.simulator());
     const Emulator emulator(study, extended, runs, measuredFeatures(study, training));
     const auto [layout, measured] = arrange(study, emulator, training, library.errorSlopes);
     const Evidence evidence(study, emulator, layout, inSds(study, answer.null.setting.parameters));
@@ -150,11 +150,11 @@ std::optional<std::vector<Prediction>> withGaussianProcess(const Study& study, c
 class Comparison
 {
 public:
-    Comparison(Simulator& simulator, const Library& library, const Answer& answer,
+    Comparison(StudySimulator& studySimulator, const Library& library, const Answer& answer,
         const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
         std::mt19937_64& random)
-        : simulator_(simulator),
-          study_(simulator.study()),
+        : studySimulator_(studySimulator),
+          study_(studySimulator.study()),
           library_(library),
           answer_(answer),
           training_(training),
@@ -196,7 +196,8 @@ private:
 
     std::vector<Simulation> simulated(const Setting& setting, const std::string& purpose)
     {
-        return simulator_.repeats(result_.conditions, setting, "held out, " + purpose, study_.settings.repeatsHeldOut);
+        return studySimulator_.repeats(
+            result_.conditions, setting, "held out, " + purpose, study_.settings.repeatsHeldOut);
     }
 
     std::vector<Prediction> predictionsOf(const std::vector<Simulation>& simulations) const
@@ -219,7 +220,7 @@ private:
         for (std::size_t i = 0; i < result_.data.size(); ++i)
         {
             result_.data[i].errorSlopes =
-                commonErrorSlopes(simulator_, result_.conditions[i], result_.simulations.back());
+                commonErrorSlopes(studySimulator_, result_.conditions[i], result_.simulations.back());
         }
         compared_.push_back(predictionsOf(result_.simulations.back()));
         result_.predictedBefore = compared_.front();
@@ -241,15 +242,15 @@ private:
 
     void predictControls()
     {
-        const FreeOperation more = fitOneMore(simulator_, library_, answer_, training_);
+        const FreeOperation more = fitOneMore(studySimulator_, library_, answer_, training_);
         result_.oneMoreAmplitude = more.size;
-        auto oneMore = simulated(simulator_.plainSetting(more.parameters), "one more parameter");
+        auto oneMore = simulated(studySimulator_.plainSetting(more.parameters), "one more parameter");
         for (auto& simulation : oneMore)
         {
             if (!simulation.failed)
             {
                 const auto& operation = chainOperations().at(study_.settings.oneMoreParameter);
-                simulation.features = simulator_.featuresOf(operation.apply(simulation.curve, more.size));
+                simulation.features = studySimulator_.featuresOf(operation.apply(simulation.curve, more.size));
             }
         }
         compared_.push_back(predictionsOf(oneMore));
@@ -361,7 +362,7 @@ private:
             std::sqrt((gain - gain.mean()).square().mean())};
     }
 
-    Simulator& simulator_;
+    StudySimulator& studySimulator_;
     const Study& study_;
     const Library& library_;
     const Answer& answer_;
@@ -379,11 +380,11 @@ private:
 
 } // namespace
 
-HeldOutResult evaluateHeldOut(Simulator& simulator, const Library& library, const Answer& answer,
+HeldOutResult evaluateHeldOut(StudySimulator& studySimulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random)
 {
-    return Comparison(simulator, library, answer, training, heldOut, random).run();
+    return Comparison(studySimulator, library, answer, training, heldOut, random).run();
 }
 
 } // namespace clepsydra::identification

@@ -44,7 +44,7 @@ struct HeldOutResult
 
 /// Simulates the held-out conditions with fresh seeds and holds that against their measurements.
 /// \param training, heldOut  what was measured, by condition of the study
-HeldOutResult evaluateHeldOut(Simulator& simulator, const Library& library, const Answer& answer,
+HeldOutResult evaluateHeldOut(StudySimulator& studySimulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random);
 

@@ -56,9 +56,10 @@ double divergence(const PredictedOutcome& a, const PredictedOutcome& b)
     return sum;
 }
 
-std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer, std::mt19937_64& random)
+std::vector<NextExperiment> nextExperiments(
+    StudySimulator& studySimulator, const Answer& answer, std::mt19937_64& random)
 {
-    const Study& study = simulator.study();
+    const Study& study = studySimulator.study();
     std::vector<Explanation> left = answer.set;
     if (left.size() < 2)
     {
@@ -98,7 +99,7 @@ std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& 
             {
                 orders.push_back({condition, drawn(study, explanation, random), "next experiment, " + name, number});
             }
-            const auto rows = featureRows(simulator.run(orders), condition, study.featureCount());
+            const auto rows = featureRows(studySimulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);
             // The runs differ by their own noise and by what the explanation leaves open; the larger counts.
             const Eigen::ArrayXd spread =

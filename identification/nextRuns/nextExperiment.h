@@ -36,6 +36,7 @@ double divergence(const PredictedOutcome& a, const PredictedOutcome& b);
 /// Simulates every candidate condition with each explanation that is left, at draws of what it leaves open of its
 /// amplitude and the parameters, and orders them by what one measurement would decide for its cost, best first. Without a set of at
 /// least two, what is compared is no effect against the best.
-std::vector<NextExperiment> nextExperiments(Simulator& simulator, const Answer& answer, std::mt19937_64& random);
+std::vector<NextExperiment> nextExperiments(
+    StudySimulator& studySimulator, const Answer& answer, std::mt19937_64& random);
 
 } // namespace clepsydra::identification

@@ -14,7 +14,7 @@ enum class Decision
 {
     noResidual, // nothing beyond noise
     named,      // one effect, or one family of variants, is left
-    set,        // several that the data cannot tell apart
+    set,        // several that the data cannot distinguish
     unknown     // a residual that the library does not explain
 };
 
@@ -40,7 +40,7 @@ struct Explanation
     std::vector<Fit> fits;    // by effect
     double logOdds = 0.0;     // against no effect
     double probability = 0.0; // given that there is something; of two effects: that no single one explains
-    double misfit = 0.0;
+    double chiSquare = 0.0;
     std::vector<Run> runs; // with it switched on, where its fits were, one after the other; empty: it was not simulated
 };
 

@@ -8,7 +8,7 @@
 #include "report/html.h"
 #include "report/json.h"
 #include "report/planReport.h"
-#include "runner/caseRig.h"
+#include "runner/caseSimulator.h"
 #include "runner/runProgress.h"
 #include "study/readStudy.h"
 
@@ -48,12 +48,12 @@ void requireMeasurements(const Study& study)
     }
 }
 
-/// What would be told only when the whole library has run.
+/// What would be reported only when the whole library has run.
 void requireNoise(const Study& study, const std::vector<MeasuredCondition>& training)
 {
     const auto conditions = study.conditionsOf(Role::training);
     const auto isMeasured = [&](std::size_t c) { return !study.conditions[c].measured.empty(); };
-    if (study.rig.seedEntry.empty() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
+    if (study.simulator.seedEntry.empty() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
     {
         ownNoise(study, training, conditions);
     }
@@ -66,7 +66,7 @@ int runsPerDataSet(const Study& study, int rounds, int ofPairs)
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
     constexpr int predictions = 3; // of the null, of the best explanation, of one more parameter
     constexpr int outcomes = 8;    // of two explanations, four draws each
-    const bool isExact = study.rig.seedEntry.empty();
+    const bool isExact = study.simulator.seedEntry.empty();
     const int fit = 2 + static_cast<int>(study.parameters.size());
     const int deciding = study.settings.decidingRuns;
     return count(Role::training) * (isExact && deciding > 0 ? 1 + rounds * fit + ofPairs * (fit + 1) : deciding)
@@ -74,16 +74,17 @@ int runsPerDataSet(const Study& study, int rounds, int ofPairs)
            + count(Role::candidate) * outcomes;
 }
 
-void sayCost(const Study& study, CaseRig& rig, Simulator& simulator, std::ostream& out)
+void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
 {
-    const auto orders = libraryOrders(simulator);
-    const int missing = simulator.missing(orders);
-    const double seconds = rig.secondsPerRun();
+    const auto orders = libraryOrders(studySimulator);
+    const int missing = studySimulator.missing(orders);
+    const double seconds = simulator.secondsPerRun();
     const int usual = runsPerDataSet(study, 2, 0);
     const int most = runsPerDataSet(study, 8, 4);
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
         << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s a run"
-        << (rig.measuredSecondsPerRun() ? "" : ", assumed: 'traceResidual plan --time' makes one and times it") << ")\n"
+        << (simulator.measuredSecondsPerRun() ? "" : ", assumed: 'traceResidual plan --time' makes one and times it")
+        << ")\n"
         << "each data set: about " << usual << " runs more, " << clockTime(usual * seconds)
         << (most > usual ? ", up to some " + std::to_string(most) + " where no single effect explains the data" : "")
         << '\n'
@@ -129,24 +130,24 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     checkMeasurements(study, out);
     const auto measured = measurementsOf(study, Role::training);
     requireNoise(study, measured);
-    CaseRig rig(study, out);
-    Simulator simulator(study, rig);
-    if (time && !rig.measuredSecondsPerRun())
+    CaseSimulator simulator(study, out);
+    StudySimulator studySimulator(study, simulator);
+    if (time && !simulator.measuredSecondsPerRun())
     {
         // The library needs it anyway.
-        simulator.run({libraryOrders(simulator).front()});
+        studySimulator.run({libraryOrders(studySimulator).front()});
     }
-    sayCost(study, rig, simulator, out);
-    checkMagnitudes(simulator, measured, execute);
-    if (!execute && simulator.missing(libraryOrders(simulator)) > 0)
+    sayCost(study, simulator, studySimulator, out);
+    checkMagnitudes(studySimulator, measured, execute);
+    if (!execute && studySimulator.missing(libraryOrders(studySimulator)) > 0)
     {
         out << "what is detectable needs the library: 'traceResidual plan --execute' makes its runs" << std::endl;
         return;
     }
     std::mt19937_64 random(study.settings.seed);
-    const Library library = makeLibrary(simulator);
+    const Library library = makeLibrary(studySimulator);
     const auto planned = plannedData(study, library, measured);
-    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, planned));
+    const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, planned));
     const auto [layout, numbers] = arrange(study, emulator, planned, library.errorSlopes);
     const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(study.parameters.size()));
     Replicas replicas(emulator, layout, evidence, random);
@@ -164,23 +165,23 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     checkMeasurements(study, progress);
     const auto training = measurementsOf(study, Role::training);
     requireNoise(study, training);
-    CaseRig rig(study, progress);
-    Simulator simulator(study, rig);
-    sayCost(study, rig, simulator, progress);
+    CaseSimulator simulator(study, progress);
+    StudySimulator studySimulator(study, simulator);
+    sayCost(study, simulator, studySimulator, progress);
     std::filesystem::create_directories(folder);
-    checkMagnitudes(simulator, training, true);
+    checkMagnitudes(studySimulator, training, true);
     std::mt19937_64 random(study.settings.seed);
 
-    const Library library = makeLibrary(simulator);
-    const Answer answer = trace(simulator, library, training, random, true);
-    const auto next = nextExperiments(simulator, answer, random);
-    Findings findings{&study, &answer, nullptr, &next, &simulator, &training, nullptr};
+    const Library library = makeLibrary(studySimulator);
+    const Answer answer = trace(studySimulator, library, training, random, true);
+    const auto next = nextExperiments(studySimulator, answer, random);
+    Findings findings{&study, &answer, nullptr, &next, &studySimulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
     progress << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
              << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);
-    const HeldOutResult heldOut = evaluateHeldOut(simulator, library, answer, training, heldOutData, random);
+    const HeldOutResult heldOut = evaluateHeldOut(studySimulator, library, answer, training, heldOutData, random);
     findings.heldOut = &heldOut;
     findings.heldOutData = &heldOutData;
     const auto report = jsonOf(findings);

@@ -6,7 +6,7 @@
 namespace clepsydra::identification
 {
 
-/// Says what can be told from data of this study before there are any, and what it costs.
+/// Says what can be reported from data of this study before there are any, and what it costs.
 /// \param execute  make the runs of the effect library; otherwise only those that are stored are used, and where some are
 ///     missing the plan ends with their number and time
 /// \param time  make one run for the cost, where none has been timed

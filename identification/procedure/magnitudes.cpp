@@ -29,7 +29,7 @@ void compare(const Study& study, const MeasuredCondition& data, const Simulation
             throw std::runtime_error(
                 study.file.string() + ": condition '" + study.conditions[simulation.condition].name + "': " + what
                 + " is " + textOf(measured) + " measured and " + textOf(simulated)
-                + " in the first run of the bare model (SI units). Are unit and column right, in 'measured' and in "
+                + " in the first run of the baseline (SI units). Are unit and column right, in 'measured' and in "
                   "'observable'? Where so large a difference is meant, give the study a magnitudeLimit above "
                 + textOf(study.magnitudeLimit));
         }
@@ -51,20 +51,20 @@ void compare(const Study& study, const MeasuredCondition& data, const Simulation
 
 } // namespace
 
-void checkMagnitudes(Simulator& simulator, const std::vector<MeasuredCondition>& data, bool execute)
+void checkMagnitudes(StudySimulator& studySimulator, const std::vector<MeasuredCondition>& data, bool execute)
 {
-    const Study& study = simulator.study();
+    const Study& study = studySimulator.study();
     std::vector<SimulationOrder> orders;
     for (const auto c : study.conditionsOf(Role::training))
     {
         // The same run as the library's first.
-        const SimulationOrder order{c, simulator.plainSetting(), checkOfUnits, 0, "base"};
-        if (data[c].features.rows() > 0 && (execute || simulator.missing({order}) == 0))
+        const SimulationOrder order{c, studySimulator.plainSetting(), checkOfUnits, 0, "base"};
+        if (data[c].features.rows() > 0 && (execute || studySimulator.missing({order}) == 0))
         {
             orders.push_back(order);
         }
     }
-    for (const auto& simulation : simulator.run(orders))
+    for (const auto& simulation : studySimulator.run(orders))
     {
         if (!simulation.failed)
         {

@@ -31,10 +31,10 @@ constexpr double nullWeight = 0.3;
 class Tracing
 {
 public:
-    Tracing(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
+    Tracing(StudySimulator& studySimulator, const Library& library, const std::vector<MeasuredCondition>& data,
         std::mt19937_64& random, bool withVisibility)
-        : simulator_(simulator),
-          study_(simulator.study()),
+        : studySimulator_(studySimulator),
+          study_(studySimulator.study()),
           data_(data),
           features_(measuredFeatures(study_, data)),
           runs_(library.runs),
@@ -71,7 +71,7 @@ private:
     /// The emulator of all runs so far.
     void learn()
     {
-        answer_.emulator = std::make_shared<Emulator>(study_, simulator_, runs_, features_);
+        answer_.emulator = std::make_shared<Emulator>(study_, studySimulator_, runs_, features_);
         std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_, errorSlopes_);
     }
 
@@ -87,7 +87,7 @@ private:
 
     Setting settingOf(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
     {
-        Setting setting = simulator_.plainSetting(physical(study_, parameters));
+        Setting setting = studySimulator_.plainSetting(physical(study_, parameters));
         for (const auto& [effect, amplitude] : present)
         {
             setting.amplitudes(effect) = amplitude;
@@ -103,7 +103,7 @@ private:
 
     bool simulate(const std::vector<SimulationOrder>& orders)
     {
-        const auto more = makeRuns(simulator_, orders);
+        const auto more = makeRuns(studySimulator_, orders);
         append(runs_, more);
         return std::any_of(more.begin(), more.end(), [](const Run& run) { return !run.simulation.failed; });
     }
@@ -123,7 +123,8 @@ private:
         {
             throw std::runtime_error(
                 "all runs at the null fit have failed"
-                + (simulator_.effort().failures.empty() ? "" : ": " + simulator_.effort().failures.back().reason));
+                + (studySimulator_.effort().failures.empty() ? ""
+                                                             : ": " + studySimulator_.effort().failures.back().reason));
         }
         return true;
     }
@@ -182,7 +183,7 @@ private:
         }
     }
 
-    /// Runs where they tell contenders apart.
+    /// Runs where they distinguish contenders.
     bool simulateAmong(const std::vector<Contender>& contenders, const std::string& purpose)
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
@@ -351,7 +352,7 @@ private:
         found.effects = effectsOf(present);
         found.setting = settingOf(present, fits.front().parameters);
         found.logOdds = logOdds;
-        found.misfit = fits.front().misfit;
+        found.chiSquare = fits.front().chiSquare;
         for (const auto& run : runs_)
         {
             const auto on = (run.setting.amplitudes.array() != 0.0).count();
@@ -366,7 +367,7 @@ private:
         return found;
     }
 
-    Simulator& simulator_;
+    StudySimulator& studySimulator_;
     const Study& study_;
     const std::vector<MeasuredCondition>& data_;
     const std::vector<std::vector<Eigen::Index>> features_;
@@ -380,10 +381,10 @@ private:
 
 } // namespace
 
-Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
+Answer trace(StudySimulator& studySimulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random, bool withVisibility)
 {
-    return Tracing(simulator, library, data, random, withVisibility).run();
+    return Tracing(studySimulator, library, data, random, withVisibility).run();
 }
 
 } // namespace clepsydra::identification

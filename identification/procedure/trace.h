@@ -13,7 +13,7 @@ namespace clepsydra::identification
 /// From training data to an answer: emulator, evidence, runs where they decide, calibration, decision.
 /// \param data  by condition; only training conditions are looked at
 /// \param withVisibility  whether to find what these data could have shown, too
-Answer trace(Simulator& simulator, const Library& library, const std::vector<MeasuredCondition>& data,
+Answer trace(StudySimulator& studySimulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random, bool withVisibility = false);
 
 } // namespace clepsydra::identification

@@ -16,7 +16,7 @@ struct Findings
     const Answer* answer = nullptr;
     const HeldOutResult* heldOut = nullptr; // not there before the answer is written
     const std::vector<NextExperiment>* next = nullptr;
-    const Simulator* simulator = nullptr;
+    const StudySimulator* studySimulator = nullptr;
     const std::vector<MeasuredCondition>* data = nullptr;        // of training conditions
     const std::vector<MeasuredCondition>* heldOutData = nullptr; // not there before the answer is written
 };

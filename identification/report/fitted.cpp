@@ -12,10 +12,10 @@ namespace
 {
 
 /// All numbers of a run's entries.
-Expression::Variables numbersAt(const Simulator& simulator, std::size_t condition, const Setting& setting)
+Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_t condition, const Setting& setting)
 {
-    Entries all = simulator.entriesOf(condition, setting);
-    const Entries defaults = simulator.rig().defaults();
+    Entries all = studySimulator.entriesOf(condition, setting);
+    const Entries defaults = studySimulator.simulator().defaults();
     all.insert(defaults.begin(), defaults.end());
     return numbersOf(all);
 }
@@ -53,15 +53,15 @@ double movedInwards(double amplitude, double error)
 }
 
 /// An entry where an explanation fits, its error to first order from those of parameters and amplitudes.
-Estimate entryAt(
-    const Simulator& simulator, std::size_t condition, const std::string& entry, const Explanation& explanation)
+Estimate entryAt(const StudySimulator& studySimulator, std::size_t condition, const std::string& entry,
+    const Explanation& explanation)
 {
-    const auto value = [&](const Setting& setting) { return numbersAt(simulator, condition, setting).at(entry); };
+    const auto value = [&](const Setting& setting) { return numbersAt(studySimulator, condition, setting).at(entry); };
     Estimate estimate{value(explanation.setting), 0.0};
     const auto add = [&](const Setting& moved) {
         estimate.standardError = std::hypot(estimate.standardError, value(moved) - estimate.value);
     };
-    const Eigen::VectorXd errors = parameterErrors(simulator.study(), explanation);
+    const Eigen::VectorXd errors = parameterErrors(studySimulator.study(), explanation);
     for (Eigen::Index i = 0; i < errors.size(); ++i)
     {
         Setting moved = explanation.setting;
@@ -101,7 +101,7 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
     };
     const auto addEntry = [&](const std::string& entry, const Effect* effect) {
         add(entry, "", {}, [&](const Explanation& explanation) {
-            return entryAt(*findings.simulator, shownCondition(study, effect), entry, explanation);
+            return entryAt(*findings.studySimulator, shownCondition(study, effect), entry, explanation);
         });
     };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
@@ -156,8 +156,8 @@ std::string sizeInWords(const Findings& findings, const Explanation& explanation
     const std::size_t condition = shownCondition(study, &effect);
     Setting without = explanation.setting;
     without.amplitudes(e) = 0.0;
-    const auto before = numbersAt(*findings.simulator, condition, without);
-    const auto after = numbersAt(*findings.simulator, condition, explanation.setting);
+    const auto before = numbersAt(*findings.studySimulator, condition, without);
+    const auto after = numbersAt(*findings.studySimulator, condition, explanation.setting);
     std::string text;
     for (const auto& [entry, formula] : effect.entries)
     {

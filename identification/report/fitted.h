@@ -23,7 +23,7 @@ struct FittedNumber
 /// Parameters, what they set by a formula, and what the best explanation sets, in the first condition where it acts.
 std::vector<FittedNumber> fittedNumbers(const Findings& findings);
 
-/// How large the effect is that a fit has found, in a few words: "beadDiameter 3 % larger"; empty for a switch.
+/// How large the effect is that a fit has found, in a few words: "particleDiameter 3 % larger"; empty for a switch.
 std::string sizeInWords(const Findings& findings, const Explanation& explanation);
 
 } // namespace clepsydra::identification

@@ -222,7 +222,7 @@ std::string effectTable(const Json& report)
              << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
     html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Highlighted: what the data "
-            "cannot tell apart. Probability, given that anything is missing, of something that the library does not "
+            "cannot distinguish. Probability, given that anything is missing, of something that the library does not "
             "hold: "
          << share(report["somethingElse"]["probability"])
          << " (needed: " << share(report["somethingElse"]["probabilityNeeded"]) << ").</p>\n";
@@ -324,7 +324,7 @@ std::string listOf(const Json& sentences)
 std::string nextSection(const Json& report)
 {
     std::string html = report["measureNext"].empty()
-                           ? "<p>Nothing is left to be told apart, or the study names no candidate conditions.</p>\n"
+                           ? "<p>Nothing is left to be distinguished, or the study names no candidate conditions.</p>\n"
                            : listOf(report["measureNext"]);
     for (const auto& next : report["nextExperiment"])
     {
@@ -379,7 +379,7 @@ std::string lookAlikesOf(const Json& report)
     const Json& pairs = report["calibration"]["lookAlikes"];
     if (pairs.empty())
     {
-        return "<p>All effects that show in these conditions could be told apart at full size.</p>\n";
+        return "<p>All effects that show in these conditions could be distinguished at full size.</p>\n";
     }
     std::string html = "<p>Even at full size, sets for the first mostly hold the second:</p><ul>";
     for (const auto& pair : pairs)
@@ -401,7 +401,7 @@ std::string htmlOf(const Findings& findings, const Json& report)
     html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(findings, report);
     html += "<h2>What to measure next</h2>\n" + nextSection(report);
     html += "<h2>Evidence</h2>\n" + effectTable(report);
-    html += "<h2>What could not be told apart</h2>\n" + lookAlikesOf(report);
+    html += "<h2>What could not be distinguished</h2>\n" + lookAlikesOf(report);
     html += "<h2>Measured and simulated, on conditions that were fitted</h2>\n" + trainingCurves(findings)
             + residualTable(report);
     html += "<h2>Runs</h2>\n" + runsSection(report);

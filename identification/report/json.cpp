@@ -71,7 +71,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation.effects)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"misfit", explanation.misfit}, {"simulated", !explanation.runs.empty()}};
+        {"chiSquare", explanation.chiSquare}, {"simulated", !explanation.runs.empty()}};
 }
 
 /// What the effect sets at its amplitude, in words that a user can check.
@@ -107,7 +107,7 @@ Json effectsJson(const Findings& findings)
             {"amplitude", number(finding.fit.amplitude)}, {"standardError", number(finding.fit.sd)},
             {"interval95", {number(finding.fit.lower), number(finding.fit.upper)}},
             {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
-            {"misfit", number(finding.fit.misfit)}, {"logOdds", number(finding.logOdds)},
+            {"chiSquare", number(finding.fit.chiSquare)}, {"logOdds", number(finding.logOdds)},
             {"probability", number(finding.probability)}, {"probabilityNeeded", number(finding.threshold)},
             {"judged", finding.known}, {"parameters", parametersOf(study, finding.parameters)},
             {"smallestDetectable", number(answer.visibility.detected(e))},
@@ -206,20 +206,22 @@ Json heldOutJson(const Findings& findings)
         {"numbers", heldOutNumbers(study, result)}};
 }
 
-Json runsJson(const Simulator& simulator)
+Json runsJson(const StudySimulator& studySimulator)
 {
-    const Json failures = mapped(simulator.effort().failures, [&](const Failure& failure) -> Json {
+    const Json failures = mapped(studySimulator.effort().failures, [&](const Failure& failure) -> Json {
         return {{"purpose", failure.purpose}, {"condition", failure.condition}, {"seed", failure.seed},
-            {"reason", fromStudy(simulator.study(), failure.reason)}, {"repeatedWithAnotherSeed", failure.repeated}};
+            {"reason", fromStudy(studySimulator.study(), failure.reason)},
+            {"repeatedWithAnotherSeed", failure.repeated}};
     });
     int all = 0;
-    for (const auto& [purpose, count] : simulator.effort().runsByPurpose)
+    for (const auto& [purpose, count] : studySimulator.effort().runsByPurpose)
     {
         all += purpose == checkOfUnits ? 0 : count;
     }
-    return {{"used", all}, {"executed", simulator.effort().executed}, {"fromCache", all - simulator.effort().executed},
-        {"seconds", simulator.effort().seconds}, {"secondsOfStored", simulator.effort().secondsOfStored},
-        {"byPurpose", simulator.effort().runsByPurpose}, {"failures", failures}};
+    return {{"used", all}, {"executed", studySimulator.effort().executed},
+        {"fromCache", all - studySimulator.effort().executed}, {"seconds", studySimulator.effort().seconds},
+        {"secondsOfStored", studySimulator.effort().secondsOfStored},
+        {"byPurpose", studySimulator.effort().runsByPurpose}, {"failures", failures}};
 }
 
 Json nextJson(const Findings& findings)
@@ -279,8 +281,8 @@ Json calibrationJson(const Findings& findings)
     });
     return {{"critical", number(answer.calibration.critical)}, {"level", study.settings.level},
         {"draws", study.settings.draws}, {"coverage", study.settings.coverage},
-        {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfFoils", answer.calibration.wrongNames},
-        {"foils", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"},
+        {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfDecoys", answer.calibration.wrongNames},
+        {"decoys", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"},
         {"lookAlikes", pairs}};
 }
 
@@ -315,8 +317,8 @@ Json jsonOf(const Findings& findings)
     json["calibration"] = calibrationJson(findings);
     json["nextExperiment"] = nextJson(findings);
     json["emulator"] = emulatorJson(findings);
-    json["runs"] = runsJson(*findings.simulator);
-    json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.simulator->effort().seedsByPurpose}};
+    json["runs"] = runsJson(*findings.studySimulator);
+    json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
     json["assumptions"] = assumptionsOf(findings);
     json["remarks"] = answer.remarks;
     return json;

@@ -110,8 +110,8 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
         << "(sizes, 1 is the end of the range, at which 80 % of such data sets show that there is something, and get "
            "the "
            "right name;\nbefore the runs at the fits, which sharpen both)\n\n"
-        << (!visibility.alike.empty() ? "not told apart by these conditions, even at full size:\n"
-               : someShow             ? "all effects that show can be told apart\n"
+        << (!visibility.alike.empty() ? "not distinguished by these conditions, even at full size:\n"
+               : someShow             ? "all effects that show can be distinguished\n"
                                       : "no effect shows at its full size\n");
     for (const auto& [i, j] : visibility.alike)
     {

@@ -117,19 +117,19 @@ const Condition* bestCandidate(const Findings& findings)
                : &findings.study->conditions[findings.next->front().condition];
 }
 
-/// "; to tell them apart, measure wetWide"
+/// "; to distinguish them, measure wetWide"
 std::string toTellApart(const Findings& findings)
 {
     if (const Condition* candidate = bestCandidate(findings))
     {
-        return "; to tell them apart, measure " + candidate->name;
+        return "; to distinguish them, measure " + candidate->name;
     }
     for (const auto& explanation : findings.answer->set)
     {
         const Effect& effect = findings.study->effects[explanation.effects.front()];
         if (!effect.hint.empty())
         {
-            return "; to tell them apart: " + effect.hint;
+            return "; to distinguish them: " + effect.hint;
         }
     }
     return "; these measurements do not tell which";
@@ -241,7 +241,7 @@ std::vector<std::string> detailsOf(const Findings& findings)
     }
     else if (answer.decision != Decision::unknown)
     {
-        // What is likely among explanations that all misfit is no explanation.
+        // What is likely among explanations that all chiSquare is no explanation.
         all.push_back(probabilitiesInWords(findings));
     }
     if (!isHeldOut(heldOut))
@@ -326,7 +326,7 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
             : "The scatter of measurements is that of their own repeats, or what is declared.");
     all.push_back("Thresholds hold for data as the emulator draws them; wrong names are held below "
                   + textOf(100.0 * study.settings.wrongNames)
-                  + " % for foils of two kinds: effects of the library left out in turn, and patterns of any shape.");
+                  + " % for decoys of two kinds: effects of the library left out in turn, and patterns of any shape.");
     if (study.modelError.maxCoeff() > 0.0)
     {
         all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");
@@ -335,7 +335,7 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
     {
         all.push_back("Left out, and so never named: " + effect + ".");
     }
-    if (study.rig.seedEntry.empty())
+    if (study.simulator.seedEntry.empty())
     {
         all.emplace_back("Runs of the simulator do not scatter.");
     }

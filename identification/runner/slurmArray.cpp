@@ -82,7 +82,7 @@ std::optional<JobEnd> reportOf(const std::vector<Job>& jobs, std::size_t job)
     return file >> end.status >> end.seconds && file.get() == '\n' ? std::optional(end) : std::nullopt;
 }
 
-/// The array that sbatch has told of, if it came that far.
+/// The array that sbatch has reported, if it came that far.
 void cancel(const std::filesystem::path& logOfSbatch)
 {
     const std::string said = textOf(logOfSbatch);
@@ -116,10 +116,10 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     words.insert(words.end(), options_.begin(), options_.end());
     words.push_back(script.string());
     StopSignals signals;
-    // What has ended is told at once: what stops this program loses only what still runs.
+    // What has ended is reported at once: what stops this program loses only what still runs.
     auto open = numbersWhere(jobs.size(), [](std::size_t) { return true; });
     const auto tell = [&] {
-        const auto isTold = [&](std::size_t job) {
+        const auto isReported = [&](std::size_t job) {
             const auto end = reportOf(jobs, job);
             if (end)
             {
@@ -127,7 +127,7 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
             }
             return end.has_value();
         };
-        open.erase(std::remove_if(open.begin(), open.end(), isTold), open.end());
+        open.erase(std::remove_if(open.begin(), open.end(), isReported), open.end());
     };
     int status = 0;
     try

@@ -13,7 +13,7 @@ namespace clepsydra::identification
 class StoreLock
 {
 public:
-    /// \param progress  is told of the wait \throws std::runtime_error where the file cannot be locked
+    /// \param progress  is reported the wait \throws std::runtime_error where the file cannot be locked
     StoreLock(const std::filesystem::path& store, std::ostream& progress);
     ~StoreLock();
 

@@ -2,7 +2,7 @@
 
 #include "lists.h"
 #include "study/entriesOfRuns.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <map>
 #include <set>
@@ -14,7 +14,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be told.
+/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be reported.
 void checkTags(const YamlPlace& root, const Study& study)
 {
     std::map<std::string, std::set<std::string>> asked;
@@ -63,7 +63,7 @@ void checkTags(const YamlPlace& root, const Study& study)
     }
 }
 
-/// A misspelt family would keep its effect apart from the other variants, and nobody would be told.
+/// A misspelt family would keep its effect apart from the other variants, and nobody would be reported.
 void checkFamilies(const YamlPlace& root, const Study& study)
 {
     std::map<std::string, int> members;
@@ -92,7 +92,7 @@ void checkFamilies(const YamlPlace& root, const Study& study)
 /// Names in formulas that are no entries would be found only when the first run starts.
 void checkFormulas(const YamlPlace& root, const Study& study)
 {
-    Entries all = plainEntries(study.rig, {});
+    Entries all = plainEntries(study.simulator, {});
     for (const auto& condition : study.conditions)
     {
         all.insert(condition.entries.begin(), condition.entries.end());
@@ -128,7 +128,7 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     }
 }
 
-/// Parameters come after what the rig and conditions set.
+/// Parameters come after what the simulator and conditions set.
 void checkOverridden(const YamlPlace& root, const Study& study)
 {
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
@@ -149,7 +149,7 @@ void checkOverridden(const YamlPlace& root, const Study& study)
                             "what " + whose + " sets for the entry would do nothing, for the formula does not hold it");
                 }
             };
-            refuse(study.rig.entries, "rig.set");
+            refuse(study.simulator.entries, "simulator.set");
             for (const auto& condition : study.conditions)
             {
                 refuse(condition.entries, "condition '" + condition.name + "'");

@@ -1,22 +1,22 @@
 #include "study/entriesOfRuns.h"
 
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 
 namespace clepsydra::identification
 {
 
-Entries ownEntries(const RigSpecification& rig)
+Entries ownEntries(const SimulatorSpecification& simulator)
 {
-    return readEntries(rig.caseFolder / rig.entriesFile);
+    return readEntries(simulator.caseFolder / simulator.entriesFile);
 }
 
-Entries plainEntries(const RigSpecification& rig, const Condition& condition)
+Entries plainEntries(const SimulatorSpecification& simulator, const Condition& condition)
 {
     Entries all = condition.entries;
-    all.insert(rig.entries.begin(), rig.entries.end());
-    all.merge(ownEntries(rig));
+    all.insert(simulator.entries.begin(), simulator.entries.end());
+    all.merge(ownEntries(simulator));
     return all;
 }
 
@@ -31,12 +31,12 @@ std::vector<std::string> missingEntries(const Effect& effect, const Entries& kno
     return missing;
 }
 
-void requireEntry(const YamlPlace& place, const std::string& entry, const RigSpecification& rig)
+void requireEntry(const YamlPlace& place, const std::string& entry, const SimulatorSpecification& simulator)
 {
-    const Entries known = ownEntries(rig);
+    const Entries known = ownEntries(simulator);
     if (known.count(entry) == 0)
     {
-        place.fail("'" + entry + "' is no such entry of " + (rig.caseFolder / rig.entriesFile).string()
+        place.fail("'" + entry + "' is no such entry of " + (simulator.caseFolder / simulator.entriesFile).string()
                    + didYouMean(entry, namesOf(known)));
     }
 }
@@ -53,13 +53,13 @@ void requireEntryValue(const YamlPlace& value)
     }
 }
 
-Entries readValues(const YamlPlace& place, const RigSpecification& rig)
+Entries readValues(const YamlPlace& place, const SimulatorSpecification& simulator)
 {
     Entries values;
     for (const auto& [entry, value] : place.map())
     {
         requireEntryValue(value);
-        requireEntry(value, entry, rig);
+        requireEntry(value, entry, simulator);
         values[entry] = value.text();
     }
     return values;

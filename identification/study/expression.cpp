@@ -1,6 +1,6 @@
 #include "study/expression.h"
 
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <muParser.h>
 

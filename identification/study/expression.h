@@ -7,7 +7,7 @@
 namespace clepsydra::identification
 {
 
-/// A formula as users write it in a study file: "beadDiameter*(1 + 0.05*a)". Knows + - * / ^, brackets, numbers,
+/// A formula as users write it in a study file: "particleDiameter*(1 + 0.05*a)". Knows + - * / ^, brackets, numbers,
 /// names, and exp, log, sqrt, abs, round, min, max, sin, cos (angles in radians).
 class Expression
 {

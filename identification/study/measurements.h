@@ -24,7 +24,7 @@ Curve readMeasured(
     const std::filesystem::path& file, const ColumnSpecification& timeColumn, const ColumnSpecification& valueColumn);
 
 /// Looks at every measured file before anything is run: its columns, numbers, and that time does not go back. Of training
-/// files rows, range and features are told. Of held-out ones the form alone is looked at: no value is kept or told.
+/// files rows, range and features are reported. Of held-out ones the form alone is looked at: no value is kept or reported.
 /// \throws std::runtime_error that names file, and column or row; or a training condition that has none of the features
 void checkMeasurements(const Study& study, std::ostream& out);
 

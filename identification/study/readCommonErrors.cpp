@@ -3,7 +3,7 @@
 #include "study/entriesOfRuns.h"
 #include "study/namedItems.h"
 #include "study/readFormula.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,11 +49,11 @@ void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::
     if (!(std::abs(there - itself) <= tolerance * std::abs(itself)))
     {
         place.fail("gives " + textOf(there) + " where the error z is 0, but must give " + textOf(itself)
-                   + " there: \"beadDiameter*(1 + 0.01*z)\"");
+                   + " there: \"particleDiameter*(1 + 0.01*z)\"");
     }
     if (at(1.0) == there)
     {
-        place.fail("must hold z, the error in standard deviations: \"beadDiameter*(1 + 0.01*z)\"");
+        place.fail("must hold z, the error in standard deviations: \"particleDiameter*(1 + 0.01*z)\"");
     }
 }
 
@@ -64,7 +64,7 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
         const Expression formula = readFormula(value);
         for (const auto condition : error.conditions)
         {
-            const auto numbers = numbersOf(plainEntries(study.rig, study.conditions[condition]));
+            const auto numbers = numbersOf(plainEntries(study.simulator, study.conditions[condition]));
             const auto itself = numbers.find(entry);
             if (itself == numbers.end())
             {

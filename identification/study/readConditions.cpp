@@ -4,7 +4,7 @@
 #include "study/namedItems.h"
 #include "study/readFormula.h"
 #include "study/units.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <cmath>
@@ -121,11 +121,11 @@ Role roleOf(const YamlPlace& place)
 
 /// The condition's own, else that of all; tried with the condition's entries.
 ObservableScale readScale(
-    const YamlPlace& root, const YamlPlace& place, const RigSpecification& rig, const Condition& condition)
+    const YamlPlace& root, const YamlPlace& place, const SimulatorSpecification& simulator, const Condition& condition)
 {
     const auto own = place.optional("observable");
     own.allow({"factor", "offset"});
-    const auto numbers = numbersOf(plainEntries(rig, condition));
+    const auto numbers = numbersOf(plainEntries(simulator, condition));
     const auto read = [&](const std::string& key, Expression& formula) {
         const YamlPlace parent = own.has(key) ? own : root.at("observable");
         if (parent.has(key))
@@ -152,8 +152,8 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     condition.command = place.textOr("command", "");
     condition.file = place.textOr("file", root.at("observable").at("file").text());
     condition.cost = place.positiveOr("cost", 1.0);
-    condition.entries = readValues(place.optional("set"), study.rig);
-    condition.observable = readScale(root, place, study.rig, condition);
+    condition.entries = readValues(place.optional("set"), study.simulator);
+    condition.observable = readScale(root, place, study.simulator, condition);
     for (const auto& [tag, value] : place.optional("tags").map())
     {
         condition.tags[tag] = value.text();
@@ -167,7 +167,7 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
         if (condition.role == Role::candidate)
         {
             place.at("measured")
-                .fail("nobody reads it: a candidate is not measured yet; with role: training or heldOut "
+                .fail("is unknown it: a candidate is not measured yet; with role: training or heldOut "
                       "it would be read");
         }
         condition.measured = readMeasurement(place.at("measured"), study, root);
@@ -184,7 +184,7 @@ void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
         const auto& [name, measured] = std::tie(study.conditions[c].name, study.conditions[c].measured);
         for (const auto& file : measured.files)
         {
-            // Parts of one record are told apart by the valid times.
+            // Parts of one record are distinguished by the valid times.
             const auto [owner, isNew] = owners.emplace(
                 std::tuple(std::filesystem::canonical(file), measured.value.column, measured.time.lowest), name);
             if (!isNew)

@@ -1,7 +1,7 @@
 #include "study/readFormula.h"
 
 #include "effects/measuringChain.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 namespace clepsydra::identification
 {
 
-/// What a function gives; what it finds wrong with its argument is told with file and line.
+/// What a function gives; what it finds wrong with its argument is reported with file and line.
 template<class Function>
 auto checkedAt(const YamlPlace& place, Function function)
 {

@@ -7,7 +7,7 @@
 #include "study/readCommonErrors.h"
 #include "study/readConditions.h"
 #include "study/readFormula.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <functional>
@@ -19,38 +19,38 @@ namespace clepsydra::identification
 namespace
 {
 
-RigSpecification readRig(const YamlPlace& place)
+SimulatorSpecification readSimulator(const YamlPlace& place)
 {
     place.allow({"case", "command", "entriesFile", "set", "seed", "dependsOn", "version", "costPerRun", "timeLimit"});
-    RigSpecification rig;
-    rig.caseFolder = place.at("case").path();
-    rig.command = place.textOr("command", rig.command);
-    rig.entriesFile = place.textOr("entriesFile", rig.entriesFile);
-    rig.seedEntry = place.at("seed").text() == "none" ? "" : place.at("seed").text();
-    rig.version = place.textOr("version", "");
-    rig.costPerRun = place.positiveOr("costPerRun", rig.costPerRun);
-    rig.timeLimit = place.positiveOr("timeLimit", 0.0);
+    SimulatorSpecification simulator;
+    simulator.caseFolder = place.at("case").path();
+    simulator.command = place.textOr("command", simulator.command);
+    simulator.entriesFile = place.textOr("entriesFile", simulator.entriesFile);
+    simulator.seedEntry = place.at("seed").text() == "none" ? "" : place.at("seed").text();
+    simulator.version = place.textOr("version", "");
+    simulator.costPerRun = place.positiveOr("costPerRun", simulator.costPerRun);
+    simulator.timeLimit = place.positiveOr("timeLimit", 0.0);
     for (const auto& file : place.optional("dependsOn").oneOrMore())
     {
-        rig.dependsOn.push_back(file.path());
-        if (!std::filesystem::exists(rig.dependsOn.back()))
+        simulator.dependsOn.push_back(file.path());
+        if (!std::filesystem::exists(simulator.dependsOn.back()))
         {
-            file.fail("no such file: " + rig.dependsOn.back().string());
+            file.fail("no such file: " + simulator.dependsOn.back().string());
         }
     }
-    if (!std::filesystem::is_regular_file(rig.caseFolder / rig.entriesFile))
+    if (!std::filesystem::is_regular_file(simulator.caseFolder / simulator.entriesFile))
     {
-        place.at("case").fail("there is no file " + (rig.caseFolder / rig.entriesFile).string());
+        place.at("case").fail("there is no file " + (simulator.caseFolder / simulator.entriesFile).string());
     }
-    if (!rig.seedEntry.empty())
+    if (!simulator.seedEntry.empty())
     {
-        requireEntry(place.at("seed"), rig.seedEntry, rig);
+        requireEntry(place.at("seed"), simulator.seedEntry, simulator);
     }
-    rig.entries = readValues(place.optional("set"), rig);
-    return rig;
+    simulator.entries = readValues(place.optional("set"), simulator);
+    return simulator;
 }
 
-Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
+Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& simulator)
 {
     place.allow({"name", "unit", "set", "prior", "range", "of"});
     Parameter parameter;
@@ -58,7 +58,7 @@ Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
     parameter.unit = place.textOr("unit", "");
     for (const auto& [entry, value] : place.at("set").map())
     {
-        requireEntry(value, entry, rig);
+        requireEntry(value, entry, simulator);
         parameter.entries.emplace(entry, readFormula(value));
     }
     place.at("prior").allow({"mean", "sd"});
@@ -75,7 +75,7 @@ Parameter readParameter(const YamlPlace& place, const RigSpecification& rig)
 /// A library is for many cases: what this one cannot switch on is left out, and said.
 std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
 {
-    const Entries known = ownEntries(study.rig);
+    const Entries known = ownEntries(study.simulator);
     std::vector<Effect> kept;
     for (const auto& effect : library)
     {
@@ -120,9 +120,9 @@ void readAllEffects(const YamlPlace& root, Study& study)
     const auto own = readEffects(root.optional("effects"));
     for (std::size_t i = 0; i < own.size(); ++i)
     {
-        for (const auto& entry : missingEntries(own[i], ownEntries(study.rig)))
+        for (const auto& entry : missingEntries(own[i], ownEntries(study.simulator)))
         {
-            requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.rig);
+            requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.simulator);
         }
     }
     add(own);
@@ -202,7 +202,7 @@ void readSettings(const YamlPlace& root, Study& study)
     settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
     settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
     settings.draws = inference.countOr("draws", settings.draws, 100);
-    if (!study.rig.seedEntry.empty() && settings.level * (settings.draws + 1) <= 1.0)
+    if (!study.simulator.seedEntry.empty() && settings.level * (settings.draws + 1) <= 1.0)
     {
         inference.at("level").fail(
             "of " + std::to_string(settings.draws) + " draws no data are that rare: raise level or draws");
@@ -236,17 +236,17 @@ ExecutorSpecification readExecutor(const YamlPlace& place)
 Study readStudy(const std::filesystem::path& file)
 {
     const YamlPlace root = YamlPlace::fileAt(file);
-    root.allow({"study", "about", "rig", "observable", "measured", "conditions", "parameters", "effectsFrom", "effects",
-        "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures", "inference",
-        "executor", "work", "assumptions", "magnitudeLimit"});
+    root.allow({"study", "about", "simulator", "observable", "measured", "conditions", "parameters", "effectsFrom",
+        "effects", "onlyEffects", "withoutEffects", "commonErrors", "budget", "seed", "repeats", "failures",
+        "inference", "executor", "work", "assumptions", "magnitudeLimit"});
     Study study;
     study.file = file;
     study.name = root.at("study").text();
-    study.rig = readRig(root.at("rig"));
+    study.simulator = readSimulator(root.at("simulator"));
     readObservable(root.at("observable"), study);
     readConditions(root, study);
     study.parameters = readNamed(root.optional("parameters"), "parameters",
-        [&](const YamlPlace& place) { return readParameter(place, study.rig); });
+        [&](const YamlPlace& place) { return readParameter(place, study.simulator); });
     if (study.parameters.size() > mostParameters)
     {
         root.at("parameters")

@@ -31,7 +31,7 @@ struct Bounds
 };
 
 /// A case that can be run.
-struct RigSpecification
+struct SimulatorSpecification
 {
     std::filesystem::path caseFolder;
     std::string command = "./Allrun";
@@ -123,7 +123,7 @@ struct Measurement
 };
 
 /// The observable of a run: what the simulation writes, times the factor, plus the offset (SI units). Formulas in the
-/// entries of that run, with its parameters and effects: "-beadDiameter/2" for the gap below a bead.
+/// entries of that run, with its parameters and effects: "-particleDiameter/2" for the gap below a particle.
 struct ObservableScale
 {
     Expression factor{"1"};
@@ -137,7 +137,7 @@ struct Condition
     Entries entries;
     std::map<std::string, std::string> tags;
     std::map<std::string, double> coordinates; // for the Gaussian process of control 2
-    std::string command;                       // empty: the rig's
+    std::string command;                       // empty: the simulator's
     std::string file;                          // of the observable
     ObservableScale observable;
     Measurement measured;
@@ -146,7 +146,7 @@ struct Condition
 
 bool acts(const Effect& effect, const Condition& condition);
 
-/// One unknown number behind all numbers of one or several conditions, which repeats do not show: a bead whose diameter was
+/// One unknown number behind all numbers of one or several conditions, which repeats do not show: a particle whose diameter was
 /// measured once, a scale that was calibrated once, what a law leaves open. No explanation of a residual and no parameter:
 /// it has no name to be given and is not reported, and is known before any data.
 ///
@@ -202,7 +202,7 @@ struct Study
     std::string name;
     std::filesystem::path file;
     std::filesystem::path work; // cache and runs
-    RigSpecification rig;
+    SimulatorSpecification simulator;
     std::string timeColumn;
     std::string valueColumn;
     double magnitudeLimit = 30.0; // by which factor measured and simulated may differ before units are doubted

@@ -1,7 +1,7 @@
 #include "study/units.h"
 
 #include "lists.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <algorithm>
 #include <map>

@@ -1,7 +1,7 @@
 #include "study/yaml.h"
 
 #include "lists.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <cctype>
 #include <cmath>

@@ -43,7 +43,7 @@ public:
     YamlPlace optional(const std::string& key) const;
 
     std::vector<YamlPlace> list() const;
-    /// A list, or a lone value as a list of one.
+    /// A list, or an isolated value as a list of one.
     std::vector<YamlPlace> oneOrMore() const;
     std::vector<std::pair<std::string, YamlPlace>> map() const;
 

@@ -1,4 +1,4 @@
-"""The cost model of coupling/run/costModel.h with speeds by beads and cells: measured, fitted, for runs that are planned.
+"""The cost model of coupling/run/costModel.h with speeds by particles and cells: measured, fitted, for runs that are planned.
 fitCostModel beside this file writes costModel.json. A run that has begun measures its own speeds."""
 
 from pathlib import Path
@@ -9,18 +9,18 @@ from scipy.optimize import nnls
 from . import timing
 
 FILE = Path(__file__).resolve().parent / "costModel.json"
-TERMS = ("perBeadStep", "perBead", "perCell", "perCell43")
+TERMS = ("perParticleStep", "perParticle", "perCell", "perCell43")
 DURATION = 0.1
 ESTIMATED_DURATION = 1
 # Start-up and checkpoints are no part of the model.
 NOT_MODELLED = ("other", "output")
 
 
-def work(ledger, hopper, cells):
-    """Bead-steps, bead-, cell- and cell^(4/3)-intervals of a run."""
-    p, duration = hopper.parameters, ledger["timeEnd"] - ledger["timeStart"]
-    intervals, beads = duration / p["couplingInterval"], ledger["beadsStart"]
-    return np.array([beads * duration / p["demStep"], beads * intervals, cells * intervals, cells**(4 / 3) * intervals])
+def work(conservation, hopper, cells):
+    """Particle-steps, particle-, cell- and cell^(4/3)-intervals of a run."""
+    p, duration = hopper.parameters, conservation["timeEnd"] - conservation["timeStart"]
+    intervals, particles = duration / p["couplingTimeStep"], conservation["particlesStart"]
+    return np.array([particles * duration / p["demStep"], particles * intervals, cells * intervals, cells**(4 / 3) * intervals])
 
 
 def cellCount(folder):
@@ -31,10 +31,10 @@ def cellCount(folder):
 def measured(hopper, ranks=1):
     """Terms and seconds of the submerged hopper: processor time of one rank, wall time of more."""
     run = hopper.run("submerged", f"cost{ranks}", DURATION, ranks)
-    ledger = timing.timed(run).result
-    phases = ledger["phaseProcessorSeconds" if ranks == 1 else "phaseSeconds"]
+    conservation = timing.timed(run).result
+    phases = conservation["phaseProcessorSeconds" if ranks == 1 else "phaseSeconds"]
     seconds = sum(time for name, time in phases.items() if name not in NOT_MODELLED)
-    return work(ledger, hopper, cellCount(run.folder)), seconds
+    return work(conservation, hopper, cellCount(run.folder)), seconds
 
 
 def fit(rows):
@@ -52,9 +52,9 @@ def predicted(model, terms, ranks=1):
 def costModelErrorPercent(hopper, repetitions):
     """What a run itself expects once a hundredth of it is done, from its own first intervals."""
     run = hopper.run("submerged", "estimated", ESTIMATED_DURATION)
-    ledgers = [time.result for time in timing.interleaved({"run": run}, repetitions)["run"]]
+    conservations = [time.result for time in timing.interleaved({"run": run}, repetitions)["run"]]
     return timing.Figure(
-        [100 * (ledger["estimatedProcessorSeconds"] / sum(ledger["phaseProcessorSeconds"].values()) - 1) for ledger in ledgers],
+        [100 * (conservation["estimatedProcessorSeconds"] / sum(conservation["phaseProcessorSeconds"].values()) - 1) for conservation in conservations],
         target="+- 15", meaning=f"% by which a run's estimate after 1 % is above the time it took, first {ESTIMATED_DURATION} s")
 
 

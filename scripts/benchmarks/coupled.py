@@ -67,12 +67,12 @@ def coupledOverLiggghtsAndFluid(hopper, repetitions):
         details={"coupled": phases, "liggghts": alone})
 
 
-def exchangeBytesPerBead(hopper, repetitions):
+def exchangeBytesPerParticle(hopper, repetitions):
     """A count, not a time: one run."""
     run = hopper.run("submerged", "exchange", 0.05, 2)
-    ledger = timing.timed(run).result
-    intervals = (ledger["timeEnd"] - ledger["timeStart"]) / hopper.parameters["couplingInterval"]
-    perBead = ledger["exchangedBytes"] / ledger["beadsStart"] / intervals
+    conservation = timing.timed(run).result
+    intervals = (conservation["timeEnd"] - conservation["timeStart"]) / hopper.parameters["couplingTimeStep"]
+    perParticle = conservation["exchangedBytes"] / conservation["particlesStart"] / intervals
     return timing.Figure(
-        [perBead], target="< 1100",
-        meaning="bytes that both of two ranks send for a bead and interval; all-to-all: about 1100 a bead and rank")
+        [perParticle], target="< 1100",
+        meaning="bytes that both of two ranks send for a particle and interval; all-to-all: about 1100 a particle and rank")

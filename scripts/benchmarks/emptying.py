@@ -1,4 +1,4 @@
-"""One rank against two as the bed empties: from checkpoints of one run, so that both begin with the same beads."""
+"""One rank against two as the bed empties: from checkpoints of one run, so that both begin with the same particles."""
 
 import json
 import shutil
@@ -15,7 +15,7 @@ WINDOW = 0.04
 
 def speedupEmptying(hopper, repetitions):
     """Figures of the three windows in `details`; the value is the least of their medians."""
-    folder = drained(hopper)
+    folder = discharged(hopper)
     speedups = {}
     for remaining in REMAINING:
         start = startOf(folder, remaining)
@@ -31,18 +31,18 @@ def speedupEmptying(hopper, repetitions):
                 + "; here the least")
 
 
-def drained(hopper):
-    """The submerged stage with its checkpoints, until less than the last part remains."""
-    folder = hopper.stage("submerged", "drained", 3.0)
+def discharged(hopper):
+    """The submerged step with its checkpoints, until less than the last part remains."""
+    folder = hopper.step("submerged", "discharged", 3.0)
     timing.timed(timing.Run(solver(), folder))
     return folder
 
 
 def startOf(folder, remaining):
     """The write time at which most nearly this part of the fill remains."""
-    at, _, beads = caseFiles.columns(folder, "massInHopper")[:3]
+    at, _, particles = caseFiles.columns(folder, "massInHopper")[:3]
     written = [float(path.name) for path in (folder / "checkpoints").iterdir() if path.name != "beginning"]
-    return min([0.0, *written], key=lambda time: abs(beads[abs(at - time).argmin()] / beads[0] - remaining))
+    return min([0.0, *written], key=lambda time: abs(particles[abs(at - time).argmin()] / particles[0] - remaining))
 
 
 def window(folder, start, ranks):
@@ -56,12 +56,12 @@ def window(folder, start, ranks):
     if start > 0:
         shutil.copytree(folder / "checkpoints" / name, part / "checkpoints" / name)
         shutil.copy(folder / "checkpoints" / "beginning", part / "checkpoints")
-    with open(part / "stage", "a") as stage:
-        stage.write(f"stageEndTime {start + WINDOW};\nfieldInterval 10;\n")
-    Hopper.inFolder(part.parent.parent, f"{FUNCTIONS}; ranks={ranks}; shareOut stages/{part.name}/stage")
+    with open(part / "step", "a") as step:
+        step.write(f"stepEndTime {start + WINDOW};\nfieldInterval 10;\n")
+    Hopper.inFolder(part.parent.parent, f"{FUNCTIONS}; ranks={ranks}; shareOut steps/{part.name}/step")
     if ranks > 1:
         Hopper.inFolder(part, f"decomposePar -latestTime > log.decomposePar 2>&1")
-    return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newestLedger(part))
+    return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newestBalance(part))
 
 
 def forget(part, kept):
@@ -72,5 +72,5 @@ def forget(part, kept):
                 shutil.rmtree(path)
 
 
-def newestLedger(part):
-    return json.loads(next((part / "postProcessing/ledger").glob("*/summary.json")).read_text())
+def newestBalance(part):
+    return json.loads(next((part / "postProcessing/conservation").glob("*/summary.json")).read_text())

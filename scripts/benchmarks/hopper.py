@@ -1,4 +1,4 @@
-"""cases/hopperQuick in a folder of its own, poured once; every comparison starts from this packing."""
+"""cases/tutorials/hopperQuick in a folder of its own, filled once; every comparison starts from this packing."""
 
 import functools
 import json
@@ -13,9 +13,9 @@ REPOSITORY = Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(REPOSITORY / "scripts"))
 import caseFiles
 
-# The hopper of the measurements: 13,900 beads of 2 mm in 5 cm.
-FULL_SIZE = {"beadCount": "13900", "hopperDiameter": "0.05", "hopperHeight": "0.095", "orificeDiameter": "0.02",
-             "tankDiameter": "0.12", "tankDepth": "0.06", "pourTime": "1.4"}
+# The hopper of the measurements: 13,900 particles of 2 mm in 5 cm.
+FULL_SIZE = {"particleCount": "13900", "hopperDiameter": "0.05", "hopperHeight": "0.095", "orificeDiameter": "0.02",
+             "tankDiameter": "0.12", "tankDepth": "0.06", "fillingTime": "1.4"}
 
 # All of Allrun but its last line, which calls main.
 FUNCTIONS = "sed '$d' Allrun > functions; . ./functions; ranks=1"
@@ -27,16 +27,16 @@ class Hopper:
         self.case = folder / "cases" / "hopperQuick"
         self.quick = quick
         shutil.copytree(repository / "cases" / "hopperQuick", self.case,
-                        ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
+                        ignore=shutil.ignore_patterns("steps", "results", "polyMesh"))
         for name in ("meshes", "scripts"):
             (folder / name).symlink_to(repository / name)
         self.setParameters(self.case / "parameters", parameters if quick else {**FULL_SIZE, **parameters})
         self.parameters = caseFiles.parameters(self.case / "parameters")
-        self._poured = False
+        self._filled = False
 
     @functools.cache
     def quickOne(self):
-        """The hopper of 3000 beads: this one, or another."""
+        """The hopper of 3000 particles: this one, or another."""
         return self if self.quick else Hopper(self.folder / "quickOne", quick=True)
 
     @functools.cache
@@ -44,8 +44,8 @@ class Hopper:
         """The same packing in another mesh."""
         other = Hopper(self.folder / f"cells{cellSize}", self.quick, cellSize=cellSize)
         self.inFolder(other.case, f"{FUNCTIONS}; startAfresh; makeMesh")
-        shutil.copy(self.packing, other.case / "stages" / "pour")
-        other._poured = True
+        shutil.copy(self.packing, other.case / "steps" / "filling")
+        other._filled = True
         return other
 
     def validationCase(self, name):
@@ -57,20 +57,20 @@ class Hopper:
         return cases / name
 
     def run(self, template, name, duration, ranks=1, **entries):
-        """A timing.Run of such a stage, its result what the ledger says."""
-        folder = self.stage(template, name, duration, ranks, **entries)
-        return timing.Run(solver(ranks), folder, prepare=lambda: forgetResults(folder), result=lambda: ledger(folder))
+        """A timing.Run of such a step, its result what the conservation check says."""
+        folder = self.step(template, name, duration, ranks, **entries)
+        return timing.Run(solver(ranks), folder, prepare=lambda: forgetResults(folder), result=lambda: conservation(folder))
 
-    def stage(self, template, name, duration, ranks=1, **entries):
-        """A stage like `dry` or `submerged`, from the packing, that ends after `duration` [s]; its folder."""
+    def step(self, template, name, duration, ranks=1, **entries):
+        """A step like `dry` or `submerged`, from the packing, that ends after `duration` [s]; its folder."""
         self._pour()
-        folder = self.case / "stages" / name
+        folder = self.case / "steps" / name
         shutil.rmtree(folder, ignore_errors=True)
-        self.inFolder(self.case, f"{FUNCTIONS}; ranks={ranks}; prepareStage {template}")
-        shutil.copytree(self.case / "stages" / template, folder, symlinks=True)
-        entries = {"stageEndTime": duration, **entries}
-        with open(folder / "stage", "a") as stage:
-            stage.writelines(f"{entry} {value};\n" for entry, value in entries.items())
+        self.inFolder(self.case, f"{FUNCTIONS}; ranks={ranks}; prepareStep {template}")
+        shutil.copytree(self.case / "steps" / template, folder, symlinks=True)
+        entries = {"stepEndTime": duration, **entries}
+        with open(folder / "step", "a") as step:
+            step.writelines(f"{entry} {value};\n" for entry, value in entries.items())
         if ranks > 1:
             self.inFolder(folder, "decomposePar > log.decomposePar 2>&1")
         return folder
@@ -78,7 +78,7 @@ class Hopper:
     @property
     def packing(self):
         self._pour()
-        return self.case / "stages" / "pour" / "packing.restart"
+        return self.case / "steps" / "filling" / "packing.restart"
 
     @staticmethod
     def inFolder(folder, commands):
@@ -89,9 +89,9 @@ class Hopper:
         return done.stdout
 
     def _pour(self):
-        if not self._poured:
-            self.inFolder(self.case, f"{FUNCTIONS}; startAfresh; makeMesh; runStages pour; requireAllBeads")
-            self._poured = True
+        if not self._filled:
+            self.inFolder(self.case, f"{FUNCTIONS}; startAfresh; makeMesh; runSteps filling; requireAllParticles")
+            self._filled = True
 
     @staticmethod
     def setParameters(file, values):
@@ -103,13 +103,13 @@ def solver(ranks=1):
     return command if ranks == 1 else ["mpirun", "-np", str(ranks), *command, "-parallel"]
 
 
-def ledger(folder):
-    """What the run in this folder wrote at its end: beads, errors, seconds of each phase, bytes exchanged."""
-    return json.loads((folder / "postProcessing" / "ledger" / "0" / "summary.json").read_text())
+def conservation(folder):
+    """What the run in this folder wrote at its end: particles, errors, seconds of each phase, bytes exchanged."""
+    return json.loads((folder / "postProcessing" / "conservationCheck" / "0" / "summary.json").read_text())
 
 
 def forgetResults(folder):
-    """Lets a stage begin anew: it would go on from its last checkpoint."""
+    """Lets a step begin again: it would go on from its last checkpoint."""
     for pattern in ("checkpoints", "postProcessing", "VTK", "[0-9]*", "processor*/[0-9]*"):
         for path in folder.glob(pattern):
             if path.name != "0":

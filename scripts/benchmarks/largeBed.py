@@ -1,29 +1,29 @@
-"""A million beads in a million cells on two ranks against a fiftieth of both: what grows faster than the bed does."""
+"""A million particles in a million cells on two ranks against a fiftieth of both: what grows faster than the bed does."""
 
 import functools
 import shutil
 
 from . import memory, timing
-from .hopper import REPOSITORY, Hopper, forgetResults, ledger, solver
+from .hopper import REPOSITORY, Hopper, forgetResults, conservation, solver
 
 RANKS = 2
 INTERVALS = 40
 DEM_STEPS = 20      # in an interval
 
-# Beads along a side and up, cells along a side and up. As many coupling intervals of both: the first finds all beads anew.
+# Particles along a side and up, cells along a side and up. As many coupling steps of both: the first finds all particles again.
 SMALL = (20, 50), (20, 50)
 LARGE = (100, 100), (100, 100)
 
-OF_BEADS = ("DEM", "locate", "distribute", "exchange", "forces")
+OF_PARTICLES = ("DEM", "locate", "distribute", "exchange", "forces")
 OF_CELLS = ("momentum", "pressure", "smooth")
 
 
-def millionBeads(hopper, repetitions):
-    return growth(hopper, repetitions, "incompressible", OF_BEADS, "a bead and DEM step", "bead")
+def millionParticles(hopper, repetitions):
+    return growth(hopper, repetitions, "incompressible", OF_PARTICLES, "a particle and DEM step", "particle")
 
 
-def millionBeadsDry(hopper, repetitions):
-    return growth(hopper, repetitions, "none", OF_BEADS, "a bead and DEM step, without fluid", "bead")
+def millionParticlesDry(hopper, repetitions):
+    return growth(hopper, repetitions, "none", OF_PARTICLES, "a particle and DEM step, without fluid", "particle")
 
 
 def millionCells(hopper, repetitions):
@@ -41,9 +41,9 @@ def growth(hopper, repetitions, fluid, phases, said, unit):
 
 
 def perUnit(seconds, phases, size, unit):
-    """Seconds of each phase, of which there are fewer without fluid, for one bead and DEM step or one cell and step of the fluid."""
+    """Seconds of each phase, of which there are fewer without fluid, for one particle and DEM step or one cell and step of the fluid."""
     (across, up), (cellsAcross, cellsUp) = size
-    units = INTERVALS * (across**2 * up * DEM_STEPS if unit == "bead" else cellsAcross**2 * cellsUp)
+    units = INTERVALS * (across**2 * up * DEM_STEPS if unit == "particle" else cellsAcross**2 * cellsUp)
     return {phase: seconds[phase] / units for phase in phases if phase in seconds}
 
 
@@ -53,20 +53,20 @@ def measured(hopper, repetitions, fluid):
     return timing.interleaved(beds, repetitions)
 
 
-def bed(hopper, name, fluid, beads, cells):
+def bed(hopper, name, fluid, particles, cells):
     """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
-    folder = memory.column(hopper, beads, cells, fluid=fluid, couplingInterval=DEM_STEPS * 1e-5,
+    folder = memory.column(hopper, particles, cells, fluid=fluid, couplingTimeStep=DEM_STEPS * 1e-5,
                            endTime=INTERVALS * DEM_STEPS * 1e-5).folder
     case = folder.with_name(f"{name}Bed.{fluid}")
     shutil.rmtree(case, ignore_errors=True)
     folder.rename(case)
     for file in ("fvSolution", "decomposeParDict"):
-        shutil.copy(REPOSITORY / "cases/hopperQuick/system" / file, case / "system")
+        shutil.copy(REPOSITORY / "cases/tutorials/hopperQuick/system" / file, case / "system")
     script = case / "DEM/in.column"
     script.write_text(f"processors {RANKS} 1 1\n" + script.read_text())     # the same boxes as the mesh's
-    (case / "stage").write_text("".join(f"{entry} {value:g};\n" for entry, value in {
+    (case / "step").write_text("".join(f"{entry} {value:g};\n" for entry, value in {
         **{entry: hopper.parameters[entry] for entry in ("pressureTolerance", "velocityTolerance", "outerCorrectors",
                                                          "pressureCorrectors", "nonOrthogonalCorrectors")},
         "ranks": RANKS, "ranksAlongX": RANKS, "ranksAlongY": 1, "ranksAlongZ": 1}.items()))
     Hopper.inFolder(case, "decomposePar > log.decomposePar 2>&1")
-    return timing.Run(solver(RANKS), case, prepare=lambda: forgetResults(case), result=lambda: ledger(case))
+    return timing.Run(solver(RANKS), case, prepare=lambda: forgetResults(case), result=lambda: conservation(case))

@@ -1,4 +1,4 @@
-"""Memory of pimpleDemFoam against beads and cells: a still bed on a lattice in a column, a few steps."""
+"""Memory of pimpleDemFoam against particles and cells: a still bed on a lattice in a column, a few steps."""
 
 import functools
 import shutil
@@ -11,28 +11,28 @@ from .hopper import REPOSITORY, Hopper, forgetResults
 COLUMN = REPOSITORY / "cases" / "validation" / "common" / "column"
 DIAMETER = 1e-3
 
-# Beads along a side and up, cells along a side and up. The paper's hopper: .02 million beads, 1.5 million cells.
+# Particles along a side and up, cells along a side and up. The paper's hopper: .02 million particles, 1.5 million cells.
 QUICK = [((20, 50), (10, 25)), ((40, 60), (10, 25)), ((20, 50), (40, 60)), ((40, 60), (40, 60))]
 FULL = QUICK + [((100, 100), (50, 50)), ((20, 50), (100, 150)), ((70, 100), (35, 50)), ((20, 50), (60, 100))]
 
-# Beads that touch, six contacts each.
+# Particles that touch, six contacts each.
 SCRIPT = """include DEM/in.settings
 region domain block 0 ${width} 0 ${width} 0 ${height} units box
 create_box 2 domain
 variable bounce equal ${restitution}
 include DEM/in.box
 fix gravity all gravity 9.81 vector 0 0 -1
-lattice sc ${beadDiameter} origin 0.5 0.5 0.5
-variable top equal ${beadDiameter}*${beadsUp}
+lattice sc ${particleDiameter} origin 0.5 0.5 0.5
+variable top equal ${particleDiameter}*${particlesUp}
 region bed block 0 ${width} 0 ${width} 0 ${top} units box
 create_atoms 1 region bed
-set group all diameter $(1.0001*v_beadDiameter) density ${beadDensity}
+set group all diameter $(1.0001*v_particleDiameter) density ${particleDensity}
 fix motion all nve/sphere
 """
 
 
-def bytesPerBead(hopper, repetitions):
-    return slope(hopper, repetitions, "beads")
+def bytesPerParticle(hopper, repetitions):
+    return slope(hopper, repetitions, "particles")
 
 
 def bytesPerCell(hopper, repetitions):
@@ -42,7 +42,7 @@ def bytesPerCell(hopper, repetitions):
 def slope(hopper, repetitions, quantity):
     fits = measured(hopper, repetitions)
     return timing.Figure([fit[quantity] for fit in fits],
-                         meaning=f"bytes of one more of the {quantity}, from peaks of memory fitted as a + b beads + c cells",
+                         meaning=f"bytes of one more of the {quantity}, from peaks of memory fitted as a + b particles + c cells",
                          details={"fits": fits})
 
 
@@ -55,23 +55,23 @@ def measured(hopper, repetitions):
         counts = np.array([[across**2 * up, cellsAcross**2 * cellsUp] for (across, up), (cellsAcross, cellsUp) in sizes])
         peaks = np.array([timing.timed(column(hopper, *size)).peakMemory for size in sizes])
         terms = np.column_stack([np.ones(len(counts)), counts])
-        # Relative errors count: a million beads must not hide twenty thousand.
+        # Relative errors count: a million particles must not hide twenty thousand.
         values = np.linalg.lstsq(terms / peaks[:, None], np.ones(len(peaks)), rcond=None)[0]
         worst = abs(terms @ values / peaks - 1).max()
-        fits.append({"constant": values[0], "beads": values[1], "cells": values[2], "worstErrorPercent": 100 * worst,
+        fits.append({"constant": values[0], "particles": values[1], "cells": values[2], "worstErrorPercent": 100 * worst,
                      "sizes": counts.tolist(), "peaks": peaks.tolist()})
     return fits
 
 
-def column(hopper, beads, cells, **entries):
-    (across, up), (cellsAcross, cellsUp) = beads, cells
+def column(hopper, particles, cells, **entries):
+    (across, up), (cellsAcross, cellsUp) = particles, cells
     folder = hopper.folder / "memory"
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(COLUMN, folder)
-    (folder / "DEM" / "in.column").write_text(SCRIPT.replace("${beadsUp}", str(up)))
+    (folder / "DEM" / "in.column").write_text(SCRIPT.replace("${particlesUp}", str(up)))
     (folder / "system" / "functions").write_text("")
     values = {"width": across * DIAMETER, "height": (up + 4) * DIAMETER, "cellsAcross": cellsAcross, "cellsUp": cellsUp,
-              "beadCount": across**2 * up, "smoothingLength": 1.5e-3, "endTime": 1e-4, "couplingInterval": 5e-5,
+              "particleCount": across**2 * up, "smoothingBandwidth": 1.5e-3, "endTime": 1e-4, "couplingTimeStep": 5e-5,
               "writeInterval": 1, **entries}
     Hopper.setParameters(folder / "parameters", values)
     Hopper.inFolder(folder, "blockMesh > log.blockMesh 2>&1")

@@ -11,7 +11,7 @@ INTERVALS = 5
 
 
 def messagesPerInterval(hopper, repetitions):
-    return figure(hopper, "messages that the busiest rank sends in a coupling interval",
+    return figure(hopper, "messages that the busiest rank sends in a coupling step",
                   lambda rank: sum(phase["messages"] for phase in rank["phases"].values()))
 
 
@@ -46,7 +46,7 @@ def counter():
 
 
 def counted(hopper, ranks):
-    run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingInterval"], ranks)
+    run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingTimeStep"], ranks)
     counts = run.folder / "counts"
     counts.mkdir()
     run.command[1:1] = ["-x", f"MESSAGE_COUNTS={counts}", "-x", f"LD_PRELOAD={counter()}"]

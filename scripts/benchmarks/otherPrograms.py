@@ -1,11 +1,11 @@
-"""The same beads from the same packing, dry, in other programs."""
+"""The same particles from the same packing, dry, in other programs."""
 
 import re
 import shutil
 import subprocess
 
 from . import timing
-from .hopper import forgetResults, ledger, solver
+from .hopper import forgetResults, conservation, solver
 from .stockLiggghts import STOCK_STEP, liggghts, script
 
 
@@ -47,16 +47,16 @@ def overYade(hopper, repetitions):
 
 
 def closedHopper(hopper, name, steps):
-    """A stage with the packing in the closed hopper, for our program; the packing as LAMMPS' data beside it."""
+    """A step with the packing in the closed hopper, for our program; the packing as LAMMPS' data beside it."""
     (hopper.case / "DEM" / "in.bed").write_text(liggghtsScript(hopper))
-    folder = hopper.stage("dry", name, steps * hopper.parameters["demStep"], stageScript='"DEM/in.bed"')
+    folder = hopper.step("dry", name, steps * hopper.parameters["demStep"], stepScript='"DEM/in.bed"')
     writeLammpsData(hopper, folder)
     return folder
 
 
 def bed(folder):
     return timing.Run(solver(), folder, prepare=lambda: forgetResults(folder),
-                      result=lambda: ledger(folder)["phaseProcessorSeconds"]["DEM"])
+                      result=lambda: conservation(folder)["phaseProcessorSeconds"]["DEM"])
 
 
 def perStepRatio(hopper, times, other, steps, target, said, took):
@@ -65,7 +65,7 @@ def perStepRatio(hopper, times, other, steps, target, said, took):
     return timing.Figure(
         [theirs / ours for theirs, ours in zip(perStep[other], perStep["ours"])], target=target,
         meaning=f"time per DEM step of {said} over pimpleDemFoam's; bed in the closed hopper, {took}",
-        details={name: {"beadStepsPerSecond": [hopper.parameters["beadCount"] / seconds for seconds in of]}
+        details={name: {"particleStepsPerSecond": [hopper.parameters["particleCount"] / seconds for seconds in of]}
                  for name, of in perStep.items()})
 
 
@@ -84,11 +84,11 @@ def yadeScript(p, steps):
     radius = p["hopperDiameter"] / 2
     return f"""from yade import geom
 import time
-glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["beadDensity"]},
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["particleDensity"]},
                                     frictionAngle=atan({p["friction"]})))
-text = open("beads.data").read().split("Atoms # sphere\\n\\n")[1]
+text = open("particles.data").read().split("Atoms # sphere\\n\\n")[1]
 for line in text.splitlines():
-    O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["beadDiameter"] / 2}, material=glass))
+    O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["particleDiameter"] / 2}, material=glass))
 height = {p["hopperHeight"]}
 O.bodies.append(geom.facetCylinder((0, 0, height / 2), {radius}, height, segmentsNumber=40, wallMask=4, material=glass))
 O.bodies.append(wall(0, axis=2, material=glass))
@@ -104,7 +104,7 @@ def yadeEngines(p):
     return f"""law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["beadDiameter"]}),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["particleDiameter"]}),
     InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [law],
                     [Law2_ScGeom_MindlinPhys_Mindlin()]),
     NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
@@ -117,15 +117,15 @@ def writeLammpsData(hopper, folder):
     """The packing, read by LIGGGHTS, as a data file of LAMMPS."""
     p = hopper.parameters
     setUp = script(hopper, 0).split("thermo")[0]
-    (folder / "in.dump").write_text(setUp + "dump beads all custom 1 beads.dump id x y z\nrun 0\n")
+    (folder / "in.dump").write_text(setUp + "dump particles all custom 1 particles.dump id x y z\nrun 0\n")
     subprocess.run(liggghts("dump"), cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    lines = (folder / "beads.dump").read_text().splitlines()
-    beads = [line.split() for line in lines[lines.index(next(l for l in lines if l.startswith("ITEM: ATOMS"))) + 1:]]
+    lines = (folder / "particles.dump").read_text().splitlines()
+    particles = [line.split() for line in lines[lines.index(next(l for l in lines if l.startswith("ITEM: ATOMS"))) + 1:]]
     half, top = 0.51 * p["tankDiameter"], 1.02 * (p["hopperHeight"] + p["waterAboveRim"])
-    (folder / "beads.data").write_text(
-        f"beads\n\n{len(beads)} atoms\n1 atom types\n\n{-half} {half} xlo xhi\n{-half} {half} ylo yhi\n"
+    (folder / "particles.data").write_text(
+        f"particles\n\n{len(particles)} atoms\n1 atom types\n\n{-half} {half} xlo xhi\n{-half} {half} ylo yhi\n"
         f"{-1.02 * p['tankDepth']} {top} zlo zhi\n\nAtoms # sphere\n\n"
-        + "".join(f"{bead[0]} 1 {p['beadDiameter']} {p['beadDensity']} {' '.join(bead[1:])}\n" for bead in beads))
+        + "".join(f"{particle[0]} 1 {p['particleDiameter']} {p['particleDensity']} {' '.join(particle[1:])}\n" for particle in particles))
 
 
 def lammpsScript(p, steps):
@@ -136,8 +136,8 @@ atom_style sphere
 boundary f f f
 newton off
 comm_modify vel yes
-read_data beads.data
-neighbor {0.5 * p["beadDiameter"]} bin
+read_data particles.data
+neighbor {0.5 * p["particleDiameter"]} bin
 neigh_modify delay 0 every {STEPS_PER_LIST} check no
 pair_style granular
 pair_coeff * * {law}
@@ -153,8 +153,8 @@ run {steps}
 def liggghtsScript(hopper):
     p = hopper.parameters
     setUp = script(hopper, 0).split("fix cylinder")[0].replace(f"timestep {STOCK_STEP}", f"timestep {p['demStep']}")
-    return setUp + f"""neighbor {0.5 * p["beadDiameter"]} bin
-neigh_modify delay 0 every {STEPS_PER_LIST} check no binsize {1.5 * p["beadDiameter"]}
+    return setUp + f"""neighbor {0.5 * p["particleDiameter"]} bin
+neigh_modify delay 0 every {STEPS_PER_LIST} check no binsize {1.5 * p["particleDiameter"]}
 fix barrel all wall/gran model hertz tangential history primitive type 2 zcylinder {p["hopperDiameter"] / 2} 0 0
 fix bottom all wall/gran model hertz tangential history primitive type 3 zplane 0
 fix motion all nve/sphere

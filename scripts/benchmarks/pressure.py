@@ -1,9 +1,9 @@
-"""What the pressure costs a cell as the mesh grows: the quick hopper's beads in three meshes."""
+"""What the pressure costs a cell as the mesh grows: the quick hopper's particles in three meshes."""
 
 from . import timing
 from .costModel import cellCount
 
-# Width of the cells near the hopper [m] and how long the beads drain [s]: 12,000, 53,000 and 1.5 million cells.
+# Width of the cells near the hopper [m] and how long the particles discharge [s]: 12,000, 53,000 and 1.5 million cells.
 MESHES = ((2.5e-3, 0.1), (1.5e-3, 0.05), (5e-4, 0.01))
 
 
@@ -22,5 +22,5 @@ def microsecondsPerCell(hopper, repetitions):
                          details={"byCells": spent, "peakMemory": {cellSize: [time.peakMemory for time in of] for cellSize, of in times.items()}})
 
 
-def cellSteps(ledger, folder, hopper):
-    return cellCount(folder) * (ledger["timeEnd"] - ledger["timeStart"]) / hopper.parameters["couplingInterval"]
+def cellSteps(conservation, folder, hopper):
+    return cellCount(folder) * (conservation["timeEnd"] - conservation["timeStart"]) / hopper.parameters["couplingTimeStep"]

@@ -1,4 +1,4 @@
-"""Our way to run the beads against stock LIGGGHTS: mesh walls, every bead integrated, half the step."""
+"""Our way to run the particles against stock LIGGGHTS: mesh walls, every particle integrated, half the step."""
 
 from . import timing
 
@@ -16,7 +16,7 @@ def demOverStockLiggghts(hopper, repetitions):
     }, repetitions)
     return timing.processorRatio(
         times, "stock", "ours", ">= 2.5",
-        f"processor time of stock LIGGGHTS, mesh walls, dt 2e-5 s, over ours; first {duration} s of the drain")
+        f"processor time of stock LIGGGHTS, mesh walls, dt 2e-5 s, over ours; first {duration} s of the discharge")
 
 
 def liggghts(name):
@@ -25,7 +25,7 @@ def liggghts(name):
 
 
 def script(hopper, duration):
-    """A LIGGGHTS script as its tutorials write it, for the packing that the case poured."""
+    """A LIGGGHTS script as its tutorials write it, for the packing that the case filled."""
     p = hopper.parameters
 
     def perMaterial(name, count):
@@ -37,7 +37,7 @@ boundary f f f
 newton off
 communicate single vel yes
 units si
-neighbor {0.3 * p["beadDiameter"]} bin
+neighbor {0.3 * p["particleDiameter"]} bin
 neigh_modify delay 0
 read_restart {hopper.packing}
 fix youngs all property/global youngsModulus peratomtype {perMaterial("youngsModulus", 3)}

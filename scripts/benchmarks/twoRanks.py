@@ -11,16 +11,16 @@ def speedupDry(hopper, repetitions):
     return speedup(hopper, repetitions, "dry", 0.3)
 
 
-def speedup(hopper, repetitions, stage, duration):
-    runs = {ranks: hopper.run(stage, f"{stage}On{ranks}", duration, ranks) for ranks in (1, 2)}
+def speedup(hopper, repetitions, step, duration):
+    runs = {ranks: hopper.run(step, f"{step}On{ranks}", duration, ranks) for ranks in (1, 2)}
     times = timing.interleaved(runs, repetitions)
     seconds = {ranks: [loopSeconds(time.result) for time in of] for ranks, of in times.items()}
     return timing.Figure(
         [one / two for one, two in zip(seconds[1], seconds[2])], target=">= 1.8",
-        meaning=f"wall time on 1 rank over that on 2 without the start, {stage}, first {duration} s of the drain",
+        meaning=f"wall time on 1 rank over that on 2 without the start, {step}, first {duration} s of the discharge",
         details={f"{ranks} ranks": of for ranks, of in seconds.items()})
 
 
-def loopSeconds(ledger):
+def loopSeconds(conservation):
     """Reading the mesh, and what else is done once, is the phase "other"."""
-    return sum(seconds for name, seconds in ledger["phaseSeconds"].items() if name != "other")
+    return sum(seconds for name, seconds in conservation["phaseSeconds"].items() if name != "other")

@@ -1,19 +1,19 @@
-"""The quick hopper under water on two cores: from the first bead that leaves to the last, and against an earlier version."""
+"""The quick hopper under water on two cores: from the first particle that leaves to the last, and against an earlier version."""
 
 import os
 import shutil
 from pathlib import Path
 
 from . import timing
-from .hopper import REPOSITORY, Hopper, ledger
+from .hopper import REPOSITORY, Hopper, conservation
 from .twoRanks import loopSeconds
 
 DURATION = 1    # [s] of flow, of both versions
-ADAPTIVE = "adjustableInterval yes;\nmaxCo 0.5;\nminInterval 4e-4;\nmaxInterval 4e-3;\n"
+ADAPTIVE = "adjustableCouplingTimeStep yes;\nmaxCo 0.5;\nminInterval 4e-4;\nmaxInterval 4e-3;\n"
 
 
 def quickHopperSubmerged(hopper, repetitions):
-    """Always the 3000 beads of the case; where the benchmark is quick, once."""
+    """Always the 3000 particles of the case; where the benchmark is quick, once."""
     run = hopper.quickOne().run("submerged", "whole", float(hopper.parameters["submergedTime"]), 2)
     times = timing.interleaved({"whole": run}, 1 if hopper.quick else repetitions)["whole"]
     return timing.Figure(
@@ -22,7 +22,7 @@ def quickHopperSubmerged(hopper, repetitions):
 
 
 def quickHopperOverLast(hopper, repetitions):
-    """Each version with its own case, meshes and scripts, poured by itself; the last one as its case is."""
+    """Each version with its own case, meshes and scripts, filled by itself; the last one as its case is."""
     if "CLEPSYDRA_LAST" not in os.environ:
         raise timing.Skipped("CLEPSYDRA_LAST names no folder in which an earlier version has been built")
     last = Path(os.environ["CLEPSYDRA_LAST"]).resolve()
@@ -36,12 +36,12 @@ def quickHopperOverLast(hopper, repetitions):
 
 
 def submerged(folder, checkout, entries):
-    """The submerged stage by a version's own Allrun."""
+    """The submerged step by a version's own Allrun."""
     case = Hopper(folder, quick=True, repository=checkout, submergedTime=DURATION).case
     with open(case / "constant/couplingProperties", "a") as settings:
         settings.write(entries)
     own = f"export CLEPSYDRA_BUILD={checkout}/build; . {checkout}/scripts/environment"
-    Hopper.inFolder(case, f"{own}; ./Allrun mesh pour")
-    stage = case / "stages/submerged"
+    Hopper.inFolder(case, f"{own}; ./Allrun mesh filling")
+    step = case / "steps/submerged"
     return timing.Run(["bash", "-c", f"{own}; ./Allrun -np 2 submerged"], case,
-                      prepare=lambda: shutil.rmtree(stage, ignore_errors=True), result=lambda: ledger(stage))
+                      prepare=lambda: shutil.rmtree(step, ignore_errors=True), result=lambda: conservation(step))

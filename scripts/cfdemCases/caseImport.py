@@ -21,7 +21,7 @@ SYSTEM_FILES = ("controlDict", "fvSchemes", "fvSolution", "blockMeshDict", "deco
 OFF = ("off", "false", "no")
 
 ALLRUN = """#!/bin/bash
-# Imported from a case of CFDEMcoupling: IMPORTED says what changed. Mesh, {beads}coupled run.
+# Imported from a case of CFDEMcoupling: IMPORTED says what changed. Mesh, {particles}coupled run.
 set -euo pipefail
 cd "$(dirname "$0")"
 repository=${{CLEPSYDRA:?source scripts/environment of Clepsydra first}}
@@ -100,7 +100,7 @@ class Import:
     def has(self, name):
         return (self.case / name).exists()
 
-    # --- beads ---------------------------------------------------------------------------------------
+    # --- particles ---------------------------------------------------------------------------------------
 
     def demScript(self):
         name = Path(self.settings.script).name
@@ -111,13 +111,13 @@ class Import:
         self.files[where] = script.text()
         steps = self.settings.intervalInSteps
         if script.coupleEvery not in (None, steps):
-            self.report.error(where, f"couple_every {script.coupleEvery}", f"couplingInterval of couplingProperties is {steps:g}")
+            self.report.error(where, f"couple_every {script.coupleEvery}", f"couplingTimeStep of couplingProperties is {steps:g}")
         self.files |= {folder: None for folder in outputFolders(script.text())}
         self.beforeIt = self.scriptThatWrites(script.restart)
         return script
 
     def scriptThatWrites(self, restart):
-        """The script that makes the beads which the other reads; it runs as it is."""
+        """The script that makes the particles which the other reads; it runs as it is."""
         if restart is None:
             return None
         for path in sorted((self.case / "DEM").glob("in.*")):
@@ -135,10 +135,10 @@ class Import:
     # --- time ----------------------------------------------------------------------------------------
 
     def chosenInterval(self):
-        """[s]. There the fluid's step and the coupling interval are two things, here one."""
+        """[s]. There the fluid's step and the coupling step are two things, here one."""
         step, deltaT = self.script.timeStep, self.control.number("deltaT")
         there = self.settings.intervalInSteps * (step or 1)
-        where, what = self.settings.where, f"couplingInterval {self.settings.intervalInSteps:g}"
+        where, what = self.settings.where, f"couplingTimeStep {self.settings.intervalInSteps:g}"
         fits = step and abs(deltaT / step - round(deltaT / step)) < 1e-6 * deltaT / step
         chosen = deltaT if deltaT < there * (1 - 1e-6) and fits else there
         self.report.change(where, what, f"is in seconds here, {chosen:g} s: {there:g} s there, the fluid's step deltaT {deltaT:g} s; "
@@ -146,12 +146,12 @@ class Import:
         return chosen
 
     def couplingProperties(self):
-        entries = {"fluid": self.settings.entries.pop("fluid"), "couplingInterval": f"{self.interval:.10g}", **self.settings.entries,
+        entries = {"fluid": self.settings.entries.pop("fluid"), "couplingTimeStep": f"{self.interval:.10g}", **self.settings.entries,
                    "DEM": {"engine": "liggghts", "script": f'"DEM/{Path(self.settings.script).name}"'}}
-        if self.script.isOneBead:
+        if self.script.isOneParticle:
             entries["DEM"]["maxRayleighFraction"] = "100"
             self.report.change(self.script.where, f"timestep {self.script.timeStep:g}", "is not held against the Rayleigh time, for there is one "
-                               "bead: where it meets a wall, take maxRayleighFraction out of DEM in constant/couplingProperties")
+                               "particle: where it meets a wall, take maxRayleighFraction out of DEM in constant/couplingProperties")
         self.liggghtsCommands(entries["DEM"])
         self.files["constant/couplingProperties"] = foamText.file("couplingProperties", "dictionary", entries)
 
@@ -164,7 +164,7 @@ class Import:
             if name == "writeLiggghts":
                 props.isRead()
                 dem["writeRestart"] = '"DEM/atTheEnd.restart"'
-                self.report.change(old.where, name, "is DEM/writeRestart, at the end of the run; checkpoints hold the beads at write times")
+                self.report.change(old.where, name, "is DEM/writeRestart, at the end of the run; checkpoints hold the particles at write times")
             elif name == "runLiggghts":
                 props.isRead()
             else:
@@ -182,7 +182,7 @@ class Import:
             entries[name] = old.needed(name)
         entries["deltaT"] = f"{self.interval:.10g}"
         if old.text("adjustTimeStep", "no") not in OFF:
-            self.report.error(where, "adjustTimeStep", "is on; allowed: off, and adjustableInterval of couplingProperties in its place")
+            self.report.error(where, "adjustTimeStep", "is on; allowed: off, and adjustableCouplingTimeStep of couplingProperties in its place")
         for name in ("maxCo", "maxDeltaT"):
             if name in old:
                 old.text(name)
@@ -313,19 +313,19 @@ class Import:
         self.files["constant/turbulenceProperties"] = foamText.file("turbulenceProperties", "dictionary", {"simulationType": "laminar"})
 
     def gravity(self):
-        ofBeads = self.script.gravity or [0, 0, 0]
+        ofParticles = self.script.gravity or [0, 0, 0]
         for name in ("g", "environmentalProperties"):
             if self.has(f"CFD/constant/{name}"):
                 old = self.read(f"CFD/constant/{name}").isRead()
                 text = old.text("value") or old.text("g") or ""
                 found = [float(word) for word in re.findall(r"[-+.\d][-+.\deE]*", text.split("(")[-1])]
-                if any(abs(one - other) > 1e-3 for one, other in zip(found, ofBeads)):
-                    self.report.error(old.where, "g", f"is {inlets.vector(found)}, that of the DEM script {inlets.vector(ofBeads)}")
+                if any(abs(one - other) > 1e-3 for one, other in zip(found, ofParticles)):
+                    self.report.error(old.where, "g", f"is {inlets.vector(found)}, that of the DEM script {inlets.vector(ofParticles)}")
                 break
         else:
-            self.report.change("CFD/constant", "g", f"is not there; {inlets.vector(ofBeads)}, that of the DEM script")
+            self.report.change("CFD/constant", "g", f"is not there; {inlets.vector(ofParticles)}, that of the DEM script")
         self.files["constant/g"] = foamText.file("g", "uniformDimensionedVectorField", {
-            "dimensions": "[0 1 -2 0 0 0 0]", "value": inlets.vector(ofBeads)})
+            "dimensions": "[0 1 -2 0 0 0 0]", "value": inlets.vector(ofParticles)})
 
     def fields(self):
         U, p, voidFraction = (self.read(f"CFD/0/{name}") for name in ("U", "p", "voidfraction"))
@@ -367,4 +367,4 @@ class Import:
         if self.beforeIt:       # -log none: LIGGGHTS' own log has the name of the one that `logged` writes
             steps.append(f"(cd DEM && logged liggghts -log none -in {self.beforeIt})")
         steps.append("logged pimpleDemFoam")
-        self.files["Allrun"] = ALLRUN.format(beads="beads by LIGGGHTS alone, " if self.beforeIt else "", steps="\n".join(steps))
+        self.files["Allrun"] = ALLRUN.format(particles="particles by LIGGGHTS alone, " if self.beforeIt else "", steps="\n".join(steps))

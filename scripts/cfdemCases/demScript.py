@@ -10,7 +10,7 @@ MADE_BY_COUPLING = ("dragforce", "couple_cfd", "hdtorque", "Ksl", "uf", "expForc
 LOGS = ("log", "thermo_log", "echo")
 RESTARTS = ("write_restart", "restart")
 REFUSED = ("jump", "label", "next", "rerun", "minimize")
-MAKES_BEADS = ("insert/pack", "insert/rate/region", "insert/stream", "read_restart", "read_data", "create_atoms")
+MAKES_PARTICLES = ("insert/pack", "insert/rate/region", "insert/stream", "read_restart", "read_data", "create_atoms")
 
 
 def outputFolders(text):
@@ -35,7 +35,7 @@ def withSeeds(text, where, report):
         if good == seed:
             return line[0]
         report.change(where, f"{' '.join(line['before'].split()[:2])}: seed {seed}", f"is {good}: LIGGGHTS 3.8 takes different primes "
-                      "above 10000; so the beads lie at other places")
+                      "above 10000; so the particles lie at other places")
         return line['before'] + str(good)
 
     return re.sub(r"^(?P<before>[ \t]*fix[^#\n]*?(?:particletemplate/\w+|particledistribution/\w+|\bseed)[ \t]+)(?P<seed>\d+)", replaced, text,
@@ -51,8 +51,8 @@ class DemScript:
         self.gone = {f"f_{name}" for name in MADE_BY_COUPLING}
         self.variables = {}
         self.lines = []
-        makers = re.findall(rf"^\s*(?!#).*?\b({'|'.join(MAKES_BEADS)})\b.*$", text, re.MULTILINE)
-        self.isOneBead = makers == ["create_atoms"] and bool(re.search(r"^\s*create_atoms\s+\S+\s+single\b", text, re.MULTILINE))
+        makers = re.findall(rf"^\s*(?!#).*?\b({'|'.join(MAKES_PARTICLES)})\b.*$", text, re.MULTILINE)
+        self.isOneParticle = makers == ["create_atoms"] and bool(re.search(r"^\s*create_atoms\s+\S+\s+single\b", text, re.MULTILINE))
         mapArray = False
         for line in self.joined(withSeeds(text, where, report)):
             words = line.split("#")[0].split()
@@ -63,7 +63,7 @@ class DemScript:
                 self.lines.append(kept)
         if not mapArray:
             self.lines.insert(0, "atom_modify     map array")
-            report.change(where, "atom_modify map array", "added: the coupling finds beads by their number")
+            report.change(where, "atom_modify map array", "added: the coupling finds particles by their number")
         for name, value in (("timestep", self.timeStep), ("fix ... gravity", self.gravity)):
             if value is None:
                 report.error(where, name, "is missing")
@@ -91,14 +91,14 @@ class DemScript:
         if command in LOGS:
             return self.leftOut(line, "LIGGGHTS writes log.liggghts")
         if command in RESTARTS:
-            return self.leftOut(line, "checkpoints hold the beads; DEM/writeRestart of couplingProperties for a file at the end")
+            return self.leftOut(line, "checkpoints hold the particles; DEM/writeRestart of couplingProperties for a file at the end")
         if command == "run":
             return self.run(words, line)
         if command in REFUSED:
             self.report.error(self.where, line.strip(), f"'{command}' has no counterpart")
             return None
         if command == "newton" and words[1:] != ["off"]:
-            self.report.change(self.where, line.strip(), "newton off: bonds of beads are not halved between ranks here")
+            self.report.change(self.where, line.strip(), "newton off: bonds of particles are not halved between ranks here")
             return "newton          off"
         if command == "timestep":
             self.timeStep = self.number(words[1], line)
@@ -123,7 +123,7 @@ class DemScript:
     def run(self, words, line):
         steps = self.number(words[1], line)
         if steps > 1:
-            self.report.error(self.where, line.strip(), "runs beads alone before the coupling; do that in a script of its own, "
+            self.report.error(self.where, line.strip(), "runs particles alone before the coupling; do that in a script of its own, "
                               "whose restart this one reads")
         return self.leftOut(line, "the coupling runs LIGGGHTS, from interval to interval")
 

@@ -1,4 +1,4 @@
-"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the beads here."""
+"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the particles here."""
 
 import re
 
@@ -29,7 +29,7 @@ def converted(U, voidFraction, report):
             entries.entries = {"type": "exprFixedValue", "value": f"uniform {vector(superficial[0][1])}", "variables": f"( {variables} )",
                                "valueExpr": f'"vector({", ".join(parts)})/voidFraction"'}
         report.change(U.where, f"{patch} of U", f"0/voidfraction is {fraction:g} there, so that the velocity is a superficial one; "
-                      "it is divided by the void fraction of the beads at the patch now")
+                      "it is divided by the void fraction of the particles at the patch now")
 
 
 def fixedFraction(voidFraction, patch):

@@ -13,7 +13,7 @@ SAME_FORCES = ("Archimedes", "gradPForce", "viscForce", "virtualMassForce", "DiF
                "BeetstraDrag", "RongDrag", "SchillerNaumannDrag")
 OTHER_NAMES = {"MeiLift": "SaffmanLiftForce"}
 DIAGNOSTICS = ("volWeightedAverage", "totalMomentumExchange", "particleCellVolume", "particleVolume", "fieldTimeAverage",
-               "fieldStore", "checkCouplingInterval")
+               "fieldStore", "checkCouplingStep")
 # Words of a model's Props
 NAMES_OF_FIELDS = ("velFieldName", "velocityFieldName", "granVelFieldName", "voidfractionFieldName", "densityFieldName",
                    "gravityFieldName", "pFieldName", "pressureFieldName", "minAlphaP")
@@ -28,7 +28,7 @@ class Settings:
 
     def __init__(self, old, report):
         self.old, self.report, self.where = old, report, old.where
-        self.intervalInSteps = old.number("couplingInterval")
+        self.intervalInSteps = old.number("couplingTimeStep")
         self.script = self.scriptOf("twoWayMPI")
         self.withoutCounterpart()
         self.entries = {"fluid": "incompressible", "modelType": self.oneOf("modelType", ("A", "B")),
@@ -74,16 +74,16 @@ class Settings:
             return
         props = self.old.sub("constDiffSmoothingProps")
         self.plainWords(props)
-        length = props.number("smoothingLength")
-        self.entries["constDiffSmoothingProps"] = {"smoothingLength": f"{2 * length:.10g}"}
-        self.report.change(self.where, f"smoothingLength {length:g}", f"is {2 * length:g} here: a length L spreads there by a "
+        length = props.number("smoothingBandwidth")
+        self.entries["constDiffSmoothingProps"] = {"smoothingBandwidth": f"{2 * length:.10g}"}
+        self.report.change(self.where, f"smoothingBandwidth {length:g}", f"is {2 * length:g} here: a length L spreads there by a "
                            "standard deviation of sqrt(2) L, one implicit step of diffusion, and here of L/sqrt(2)")
 
     def forces(self):
         chosen = []
         for name in self.old.words("forceModels"):
             if name in DIAGNOSTICS:
-                self.report.leftOut(self.where, name, "a diagnostic; the ledger in the log has volume and momentum")
+                self.report.leftOut(self.where, name, "a diagnostic; the conservation check in the log has volume and momentum")
                 self.old.sub(f"{name}Props").isRead()
                 continue
             if name not in SAME_FORCES and name not in OTHER_NAMES:
@@ -94,15 +94,15 @@ class Settings:
                 self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
             self.forceProps(name)
         if "Archimedes" not in chosen:
-            self.report.change(self.where, "forceModels", "has no Archimedes: beads feel no buoyancy, as before; that is right only where "
-                               "the fluid is much lighter than the beads")
+            self.report.change(self.where, "forceModels", "has no Archimedes: particles feel no buoyancy, as before; that is right only where "
+                               "the fluid is much lighter than the particles")
         self.entries["forceModels"] = f"( {' '.join(chosen)} )"
 
     def forceProps(self, name):
         props = self.old.sub(f"{name}Props")
         self.plainWords(props)
         if props.text("interpolation") not in (None, *SWITCHED_OFF):
-            self.report.leftOut(props.where, "interpolation", "the fluid at a bead is always the mean over what the bead acts on")
+            self.report.leftOut(props.where, "interpolation", "the fluid at a particle is always the mean over what the particle acts on")
 
     def plainWords(self, props):
         """Those that need nothing done, and those that must have the value for which nothing need be done."""
@@ -132,7 +132,7 @@ class Settings:
         on = "useDDTvoidfraction" in self.old and self.old.text("useDDTvoidfraction") not in SWITCHED_OFF
         self.entries["useDDTvoidfraction"] = "on" if on else "off"
         if not on:
-            self.report.change(self.where, "useDDTvoidfraction", "off, as in the old case; where beads move 'on' is right, with "
+            self.report.change(self.where, "useDDTvoidfraction", "off, as in the old case; where particles move 'on' is right, with "
                                "useDDTvoidfractionProps { smoothingTime } of some ms")
 
     def otherProps(self):

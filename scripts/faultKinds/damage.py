@@ -84,7 +84,7 @@ def twoDamaged(bench):
     def both():
         case = bench.stopped()
         flipBit(case.folder / STOPPED / "U")
-        empty(case.folder / "checkpoints" / BEFORE_STOPPED / "beads.0.restart")
+        empty(case.folder / "checkpoints" / BEFORE_STOPPED / "particles.0.restart")
         outcome = case.settle()
         if not outcome.says("Resuming from the checkpoint of time 0.02"):
             raise Wrong("did not go on from .02 s")

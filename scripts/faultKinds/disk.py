@@ -71,22 +71,22 @@ def diskFullFromStart(bench):
     return [functools.partial(fill, bench, ".", room, True) for room in bench.some(range(0, 1500, 100), quick=1)]
 
 
-@fault("the disk is full where the beads' checkpoints are", STOPS)
-def diskFullForBeads(bench):
+@fault("the disk is full where the particles' checkpoints are", STOPS)
+def diskFullForParticles(bench):
     return [functools.partial(fill, bench, "checkpoints", room) for room in bench.some(range(0, 196, 14), quick=2)]
 
 
-@fault("the disk is full where the tables (m(t), ledger) are", STOPS)
+@fault("the disk is full where the tables (m(t), conservation) are", STOPS)
 def diskFullForTables(bench):
     return [functools.partial(fill, bench, "postProcessing", room) for room in bench.some(range(0, 20, 2), quick=2)]
 
 
-@fault("the disk is full where the drawings of the beads are", STOPS)
+@fault("the disk is full where the drawings of the particles are", STOPS)
 def diskFullForDrawings(bench):
     return [functools.partial(fill, bench, "VTK", room) for room in bench.some(range(0, 48, 4), quick=2)]
 
 
-@fault("the disk is full where two ranks have the case, the beads' checkpoints or their drawings", STOPS)
+@fault("the disk is full where two ranks have the case, the particles' checkpoints or their drawings", STOPS)
 def diskFullOnTwoRanks(bench):
     places = [(part, room) for room in (0, 8, 40, 120) for part in ("checkpoints", "VTK", ".")]
     return [functools.partial(fill, bench, part, room, ranks=2) for part, room in bench.some(places, quick=2)]
@@ -134,10 +134,10 @@ def moveFolder(bench):
     away = case.folder.with_name(case.folder.name + ".away")
     case.folder.rename(away)
     outcome = bench.finished(process, case.log)
-    madeAnew = case.folder.exists()
+    madeAgain = case.folder.exists()
     shutil.rmtree(case.folder, ignore_errors=True)
     away.rename(case.folder)
     if outcome.status == 0 or not outcome.explained:
-        raise Wrong(f"status {outcome.status}{', a folder was made anew' if madeAnew else ''}: {outcome.lastWords}")
+        raise Wrong(f"status {outcome.status}{', a folder was made again' if madeAgain else ''}: {outcome.lastWords}")
     case.settle()
     return "stopped with a message, then the same end"

@@ -58,15 +58,15 @@ def openFilesLimit(bench):
 
 
 @fault("numbers that no run can go on with: "
-       "NaN in a field, a time step or a bead far too fast, a liquid without density",
+       "NaN in a field, a time step or a particle far too fast, a liquid without density",
        "stops with a message")
 def numericalFaults(bench):
     return [functools.partial(unstable, bench, *change) for change in bench.some((
         ("0/p", "uniform 0;", "uniform nan;"),
         ("0/U", r"uniform \(0 0 0\);", "uniform (0 nan 0);"),
-        ("DEM/in.beads", "^timestep .*", "timestep 2e-4"),
-        ("DEM/in.beads", "^fix motion", "velocity all set 0 0 -1000 units box\nfix motion"),
-        ("DEM/in.beads", "peratomtype 5e6 5e6", "peratomtype 5e12 5e12"),
+        ("DEM/in.particles", "^timestep .*", "timestep 2e-4"),
+        ("DEM/in.particles", "^fix motion", "velocity all set 0 0 -1000 units box\nfix motion"),
+        ("DEM/in.particles", "peratomtype 5e6 5e6", "peratomtype 5e12 5e12"),
         ("constant/transportProperties", r"1000;", "-1000;"),
         ("constant/transportProperties", r"1000;", "nan;"),
         ("constant/transportProperties", r"1e-6;", "-1e-6;"),
@@ -91,16 +91,16 @@ def packingDamaged(bench):
 
 
 def damagePacking(bench, damage):
-    poured = bench.pile(endTime=0.02)
-    poured.edit("constant/couplingProperties", '"DEM/in.beads";', '"DEM/in.beads";\n    writeRestart packing.restart;')
-    poured.mustRun()
+    filled = bench.pile(endTime=0.02)
+    filled.edit("constant/couplingProperties", '"DEM/in.particles";', '"DEM/in.particles";\n    writeRestart packing.restart;')
+    filled.mustRun()
     case = bench.pile(endTime=0.02)
-    script = case.folder / "DEM/in.beads"
+    script = case.folder / "DEM/in.particles"
     lines = [line for line in script.read_text().splitlines() if not line.startswith(("create_", "set "))]
-    packing = "read_restart " + str(poured.folder / "packing.restart")
+    packing = "read_restart " + str(filled.folder / "packing.restart")
     lines = [packing if line.startswith("region") else line for line in lines]
     script.write_text("\n".join(lines) + "\n")
-    packing = poured.folder / "packing.restart"
+    packing = filled.folder / "packing.restart"
     content = packing.read_bytes()
     damage(packing)
     outcome = case.run()

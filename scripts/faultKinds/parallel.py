@@ -27,7 +27,7 @@ def mpirunTerminated(bench):
     return [functools.partial(hitMpirun, bench, signal.SIGTERM) for _ in bench.times(1, 4)]
 
 
-@fault("SIGTERM to both ranks", "status 0 with a checkpoint; then every bead and every row of m(t) once", inQuick=False)
+@fault("SIGTERM to both ranks", "status 0 with a checkpoint; then every particle and every row of m(t) once", inQuick=False)
 def ranksTerminated(bench):
     return [functools.partial(stopRanks, bench) for _ in bench.times(1, 4)]
 
@@ -94,14 +94,14 @@ def stopRanks(bench):
 
 
 def goOnAfterStop(case):
-    """Off the write times the neighbour lists are made anew, and rounding differs: times and counts only."""
+    """Off the write times the neighbour lists are made again, and rounding differs: times and counts only."""
     from faultKinds.bench import rows
     case.mustRun()
     reference = [row.split()[::2] for row in rows(case.bench.reference(case.ranks))]
     found = [row.split()[::2] for row in rows(case.folder)]
     if found != reference:
         raise Wrong(f"m(t) has {len(found)} rows in place of {len(reference)}, or others")
-    return "goes on, every row and bead once"
+    return "goes on, every row and particle once"
 
 
 @fault("a bit flipped in a field of one rank",

@@ -130,7 +130,7 @@ def lastTime(outcome):
 
 
 def endedAndResumed(bench, stoppedAt):
-    """A checkpoint off the write times makes neighbour lists anew: only a run that has one there, too, ends alike."""
+    """A checkpoint off the write times makes neighbour lists again: only a run that has one there, too, ends alike."""
     case = bench.pile(endTime=stoppedAt)
     case.mustRun()
     case.set(endTime=END).mustRun()

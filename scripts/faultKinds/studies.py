@@ -1,4 +1,4 @@
-"""Faults of traceResidual, with the stand-in for a simulator that tests/identification has."""
+"""Faults of traceResidual, with the surrogate for a simulator that tests/identification has."""
 
 import functools
 import json
@@ -13,7 +13,7 @@ from faultKinds.damage import cut, delete, empty, flipBit
 from faultKinds.disk import onSmallDiskAt, roomAgain
 from faultKinds.kinds import Wrong, fault
 
-STAND_IN = REPOSITORY / "tests" / "identification" / "standIn"
+SURROGATE = REPOSITORY / "tests" / "identification" / "surrogate"
 # What of the report depends on when it was made.
 OF_THIS_CALL = ("runs", "cost", "costs", "date", "seconds", "made", "remarks", "version")
 
@@ -51,8 +51,8 @@ def measured(bench):
     """The study with its measurements, made once."""
     if not hasattr(bench, "study"):
         folder = bench.folder / "study"
-        shutil.copytree(STAND_IN / "case", folder / "case")
-        text = (STAND_IN / "study.yaml").read_text()
+        shutil.copytree(SURROGATE / "case", folder / "case")
+        text = (SURROGATE / "study.yaml").read_text()
         seed = 20011
         for name, entries in re.findall(r"- name: (\w+)\n +role: \w+\n +set: \{ (.*) \}", text):
             files = []
@@ -61,17 +61,17 @@ def measured(bench):
                 given = dict(entry.split(": ") for entry in entries.split(", "))
                 given |= {"seed": str(seed), "addedMass": "0.7"}
                 seed += 2
-                original = (STAND_IN / "case/parameters").read_text()
+                original = (SURROGATE / "case/parameters").read_text()
                 (run / "parameters").write_text(parameterFile.withParameters(original, given))
-                if bench.call(["standInHopper"], run).status != 0:
-                    raise SystemExit("faults: the stand-in for a simulator fails")
+                if bench.call(["surrogateHopper"], run).status != 0:
+                    raise SystemExit("faults: the surrogate for a simulator fails")
                 rows = (run / "postProcessing/massInHopper/0/massInHopper.dat").read_text().splitlines()[1::2]
                 files.append(f"{name}{repeat}.csv")
                 (folder / files[-1]).write_text("t,m\n" + "".join(row.replace("\t", ",") + "\n" for row in rows))
             measured = f"    measured: {{ files: [{', '.join(files)}] }}\n"
             text = text.replace(f"- name: {name}\n", f"- name: {name}\n{measured}")
         text += ("measured:\n  time: { column: t, unit: s }\n  value: { column: m, unit: kg }\n"
-                 "onlyEffects: [addedMass, beadDiameter, drag]\ninference: { draws: 200 }\n"
+                 "onlyEffects: [addedMass, particleDiameter, drag]\ninference: { draws: 200 }\n"
                  "executor: { kind: pool, processes: 1 }\n")
         (folder / "study.yaml").write_text(text)
         bench.keep(folder)
@@ -111,7 +111,7 @@ def killStudy(bench):
 
 
 @fault("files of stored runs are cut, emptied, gone, have a bit flipped",
-       "says so, makes those runs anew, comes to the same answer",
+       "says so, makes those runs again, comes to the same answer",
        inQuick=False)
 def studyStoreDamaged(bench):
     return [functools.partial(damageStore, bench, damage, pattern) for pattern in ("massInHopper.dat", "record.json")
@@ -156,7 +156,7 @@ def fillStudy(bench, room):
     return said
 
 
-@fault("a run of a study starts a child that ignores SIGTERM, and is too long for rig.timeLimit",
+@fault("a run of a study starts a child that ignores SIGTERM, and is too long for simulator.timeLimit",
        "nobody lives on when the study has ended")
 def timeLimit(bench):
     return [functools.partial(overTime, bench)]

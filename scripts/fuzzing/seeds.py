@@ -9,7 +9,7 @@ from .builds import REPOSITORY
 
 CASES = REPOSITORY / "cases"
 EFFECTS = REPOSITORY / "identification/effects"
-STAND_IN = REPOSITORY / "tests/identification/standIn"
+SURROGATE = REPOSITORY / "tests/identification/surrogate"
 CURVE = CASES / "validation/surge/results/runs/dry.100003.dry.csv"
 
 
@@ -28,16 +28,16 @@ def tables(_):
 
 
 def studies(folder):
-    """Beside the stand-in for a case, a small library and a measured file, which the texts name in place of their own."""
+    """Beside the surrogate for a case, a small library and a measured file, which the texts name in place of their own."""
     (folder / "case").mkdir()
-    shutil.copy(STAND_IN / "case/parameters", folder / "case")
+    shutil.copy(SURROGATE / "case/parameters", folder / "case")
     (folder / "curve.csv").write_text(CURVE.read_text()[:1500])
     (folder / "library.yaml").write_text('effects: [ { name: lag, chain: { lag: "0.3*a" } } ]\n')
-    files = [STAND_IN / "study.yaml", *sorted(CASES.glob("*/study.yaml"))]
-    return [besideStandIn(file.read_text()) for file in files] + [besideStandIn(STUDY_OF_CURVES)]
+    files = [SURROGATE / "study.yaml", *sorted(CASES.glob("*/study.yaml"))]
+    return [besideSurrogate(file.read_text()) for file in files] + [besideSurrogate(STUDY_OF_CURVES)]
 
 
-def besideStandIn(study):
+def besideSurrogate(study):
     study = re.sub(r"\bcase: .*", "case: case", study)
     study = re.sub(r"\bdependsOn: \[[^]]*\]", "dependsOn: [case]", study)
     study = re.sub(r"\beffectsFrom: .*", "effectsFrom: library.yaml", study)
@@ -45,7 +45,7 @@ def besideStandIn(study):
 
 
 STUDY_OF_CURVES = """study: curves
-rig: { case: case, seed: seed, set: { dragFactor: 1.1 } }
+simulator: { case: case, seed: seed, set: { dragFactor: 1.1 } }
 observable: { file: out.dat, value: mass, features: [ { name: rate, kind: logMeanRate, from: 0.9, to: 0.2 } ] }
 measured:
   time: { column: time, unit: s }
@@ -71,14 +71,14 @@ def parameters(_):
 
 
 def couplingProperties(folder):
-    """The cases' own, with all that they include. What a stage's script would write stands in `stage`."""
+    """The cases' own, with all that they include. What a step's script would write stands in `step`."""
     for part in ("constant", "system", "DEM"):
         (folder / part).mkdir()
     (folder / "parameters").write_text("".join((CASES / case / "parameters").read_text()
-                                               for case in ("hopperQuick", "singleBead")))
-    (folder / "stage").write_text('#include "$FOAM_CASE/parameters"\nstageFluid incompressible;\nstageScript "DEM/in.bead";\n'
-                                  "stageRestart end.restart;\n")
-    for file in (CASES / "singleBead/system").glob("vessel.*"):
+                                               for case in ("hopperQuick", "settlingParticle")))
+    (folder / "step").write_text('#include "$FOAM_CASE/parameters"\nstageFluid incompressible;\nstageScript "DEM/in.particle";\n'
+                                  "stepRestart end.restart;\n")
+    for file in (CASES / "settlingParticle/system").glob("vessel.*"):
         shutil.copy(file, folder / "system")
-    (folder / "DEM/in.bead").write_text("")
-    return [(CASES / case / "constant/couplingProperties").read_text() for case in ("singleBead", "hopperQuick")]
+    (folder / "DEM/in.particle").write_text("")
+    return [(CASES / case / "constant/couplingProperties").read_text() for case in ("settlingParticle", "hopperQuick")]

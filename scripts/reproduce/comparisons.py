@@ -43,15 +43,15 @@ def names(runs):
 def rates():
     """W at the start, at the frictions that the paper finds to match, from every fill."""
     found = []
-    for stage in paper.STAGES:
-        for friction in sorted({paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}):
-            simulated = paper.RATE[stage] if friction == paper.MATCHING_FRICTION[stage] else None
-            byFill = series.byFill(stage, friction)
+    for step in paper.STEPS:
+        for friction in sorted({paper.MATCHING_FRICTION[step], paper.MATCHING_FRICTION["dry"]}):
+            simulated = paper.RATE[step] if friction == paper.MATCHING_FRICTION[step] else None
+            byFill = series.byFill(step, friction)
             if not byFill:
-                print(f"  not run yet: {stage}, mu = {friction:g}")
+                print(f"  not run yet: {step}, mu = {friction:g}")
             for fill, runs in byFill.items():
-                found.append(row(f"W_{stage}, mu = {friction:g}, {fill} g", "g/s", series.mean([run.startRate for run in runs]),
-                                 names(runs), paper.RATE[stage], simulated))
+                found.append(row(f"W_{step}, mu = {friction:g}, {fill} g", "g/s", series.mean([run.startRate for run in runs]),
+                                 names(runs), paper.RATE[step], simulated))
     if not found:
         raise series.MissingRuns("no run at a friction that matches: entries fill100, fill200, fill400")
     return found
@@ -61,7 +61,7 @@ def ratioOfRates():
     """W_sub/W_dry: of one friction, so that the water alone makes the difference."""
     friction = paper.MATCHING_FRICTION["dry"]
     runsOf = series.deepestOfBoth(friction)
-    ours = ratio(*(series.mean([run.startRate for run in runsOf[stage]]) for stage in ("submerged", "dry")))
+    ours = ratio(*(series.mean([run.startRate for run in runsOf[step]]) for step in ("submerged", "dry")))
     require("under water the hopper is slower, by more than three standard errors", 1 - ours.mean > SIGNIFICANT * ours.error)
     return [row(f"W_submerged/W_dry, mu = {friction:g} in both", "-", ours, names(sum(runsOf.values(), [])),
                 paper.RATE["submerged"] / paper.RATE["dry"])]
@@ -70,38 +70,38 @@ def ratioOfRates():
 def matchingFriction():
     """mu at which our rate would be the measured one, and W_o, from the paper's fit."""
     found = []
-    for stage in paper.STAGES:
-        law = series.frictionLaw(stage)
-        runs = names([run for repeats in series.sweep(stage).values() for run in repeats])
-        matching = law.frictionAt(paper.RATE[stage])
+    for step in paper.STEPS:
+        law = series.frictionLaw(step)
+        runs = names([run for repeats in series.sweep(step).values() for run in repeats])
+        matching = law.frictionAt(paper.RATE[step])
         if np.isfinite(matching.mean):
-            found.append(row(f"mu_{stage} that matches the measured rate", "-", matching, runs,
-                             simulated=paper.MATCHING_FRICTION[stage]))
+            found.append(row(f"mu_{step} that matches the measured rate", "-", matching, runs,
+                             simulated=paper.MATCHING_FRICTION[step]))
         else:
-            print(f"  {stage}: no friction matches, for the fit's rate stays above {paper.RATE[stage]:g} g/s, the measured one")
-        found.append(row(f"W_o,{stage}", "g/s", law.parameter(0), runs, simulated=paper.ASYMPTOTIC_RATE[stage]))
-        found.append(row(f"mu_o,{stage} of the fit", "-", law.parameter(2), runs))
+            print(f"  {step}: no friction matches, for the fit's rate stays above {paper.RATE[step]:g} g/s, the measured one")
+        found.append(row(f"W_o,{step}", "g/s", law.parameter(0), runs, simulated=paper.ASYMPTOTIC_RATE[step]))
+        found.append(row(f"mu_o,{step} of the fit", "-", law.parameter(2), runs))
     return found
 
 
 def stiff():
-    """The same of the paper's fill with stiffer beads on a finer mesh: the fit's shape through the rates of those runs."""
+    """The same of the paper's fill with stiffer particles on a finer mesh: the fit's shape through the rates of those runs."""
     friction, found, rates, frictions, used = paper.MATCHING_FRICTION["dry"], [], {}, {}, []
-    for stage in paper.STAGES:
-        runsOf, law, sweep = series.stiffRuns(stage), series.stiffLaw(stage), series.frictionLaw(stage)
+    for step in paper.STEPS:
+        runsOf, law, sweep = series.stiffRuns(step), series.stiffLaw(step), series.frictionLaw(step)
         for at, runs in runsOf.items():
             rate = series.mean([run.startRate for run in runs])
-            print(f"  {stage}, mu = {at:g}: {ratio(rate, sweep.value(at))} of the sweep's fit")
-            found.append(row(f"W_{stage}, mu = {at:g}, {series.described(runs[0])}", "g/s", rate, names(runs), paper.RATE[stage]))
-        for at, tried in series.stiffWithClogged(stage).items():
-            found += arches(f"{stage}, mu = {at:g}, {series.described(tried[0])}", tried)
+            print(f"  {step}, mu = {at:g}: {ratio(rate, sweep.value(at))} of the sweep's fit")
+            found.append(row(f"W_{step}, mu = {at:g}, {series.described(runs[0])}", "g/s", rate, names(runs), paper.RATE[step]))
+        for at, tried in series.stiffWithClogged(step).items():
+            found += arches(f"{step}, mu = {at:g}, {series.described(tried[0])}", tried)
         runs = names(sum(runsOf.values(), []))
         used += runs
-        found.append(row(f"factor of W_{stage} over the sweep's fit", "-", law.over(sweep, friction), runs))
-        rates[stage] = law.value(friction)
-        frictions[stage] = law.frictionAt(paper.RATE[stage])
-        found.append(row(f"mu_{stage} that matches the measured rate, with these", "-", frictions[stage], runs,
-                         simulated=paper.MATCHING_FRICTION[stage]))
+        found.append(row(f"factor of W_{step} over the sweep's fit", "-", law.over(sweep, friction), runs))
+        rates[step] = law.value(friction)
+        frictions[step] = law.frictionAt(paper.RATE[step])
+        found.append(row(f"mu_{step} that matches the measured rate, with these", "-", frictions[step], runs,
+                         simulated=paper.MATCHING_FRICTION[step]))
     found.append(row(f"W_submerged/W_dry with these, mu = {friction:g} in both", "-", ratio(rates["submerged"], rates["dry"]), used,
                      paper.RATE["submerged"] / paper.RATE["dry"]))
     return found + [row("mu_submerged less mu_dry, with these", "-", difference(frictions["submerged"], frictions["dry"]), used)]
@@ -122,9 +122,9 @@ def surge():
 def surgeAt(friction):
     """Rows, what the rate gains while half of the fill leaves, and what it is late over what it was early, by window."""
     runsOf = series.deepestOfBoth(friction)
-    rises = {stage: series.mean([run.rise for run in runs]) for stage, runs in runsOf.items()}
-    found = [row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {stage}, mu = {friction:g}", "-", rises[stage], names(runs))
-             for stage, runs in runsOf.items()]
+    rises = {step: series.mean([run.rise for run in runs]) for step, runs in runsOf.items()}
+    found = [row(f"rise of W while half of {runs[0].fill:.0f} g leaves, {step}, mu = {friction:g}", "-", rises[step], names(runs))
+             for step, runs in runsOf.items()]
     more = difference(rises["submerged"], rises["dry"])
     found.append(row(f"rise of W, submerged less dry, mu = {friction:g}", "-", more, names(sum(runsOf.values(), []))))
     early, gain = runsOf["dry"][0].upperHalf, {}
@@ -140,9 +140,9 @@ def gains(runsOf, late, early, ofWhat):
     """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the other, which
     frees it of the heap."""
     what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(ofWhat, *late, *early)
-    gainsOf = {stage: [run.gain(late, early) for run in runs] for stage, runs in runsOf.items()}
-    gain = {stage: series.mean(values) for stage, values in gainsOf.items()}
-    found = [row(f"{what}, {stage}", "-", value, names(runsOf[stage])) for stage, value in gain.items()]
+    gainsOf = {step: [run.gain(late, early) for run in runs] for step, runs in runsOf.items()}
+    gain = {step: series.mean(values) for step, values in gainsOf.items()}
+    found = [row(f"{what}, {step}", "-", value, names(runsOf[step])) for step, value in gain.items()]
     ofPackings = [ratio(*pair) for pair in zip(gainsOf["submerged"], gainsOf["dry"], strict=True)]
     gain["submerged over dry"] = series.mean(ofPackings)
     if len(ofPackings) > 1:
@@ -158,12 +158,12 @@ def wilsonGain(late, early):
                Value(paper.wilsonRate(*late) / paper.wilsonRate(*early), 0), [])
 
 
-def surgeOfSmallBeads():
-    """The paper's figure 3: the surge grows as the beads get smaller. Ours: 150 g of beads of 1 mm."""
+def surgeOfSmallParticles():
+    """The paper's figure 3: the surge grows as the particles get smaller. Ours: 150 g of particles of 1 mm."""
     large = series.deepestOfBoth(paper.MATCHING_FRICTION["dry"])
-    small = {stage: series.smallBeads(stage) for stage in paper.STAGES}
+    small = {step: series.smallParticles(step) for step in paper.STEPS}
     if not all(small.values()):
-        raise series.MissingRuns("no dry or no submerged run with beads of 1 mm: entry beads1mm")
+        raise series.MissingRuns("no dry or no submerged run with particles of 1 mm: entry particles1mm")
     found, changes = [], {}
     for early in (series.BEFORE_IT, series.BEFORE_IT_STEADY):
         ofLarge, gainOfLarge = gains(large, series.SURGE_OF_150, early, "d = 2 mm: ")
@@ -172,46 +172,46 @@ def surgeOfSmallBeads():
         for what, gain in gainOfSmall.items():
             change = changes[early, what] = ratio(gain, gainOfLarge[what])
             print(f"  the gain over {early[0]:g} to {early[1]:g} g of 1 mm over that of 2 mm, {what}: {change}")
-            runs = [run for stage in paper.STAGES if stage in what for run in small[stage] + large[stage]]
+            runs = [run for step in paper.STEPS if step in what for run in small[step] + large[step]]
             found.append(row(f"the same of 1 mm over that of 2 mm, {what}", "-", change, names(runs)))
         found.append(wilsonGain(series.SURGE_OF_150, early))
     change = changes[series.BEFORE_IT, "submerged over dry"]
-    require("under water more than dry, the rate gains more with beads of 1 mm than of 2 mm, beyond three standard errors",
+    require("under water more than dry, the rate gains more with particles of 1 mm than of 2 mm, beyond three standard errors",
             change.mean - 1 > SIGNIFICANT * change.error)
     return found
 
 
 def numericalChoices():
-    """What finer meshes and stiffer beads than the campaign's make of the rate at the start."""
+    """What finer meshes and stiffer particles than the parameter study's make of the rate at the start."""
     found = []
-    for stage in paper.STAGES:
-        usual = series.ofUsualFill(stage)
-        for what, run in series.variants(stage).items():
+    for step in paper.STEPS:
+        usual = series.ofUsualFill(step)
+        for what, run in series.variants(step).items():
             change = ratio(run.startRate, series.mean([its.startRate for its in usual]))
-            found.append(row(f"W_{stage} with {what} over W", "-", change, names(usual) + [run.name]))
+            found.append(row(f"W_{step} with {what} over W", "-", change, names(usual) + [run.name]))
     if not found:
-        raise series.MissingRuns("no run on another mesh or with stiffer beads: entries cells and stiff")
+        raise series.MissingRuns("no run on another mesh or with stiffer particles: entries cells and stiff")
     return found
 
 
 def emptying():
     """Time that 500 g need at mu = .8: from the deepest run there is, and its rate at the start for what it lacks."""
     found, times = [], {}
-    for stage in paper.STAGES:
-        clogging = arches(f"{stage}, mu = {paper.EMPTYING_FRICTION:g}", series.withClogged(stage, friction=paper.EMPTYING_FRICTION))
+    for step in paper.STEPS:
+        clogging = arches(f"{step}, mu = {paper.EMPTYING_FRICTION:g}", series.withClogged(step, friction=paper.EMPTYING_FRICTION))
         found += clogging
-        if clogging and not series.fills(stage, friction=paper.EMPTYING_FRICTION):
+        if clogging and not series.fills(step, friction=paper.EMPTYING_FRICTION):
             continue
-        runs = series.deepest(stage, paper.EMPTYING_FRICTION)
+        runs = series.deepest(step, paper.EMPTYING_FRICTION)
         whole = [run for run in runs if run.emptyingTime] or runs     # others were stopped when their rate was known
-        times[stage] = series.mean([emptyingOf(run) for run in whole])
-        found.append(row(f"time to empty {paper.EMPTYING_MASS} g, {stage}, mu = {paper.EMPTYING_FRICTION:g}"
+        times[step] = series.mean([emptyingOf(run) for run in whole])
+        found.append(row(f"time to empty {paper.EMPTYING_MASS} g, {step}, mu = {paper.EMPTYING_FRICTION:g}"
                          + (f", extrapolated from {runs[0].fill:.0f} g" if runs[0].fill < 0.99 * paper.EMPTYING_MASS else ""),
-                         "s", times[stage], names(whole), simulated=paper.EMPTYING_TIME[stage]))
-        found.append(row(f"W_{stage}, mu = {paper.EMPTYING_FRICTION:g}, {runs[0].fill:.0f} g", "g/s",
+                         "s", times[step], names(whole), simulated=paper.EMPTYING_TIME[step]))
+        found.append(row(f"W_{step}, mu = {paper.EMPTYING_FRICTION:g}, {runs[0].fill:.0f} g", "g/s",
                          series.mean([run.startRate for run in runs]), names(runs),
-                         simulated=paper.EMPTYING_MASS / paper.EMPTYING_TIME[stage]))
-    if len(times) == len(paper.STAGES):
+                         simulated=paper.EMPTYING_MASS / paper.EMPTYING_TIME[step]))
+    if len(times) == len(paper.STEPS):
         longer = difference(times["submerged"], times["dry"])
         require("500 g need longer under water", longer.mean > SIGNIFICANT * longer.error)
     return found
@@ -222,7 +222,7 @@ def arches(what, tried):
     clogged = [run for run in tried if run.clogged]
     if not clogged:
         return []
-    left = series.mean([Value(run.mass[0] - run.mass[-1], run.beadMass) for run in clogged])
+    left = series.mean([Value(run.mass[0] - run.mass[-1], run.particleMass) for run in clogged])
     return [row(f"what leaves before an arch closes the orifice, {what}, {len(clogged)} of {len(tried)} runs", "g", left, names(clogged))]
 
 
@@ -238,14 +238,14 @@ def emptyingOf(run):
 def torricelli():
     """W ~ m^p nearly without friction: p = 1/2 for a Newtonian fluid, 0 for Beverloo's grains."""
     found = []
-    for stage in paper.STAGES:
-        runs = series.deepest(stage, paper.SMOOTH_FRICTION)
+    for step in paper.STEPS:
+        runs = series.deepest(step, paper.SMOOTH_FRICTION)
         exponent = series.mean([run.rateExponent for run in runs])
-        rough = series.mean([run.rateExponent for run in series.deepest(stage, paper.MATCHING_FRICTION["dry"])])
-        found.append(row(f"p of W ~ m^p, {stage}, mu = {paper.SMOOTH_FRICTION:g} (Torricelli: .5)", "-", exponent, names(runs),
+        rough = series.mean([run.rateExponent for run in series.deepest(step, paper.MATCHING_FRICTION["dry"])])
+        found.append(row(f"p of W ~ m^p, {step}, mu = {paper.SMOOTH_FRICTION:g} (Torricelli: .5)", "-", exponent, names(runs),
                          simulated=0.5))
         less = difference(exponent, rough)
-        require(f"{stage}, without friction the rate falls with the height ({exponent}), with friction less ({rough})",
+        require(f"{step}, without friction the rate falls with the height ({exponent}), with friction less ({rough})",
                 exponent.mean > SIGNIFICANT * exponent.error and less.mean > SIGNIFICANT * less.error)
     return found
 
@@ -254,34 +254,34 @@ def tableI():
     """Re and C_d by Brown & Lawler's fit to measured spheres, and by the drag law that the runs use; I as printed."""
     found, p = [], hopper()
     water = {name: p[name] for name in ("fluidDensity", "fluidViscosity")}
-    excess = p["beadDensity"] / p["fluidDensity"] - 1
+    excess = p["particleDensity"] / p["fluidDensity"] - 1
     for law in ("BrownLawlerDrag", p["dragLaw"]):
-        for bead in paper.TABLE_1:
-            speed = closures.value("terminalVelocity", dragLaw=law, beadDiameter=bead.diameter,
-                                   beadDensity=p["beadDensity"], **water)
-            reynolds = speed * bead.diameter / p["fluidViscosity"]
-            drag = closures.value("dragCoefficient", dragLaw=law, beadDiameter=bead.diameter, slipSpeed=speed, **water)
+        for particle in paper.TABLE_1:
+            speed = closures.value("terminalVelocity", dragLaw=law, particleDiameter=particle.diameter,
+                                   particleDensity=p["particleDensity"], **water)
+            reynolds = speed * particle.diameter / p["fluidViscosity"]
+            drag = closures.value("dragCoefficient", dragLaw=law, particleDiameter=particle.diameter, slipSpeed=speed, **water)
             inertial = 4 * p["fluidViscosity"] / (excess * speed * p["orificeDiameter"])
-            for name, ours, printed in (("Re", reynolds, bead.reynolds), ("C_d", drag, bead.dragCoefficient),
-                                        ("I = 4 eta/(rho_e v_t D)", inertial, bead.inertialNumber)):
-                found.append(row(f"Table I: {name}, d = {1e2 * bead.diameter:g} cm, {law}", "-", Value(ours, 0), [],
+            for name, ours, printed in (("Re", reynolds, particle.reynolds), ("C_d", drag, particle.dragCoefficient),
+                                        ("I = 4 eta/(rho_e v_t D)", inertial, particle.inertialNumber)):
+                found.append(row(f"Table I: {name}, d = {1e2 * particle.diameter:g} cm, {law}", "-", Value(ours, 0), [],
                                  simulated=printed))
     return found
 
 
 def packingAtTheExit():
     """The paper says that the packing is denser there under water; it gives no number."""
-    shares = {stage: exitFlow.profile(stage).shareAt(0) for stage in paper.STAGES}
-    found = [row(f"share of the orifice inside beads, {stage}, mu = .15", "-", share, [exitFlow.runOf(stage)])
-             for stage, share in shares.items()]
+    shares = {step: exitFlow.profile(step).shareAt(0) for step in paper.STEPS}
+    found = [row(f"share of the orifice inside particles, {step}, mu = .15", "-", share, [exitFlow.runOf(step)])
+             for step, share in shares.items()]
     more = difference(shares["submerged"], shares["dry"])
-    found.append(row("share of the orifice inside beads, submerged less dry", "-", more, [exitFlow.runOf(stage) for stage in paper.STAGES]))
+    found.append(row("share of the orifice inside particles, submerged less dry", "-", more, [exitFlow.runOf(step) for step in paper.STEPS]))
     print(f"  submerged less dry: {more}, {more.mean / more.error:+.1f} standard errors")
     return found
 
 
 GROUPS = {group.__name__: group for group in
-          (rates, ratioOfRates, matchingFriction, stiff, surge, surgeOfSmallBeads, numericalChoices, emptying, torricelli, tableI,
+          (rates, ratioOfRates, matchingFriction, stiff, surge, surgeOfSmallParticles, numericalChoices, emptying, torricelli, tableI,
            packingAtTheExit)}
 
 

@@ -1,4 +1,4 @@
-"""Beads at the orifice: what of their dense output is kept in results/exit, and what follows from it."""
+"""Particles at the orifice: what of their dense output is kept in results/exit, and what follows from it."""
 
 import csv
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from repository import RESULTS
-import beadFiles
+import particleFiles
 import caseFiles
 import paper
 import series
@@ -17,27 +17,27 @@ import wholeFiles
 FOLDER = RESULTS / "exit"
 RUNS = f"fill100-{paper.MATCHING_FRICTION['dry']}.*"
 HEIGHTS = np.linspace(-1e-3, 12e-3, 27)     # from the lower edge of the orifice's land
-STEADY = (0.4, 3.0)     # s after opening: beads further up move, and the hopper is more than half full
+STEADY = (0.4, 3.0)     # s after opening: particles further up move, and the hopper is more than half full
 PICTURE_AT = 1.0        # s: of the picture
 BLOCKS = 8              # of consecutive times, for the standard error
 SLAB_COLUMNS = ("x [m]", "y [m]", "z [m]", "u [m/s]", "v [m/s]", "w [m/s]", "radius [m]")
 
 
 def keep(folder):
-    """Writes <run>.slab.csv (beads cut by the mid-plane at one time) and <run>.profile.csv (shares at all times)."""
-    stage = folder.name.rsplit(".", 1)[1]
-    case = folder / "stages" / stage
+    """Writes <run>.slab.csv (particles cut by the mid-plane at one time) and <run>.profile.csv (shares at all times)."""
+    step = folder.name.rsplit(".", 1)[1]
+    case = folder / "steps" / step
     radius = caseFiles.parameters(folder / "parameters")["orificeDiameter"] / 2
-    times = beadFiles.writtenTimes(case)
+    times = particleFiles.writtenTimes(case)
     FOLDER.mkdir(parents=True, exist_ok=True)
     with wholeFiles.replacing(FOLDER / f"{folder.name}.profile.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "height [m]", "solid fraction [-]", "downward solid flux [m/s]"])
         for time, drawn in sorted(times.items()):
             if STEADY[0] <= time <= STEADY[1]:
-                for row in zip(HEIGHTS, *crossSections(*beadFiles.readBeads(drawn), radius)):
+                for row in zip(HEIGHTS, *crossSections(*particleFiles.readParticles(drawn), radius)):
                     table.writerow([f"{time:.6g}", *(f"{value:.5g}" for value in row)])
-    position, size, velocity = beadFiles.readBeads(times[min(times, key=lambda time: abs(time - PICTURE_AT))])
+    position, size, velocity = particleFiles.readParticles(times[min(times, key=lambda time: abs(time - PICTURE_AT))])
     cut = np.abs(position[:, 1]) < size
     with wholeFiles.replacing(FOLDER / f"{folder.name}.slab.csv") as file:
         table = csv.writer(file, lineterminator="\n")
@@ -47,7 +47,7 @@ def keep(folder):
 
 
 def crossSections(position, size, velocity, radius):
-    """Of the circle above and below the orifice, at each height: share inside beads, and share times their speed down."""
+    """Of the circle above and below the orifice, at each height: share inside particles, and share times their speed down."""
     distance = np.hypot(position[:, 0], position[:, 1])
     shares, fluxes = [], []
     for height in HEIGHTS:
@@ -89,37 +89,37 @@ class Profile:
         return series.Value(float(mean[at]), float(error[at]))
 
 
-def runOf(stage):
-    """The name of the run that the beads at the exit are from."""
-    return kept(stage, "profile")[0].name.removesuffix(".profile.csv")
+def runOf(step):
+    """The name of the run that the particles at the exit are from."""
+    return kept(step, "profile")[0].name.removesuffix(".profile.csv")
 
 
-def kept(stage, kind):
-    found = sorted(FOLDER.glob(f"*.{stage}.{kind}.csv"))
+def kept(step, kind):
+    found = sorted(FOLDER.glob(f"*.{step}.{kind}.csv"))
     if not found:
-        raise series.MissingRuns(f"no beads at the exit, {stage}: entry fill100, then scripts/reproduce/figure1 --from WORK")
+        raise series.MissingRuns(f"no particles at the exit, {step}: entry fill100, then scripts/reproduce/figure1 --from WORK")
     return found
 
 
-def read(stage, kind):
-    with open(kept(stage, kind)[0]) as file:
+def read(step, kind):
+    with open(kept(step, kind)[0]) as file:
         return np.array([[float(value) for value in row] for row in list(csv.reader(file))[1:]])
 
 
-def profile(stage):
-    rows = read(stage, "profile")
+def profile(step):
+    rows = read(step, "profile")
     shape = (-1, len(HEIGHTS))
     return Profile(HEIGHTS, rows[:, 2].reshape(shape), rows[:, 3].reshape(shape))
 
 
-def slab(stage):
-    """Positions, velocities, radii of the beads that the mid-plane cuts."""
-    rows = read(stage, "slab")
+def slab(step):
+    """Positions, velocities, radii of the particles that the mid-plane cuts."""
+    rows = read(step, "slab")
     return rows[:, :3], rows[:, 3:6], rows[:, 6]
 
 
 def keepAll(work):
-    """Of the campaign's work folder the runs whose beads were written often."""
-    for stage in paper.STAGES:
-        for folder in sorted(Path(work).glob(f"runs/{RUNS}.{stage}")):
+    """Of the parameter study's work folder the runs whose particles were written often."""
+    for step in paper.STEPS:
+        for folder in sorted(Path(work).glob(f"runs/{RUNS}.{step}")):
             keep(folder)

@@ -1,4 +1,4 @@
-"""Beads and walls of the hopper in its mid-plane."""
+"""Particles and walls of the hopper in its mid-plane."""
 
 import numpy as np
 from matplotlib.collections import EllipseCollection
@@ -21,19 +21,19 @@ def walls(axes, whole=False):
 
 
 def speeds(slab, view):
-    """Of the beads in view."""
+    """Of the particles in view."""
     position, velocity, _ = slab
     inside = (position[:, 0] > view[0]) & (position[:, 0] < view[1]) & (position[:, 2] > view[2]) & (position[:, 2] < view[3])
     return np.linalg.norm(velocity[inside], axis=1)
 
 
-def beads(axes, position, velocity, radius, fastest, arrows=False):
+def particles(axes, position, velocity, radius, fastest, arrows=False):
     """Circles as large as the plane cuts them; the colour is the speed in space."""
     order = np.argsort(-np.abs(position[:, 1]))
     position, velocity, radius = position[order], velocity[order], radius[order]
     cut = 2 * np.sqrt(radius**2 - position[:, 1] ** 2)
     circles = EllipseCollection(cut, cut, np.zeros(len(cut)), units="xy", offsets=position[:, [0, 2]],
-                                transOffset=axes.transData, cmap=pictureStyle.BEADS, edgecolors="k", linewidths=0.3)
+                                transOffset=axes.transData, cmap=pictureStyle.PARTICLES, edgecolors="k", linewidths=0.3)
     circles.set_array(np.linalg.norm(velocity, axis=1))
     circles.set_clim(0, fastest)
     axes.add_collection(circles)

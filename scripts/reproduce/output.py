@@ -13,7 +13,7 @@ import matplotlib.pyplot as pyplot
 import matplotlib.ticker
 import numpy as np
 
-from repository import CAMPAIGN, CASE, RESULTS, SCRIPTS
+from repository import PARAMETER_STUDY, CASE, RESULTS, SCRIPTS
 import paper
 import pictureStyle
 import series
@@ -25,28 +25,28 @@ SIZE = (7, 4.6)
 pyplot.rcParams.update({"figure.constrained_layout.use": True, "legend.fontsize": 8, "lines.linewidth": 1.3})
 
 # the paper's: dry red and open, submerged blue and filled
-COLOUR = pictureStyle.STAGES
+COLOUR = pictureStyle.STEPS
 MARKER = {"dry": dict(marker="o", markerfacecolor="none"), "submerged": dict(marker="s")}
 MEASURED = {"dry": dict(marker="x", color="tab:red"), "submerged": dict(marker="+", color="tab:blue")}
 PANEL = {"dry": "(a) dry", "submerged": "(b) submerged"}
 
-# Of s, g and g/s, what is drawn and written: far below what a bead (.01 g) makes, far above what processors and libraries of
+# Of s, g and g/s, what is drawn and written: far below what a particle (.01 g) makes, far above what processors and libraries of
 # linear algebra differ by, some 1e-9 after a fit. So the files are the same everywhere.
 DECIMALS = 3
 
 
 def command(main, description, entries, afterRun=None):
-    """main() after the command line is read: --run runs first what of the campaign's entries has no results yet.
+    """main() after the command line is read: --run runs first what of the parameter study's entries has no results yet.
 
-    afterRun(folder): takes from the campaign's work folder what its results do not hold.
+    afterRun(folder): takes from the parameter study's work folder what its results do not hold.
     """
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--run", action="store_true",
-                        help=f"first run what has no results yet of the entries {', '.join(entries)} of {CAMPAIGN}" if entries
+                        help=f"first run what has no results yet of the entries {', '.join(entries)} of {PARAMETER_STUDY}" if entries
                         else "nothing has to be run for this one")
     parser.add_argument("--into", metavar="FOLDER", type=Path, default=RESULTS / "figures")
     if afterRun:
-        parser.add_argument("--from", dest="work", metavar="FOLDER", help="take it from this work folder of the campaign")
+        parser.add_argument("--from", dest="work", metavar="FOLDER", help="take it from this work folder of the parameter study")
     given = parser.parse_args()
     if given.run and entries:
         run(entries)
@@ -55,16 +55,16 @@ def command(main, description, entries, afterRun=None):
     try:
         main(Folder(given.into))
     except series.MissingRuns as missing:
-        sys.exit(f"{sys.argv[0]}: {missing}; `scripts/campaign run {CAMPAIGN} --missing --only ENTRY` makes them")
+        sys.exit(f"{sys.argv[0]}: {missing}; `scripts/parameterStudy run {PARAMETER_STUDY} --missing --only ENTRY` makes them")
 
 
 def run(entries):
-    with subprocess.Popen([SCRIPTS / "campaign", "run", CAMPAIGN, "--missing", "--only", *entries]) as campaign:
+    with subprocess.Popen([SCRIPTS / "parameterStudy", "run", PARAMETER_STUDY, "--missing", "--only", *entries]) as parameterStudy:
         try:
-            status = campaign.wait()
+            status = parameterStudy.wait()
         except KeyboardInterrupt:
-            campaign.terminate()        # which lets its runs write their checkpoints
-            campaign.wait()
+            parameterStudy.terminate()        # which lets its runs write their checkpoints
+            parameterStudy.wait()
             sys.exit(f"{sys.argv[0]}: stopped; the same command goes on")
     if status != 0:
         sys.exit(1)
@@ -89,10 +89,10 @@ def band(axes, curves, colour, label, **style):
     axes.plot(x, y, color=colour, label=label, **style)
 
 
-def measuredRate(axes, stage):
+def measuredRate(axes, step):
     """The paper's, over what its last digit leaves open; it gives no error."""
-    axes.axhspan(paper.RATE[stage] - paper.RATE_ERROR, paper.RATE[stage] + paper.RATE_ERROR, color=COLOUR[stage], alpha=0.35, lw=0)
-    axes.axhline(paper.RATE[stage], ls=":", color=COLOUR[stage], label=f"measured at 300 to 400 g, {paper.RATE[stage]} g/s")
+    axes.axhspan(paper.RATE[step] - paper.RATE_ERROR, paper.RATE[step] + paper.RATE_ERROR, color=COLOUR[step], alpha=0.35, lw=0)
+    axes.axhline(paper.RATE[step], ls=":", color=COLOUR[step], label=f"measured at 300 to 400 g, {paper.RATE[step]} g/s")
 
 
 class Folder:

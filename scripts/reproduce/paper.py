@@ -1,12 +1,12 @@
 """What "Friction controls submerged granular flows" (Koivisto et al., arXiv 1703.09584) prints.
 
-Stages are named as in the cases, masses in g, rates in g/s, times in s.
+Steps are named as in the cases, masses in g, rates in g/s, times in s.
 """
 
 from dataclasses import dataclass
 from math import log
 
-STAGES = ("dry", "submerged")
+STEPS = ("dry", "submerged")
 
 # measured, both while 300 to 400 g are left
 RATE = {"dry": 11.4, "submerged": 7.6}
@@ -27,7 +27,7 @@ WINDOW_DEVIATION = 2 / 2.3548
 
 
 @dataclass(frozen=True)
-class Bead:
+class Particle:
     """A row of Table I."""
 
     diameter: float         # m
@@ -37,7 +37,7 @@ class Bead:
 
 
 # The printed I = eta D/(rho_e v_t) has a dimension; 4 eta/(rho_e v_t D) gives the printed numbers.
-TABLE_1 = (Bead(0.5e-3, 37, 1.76, 34.0e-4), Bead(1e-3, 151, 0.86, 17.0e-4), Bead(2e-3, 530, 0.56, 9.8e-4))
+TABLE_1 = (Particle(0.5e-3, 37, 1.76, 34.0e-4), Particle(1e-3, 151, 0.86, 17.0e-4), Particle(2e-3, 530, 0.56, 9.8e-4))
 
 
 def wilsonRate(upper, lower, surge=0.25, mass=187):

@@ -8,11 +8,11 @@ import yaml
 SCRIPTS = Path(__file__).resolve().parent.parent
 CASE = SCRIPTS.parent / "cases" / "hopper5cm"
 RESULTS = CASE / "results"
-CAMPAIGN = CASE / "campaign.yaml"
+PARAMETER_STUDY = CASE / "parameterStudy.yaml"
 
 sys.path.insert(0, str(SCRIPTS))
 
 
 def hopper():
-    """The parameters of cases/hopper5cm/hopper.yaml."""
+    """The parameters of cases/paper/hopper.yaml."""
     return yaml.safe_load((CASE / "hopper.yaml").read_text())["parameters"]

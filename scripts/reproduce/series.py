@@ -1,4 +1,4 @@
-"""The runs of cases/hopper5cm, and what figures and comparisons take from their m(t)."""
+"""The runs of cases/paper, and what figures and comparisons take from their m(t)."""
 
 import json
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ import numpy as np
 from scipy import optimize, stats
 
 from repository import RESULTS
-import campaignResults
+import parameterStudyResults
 import flow
 import paper
 
@@ -20,7 +20,7 @@ CURVED = (0.95, 0.35)       # of the fill: down to where the heap on the bottom 
 # when submerged runs of 400 g ended at 97 g (the first window was seen, the second was not) and the dry one was whole; below
 # 50 g the heap on the bottom slows the dry flow. What the heap does above that, the dry run in the same window tells.
 SURGE = ((200, 100), (100, 50))
-# For beads of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared with. Fixed on
+# For particles of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared with. Fixed on
 # 2026-11-25, before any of 1 mm was run. The second leaves out how the flow of 150 g sets in, and was chosen after the run.
 SURGE_OF_150, BEFORE_IT, BEFORE_IT_STEADY = (100, 50), (142.5, 100), (130, 100)
 BINS_OF_START, BINS_OF_CURVE = 5, 12
@@ -31,7 +31,7 @@ DRAWS = 400                 # of a fit's data, for the uncertainty of what follo
 
 
 class MissingRuns(Exception):
-    """Which entries of the campaign would have to be run."""
+    """Which entries of the parameter study would have to be run."""
 
 
 @dataclass(frozen=True)
@@ -56,13 +56,13 @@ class HopperRun:
     """One m(t), in g and s."""
 
     def __init__(self, run):
-        self.run, self.name, self.stage = run, run.name, run.stage
+        self.run, self.name, self.step = run, run.name, run.step
         self.entry = run.case.split("-")[0]
         self.parameters = run.parameters
         self.friction = run.parameters["friction"]
         self.time, self.mass = run.time, 1e3 * run.mass
-        self.beadMass = 1e3 * run.parameters["beadDensity"] * pi / 6 * run.parameters["beadDiameter"] ** 3
-        self.fill = self.beadMass * run.parameters["beadCount"]
+        self.particleMass = 1e3 * run.parameters["particleDensity"] * pi / 6 * run.parameters["particleDiameter"] ** 3
+        self.fill = self.particleMass * run.parameters["particleCount"]
 
     def meanRate(self, upper, lower):
         """g/s while the hopper holds between two parts of its fill."""
@@ -164,7 +164,7 @@ class HopperRun:
 @cache
 def allRuns():
     """All committed runs, each checked against its own inputs."""
-    runs = tuple(HopperRun(run) for run in campaignResults.read(RESULTS / "runs"))
+    runs = tuple(HopperRun(run) for run in parameterStudyResults.read(RESULTS / "runs"))
     for run in runs:
         check(run)
     return runs
@@ -176,8 +176,8 @@ def check(run):
     problems = []
     if abs(run.mass[0] - run.fill) > 0.01 * run.fill:
         problems.append(f"m(t) begins with {run.mass[0]:.4g} g, the inputs say {run.fill:.4g} g")
-    if record["summary"]["beads_lost"] != 0:
-        problems.append(f"{record['summary']['beads_lost']} beads were lost")
+    if record["summary"]["particles_lost"] != 0:
+        problems.append(f"{record['summary']['particles_lost']} particles were lost")
     if run.entry != "paperMesh" and not run.hasStart and not run.clogged:
         problems.append(f"it ended before {100 - 100 * START[1]:g} % had left, without an arch")
     if np.any(np.diff(run.time) <= 0):
@@ -188,12 +188,12 @@ def check(run):
     if any("dirty" in version for version in record["code"]):
         problems.append("it was made by a program that no commit holds")
     if problems:
-        raise SystemExit(f"cases/hopper5cm/results/runs/{run.name}: {'; '.join(problems)}")
+        raise SystemExit(f"cases/paper/results/runs/{run.name}: {'; '.join(problems)}")
 
 
-def ofEntries(begin, stage, **wanted):
-    """Runs of the entries that begin so, of a stage and with the parameters wanted, in order of fill and friction."""
-    found = [run for run in allRuns() if run.stage == stage and run.entry.startswith(begin) and
+def ofEntries(begin, step, **wanted):
+    """Runs of the entries that begin so, of a step and with the parameters wanted, in order of fill and friction."""
+    found = [run for run in allRuns() if run.step == step and run.entry.startswith(begin) and
              all(isclose(run.parameters[name], value) for name, value in wanted.items())]
     return sorted(found, key=lambda run: (run.fill, run.friction))
 
@@ -205,44 +205,44 @@ def byFriction(runs):
     return found
 
 
-def fills(stage, **wanted):
-    """Runs of the entries fill..., of a stage and with the parameters wanted, in order of fill; without clogged ones."""
-    return [run for run in withClogged(stage, **wanted) if not run.clogged]
+def fills(step, **wanted):
+    """Runs of the entries fill..., of a step and with the parameters wanted, in order of fill; without clogged ones."""
+    return [run for run in withClogged(step, **wanted) if not run.clogged]
 
 
-def withClogged(stage, **wanted):
-    return ofEntries("fill", stage, **wanted)
+def withClogged(step, **wanted):
+    return ofEntries("fill", step, **wanted)
 
 
-def cloggedRuns(stage, **wanted):
-    return [run for run in withClogged(stage, **wanted) if run.clogged]
+def cloggedRuns(step, **wanted):
+    return [run for run in withClogged(step, **wanted) if run.clogged]
 
 
-def byFill(stage, friction, whole=False):
+def byFill(step, friction, whole=False):
     """{fill in g: runs}, the largest fill last; of whole discharges only, where wanted."""
     found = {}
-    for run in fills(stage, friction=friction):
+    for run in fills(step, friction=friction):
         if run.emptyingTime or not whole:
             found.setdefault(round(run.fill), []).append(run)
     return found
 
 
-def deepest(stage, friction, whole=False):
+def deepest(step, friction, whole=False):
     """The runs with the largest fill there is: one or several packings."""
-    found = byFill(stage, friction, whole)
+    found = byFill(step, friction, whole)
     if not found:
-        clogged = "".join(f"; {run.name} clogged" for run in cloggedRuns(stage, friction=friction))
-        raise MissingRuns(f"no {stage} run with a friction of {friction:g}: entries fill100, fill200, fill400{clogged}")
+        clogged = "".join(f"; {run.name} clogged" for run in cloggedRuns(step, friction=friction))
+        raise MissingRuns(f"no {step} run with a friction of {friction:g}: entries fill100, fill200, fill400{clogged}")
     return found[max(found)]
 
 
 def deepestOfBoth(friction):
-    """{stage: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the difference."""
-    found = {stage: byFill(stage, friction) for stage in paper.STAGES}
+    """{step: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the difference."""
+    found = {step: byFill(step, friction) for step in paper.STEPS}
     common = set.intersection(*map(set, found.values()))
     if not common:
         raise MissingRuns(f"no fill with a friction of {friction:g} in both: entries fill100, fill200, fill400")
-    return {stage: fillsOfStage[max(common)] for stage, fillsOfStage in found.items()}
+    return {step: fillsOfStep[max(common)] for step, fillsOfStep in found.items()}
 
 
 def mean(values):
@@ -253,13 +253,13 @@ def mean(values):
     return Value(float(np.mean(means)), float(max(within, between)))
 
 
-def sweep(stage):
+def sweep(step):
     """Runs of the fill with the most frictions, the larger fill where two have as many: {friction: [run, ...]}."""
     byFill = {}
-    for run in fills(stage):
+    for run in fills(step):
         byFill.setdefault(round(run.fill), {}).setdefault(run.friction, []).append(run)
     if not byFill:
-        raise MissingRuns(f"no {stage} run: entries fill100, fill200, fill400")
+        raise MissingRuns(f"no {step} run: entries fill100, fill200, fill400")
     return byFill[max(byFill, key=lambda fill: (len(byFill[fill]), fill))]
 
 
@@ -324,11 +324,11 @@ class FrictionLaw:
 
 
 @cache
-def frictionLaw(stage):
+def frictionLaw(step):
     """The paper's fit to the rates of a sweep. Needs three frictions; three leave nothing to check it by."""
-    byFriction = sweep(stage)
+    byFriction = sweep(step)
     if len(byFriction) < 3:
-        raise MissingRuns(f"{len(byFriction)} frictions are not enough for a fit, {stage}: entry fill200")
+        raise MissingRuns(f"{len(byFriction)} frictions are not enough for a fit, {step}: entry fill200")
     frictions = np.array(list(byFriction))
     rates = [mean([run.startRate for run in runs]) for runs in byFriction.values()]
     means, errors = np.array([rate.mean for rate in rates]), np.array([rate.error for rate in rates])
@@ -351,30 +351,30 @@ def scatterOverErrors(residuals, errors, parameters):
     return np.sqrt(((residuals / errors) ** 2).sum() / freedom) if freedom > 0 else 1.0
 
 
-def matching(stage, whole=False):
+def matching(step, whole=False):
     """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill or
     of more packings."""
     def worth(friction):
-        fill, runs = max(byFill(stage, friction, whole).items(), default=(0, []))
-        return fill, len(runs), friction == paper.MATCHING_FRICTION[stage]
+        fill, runs = max(byFill(step, friction, whole).items(), default=(0, []))
+        return fill, len(runs), friction == paper.MATCHING_FRICTION[step]
 
-    return deepest(stage, max({paper.MATCHING_FRICTION[stage], paper.MATCHING_FRICTION["dry"]}, key=worth), whole)
+    return deepest(step, max({paper.MATCHING_FRICTION[step], paper.MATCHING_FRICTION["dry"]}, key=worth), whole)
 
 
-def variants(stage):
-    """Runs that differ from one of the entry fill100 by their mesh or by how stiff the beads are, by what differs."""
+def variants(step):
+    """Runs that differ from one of the entry fill100 by their mesh or by how stiff the particles are, by what differs."""
     found = {}
     for run in allRuns():
-        if run.stage == stage and run.entry == "cells":
+        if run.step == step and run.entry == "cells":
             found[f"{run.parameters['meshLevel']} mesh"] = run
-        if run.stage == stage and run.entry == "stiff":
-            found[f"beads of {run.parameters['youngsModulus'] / 1e6:g} MPa"] = run
+        if run.step == step and run.entry == "stiff":
+            found[f"particles of {run.parameters['youngsModulus'] / 1e6:g} MPa"] = run
     return found
 
 
-def stiffWithClogged(stage):
-    """{friction: runs} of the paper's fill with stiffer beads on a finer mesh."""
-    return byFriction(ofEntries("match", stage))
+def stiffWithClogged(step):
+    """{friction: runs} of the paper's fill with stiffer particles on a finer mesh."""
+    return byFriction(ofEntries("match", step))
 
 
 def described(run):
@@ -382,40 +382,40 @@ def described(run):
     return f"{run.fill:.0f} g, {run.parameters['youngsModulus'] / 1e6:g} MPa, {run.parameters['meshLevel']} mesh"
 
 
-def stiffRuns(stage):
+def stiffRuns(step):
     """The same without clogged ones."""
-    found = byFriction(run for run in ofEntries("match", stage) if not run.clogged)
+    found = byFriction(run for run in ofEntries("match", step) if not run.clogged)
     if not found:
-        raise MissingRuns(f"no {stage} run of the paper's fill with stiffer beads on a finer mesh: entry match")
+        raise MissingRuns(f"no {step} run of the paper's fill with stiffer particles on a finer mesh: entry match")
     return found
 
 
 @cache
-def stiffLaw(stage):
-    """The sweep's fit, through the rates of the paper's fill with stiffer beads on a finer mesh."""
-    runsOf = stiffRuns(stage)
+def stiffLaw(step):
+    """The sweep's fit, through the rates of the paper's fill with stiffer particles on a finer mesh."""
+    runsOf = stiffRuns(step)
     packings = min(len(runs) for runs in runsOf.values())
-    return frictionLaw(stage).through({friction: mean([run.startRate for run in runs]) for friction, runs in runsOf.items()},
-                                      packingScatter(stage) / np.sqrt(packings))
+    return frictionLaw(step).through({friction: mean([run.startRate for run in runs]) for friction, runs in runsOf.items()},
+                                      packingScatter(step) / np.sqrt(packings))
 
 
-def packingScatter(stage):
+def packingScatter(step):
     """Standard deviation over packings, of the mean: from the largest fill that has several."""
-    rates = [run.startRate.mean for run in deepest(stage, paper.MATCHING_FRICTION["dry"])]
+    rates = [run.startRate.mean for run in deepest(step, paper.MATCHING_FRICTION["dry"])]
     if len(rates) < 2:
         raise MissingRuns("no fill of two packings: entries fill400packings, fill200packings")
     return np.std(rates, ddof=1) / np.mean(rates)
 
 
-def smallBeads(stage):
-    """Runs of beads of 1 mm in the full rig."""
-    return ofEntries("beads1mm", stage)
+def smallParticles(step):
+    """Runs of particles of 1 mm in the full simulator."""
+    return ofEntries("particles1mm", step)
 
 
-def ofUsualFill(stage):
+def ofUsualFill(step):
     """Runs at the friction that the paper finds to match the dry rate."""
-    found = [run for run in fills(stage, friction=paper.MATCHING_FRICTION["dry"])
+    found = [run for run in fills(step, friction=paper.MATCHING_FRICTION["dry"])
              if isclose(run.fill, USUAL_FILL, rel_tol=0.01)]
     if not found:
-        raise MissingRuns(f"no {stage} run of {USUAL_FILL} g: entry fill100")
+        raise MissingRuns(f"no {step} run of {USUAL_FILL} g: entry fill100")
     return found

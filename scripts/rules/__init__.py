@@ -62,7 +62,7 @@ def alone(p, rules, folder):
     for name, value in p.items():
         if name not in rules:
             if not isReferredTo(name, folder):
-                problems.append(f"entry '{name}' is read by nobody{meant(name, rules)}; allowed: {', '.join(rules)}")
+                problems.append(f"entry '{name}' is unknown{meant(name, rules)}; allowed: {', '.join(rules)}")
         elif not rules[name].holds(value):
             problems.append(f"entry '{name}' is {shown(value)}{hint(value)}; allowed: {rules[name].allowed}")
     return problems
@@ -72,7 +72,7 @@ def isReferredTo(name, case):
     """True where a file of the case has $name: then it is an entry of the user's own."""
     word = re.compile(rf"\$\{{?{name}\b")
     files = [path for part in ("0", "constant", "system", "DEM") for path in (case / part).glob("*")]
-    return any(word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("stage.*")] if path.is_file())
+    return any(word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("step.*")] if path.is_file())
 
 
 def hint(value):

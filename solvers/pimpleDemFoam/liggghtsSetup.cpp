@@ -1,7 +1,7 @@
 #include "liggghtsSetup.h"
 
 #include "runTimeSelection.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include "OSspecific.H"
 

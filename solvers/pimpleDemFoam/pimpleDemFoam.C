@@ -1,17 +1,18 @@
-// Grains and water: OpenFOAM solves the volume-averaged Navier-Stokes equations by PIMPLE, LIGGGHTS moves the beads,
-// both in this process. With `fluid none;` in constant/couplingProperties the beads move alone.
+// Grains and water: OpenFOAM solves the volume-averaged Navier-Stokes equations by PIMPLE, LIGGGHTS moves the particles,
+// both in this process. With `fluid none;` in constant/couplingProperties the particles move alone.
 
 #include "checkpoint/caseLock.h"
 #include "checkpoint/checkpoints.h"
 #include "checkpoint/runTime.h"
 #include "files/wholeFile.h"
-#include "interval/couplingInterval.h"
+#include "couplingStep/couplingStep.h"
 #include "liggghtsSetup.h"
 #include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
 #include "runTimeSelection.h"
+#include "tokens/renamed.h"
 #include "vectors.h"
 #include "voidFractionFlow.h"
 
@@ -25,6 +26,22 @@ namespace
 {
 
 using namespace clepsydra;
+
+/// A function object under the name that it had in an earlier version is an error that names the new one. OpenFOAM itself
+/// would only warn of an unknown type and run without it.
+void refuseRenamedFunctionObjects(const Time& runTime)
+{
+    for (const entry& item : runTime.controlDict().subOrEmptyDict("functions"))
+    {
+        const word type = item.isDict() ? item.dict().getOrDefault<word>("type", word::null) : word::null;
+        if (const Renamed* const change = renamed(type))
+        {
+            FatalIOErrorInFunction(item.dict()) << "Function object '" << item.keyword() << "' has the type '" << type
+                                                << "', which is now called '" << change->newName.c_str() << "'"
+                                                << exit(FatalIOError);
+        }
+    }
+}
 
 /// What OpenFOAM's other solvers read here would be without effect.
 void requireLaminar(const Time& runTime, const dictionary& transportProperties)
@@ -62,7 +79,7 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
     return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
 }
 
-/// The weight of the beads is the DEM script's, their buoyancy is constant/g's.
+/// The weight of the particles is the DEM script's, their buoyancy is constant/g's.
 void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 {
     const Vector3d dem = engine.gravity();
@@ -74,8 +91,8 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
     }
 }
 
-/// The beads for other runs, with a checksum that the engine holds them against.
-void writeFinalBeads(DemEngine& engine, const std::filesystem::path& file)
+/// The particles for other runs, with a checksum that the engine holds them against.
+void writeFinalParticles(DemEngine& engine, const std::filesystem::path& file)
 {
     // First those of an earlier run. In one file, or in parts, of which this rank writes one and the first the base, too.
     for (const std::string& part : {std::string("base"), std::to_string(Pstream::myProcNo())})
@@ -118,7 +135,7 @@ private:
 };
 
 void runWithFluid(
-    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingInterval& interval, RunOutput& output)
+    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& interval, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid);
     interval.start(flow.U(), flow.p());
@@ -138,7 +155,7 @@ void runWithFluid(
     }
 }
 
-void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
+void runDry(RunTime& runTime, CouplingStep& interval, RunOutput& output)
 {
     output.start();
     while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
@@ -155,7 +172,7 @@ void runDry(RunTime& runTime, CouplingInterval& interval, RunOutput& output)
 
 int main(int argc, char* argv[])
 {
-    argList::addNote("Grains in water: PIMPLE with LIGGGHTS beads, coupled by constant/couplingProperties");
+    argList::addNote("Grains in water: PIMPLE with LIGGGHTS particles, coupled by constant/couplingProperties");
     // OpenFOAM's own -dry-run puts a column of cells in the mesh's place; this tries the case as it is.
     argList::addBoolOption("dryRun", "Check the case as a start does, solve one interval, write nothing");
     argList::addBoolOption("listModels", "List every model that a case may name, with one line on each");
@@ -182,10 +199,11 @@ int main(int argc, char* argv[])
     }
 
     RunTime runTime = start.empty() ? RunTime(args) : RunTime(args, start);
+    refuseRenamedFunctionObjects(runTime);
 #include "createMesh.H"
 
     const CouplingSettings settings(runTime);
-    requireBeadsWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
+    requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
@@ -196,12 +214,12 @@ int main(int argc, char* argv[])
         {
             runTime.resume(checkpoints.beginning());
         }
-        LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.beads(), dryRun));
+        LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.particles(), dryRun));
         if (models)
         {
             requireSameGravity(fluid, engine);
         }
-        CouplingInterval interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
+        CouplingStep interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints, dryRun);
 
         if (models)
@@ -214,10 +232,10 @@ int main(int argc, char* argv[])
         }
 
         output.finish();
-        // What comes after takes the beads for those of the end.
+        // What comes after takes the particles for those of the end.
         if (!dryRun && !output.stopped() && !settings.finalRestart().empty())
         {
-            writeFinalBeads(engine, settings.finalRestart().c_str());
+            writeFinalParticles(engine, settings.finalRestart().c_str());
         }
     }
     catch (const DemEngineError& error)

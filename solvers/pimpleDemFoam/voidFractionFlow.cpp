@@ -61,31 +61,32 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
     mesh_.setFluxRequired(p_.name());
 }
 
-SolvedFluid VoidFractionFlow::solve(CouplingInterval& interval)
+SolvedFluid VoidFractionFlow::solve(CouplingStep& interval)
 {
-    const FluidCoupling& beads = interval.fluid();
-    const surfaceScalarField voidFractionf(fvc::interpolate(beads.voidFraction()));
-    vector sourceOfBeads = vector::zero;
+    const FluidCoupling& particles = interval.fluid();
+    const surfaceScalarField voidFractionf(fvc::interpolate(particles.voidFraction()));
+    vector sourceOfParticles = vector::zero;
     tmp<surfaceScalarField> anticipatedFlux;
     while (pimple_.loop())
     {
-        const fvVectorMatrix beadSource(beads.momentumSource(U_));
-        const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, beadSource));
+        const fvVectorMatrix particleSource(particles.momentumSource(U_));
+        const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, particleSource));
         while (pimple_.correct())
         {
             anticipatedFlux = correctPressure(interval, voidFractionf, UEqn);
         }
-        sourceOfBeads = sum(mesh_.V().field() * ((beadSource & U_) + beads.sourceOfPressure(p_))().primitiveField());
+        sourceOfParticles =
+            sum(mesh_.V().field() * ((particleSource & U_) + particles.sourceOfPressure(p_))().primitiveField());
     }
     interval.closeContinuity(anticipatedFlux);
-    return {sourceOfBeads, beads.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
+    return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
 }
 
 // The layout shows the equations.
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
-    const CouplingInterval& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& beadSource)
+    const CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
 {
     const PhaseTimers::Scope timing = interval.timers().time("momentum");
     const volScalarField& voidFraction = interval.fluid().voidFraction();
@@ -99,7 +100,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
       - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
       - viscousStress_.implicitDivergence(U_)
      ==
-        beadSource
+        particleSource
     );
     UEqn.relax();
 
@@ -111,7 +112,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
 }
 
 tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
-    CouplingInterval& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
+    CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
 {
     const PhaseTimers::Scope timing = interval.timers().time("pressure");
     const volScalarField& pressureFactor = interval.fluid().pressureFactor();
@@ -130,10 +131,10 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
         interval.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
-    // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - mobility grad(p))
+    // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - pressureResponse grad(p))
     const VoidFractionRate& rate = interval.fluid().ddtVoidFraction();
-    const surfaceScalarField moving("moving", voidFractionf + rate.following());
-    const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.mobility());
+    const surfaceScalarField moving("moving", voidFractionf + rate.velocityResponse());
+    const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.pressureResponse());
     auto anticipatedFlux = tmp<surfaceScalarField>::New("anticipatedFlux", phi_);
 
     while (pimple_.correctNonOrthogonal())
@@ -152,7 +153,7 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
         {
             const surfaceScalarField gradient("gradient", pEqn.flux()/pressureCoefficient);
             phi_ = phiHbyA - rAUf*gradient;
-            anticipatedFlux.ref() = rate.following()*phi_ - rate.mobility()*gradient;
+            anticipatedFlux.ref() = rate.velocityResponse()*phi_ - rate.pressureResponse()*gradient;
         }
     }
 

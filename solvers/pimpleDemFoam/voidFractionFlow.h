@@ -1,7 +1,7 @@
 #pragma once
 
-#include "interval/couplingInterval.h"
-#include "interval/viscousStress.h"
+#include "couplingStep/couplingStep.h"
+#include "couplingStep/viscousStress.h"
 
 #include "pimpleControl.H"
 #include "surfaceFields.H"
@@ -10,7 +10,7 @@
 namespace clepsydra
 {
 
-/// The fluid between the beads: its fields, and one PIMPLE step of the equations that FluidCoupling states.
+/// The fluid between the particles: its fields, and one PIMPLE step of the equations that FluidCoupling states.
 class VoidFractionFlow
 {
 public:
@@ -35,15 +35,15 @@ public:
         return phi_;
     }
 
-    /// Solves over one coupling interval.
-    SolvedFluid solve(CouplingInterval& interval);
+    /// Solves over one coupling step.
+    SolvedFluid solve(CouplingStep& interval);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(const CouplingInterval& interval,
-        const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& beadSource);
+    Foam::fvVectorMatrix momentumEquation(const CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf,
+        const Foam::fvVectorMatrix& particleSource);
     /// \return the part of d(eps)/dt that is implicit, as a flux [m3/s]
     Foam::tmp<Foam::surfaceScalarField> correctPressure(
-        CouplingInterval& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
+        CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;
     Foam::pimpleControl pimple_;

@@ -3,7 +3,7 @@
 ///
 ///     MESSAGE_COUNTS=FOLDER mpirun -np 4 -x MESSAGE_COUNTS -x LD_PRELOAD=build/lib/libcountMessages.so pimpleDemFoam -parallel
 ///
-/// Each rank writes FOLDER/<rank>.json: by phase of the run (PhaseTimers tells it), for one coupling interval in the mean,
+/// Each rank writes FOLDER/<rank>.json: by phase of the run (PhaseTimers tells it), for one coupling step in the mean,
 /// without the first and what comes before and after: messages and their bytes; the ranks that they went to in all;
 /// collective calls and the bytes that they hand to or take from this rank.
 

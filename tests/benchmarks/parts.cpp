@@ -1,5 +1,5 @@
 /// \file
-/// What the parts of a coupling interval cost, with Google Benchmark: 4096 beads of 2 mm in a box of 16 x 16 x 32 cells
+/// What the parts of a coupling step cost, with Google Benchmark: 4096 particles of 2 mm in a box of 16 x 16 x 32 cells
 /// of 2.5 mm. `scripts/benchmark` times whole cases; this says which part to look at. Not a test: times have no limits.
 
 #include "closures/diFeliceDrag.h"
@@ -20,60 +20,61 @@ namespace clepsydra::tests
 namespace
 {
 
-constexpr int beadCount = 4096;
+constexpr int particleCount = 4096;
 constexpr double diameter = 2e-3;
 constexpr double cellSize = 2.5e-3;
 constexpr std::array<int, 3> cells = {16, 16, 32};
 
-ManyBeadsInFluid beadsInABed()
+ManyParticlesInFluid particlesInABed()
 {
     std::mt19937 random(17);
     std::uniform_real_distribution<double> voidFraction(0.38, 0.95);
     std::uniform_real_distribution<double> slipSpeed(0.001, 0.3);
-    ManyBeadsInFluid beads;
-    beads.count = ManyBeadsInFluid::most;
-    beads.density = 1000;
-    beads.dynamicViscosity = 1e-3;
-    for (std::size_t bead = 0; bead < beads.count; ++bead)
+    ManyParticlesInFluid particles;
+    particles.count = ManyParticlesInFluid::most;
+    particles.density = 1000;
+    particles.dynamicViscosity = 1e-3;
+    for (std::size_t particle = 0; particle < particles.count; ++particle)
     {
-        beads.diameter[bead] = diameter;
-        beads.voidFraction[bead] = voidFraction(random);
-        beads.logVoidFraction[bead] = std::log(beads.voidFraction[bead]);
-        beads.slipSpeed[bead] = slipSpeed(random);
+        particles.diameter[particle] = diameter;
+        particles.voidFraction[particle] = voidFraction(random);
+        particles.logVoidFraction[particle] = std::log(particles.voidFraction[particle]);
+        particles.slipSpeed[particle] = slipSpeed(random);
     }
-    return beads;
+    return particles;
 }
 
 void dragOfOneAfterTheOther(benchmark::State& state)
 {
-    const ManyBeadsInFluid beads = beadsInABed();
+    const ManyParticlesInFluid particles = particlesInABed();
     const closures::DiFeliceDrag law;
     for ([[maybe_unused]] auto repetition : state)
     {
-        for (std::size_t bead = 0; bead < beads.count; ++bead)
+        for (std::size_t particle = 0; particle < particles.count; ++particle)
         {
-            benchmark::DoNotOptimize(law({beads.diameter[bead], beads.voidFraction[bead], beads.logVoidFraction[bead],
-                beads.slipSpeed[bead], beads.density, beads.dynamicViscosity}));
+            benchmark::DoNotOptimize(law(
+                {particles.diameter[particle], particles.voidFraction[particle], particles.logVoidFraction[particle],
+                    particles.slipSpeed[particle], particles.density, particles.dynamicViscosity}));
         }
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(beads.count));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles.count));
 }
 
 void dragOfManyAtOnce(benchmark::State& state)
 {
-    const ManyBeadsInFluid beads = beadsInABed();
+    const ManyParticlesInFluid particles = particlesInABed();
     const DragOfMany law = dragOfMany(closures::DiFeliceDrag::name);
     ManyCoefficients coefficients;
     for ([[maybe_unused]] auto repetition : state)
     {
-        law(beads, coefficients);
+        law(particles, coefficients);
         benchmark::DoNotOptimize(coefficients.data());
         benchmark::ClobberMemory();
     }
-    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(beads.count));
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(particles.count));
 }
 
-/// The box, its beads and what spreads them.
+/// The box, its particles and what spreads them.
 class BedInABox
 {
 public:
@@ -83,32 +84,32 @@ public:
           distribution(properties(), *mesh_)
     {
         std::uniform_real_distribution<double> part(0, 1);
-        for (int bead = 0; bead < beadCount; ++bead)
+        for (int particle = 0; particle < particleCount; ++particle)
         {
-            VisitingBead visitor{};
-            visitor.reaction.setZero();
-            visitor.volume = sphereVolume(0.5 * diameter);
+            GhostParticle ghost{};
+            ghost.reaction.setZero();
+            ghost.volume = sphereVolume(0.5 * diameter);
             for (int axis = 0; axis < 3; ++axis)
             {
-                visitor.position[axis] = diameter / 2 + (cells[axis] * cellSize - diameter) * part(random_);
+                ghost.position[axis] = diameter / 2 + (cells[axis] * cellSize - diameter) * part(random_);
             }
-            visitor.radius = diameter / 2;
-            visitor.id = bead + 1;
-            beads.push_back(visitor);
+            ghost.radius = diameter / 2;
+            ghost.id = particle + 1;
+            particles.push_back(ghost);
         }
-        distribution.normalise(distribution.findCells(beads));
+        distribution.normalise(distribution.findCells(particles));
     }
 
     /// All of them, as far as in an interval of 2 ms at .1 m/s.
     void move()
     {
         std::uniform_real_distribution<double> step(-2e-4, 2e-4);
-        for (VisitingBead& bead : beads)
+        for (GhostParticle& particle : particles)
         {
             for (int axis = 0; axis < 3; ++axis)
             {
                 const double end = cells[axis] * cellSize - diameter / 2;
-                bead.position[axis] = std::clamp(bead.position[axis] + step(random_), diameter / 2, end);
+                particle.position[axis] = std::clamp(particle.position[axis] + step(random_), diameter / 2, end);
             }
         }
     }
@@ -122,7 +123,7 @@ private:
     static Foam::dictionary properties()
     {
         return Foam::dictionary(Foam::IStringStream("voidFractionModel divided; smoothingModel constDiffSmoothing; "
-                                                    "constDiffSmoothingProps { smoothingLength 6e-3; }")());
+                                                    "constDiffSmoothingProps { bandwidth 6e-3; }")());
     }
 
     TemporaryCase case_;
@@ -131,10 +132,10 @@ private:
 
 public:
     Distribution distribution;
-    std::vector<VisitingBead> beads;
+    std::vector<GhostParticle> particles;
 };
 
-void locateMovingBeads(benchmark::State& state)
+void locateMovingParticles(benchmark::State& state)
 {
     BedInABox bed;
     for ([[maybe_unused]] auto repetition : state)
@@ -142,19 +143,19 @@ void locateMovingBeads(benchmark::State& state)
         state.PauseTiming();
         bed.move();
         state.ResumeTiming();
-        bed.distribution.normalise(bed.distribution.findCells(bed.beads));
+        bed.distribution.normalise(bed.distribution.findCells(bed.particles));
     }
-    state.SetItemsProcessed(state.iterations() * beadCount);
+    state.SetItemsProcessed(state.iterations() * particleCount);
 }
 
-void locateBeadsAtRest(benchmark::State& state)
+void locateParticlesAtRest(benchmark::State& state)
 {
     BedInABox bed;
     for ([[maybe_unused]] auto repetition : state)
     {
-        bed.distribution.normalise(bed.distribution.findCells(bed.beads));
+        bed.distribution.normalise(bed.distribution.findCells(bed.particles));
     }
-    state.SetItemsProcessed(state.iterations() * beadCount);
+    state.SetItemsProcessed(state.iterations() * particleCount);
 }
 
 /// Eight quantities, as an interval has: solid volume, impulse, coefficient, outstanding impulse.
@@ -163,12 +164,12 @@ constexpr Eigen::Index quantities = 8;
 void distribute(benchmark::State& state)
 {
     const BedInABox bed;
-    const Eigen::MatrixXd amounts = Eigen::MatrixXd::Random(quantities, beadCount);
+    const Eigen::MatrixXd amounts = Eigen::MatrixXd::Random(quantities, particleCount);
     for ([[maybe_unused]] auto repetition : state)
     {
         benchmark::DoNotOptimize(bed.distribution.densities(amounts));
     }
-    state.SetItemsProcessed(state.iterations() * beadCount);
+    state.SetItemsProcessed(state.iterations() * particleCount);
 }
 
 void smooth(benchmark::State& state)
@@ -182,7 +183,7 @@ void smooth(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * bed.cellCount());
 }
 
-void sampleAtBeads(benchmark::State& state)
+void sampleAtParticles(benchmark::State& state)
 {
     const BedInABox bed;
     const Eigen::MatrixXd values = Eigen::MatrixXd::Random(quantities, bed.cellCount());
@@ -190,16 +191,16 @@ void sampleAtBeads(benchmark::State& state)
     {
         benchmark::DoNotOptimize(bed.distribution.sample(values));
     }
-    state.SetItemsProcessed(state.iterations() * beadCount);
+    state.SetItemsProcessed(state.iterations() * particleCount);
 }
 
 BENCHMARK(dragOfOneAfterTheOther);
 BENCHMARK(dragOfManyAtOnce);
-BENCHMARK(locateMovingBeads);
-BENCHMARK(locateBeadsAtRest);
+BENCHMARK(locateMovingParticles);
+BENCHMARK(locateParticlesAtRest);
 BENCHMARK(distribute);
 BENCHMARK(smooth);
-BENCHMARK(sampleAtBeads);
+BENCHMARK(sampleAtParticles);
 
 } // namespace
 

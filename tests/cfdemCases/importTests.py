@@ -54,17 +54,17 @@ class Folder(unittest.TestCase):
 class Runs(Folder):
     """Of the new cases: within 5 % of the law."""
 
-    def testSettlingBead(self):
-        self.imported(HERE / "settlingBead")
+    def testSettlingParticle(self):
+        self.imported(HERE / "settlingParticleCase")
         self.run_()
         speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
-        law = closures.value("terminalVelocity", dragLaw="DiFeliceDrag", beadDiameter=1e-4, beadDensity=3000, fluidDensity=10,
+        law = closures.value("terminalVelocity", dragLaw="DiFeliceDrag", particleDiameter=1e-4, particleDensity=3000, fluidDensity=10,
                              fluidViscosity=1e-5)
-        print(f"settlingBead: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
+        print(f"settlingParticleCase: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
         self.assertLess(abs(speed / law - 1), 0.05)
 
     def testPackedColumn(self):
-        """Taken for a velocity between the beads, the inlet's .006 and .01 m/s would give less than half of the pressure drop."""
+        """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the pressure drop."""
         self.imported(HERE / "packedColumn")
         self.run_()
         probes = np.loadtxt(self.target / "postProcessing/probes/0/p")
@@ -79,7 +79,7 @@ class Runs(Folder):
         voidFraction = caseFiles.field(self.target, time, "voidFraction")[:, 0]      # one cell a layer
         bed = voidFraction < 0.95
         weight = np.where(np.arange(30) == 0, 0.5, 1.0)[bed]
-        gradient = closures.values("ergunPressureGradient", beadDiameter=1e-3, fluidDensity=10, fluidViscosity=1.5e-4,
+        gradient = closures.values("ergunPressureGradient", particleDiameter=1e-3, fluidDensity=10, fluidViscosity=1.5e-4,
                                    voidFraction=voidFraction[bed], superficialVelocity=velocity)
         return (weight * gradient).sum() * 1e-3
 
@@ -88,14 +88,14 @@ class Meanings(Folder):
     """What is written, where a word means something else."""
 
     def testIntervalIsInSeconds(self):
-        said = self.imported(HERE / "settlingBead")
-        self.assertIn("couplingInterval        0.001;", (self.target / "constant/couplingProperties").read_text())
+        said = self.imported(HERE / "settlingParticleCase")
+        self.assertIn("couplingTimeStep        0.001;", (self.target / "constant/couplingProperties").read_text())
         self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
-        self.assertIn("couplingInterval 100: is in seconds here", said)
+        self.assertIn("couplingTimeStep 100: is in seconds here", said)
 
-    def testSmoothingLengthSpreadsAlike(self):
-        self.imported(HERE / "settlingBead")
-        self.assertIn("smoothingLength         0.0006;", (self.target / "constant/couplingProperties").read_text())
+    def testSmoothingBandwidthSpreadsAlike(self):
+        self.imported(HERE / "settlingParticleCase")
+        self.assertIn("smoothingBandwidth         0.0006;", (self.target / "constant/couplingProperties").read_text())
 
     def testConstantInletIsSuperficial(self):
         text = (HERE / "packedColumn/CFD/0/U").read_text()
@@ -119,7 +119,7 @@ class Meanings(Folder):
                 time, *_, upwards = (float(number) for number in row.split())
                 self.assertAlmostEqual(upwards, np.interp(time, *zip(*rows)), delta=1e-6)
 
-    def testInletBetweenTheBeadsStaysOne(self):
+    def testInletBetweenTheParticlesStaysOne(self):
         self.imported(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"\n    {\n        type            fixedValue;',
                                 '"(inlet|outlet)"\n    {\n        type            zeroGradient;'))
         self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
@@ -131,7 +131,7 @@ class Meanings(Folder):
 
     def testFilesAreNotCompressed(self):
         """Taken over as `on`, the program would refuse the case."""
-        said = self.imported(self.case("settlingBead", "CFD/system/controlDict", "writeCompression uncompressed", "writeCompression compressed"))
+        said = self.imported(self.case("settlingParticleCase", "CFD/system/controlDict", "writeCompression uncompressed", "writeCompression compressed"))
         self.assertIn("writeCompression        off;", (self.target / "system/controlDict").read_text())
         self.assertIn("writeCompression: is off here", said)
 
@@ -190,7 +190,7 @@ class Errors(Folder):
                 ("CFD/0/T", "", "internalField uniform 300;", "CFD/0/T"),
                 ("CFD/constant/liggghtsCommands", "runLiggghts", "runLiggghts execute", "execute")):
             with self.subTest(named):
-                case = self.case("settlingBead", file, old, new)
+                case = self.case("settlingParticleCase", file, old, new)
                 done = self.importing(case)
                 shutil.rmtree(case)
                 self.assertEqual(done.returncode, 1, done.stdout)
@@ -204,21 +204,21 @@ class Errors(Folder):
         self.assertIn("inlet", done.stderr)
 
     def testWithoutIsWhatTheUserSays(self):
-        case = self.case("settlingBead", "CFD/constant/couplingProperties", "modelType B;", "modelType B; useImplicitWhatever on;")
+        case = self.case("settlingParticleCase", "CFD/constant/couplingProperties", "modelType B;", "modelType B; useImplicitWhatever on;")
         self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
 
     def testWithoutThatNamesNothing(self):
-        done = self.importing(HERE / "settlingBead", "--without", "misspelt")
+        done = self.importing(HERE / "settlingParticleCase", "--without", "misspelt")
         self.assertEqual(done.returncode, 1)
         self.assertIn("misspelt: names no error", done.stderr)
 
     def testTargetThatIsThere(self):
         self.target.mkdir()
-        done = self.importing(HERE / "settlingBead")
+        done = self.importing(HERE / "settlingParticleCase")
         self.assertIn("is there already", done.stderr)
 
     def testBrokenFile(self):
-        done = self.importing(self.case("settlingBead", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
+        done = self.importing(self.case("settlingParticleCase", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("CFD/0/p", done.stderr)
 

@@ -1,7 +1,7 @@
 // Whatever happens to the files of a checkpoint on disk, a resumed run either is the run that was never stopped, to the
 // last bit, or ends with an error that names the file. It never gives another result.
 
-#include "checkpoint/pilingBeads.h"
+#include "checkpoint/pilingParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace
 /// Checkpoints at .01, .02 and .03 s.
 void threeCheckpoints(TestCase& test, double endTime)
 {
-    pilingBeads(test, true);
+    pilingParticles(test, true);
     test.dem.dumpEvery = 0;
     test.setTimes(endTime, interval, 0.01);
 }
@@ -53,15 +53,15 @@ std::vector<Damage> damages()
     };
     for (const std::string part : {"base", "0"})
     {
-        const std::string beads = "/beads." + part + ".restart";
-        const std::string file = "checkpoints/0.02" + beads;
+        const std::string particles = "/particles." + part + ".restart";
+        const std::string file = "checkpoints/0.02" + particles;
         all.push_back({": > " + file, file});
         all.push_back({"truncate -s -1 " + file, file});
         all.push_back({flipBit(file), file});
-        all.push_back({"cp checkpoints/0.01" + beads + ' ' + file, file});
+        all.push_back({"cp checkpoints/0.01" + particles + ' ' + file, file});
         all.push_back({"rm " + file, file});
     }
-    for (const char* field : {"U", "p", "phi", "voidFraction", "unassignedMomentum", "promisedMomentum",
+    for (const char* field : {"U", "p", "phi", "voidFraction", "unassignedMomentum", "deferredMomentum",
              "voidFractionInContinuity", "fluidAcceleration"})
     {
         const std::string file = "0.02/" + std::string(field);
@@ -103,8 +103,8 @@ TEST(DamagedCheckpoint, IsNamedAndTheOneBeforeIsTaken)
     }
 }
 
-// Every checkpoint is damaged, or the one asked for by startTime, or the beads' half of all is gone: an error, and nothing
-// is moved or written. A run that takes the fields of .02 s and the beads of 0 s goes on with status 0.
+// Every checkpoint is damaged, or the one asked for by startTime, or the particles' half of all is gone: an error, and nothing
+// is moved or written. A run that takes the fields of .02 s and the particles of 0 s goes on with status 0.
 TEST(DamagedCheckpoint, IsAnErrorWhereNoneCanBeTaken)
 {
     TestCase test;
@@ -184,48 +184,48 @@ TEST(DamagedCheckpoint, IsFoundOnEachRank)
     EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << outcome.output;
 }
 
-// The beads that a run leaves for others, in one file or in one for each rank, are damaged: the other run names the file.
+// The particles that a run leaves for others, in one file or in one for each rank, are damaged: the other run names the file.
 // LIGGGHTS goes round in it for ever.
-class FinalBeads : public testing::TestWithParam<std::pair<const char*, const char*>>
+class FinalParticles : public testing::TestWithParam<std::pair<const char*, const char*>>
 {};
 
-TEST_P(FinalBeads, AreHeldAgainstTheirChecksum)
+TEST_P(FinalParticles, AreHeldAgainstTheirChecksum)
 {
     const auto [name, file] = GetParam();
     TestCase pour;
-    pilingBeads(pour, false);
+    pilingParticles(pour, false);
     pour.coupling().set("DEM/writeRestart", '"' + std::string(name) + '"');
     pour.setTimes(0.005, interval, 1);
     ASSERT_TRUE(pour.run().succeeded());
     const std::string packing = (pour.path() / file).string();
     EXPECT_TRUE(pour.runCommand("sha256sum --check packing.*.sha256").succeeded());
 
-    TestCase drain;
-    pilingBeads(drain, false);
-    drain.dem.beads.clear();
-    drain.dem.readRestart = (pour.path() / name).string();
-    drain.dem.more = "fix integrate all nve/sphere\n";
-    drain.coupling().remove("DEM/groupChanges");
-    drain.setTimes(0.002, interval, 1);
-    const Outcome undamaged = drain.run();
+    TestCase discharge;
+    pilingParticles(discharge, false);
+    discharge.dem.particles.clear();
+    discharge.dem.readRestart = (pour.path() / name).string();
+    discharge.dem.more = "fix integrate all nve/sphere\n";
+    discharge.coupling().remove("DEM/groupChanges");
+    discharge.setTimes(0.002, interval, 1);
+    const Outcome undamaged = discharge.run();
     ASSERT_TRUE(undamaged.succeeded()) << undamaged.output;
-    EXPECT_EQ(drain.ledgerSummary()["beadsEnd"], static_cast<int>(pour.dem.beads.size()));
-    ASSERT_TRUE(drain.runCommand("rm -r checkpoints 0.*").succeeded());
+    EXPECT_EQ(discharge.conservationSummary()["particlesEnd"], static_cast<int>(pour.dem.particles.size()));
+    ASSERT_TRUE(discharge.runCommand("rm -r checkpoints 0.*").succeeded());
     for (const std::string& damage : {flipBit(""), std::string(": > ")})
     {
         ASSERT_TRUE(pour.runCommand(damage + packing).succeeded());
-        const Outcome outcome = drain.runCommand("timeout 20 $SOLVER");
+        const Outcome outcome = discharge.runCommand("timeout 20 $SOLVER");
         EXPECT_EQ(outcome.status, 1) << outcome.output;
         EXPECT_TRUE(outcome.says(packing)) << outcome.output;
     }
 }
 
 // A file that cannot be written keeps no checksum of an earlier one, nor does a part.
-TEST_P(FinalBeads, LoseTheirOldChecksumFirst)
+TEST_P(FinalParticles, LoseTheirOldChecksumFirst)
 {
     const auto [name, file] = GetParam();
     TestCase test;
-    pilingBeads(test, false);
+    pilingParticles(test, false);
     test.coupling().set("DEM/writeRestart", '"' + std::string(name) + '"');
     test.setTimes(0.002, interval, 1);
     ASSERT_TRUE(test.makeMesh().succeeded());
@@ -235,7 +235,7 @@ TEST_P(FinalBeads, LoseTheirOldChecksumFirst)
     EXPECT_FALSE(std::filesystem::exists(test.path() / (std::string(file) + ".sha256"))) << outcome.output;
 }
 
-INSTANTIATE_TEST_SUITE_P(InOneFileAndInParts, FinalBeads,
+INSTANTIATE_TEST_SUITE_P(InOneFileAndInParts, FinalParticles,
     testing::Values(std::pair("packing.restart", "packing.restart"),
         std::pair("packing.%.restart", "packing.base.restart"), std::pair("packing.%.restart", "packing.0.restart")));
 

@@ -1,7 +1,7 @@
 // A full disk ends a run with an error. Nothing that was on the disk before is lost, and when there is room again the same
 // command goes on.
 
-#include "checkpoint/pilingBeads.h"
+#include "checkpoint/pilingParticles.h"
 #include "files/wholeFile.h"
 #include "support/smallDisk.h"
 
@@ -125,7 +125,7 @@ bool canMount(TestCase& test)
 
 void threeCheckpoints(TestCase& test)
 {
-    pilingBeads(test, true);
+    pilingParticles(test, true);
     test.dem.dumpEvery = 0;
     test.setTimes(0.03, interval, 0.01);
 }
@@ -157,7 +157,7 @@ protected:
     TestCase through_;
 };
 
-// The disk fills while the run goes on: in fields, beads, or tables, as it comes. The run ends with an error, the
+// The disk fills while the run goes on: in fields, particles, or tables, as it comes. The run ends with an error, the
 // second one ends as one that was never disturbed.
 TEST_F(FullDisk, EndsTheRunAndNothingIsLost)
 {

@@ -1,6 +1,6 @@
 // A run that is stopped and resumed is the run that was never stopped: to the last digit, whoever stops it and when.
 
-#include "checkpoint/pilingBeads.h"
+#include "checkpoint/pilingParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ namespace clepsydra::tests
 namespace
 {
 
-/// Largest distance between the same beads, in bead diameters.
-double distance(const BeadSnapshot& a, const BeadSnapshot& b, double diameter)
+/// Largest distance between the same particles, in particle diameters.
+double distance(const ParticleSnapshot& a, const ParticleSnapshot& b, double diameter)
 {
     EXPECT_EQ(a.step, b.step);
     EXPECT_EQ(a.id, b.id);
@@ -27,10 +27,10 @@ double distance(const BeadSnapshot& a, const BeadSnapshot& b, double diameter)
 void adjustInterval(TestCase& test)
 {
     test.coupling()
-        .set("adjustableInterval", "yes")
+        .set("adjustableCouplingTimeStep", "yes")
         .set("maxCo", "0.05")
-        .set("minInterval", "4e-5")
-        .set("maxInterval", "4e-3");
+        .set("minCouplingTimeStep", "4e-5")
+        .set("maxCouplingTimeStep", "4e-3");
     // Shorter than the interval that a checkpoint is written in, and no mistake for that.
     test.control().set("functions/massInHopper/sampleInterval", interval);
 }
@@ -52,20 +52,20 @@ class StopAndResume : public testing::TestWithParam<bool>
 
 // Run A+B equals run A, stop, B over 2 x 1000 DEM steps, both writing the same checkpoint in the middle. A restart that
 // loses the contacts' or the motion's history, the old void fraction, the momentum outstanding, half a step's force or
-// the length of the next interval differs by more than 1e-9 bead diameters at once; a program that ignores the checkpoint
+// the length of the next interval differs by more than 1e-9 particle diameters at once; a program that ignores the checkpoint
 // begins again and differs by the box. (That of constant intervals is Killed's matter.)
 TEST_P(StopAndResume, EqualsNeverStopped)
 {
     const bool fluid = GetParam();
     TestCase through;
-    pilingBeads(through, fluid);
+    pilingParticles(through, fluid);
     adjustInterval(through);
     through.setTimes(0.16, interval, 0.04);
     const Outcome whole = through.run();
     ASSERT_TRUE(whole.succeeded()) << whole.output;
 
     TestCase stopped;
-    pilingBeads(stopped, fluid);
+    pilingParticles(stopped, fluid);
     adjustInterval(stopped);
     stopped.setTimes(0.12, interval, 0.04);
     const Outcome first = stopped.run();
@@ -73,18 +73,19 @@ TEST_P(StopAndResume, EqualsNeverStopped)
     if (fluid)
     {
         // Another than the first: otherwise it would make no difference whether the checkpoint holds it.
-        EXPECT_TRUE(stopped.runCommand("grep -q steps 0.12/uniform/couplingInterval").succeeded());
-        EXPECT_FALSE(stopped.runCommand("grep -q 'steps *25;' 0.12/uniform/couplingInterval").succeeded());
+        EXPECT_TRUE(stopped.runCommand("grep -q steps 0.12/uniform/couplingTimeStep").succeeded());
+        EXPECT_FALSE(stopped.runCommand("grep -q 'steps *25;' 0.12/uniform/couplingTimeStep").succeeded());
     }
     const Outcome second = stopped.runCommand("echo \"endTime 0.16;\" >> system/controlDict && $SOLVER");
     ASSERT_TRUE(second.succeeded()) << second.output;
     EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.12")) << second.output;
 
-    const auto resting = through.beadHistory().back().velocity.colwise().squaredNorm().array() == 0;
+    const auto resting = through.particleHistory().back().velocity.colwise().squaredNorm().array() == 0;
     EXPECT_GT(resting.count(), 5);
     EXPECT_LT(resting.count(), resting.size());
 
-    const double apart = distance(through.beadHistory().back(), stopped.beadHistory().back(), through.dem.diameter);
+    const double apart =
+        distance(through.particleHistory().back(), stopped.particleHistory().back(), through.dem.diameter);
     std::cout << (fluid ? "with fluid: " : "dry: ") << apart << " d after 1000 steps from the checkpoint" << std::endl;
     EXPECT_LT(apart, 1e-9);
     if (fluid)
@@ -103,8 +104,8 @@ INSTANTIATE_TEST_SUITE_P(DryAndWet, StopAndResume, testing::Bool(),
     [](const testing::TestParamInfo<bool>& fluid) { return fluid.param ? "WithFluid" : "Dry"; });
 
 // Stopped on one rank, resumed on two, after decomposing the fields as OpenFOAM's users do; and the other way round.
-// Rounding differs then, and contacts make it grow: so 125 steps only. A checkpoint that holds one rank's beads, or
-// beads in the order of their ranks, fails.
+// Rounding differs then, and contacts make it grow: so 125 steps only. A checkpoint that holds one rank's particles, or
+// particles in the order of their ranks, fails.
 TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
 {
     const std::string parallel = "decomposePar -force -latestTime && mpirun -np 2 $SOLVER -parallel";
@@ -112,7 +113,7 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     TestCase changed;
     for (TestCase* test : {&serial, &changed})
     {
-        pilingBeads(*test, true);
+        pilingParticles(*test, true);
         adjustInterval(*test);
         test->setTimes(0.12, interval, 0.04);
         test->dem.dumpEvery = 125;
@@ -129,7 +130,8 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
     const Outcome other = changed.runCommand(parallel);
     ASSERT_TRUE(other.succeeded()) << other.output;
     EXPECT_TRUE(other.says("Resuming from the checkpoint of time 0.12")) << other.output;
-    const double apart = distance(serial.beadHistory().back(), changed.beadHistory().back(), serial.dem.diameter);
+    const double apart =
+        distance(serial.particleHistory().back(), changed.particleHistory().back(), serial.dem.diameter);
     std::cout << apart << " d apart after 125 steps on two ranks" << std::endl;
     EXPECT_LT(apart, 1e-6);
 
@@ -137,7 +139,7 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
         changed.runCommand("reconstructPar -latestTime && echo \"endTime 0.13;\" >> system/controlDict && $SOLVER");
     ASSERT_TRUE(back.succeeded()) << back.output;
     EXPECT_TRUE(back.says("Resuming from the checkpoint of time 0.125")) << back.output;
-    EXPECT_EQ(changed.ledgerSummary("0.125")["beadsEnd"], static_cast<int>(changed.dem.beads.size()));
+    EXPECT_EQ(changed.conservationSummary("0.125")["particlesEnd"], static_cast<int>(changed.dem.particles.size()));
 }
 
 // Written at time 1 on two ranks, resumed on one and on three. A program that looks for the time in `processor1/1/U` finds
@@ -149,7 +151,7 @@ TEST(OtherRanks, TakeTheCheckpointOfTimeOneFromTwoRanks)
                     "decomposePar -force -latestTime && mpirun -np 3 $SOLVER -parallel"})
     {
         TestCase test;
-        test.dem.beads = {{0.0101, 0.0099, 0.02}};
+        test.dem.particles = {{0.0101, 0.0099, 0.02}};
         test.setTimes(1, interval, 1);
         ASSERT_TRUE(test.runCommand("mv 0 0.998").succeeded());
         const Outcome first = test.run(2);
@@ -161,11 +163,11 @@ TEST(OtherRanks, TakeTheCheckpointOfTimeOneFromTwoRanks)
 }
 
 // purgeWrite takes both halves of old checkpoints; the user's own times, the beginning's and one before, stay when the run
-// is resumed. A program that takes every time without beads for one of its own sets 0 aside as unfinished.
+// is resumed. A program that takes every time without particles for one of its own sets 0 aside as unfinished.
 TEST(PurgeWrite, TakesWholeCheckpointsAndNoTimeOfTheUser)
 {
     TestCase test;
-    pilingBeads(test, false);
+    pilingParticles(test, false);
     test.setTimes(0.014, interval, interval);
     test.control().set("purgeWrite", "2");
     ASSERT_TRUE(test.runCommand("cp -r 0 0.01").succeeded());
@@ -179,26 +181,26 @@ TEST(PurgeWrite, TakesWholeCheckpointsAndNoTimeOfTheUser)
     EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.014")) << second.output;
 }
 
-// Each of two ranks writes a file of its own beads, and a resumed run reads them, bit for bit the run that was never stopped.
-// The files are together as large as one that holds the beads of both: a rank that was handed the other's has more.
-TEST(TwoRanks, WriteTheirOwnBeadsAndGoOn)
+// Each of two ranks writes a file of its own particles, and a resumed run reads them, bit for bit the run that was never stopped.
+// The files are together as large as one that holds the particles of both: a rank that was handed the other's has more.
+TEST(TwoRanks, WriteTheirOwnParticlesAndGoOn)
 {
     TestCase through;
     TestCase stopped;
     stopped.coupling().set("DEM/writeRestart", "\"all.restart\"");
     for (TestCase* test : {&through, &stopped})
     {
-        pilingBeads(*test, true);
+        pilingParticles(*test, true);
         test->dem.dumpEvery = 0;
         test->setTimes(test == &stopped ? 0.01 : 0.02, interval, 0.01);
         const Outcome outcome = test->run(2);
         ASSERT_TRUE(outcome.succeeded()) << outcome.output;
     }
     const auto size = [&](const std::string& file) { return std::filesystem::file_size(stopped.path() / file); };
-    const std::string beads = "checkpoints/0.01/beads.";
-    EXPECT_EQ(
-        size(beads + "base.restart") + size(beads + "0.restart") + size(beads + "1.restart"), size("all.restart"));
-    EXPECT_GT(size(beads + "1.restart"), size("all.restart") / 4);
+    const std::string particles = "checkpoints/0.01/particles.";
+    EXPECT_EQ(size(particles + "base.restart") + size(particles + "0.restart") + size(particles + "1.restart"),
+        size("all.restart"));
+    EXPECT_GT(size(particles + "1.restart"), size("all.restart") / 4);
 
     const Outcome resumed =
         stopped.runCommand("echo \"endTime 0.02;\" >> system/controlDict && mpirun -np 2 $SOLVER -parallel");
@@ -209,12 +211,12 @@ TEST(TwoRanks, WriteTheirOwnBeadsAndGoOn)
             .succeeded());
 }
 
-// A checkpoint of the time when one file held the beads of all ranks. A program that looks for a file of each rank only does
+// A checkpoint of the time when one file held the particles of all ranks. A program that looks for a file of each rank only does
 // not find it.
-TEST(OneFileOfAllBeads, IsResumedFrom)
+TEST(OneFileOfAllParticles, IsResumedFrom)
 {
     TestCase test;
-    pilingBeads(test, true);
+    pilingParticles(test, true);
     test.setTimes(0.01, interval, 0.01);
     test.coupling().set("DEM/writeRestart", "\"all.restart\"");
     ASSERT_TRUE(test.run().succeeded());
@@ -222,18 +224,18 @@ TEST(OneFileOfAllBeads, IsResumedFrom)
 import hashlib, os
 folder = 'checkpoints/0.01/'
 checksum = lambda bytes: hashlib.sha256(bytes).hexdigest()
-lines = [line for line in open(folder + 'complete').read().splitlines()[:-1] if 'beads.' not in line]
+lines = [line for line in open(folder + 'complete').read().splitlines()[:-1] if 'particles.' not in line]
 for name in ('base', '0'):
-    os.remove(folder + 'beads.' + name + '.restart')
-os.rename('all.restart', folder + 'beads.restart')
-beads = open(folder + 'beads.restart', 'rb').read()
-text = '\n'.join(lines + [checksum(beads) + ' ' + str(len(beads)) + ' ' + folder + 'beads.restart', ''])
+    os.remove(folder + 'particles.' + name + '.restart')
+os.rename('all.restart', folder + 'particles.restart')
+particles = open(folder + 'particles.restart', 'rb').read()
+text = '\n'.join(lines + [checksum(particles) + ' ' + str(len(particles)) + ' ' + folder + 'particles.restart', ''])
 open(folder + 'complete', 'w').write(text + 'end ' + checksum(text.encode()) + '\n')
 end
 echo "endTime 0.02;" >> system/controlDict && $SOLVER)");
     EXPECT_TRUE(resumed.succeeded()) << resumed.output;
     EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
-    EXPECT_EQ(test.ledgerSummary("0.01")["beadsEnd"], static_cast<int>(test.dem.beads.size()));
+    EXPECT_EQ(test.conservationSummary("0.01")["particlesEnd"], static_cast<int>(test.dem.particles.size()));
 }
 
 // Killed by SIGKILL at eight random moments, in the middle of steps and of checkpoints, the run goes on each time, and in
@@ -245,7 +247,7 @@ TEST(Killed, EndsAsIfNeverDisturbed)
     TestCase test;
     for (TestCase* each : {&undisturbed, &test})
     {
-        pilingBeads(*each, true);
+        pilingParticles(*each, true);
         each->setTimes(0.15, interval, 0.01);
         ASSERT_TRUE(each->makeMesh().succeeded());
     }
@@ -268,7 +270,7 @@ TEST(Killed, EndsAsIfNeverDisturbed)
     std::cout << killed << " times killed" << std::endl;
     EXPECT_GE(killed, 3);
 
-    // The manifest holds the checksums of fields, beads, and the state of function objects.
+    // The manifest holds the checksums of fields, particles, and the state of function objects.
     EXPECT_TRUE(
         test.runCommand("cmp checkpoints/0.15/complete " + (undisturbed.path() / "checkpoints/0.15/complete").string())
             .succeeded());
@@ -277,7 +279,7 @@ TEST(Killed, EndsAsIfNeverDisturbed)
 }
 
 // SIGTERM, SIGINT (Ctrl-C) and the end of the wall time write a checkpoint and end cleanly, with status 0, without the
-// beads of the end, for which other runs wait. A program that just dies of the signal has another status and no
+// particles of the end, for which other runs wait. A program that just dies of the signal has another status and no
 // checkpoint of its last time.
 TEST(AskedToStop, WritesACheckpointAndEnds)
 {
@@ -294,7 +296,7 @@ TEST(AskedToStop, WritesACheckpointAndEnds)
         {signalled("TERM"), signalled("INT"), std::string("echo \"maxClockTime 1;\" >> system/controlDict && $SOLVER")})
     {
         TestCase test;
-        pilingBeads(test, true);
+        pilingParticles(test, true);
         test.setTimes(1000, interval, 500);
         test.coupling().set("DEM/writeRestart", "\"packing.restart\"");
         ASSERT_TRUE(test.makeMesh().succeeded());
@@ -308,16 +310,16 @@ TEST(AskedToStop, WritesACheckpointAndEnds)
     }
 }
 
-// A function object asks in every step for the end, as `beadHeight` does once its bead is low enough. The run writes the
+// A function object asks in every step for the end, as `particleHeight` does once its particle is low enough. The run writes the
 // next step and ends; a program that takes each request for a new one never does.
 TEST(EndedByAFunctionObject, WritesTheNextStepAndEnds)
 {
     TestCase test;
-    pilingBeads(test, false);
+    pilingParticles(test, false);
     test.setTimes(0.05, interval, 0.05);
     test.control()
-        .set("functions/height/type", "beadHeight")
-        .set("functions/height/bead", "1")
+        .set("functions/height/type", "particleHeight")
+        .set("functions/height/particle", "1")
         .set("functions/height/stopBelow", "1");
     ASSERT_TRUE(test.makeMesh().succeeded());
     const Outcome outcome = test.runCommand("timeout 60 $SOLVER");
@@ -328,20 +330,20 @@ TEST(EndedByAFunctionObject, WritesTheNextStepAndEnds)
 
 // A checkpoint in every interval, or only at the end: the same run but for rounding, which the order of the neighbours
 // changes at a checkpoint, and contacts make grow: so 1000 steps only. Where the first half of the step after a
-// checkpoint is made with forces made anew in place of those of the last step, the beads are 3e-4 d apart.
+// checkpoint is made with forces made again in place of those of the last step, the particles are 3e-4 d apart.
 TEST(WrittenOften, IsTheSameRun)
 {
     TestCase seldom;
     TestCase often;
     for (TestCase* test : {&seldom, &often})
     {
-        pilingBeads(*test, true);
-        test->coupling().set("selfDisturbance", "Oseen");
+        pilingParticles(*test, true);
+        test->coupling().set("selfInducedVelocityCorrection", "Oseen");
         test->setTimes(0.04, interval, test == &often ? interval : 0.04);
         const Outcome outcome = test->run();
         ASSERT_TRUE(outcome.succeeded()) << outcome.output;
     }
-    const double apart = distance(seldom.beadHistory().back(), often.beadHistory().back(), seldom.dem.diameter);
+    const double apart = distance(seldom.particleHistory().back(), often.particleHistory().back(), seldom.dem.diameter);
     std::cout << apart << " d apart after 1000 steps with 40 checkpoints" << std::endl;
     EXPECT_LT(apart, 1e-9);
 }
@@ -355,8 +357,8 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
     TestCase stopped;
     for (TestCase* test : {&through, &stopped})
     {
-        pilingBeads(*test, false);
-        // beads leave what counts as the hopper
+        pilingParticles(*test, false);
+        // particles leave what counts as the hopper
         test->dem.floor = -0.0015;
         test->control()
             .set("functions/massInHopper/rateWindow", "0.02")
@@ -390,7 +392,7 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
 TEST(StoppedBetweenWriteTimes, ByLessThanTheFirstInterval)
 {
     TestCase test;
-    pilingBeads(test, true);
+    pilingParticles(test, true);
     adjustInterval(test);
     test.coupling().set("maxCo", "0.003");
     test.setTimes(0.03, interval, 0.02);
@@ -404,13 +406,13 @@ TEST(StoppedBetweenWriteTimes, ByLessThanTheFirstInterval)
     EXPECT_EQ(test.times().back(), "0.04");
 }
 
-// Write times by processor time are counted anew by each process. One that takes the simulated time, 10 s, for processor
+// Write times by processor time are counted again by each process. One that takes the simulated time, 10 s, for processor
 // time writes nothing before it has worked as long.
 TEST(StoppedBetweenWriteTimes, CountedByProcessorTime)
 {
     TestCase test;
     test.coupling().set("fluid", "none").set("DEM/maxRayleighFraction", "1e9");
-    test.dem.beads = {{0.0101, 0.0099, 0.02}};
+    test.dem.particles = {{0.0101, 0.0099, 0.02}};
     test.dem.gravity = 0;
     test.dem.timeStep = 1;
     test.setTimes(10, 1, 0.01);
@@ -420,12 +422,12 @@ TEST(StoppedBetweenWriteTimes, CountedByProcessorTime)
     EXPECT_TRUE(resumed.succeeded()) << resumed.output;
 }
 
-// A dry run's deltaT is edited while it goes on: clock and beads keep the interval that they began with. A clock that takes
-// the new step runs twice as fast as the beads, and has fewer rows.
-TEST(EditedTimeStep, DoesNotPartClockAndBeads)
+// A dry run's deltaT is edited while it goes on: clock and particles keep the interval that they began with. A clock that takes
+// the new step runs twice as fast as the particles, and has fewer rows.
+TEST(EditedTimeStep, DoesNotPartClockAndParticles)
 {
     TestCase test;
-    pilingBeads(test, false);
+    pilingParticles(test, false);
     test.setTimes(0.5, interval, 0.5);
     test.control().set("runTimeModifiable", "yes");
     ASSERT_TRUE(test.makeMesh().succeeded());
@@ -439,15 +441,15 @@ TEST(EditedTimeStep, DoesNotPartClockAndBeads)
     EXPECT_EQ(massRows(test).size(), 501u);
 }
 
-// A run that is stopped after it has inserted all its beads goes on as if never stopped. LIGGGHTS takes the finished
+// A run that is stopped after it has inserted all its particles goes on as if never stopped. LIGGGHTS takes the finished
 // insertion for one that is late, and ends the run at its next checkpoint.
-TEST(Inserted, BeadsAreNotInsertedAgain)
+TEST(Inserted, ParticlesAreNotInsertedAgain)
 {
     TestCase through;
     TestCase stopped;
     for (TestCase* test : {&through, &stopped})
     {
-        pilingBeads(*test, false);
+        pilingParticles(*test, false);
         test->dem.more +=
             "region upper block 0.002 0.01 0.002 0.01 0.02 0.023 units box\n"
             "fix sphere all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
@@ -460,7 +462,7 @@ TEST(Inserted, BeadsAreNotInsertedAgain)
     }
     const Outcome whole = through.run();
     ASSERT_TRUE(whole.succeeded()) << whole.output;
-    EXPECT_EQ(through.ledgerSummary()["beadsEnd"], static_cast<int>(through.dem.beads.size()) + 6);
+    EXPECT_EQ(through.conservationSummary()["particlesEnd"], static_cast<int>(through.dem.particles.size()) + 6);
 
     const Outcome resumed = runInTwo(stopped, "0.02");
     ASSERT_TRUE(resumed.succeeded()) << resumed.output;

@@ -10,11 +10,11 @@ namespace
 
 using namespace clepsydra::closures;
 
-/// Half of the displaced fluid: 2 mm bead in water, .5*1000*4.188790e-9 = 2.094395e-6 kg. The whole of it is twice that.
-TEST(AddedMass, OfALoneBeadIsHalfTheDisplacedFluid)
+/// Half of the displaced fluid: 2 mm particle in water, .5*1000*4.188790e-9 = 2.094395e-6 kg. The whole of it is twice that.
+TEST(AddedMass, OfAnIsolatedParticleIsHalfTheDisplacedFluid)
 {
-    EXPECT_RELATIVE(addedMass(loneAddedMassCoefficient, 1000.0, 4.188790e-9), 2.094395e-6, 1e-9);
-    EXPECT_DOUBLE_EQ(zuberAddedMassCoefficient(1.0), loneAddedMassCoefficient);
+    EXPECT_RELATIVE(addedMass(isolatedAddedMassCoefficient, 1000.0, 4.188790e-9), 2.094395e-6, 1e-9);
+    EXPECT_DOUBLE_EQ(zuberAddedMassCoefficient(1.0), isolatedAddedMassCoefficient);
 }
 
 /// Zuber at phi .1, .3, .6: 1.2/1.8 = .666667; 1.6/1.4 = 1.142857; 2.2/.8 = 2.75. phi for eps fails at all of them.

@@ -56,7 +56,7 @@ TEST(Ergun, MinimumFluidisationOfGlassInWater)
     }
 }
 
-/// For fine beads U_mf is Carman's linear one, eps^3 d^2 (rho_p - rho_f) g/(150 mu phi): .064*1e-12*1500*9.81/(.09) =
+/// For fine particles U_mf is Carman's linear one, eps^3 d^2 (rho_p - rho_f) g/(150 mu phi): .064*1e-12*1500*9.81/(.09) =
 /// 1.0464e-8 m/s for 1 um. The textbook root of the quadratic loses its digits here.
 TEST(Ergun, MinimumFluidisationOfDustDoesNotCancel)
 {

@@ -16,20 +16,20 @@ namespace
 
 using namespace clepsydra::closures;
 
-/// A 2 mm bead in water whose superficial Reynolds number is given.
-BeadInFluid beadAtReynolds(double reynolds, double voidFraction)
+/// A 2 mm particle in water whose superficial Reynolds number is given.
+ParticleInFluid particleAtReynolds(double reynolds, double voidFraction)
 {
-    return makeBeadInFluid(0.002, voidFraction, reynolds / (2000.0 * voidFraction), 1000.0, 1e-3);
+    return makeParticleInFluid(0.002, voidFraction, reynolds / (2000.0 * voidFraction), 1000.0, 1e-3);
 }
 
 /// The two Reynolds numbers differ by eps and nothing else; a mix-up of the two is the commonest error in drag codes,
 /// and code without the eps gives 200 twice.
-TEST(BeadInFluid, HasTwoReynoldsNumbers)
+TEST(ParticleInFluid, HasTwoReynoldsNumbers)
 {
-    const BeadInFluid bead = makeBeadInFluid(0.002, 0.5, 0.1, 1000.0, 1e-3);
-    EXPECT_DOUBLE_EQ(loneReynolds(bead), 200.0);
-    EXPECT_DOUBLE_EQ(superficialReynolds(bead), 100.0);
-    EXPECT_DOUBLE_EQ(bead.logVoidFraction, -0.69314718055994531);
+    const ParticleInFluid particle = makeParticleInFluid(0.002, 0.5, 0.1, 1000.0, 1e-3);
+    EXPECT_DOUBLE_EQ(isolatedReynolds(particle), 200.0);
+    EXPECT_DOUBLE_EQ(superficialReynolds(particle), 100.0);
+    EXPECT_DOUBLE_EQ(particle.logVoidFraction, -0.69314718055994531);
 }
 
 /// Schiller & Naumann is continuous where 0.44 takes over (Re = 988.948, from 24/Re (1 + .15 Re^.687) = .44), holds
@@ -53,8 +53,8 @@ TEST(Gidaspow, JumpsAtItsSwitchByAKnownAmount)
 {
     const auto ratio = [](double reynolds) {
         const double switchAt = GidaspowDrag::switchingVoidFraction;
-        const double dense = GidaspowDrag{}(beadAtReynolds(reynolds, switchAt));
-        return GidaspowDrag{}(beadAtReynolds(reynolds, switchAt + 1e-13)) / dense;
+        const double dense = GidaspowDrag{}(particleAtReynolds(reynolds, switchAt));
+        return GidaspowDrag{}(particleAtReynolds(reynolds, switchAt + 1e-13)) / dense;
     };
     EXPECT_NEAR(ratio(0.0), 0.867, 0.001);
     EXPECT_NEAR(ratio(1.0), 0.942, 0.001);
@@ -64,7 +64,7 @@ TEST(Gidaspow, JumpsAtItsSwitchByAKnownAmount)
     EXPECT_NEAR(ratio(1000.0), 0.268, 0.001);
 }
 
-/// Ergun's drag is model A's: the drag on all beads of a bed with the share of the pressure gradient gives Ergun's
+/// Ergun's drag is model A's: the drag on all particles of a bed with the share of the pressure gradient gives Ergun's
 /// pressure drop, dp/L = beta u/eps. Off by eps (model B's beta) it fails by a factor 2.4.
 TEST(Gidaspow, GivesErgunsPressureDropInABed)
 {
@@ -73,7 +73,7 @@ TEST(Gidaspow, GivesErgunsPressureDropInABed)
     {
         const double slip = superficial / 0.42;
         const double volume = pi / 6.0 * 8e-9;
-        const double beta = GidaspowDrag{}(makeBeadInFluid(0.002, 0.42, slip, 1000.0, 1e-3)) * 0.58 / volume;
+        const double beta = GidaspowDrag{}(makeParticleInFluid(0.002, 0.42, slip, 1000.0, 1e-3)) * 0.58 / volume;
         EXPECT_RELATIVE(beta * slip / 0.42, ergunPressureGradient(bed, superficial), 1e-13);
     }
 }
@@ -84,8 +84,8 @@ TEST(Gidaspow, GivesErgunsPressureDropInABed)
 /// (with 8.14): both fail.
 TEST(KochHill, BranchesMeetAsWellAsPublished)
 {
-    EXPECT_RELATIVE(KochHillDrag::creeping(beadAtReynolds(0.0, 0.6 + 1e-12)), 18.381254539, 1e-9);
-    EXPECT_RELATIVE(KochHillDrag::creeping(beadAtReynolds(0.0, 0.6 - 1e-12)), 18.518518519, 1e-9);
+    EXPECT_RELATIVE(KochHillDrag::creeping(particleAtReynolds(0.0, 0.6 + 1e-12)), 18.381254539, 1e-9);
+    EXPECT_RELATIVE(KochHillDrag::creeping(particleAtReynolds(0.0, 0.6 - 1e-12)), 18.518518519, 1e-9);
 }
 
 /// The lattice-Boltzmann laws carry the factor eps of model A: in a dense bed at rest both come near Carman's
@@ -93,10 +93,11 @@ TEST(KochHill, BranchesMeetAsWellAsPublished)
 /// eps^3 (1 + 1.5 sqrt(phi)). Without the factor they lie a factor 1/eps = 2.5 off.
 TEST(KochHill, AndBeetstraAreCarmansInADenseCreepingBed)
 {
-    const BeadInFluid bead = beadAtReynolds(0.0, 0.4);
-    const double carman = stokesCoefficient(bead) * 10.0 * 0.6 / 0.4;
-    EXPECT_RELATIVE(KochHillDrag{}(bead), carman, 1e-12);
-    EXPECT_RELATIVE(BeetstraDrag{}(bead), carman + stokesCoefficient(bead) * 0.064 * (1.0 + 1.5 * 0.7745966692), 1e-9);
+    const ParticleInFluid particle = particleAtReynolds(0.0, 0.4);
+    const double carman = stokesCoefficient(particle) * 10.0 * 0.6 / 0.4;
+    EXPECT_RELATIVE(KochHillDrag{}(particle), carman, 1e-12);
+    EXPECT_RELATIVE(
+        BeetstraDrag{}(particle), carman + stokesCoefficient(particle) * 0.064 * (1.0 + 1.5 * 0.7745966692), 1e-9);
 }
 
 /// All model A laws describe the same beds: at eps = .4 they lie within 30 % of Ergun's equation for Re .01 to 1000
@@ -105,12 +106,12 @@ TEST(DragLaws, OfBedsAgreeWithErgunInABed)
 {
     for (const double reynolds : {0.01, 1.0, 10.0, 100.0, 465.0, 1000.0})
     {
-        const BeadInFluid bead = beadAtReynolds(reynolds, 0.4);
-        const double ergun = ErgunDrag{}(bead);
-        EXPECT_RELATIVE(RongDrag{}(bead), ergun, 0.08) << "Re " << reynolds;
-        EXPECT_RELATIVE(DiFeliceDrag{}(bead), ergun, 0.10) << "Re " << reynolds;
-        EXPECT_RELATIVE(KochHillDrag{}(bead), ergun, 0.21) << "Re " << reynolds;
-        EXPECT_RELATIVE(BeetstraDrag{}(bead), ergun, 0.27) << "Re " << reynolds;
+        const ParticleInFluid particle = particleAtReynolds(reynolds, 0.4);
+        const double ergun = ErgunDrag{}(particle);
+        EXPECT_RELATIVE(RongDrag{}(particle), ergun, 0.08) << "Re " << reynolds;
+        EXPECT_RELATIVE(DiFeliceDrag{}(particle), ergun, 0.10) << "Re " << reynolds;
+        EXPECT_RELATIVE(KochHillDrag{}(particle), ergun, 0.21) << "Re " << reynolds;
+        EXPECT_RELATIVE(BeetstraDrag{}(particle), ergun, 0.27) << "Re " << reynolds;
     }
 }
 
@@ -120,7 +121,7 @@ TEST(DiFelice, ExponentDipsNearReynoldsThirty)
 {
     const auto chi = [](double reynolds) {
         const double ratio =
-            DiFeliceDrag{}(beadAtReynolds(reynolds, 0.5)) / DiFeliceDrag{}(beadAtReynolds(reynolds, 1.0));
+            DiFeliceDrag{}(particleAtReynolds(reynolds, 0.5)) / DiFeliceDrag{}(particleAtReynolds(reynolds, 1.0));
         return 1.0 - std::log(ratio) / std::log(0.5);
     };
     EXPECT_NEAR(chi(31.6227766), 3.05, 1e-9);
@@ -135,8 +136,8 @@ TEST(DiFelice, ExponentDipsNearReynoldsThirty)
 TEST(Morrison, GivesTheDragCoefficientsOfThePapersTable)
 {
     const auto dragCoefficient = [](double reynolds) {
-        const BeadInFluid bead = beadAtReynolds(reynolds, 1.0);
-        return MorrisonDrag{}(bead) / stokesCoefficient(bead) * 24.0 / reynolds;
+        const ParticleInFluid particle = particleAtReynolds(reynolds, 1.0);
+        return MorrisonDrag{}(particle) / stokesCoefficient(particle) * 24.0 / reynolds;
     };
     EXPECT_NEAR(dragCoefficient(37.0), 1.76, 0.01);
     EXPECT_NEAR(dragCoefficient(151.0), 0.86, 0.005);

@@ -20,7 +20,7 @@ using namespace clepsydra::closures;
 struct LiftRow
 {
     std::string name;
-    std::function<double(const BeadInRotation&)> law;
+    std::function<double(const ParticleInRotation&)> law;
     double slow;   // C [kg] in the states below
     double medium; //
     double fast;   //
@@ -38,9 +38,9 @@ LiftRow row(double slow, double medium, double fast)
 }
 
 // Water; Re = rho u d/mu and rho w d^2/mu: 1 and .1, 20 and 4, 100 and 200
-const BeadInRotation slowly{1e-3, 0.001, 0.1, 1000.0, 1e-3};
-const BeadInRotation moderately{1e-3, 0.02, 4.0, 1000.0, 1e-3};
-const BeadInRotation fast{2e-3, 0.05, 50.0, 1000.0, 1e-3};
+const ParticleInRotation slowly{1e-3, 0.001, 0.1, 1000.0, 1e-3};
+const ParticleInRotation moderately{1e-3, 0.02, 4.0, 1000.0, 1e-3};
+const ParticleInRotation fast{2e-3, 0.05, 50.0, 1000.0, 1e-3};
 
 std::vector<LiftRow> liftLawTable()
 {
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Table, LiftLaw, testing::ValuesIn(liftLawTable()),
 /// For small Re Oesterle & Bui Dinh's lift becomes Rubinow & Keller's: within 1 % at Re = 1e-4.
 TEST(MagnusLift, IsRubinowAndKellersInCreepingFlow)
 {
-    const BeadInRotation creeping{1e-4, 1e-6, 0.01, 1000.0, 1e-3};
+    const ParticleInRotation creeping{1e-4, 1e-6, 0.01, 1000.0, 1e-3};
     EXPECT_RELATIVE(OesterleBuiDinhLift{}(creeping), RubinowKellerLift{}(creeping), 0.01);
 }
 

@@ -11,7 +11,7 @@ namespace
 using namespace clepsydra::closures;
 
 /// 6 pi * 1e-3 * 1e-6 = 1.884956e-8 for R 1 mm at a wall; h 10 um, reach 100 um: (1e5 - 1e4) = 9e4: 1.696460e-3 kg/s.
-/// Between two such beads R_eff = R/2: a quarter, 4.241150e-4. With R1 + R2 for R_eff it is 16 times too much.
+/// Between two such particles R_eff = R/2: a quarter, 4.241150e-4. With R1 + R2 for R_eff it is 16 times too much.
 TEST(Lubrication, GrowsAsTheGapCloses)
 {
     EXPECT_RELATIVE(squeezeCoefficient(1e-3, 1e-3, 1e-5, 1e-6, 1e-4), 1.696460033e-3, 1e-8);

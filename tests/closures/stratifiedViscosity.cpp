@@ -24,9 +24,9 @@ TEST(StratifiedViscosity, StepsBetweenTwoLiquids)
     EXPECT_RELATIVE(liquid.factor(0.251, 0.0), 0.5581226, 1e-6);
 }
 
-/// Beads of 2 and 4 mm with a lag of 1.5 d meet the middle of the edge 3 and 6 mm below where it is: a larger bead
+/// Particles of 2 and 4 mm with a lag of 1.5 d meet the middle of the edge 3 and 6 mm below where it is: a larger particle
 /// changes its speed later on its way down. The wrong sign lets it change before it is there.
-TEST(StratifiedViscosity, IsFeltFromAboveTheBead)
+TEST(StratifiedViscosity, IsFeltFromAboveTheParticle)
 {
     const Stratification liquid{std::log(2.0), 0.243, 0.008, 1.5};
     EXPECT_RELATIVE(liquid.factor(0.243, 0.0), 0.7071067812, 1e-9);

@@ -19,7 +19,7 @@ namespace
 
 using namespace clepsydra::closures;
 
-SettlingBead glassInWater(double diameter, double density)
+SettlingParticle glassInWater(double diameter, double density)
 {
     return {diameter, density, 1000.0, 1e-3};
 }
@@ -40,7 +40,7 @@ TEST(TerminalVelocity, OfGlassBySchillerNaumann)
     EXPECT_NEAR(terminalVelocity(SchillerNaumannDrag{}, glassInWater(0.0005, 2500.0)), 0.0734, 6e-5);
 }
 
-/// The same 2 mm bead by Di Felice: .2323 m/s, Re 465, C_d .727, and C_d from the force balance, 4/3*1.5*9.81*.002/v^2,
+/// The same 2 mm particle by Di Felice: .2323 m/s, Re 465, C_d .727, and C_d from the force balance, 4/3*1.5*9.81*.002/v^2,
 /// is the same: the velocity really solves the balance.
 TEST(TerminalVelocity, OfGlassByDiFelice)
 {
@@ -52,9 +52,9 @@ TEST(TerminalVelocity, OfGlassByDiFelice)
         4.0 / 3.0 * 1.5 * 9.81 * 0.002 / (v * v), 24.0 / (v * 2000.0) * dallavalleFactor(v * 2000.0), 1e-10);
 }
 
-/// The hopper paper's beads (2540) of .5, 1, 2 mm by three laws, in the digits of the table; Di Felice is 8-13 % slow
+/// The hopper paper's particles (2540) of .5, 1, 2 mm by three laws, in the digits of the table; Di Felice is 8-13 % slow
 /// against the measured fit of Brown & Lawler. Exchanging two laws, or Re with and without 2, fails.
-TEST(TerminalVelocity, OfThePapersBeads)
+TEST(TerminalVelocity, OfThePapersParticles)
 {
     const double diameters[] = {0.0005, 0.001, 0.002};
     const double brownLawler[] = {0.0755, 0.150, 0.270};
@@ -62,12 +62,13 @@ TEST(TerminalVelocity, OfThePapersBeads)
     const double diFelice[] = {0.0695, 0.136, 0.236};
     for (int i = 0; i < 3; ++i)
     {
-        const SettlingBead bead = glassInWater(diameters[i], 2540.0);
+        const SettlingParticle particle = glassInWater(diameters[i], 2540.0);
         const double digit = i == 0 ? 6e-5 : 6e-4;
-        EXPECT_NEAR(terminalVelocity(BrownLawlerDrag{}, bead), brownLawler[i], digit) << diameters[i];
-        EXPECT_NEAR(terminalVelocity(SchillerNaumannDrag{}, bead), schillerNaumann[i], digit) << diameters[i];
-        EXPECT_NEAR(terminalVelocity(DiFeliceDrag{}, bead), diFelice[i], digit) << diameters[i];
-        const double deficit = 1.0 - terminalVelocity(DiFeliceDrag{}, bead) / terminalVelocity(BrownLawlerDrag{}, bead);
+        EXPECT_NEAR(terminalVelocity(BrownLawlerDrag{}, particle), brownLawler[i], digit) << diameters[i];
+        EXPECT_NEAR(terminalVelocity(SchillerNaumannDrag{}, particle), schillerNaumann[i], digit) << diameters[i];
+        EXPECT_NEAR(terminalVelocity(DiFeliceDrag{}, particle), diFelice[i], digit) << diameters[i];
+        const double deficit =
+            1.0 - terminalVelocity(DiFeliceDrag{}, particle) / terminalVelocity(BrownLawlerDrag{}, particle);
         EXPECT_GT(deficit, 0.075);
         EXPECT_LT(deficit, 0.135);
     }
@@ -77,17 +78,17 @@ TEST(TerminalVelocity, OfThePapersBeads)
 /// nu 1.77e-6. A law that hides water's properties fails.
 TEST(TerminalVelocity, OfOtherFluids)
 {
-    const SettlingBead fine{1e-4, 3000.0, 10.0, 1e-4};
+    const SettlingParticle fine{1e-4, 3000.0, 10.0, 1e-4};
     EXPECT_NEAR(terminalVelocity(SchillerNaumannDrag{}, fine), 0.13734, 6e-6);
     EXPECT_NEAR(terminalVelocity(DiFeliceDrag{}, fine), 0.12861, 6e-6);
-    const SettlingBead light{0.002, 1200.0, 1115.6, 1.77e-6 * 1115.6};
+    const SettlingParticle light{0.002, 1200.0, 1115.6, 1.77e-6 * 1115.6};
     EXPECT_NEAR(terminalVelocity(SchillerNaumannDrag{}, light), 0.0332, 6e-5);
     EXPECT_NEAR(terminalVelocity(DiFeliceDrag{}, light), 0.0308, 6e-5);
 }
 
-/// A light bead rises as fast as one that is heavier by the same amount sinks, and a neutral one stays. A solver that
+/// A light particle rises as fast as one that is heavier by the same amount sinks, and a neutral one stays. A solver that
 /// brackets a signed weight never ends or returns 0 for the first.
-TEST(TerminalVelocity, OfALightBead)
+TEST(TerminalVelocity, OfALightParticle)
 {
     const SchillerNaumannDrag law;
     EXPECT_DOUBLE_EQ(
@@ -102,16 +103,16 @@ TEST(TerminalVelocity, InABedIsMinimumFluidisation)
 {
     for (const double eps : {0.36, 0.42, 0.5})
     {
-        SettlingBead bead = glassInWater(0.002, 2500.0);
-        bead.voidFraction = eps;
+        SettlingParticle particle = glassInWater(0.002, 2500.0);
+        particle.voidFraction = eps;
         const double expected = minimumFluidisationVelocity({0.002, eps, 1000.0, 1e-3}, 2500.0, usualGravity);
-        EXPECT_RELATIVE(hinderedSettlingVelocity(GidaspowDrag{}, bead), expected, 1e-10);
+        EXPECT_RELATIVE(hinderedSettlingVelocity(GidaspowDrag{}, particle), expected, 1e-10);
     }
-    SettlingBead lone = glassInWater(0.002, 2500.0);
-    SettlingBead hindered = lone;
+    SettlingParticle isolated = glassInWater(0.002, 2500.0);
+    SettlingParticle hindered = isolated;
     hindered.voidFraction = 0.9;
-    EXPECT_LT(hinderedSettlingVelocity(DiFeliceDrag{}, hindered), terminalVelocity(DiFeliceDrag{}, lone));
-    EXPECT_DOUBLE_EQ(terminalVelocity(DiFeliceDrag{}, hindered), terminalVelocity(DiFeliceDrag{}, lone));
+    EXPECT_LT(hinderedSettlingVelocity(DiFeliceDrag{}, hindered), terminalVelocity(DiFeliceDrag{}, isolated));
+    EXPECT_DOUBLE_EQ(terminalVelocity(DiFeliceDrag{}, hindered), terminalVelocity(DiFeliceDrag{}, isolated));
 }
 
 /// Nonsense is refused by name instead of running for ever or returning NaN.
@@ -121,10 +122,10 @@ TEST(TerminalVelocity, RefusesNonsense)
     EXPECT_THROW(terminalVelocity(law, glassInWater(-0.002, 2500.0)), std::invalid_argument);
     EXPECT_THROW(
         terminalVelocity(law, glassInWater(0.002, std::numeric_limits<double>::quiet_NaN())), std::invalid_argument);
-    SettlingBead crowded = glassInWater(0.002, 2500.0);
+    SettlingParticle crowded = glassInWater(0.002, 2500.0);
     crowded.voidFraction = 0.0;
     EXPECT_THROW(terminalSlip(law, crowded), std::invalid_argument);
-    const auto noDrag = [](const BeadInFluid&) { return 0.0; };
+    const auto noDrag = [](const ParticleInFluid&) { return 0.0; };
     EXPECT_THROW(terminalVelocity(noDrag, glassInWater(0.002, 2500.0)), std::domain_error);
 }
 

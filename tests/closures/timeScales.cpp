@@ -5,7 +5,7 @@
 
 #include "relative.h"
 
-#include "closures/beadInFluid.h"
+#include "closures/particleInFluid.h"
 #include "closures/stokesDrag.h"
 
 namespace
@@ -23,7 +23,7 @@ TEST(TimeScales, RayleighTime)
     EXPECT_RELATIVE(rayleighTime(0.001, 2540.0, g, 0.2), 1.206475e-4, 1e-6);
 }
 
-/// The collision of two such beads at .1 m/s, by integrating the energy balance m* w^2/2 + 8/15 E* sqrt(R*) x^(5/2) =
+/// The collision of two such particles at .1 m/s, by integrating the energy balance m* w^2/2 + 8/15 E* sqrt(R*) x^(5/2) =
 /// m* v^2/2 over the way in and out. The substitution x = x_max (1 - s^2) removes the singularity at the turning
 /// point. A wrong coefficient or power fails.
 TEST(TimeScales, HertzCollisionTimeIsTheIntegralOfTheMotion)
@@ -49,14 +49,14 @@ TEST(TimeScales, HertzCollisionTimeIsTheIntegralOfTheMotion)
     EXPECT_RELATIVE(integral, 4.384447e-4, 1e-6); // and by hand, 2.94328 x_max/v
 }
 
-/// A bead in creeping flow relaxes in rho_p d^2/(18 mu): 2500*1e-8/(.018) = 1.388889e-3 s for .1 mm glass in water;
+/// A particle in creeping flow relaxes in rho_p d^2/(18 mu): 2500*1e-8/(.018) = 1.388889e-3 s for .1 mm glass in water;
 /// with its added mass, (2500 + 500)/2500 of that. Sp/m in place of m/Sp fails.
 TEST(TimeScales, RelaxationTimeInCreepingFlow)
 {
-    const BeadInFluid bead = makeBeadInFluid(1e-4, 1.0, 0.0, 1000.0, 1e-3);
+    const ParticleInFluid particle = makeParticleInFluid(1e-4, 1.0, 0.0, 1000.0, 1e-3);
     const double volume = pi / 6.0 * 1e-12;
-    EXPECT_RELATIVE(relaxationTime(2500.0 * volume, StokesDrag{}(bead)), 1.388888889e-3, 1e-9);
-    EXPECT_RELATIVE(relaxationTime(3000.0 * volume, StokesDrag{}(bead)), 1.666666667e-3, 1e-9);
+    EXPECT_RELATIVE(relaxationTime(2500.0 * volume, StokesDrag{}(particle)), 1.388888889e-3, 1e-9);
+    EXPECT_RELATIVE(relaxationTime(3000.0 * volume, StokesDrag{}(particle)), 1.666666667e-3, 1e-9);
 }
 
 } // namespace

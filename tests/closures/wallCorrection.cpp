@@ -27,8 +27,8 @@ TEST(DiFelicesWall, GivesTheVelocityRatiosWorkedOutByHand)
     EXPECT_DOUBLE_EQ(diFeliceWallVelocityRatio(0.0, 30.0), 1.0);
 }
 
-/// At the bead's own speed the free Re is Re/k: lambda .2, Re 100: k = .85096 at Re_t 117.51, the solution of both.
-TEST(DiFelicesWall, IsConsistentAtTheBeadsOwnSpeed)
+/// At the particle's own speed the free Re is Re/k: lambda .2, Re 100: k = .85096 at Re_t 117.51, the solution of both.
+TEST(DiFelicesWall, IsConsistentAtTheParticlesOwnSpeed)
 {
     for (const double lambda : {0.05, 0.2, 0.5, 0.8})
     {

@@ -1,8 +1,8 @@
-// How beads are shared among cells: on real meshes with cells smaller and larger than a bead, beside a baffle, on one
-// rank and on two. Every expectation is an identity that holds for any beads, so the beads are random.
+// How particles are shared among cells: on real meshes with cells smaller and larger than a particle, beside a baffle, on one
+// rank and on two. Every expectation is an identity that holds for any particles, so the particles are random.
 
 #include "distribution/distribution.h"
-#include "exchange/beadExchange.h"
+#include "exchange/particleExchange.h"
 #include "support/fakeEngine.h"
 #include "support/testCase.h"
 #include "vectors.h"
@@ -116,45 +116,45 @@ Foam::dictionary properties(const Foam::word& voidFractionModel, const Foam::wor
     dict.add("voidFractionModel", voidFractionModel);
     dict.add("smoothingModel", smoothing);
     Foam::dictionary coefficients;
-    coefficients.add("smoothingLength", 3 * diameter);
+    coefficients.add("bandwidth", 3 * diameter);
     dict.add("constDiffSmoothingProps", coefficients);
-    // It reaches 3 bandwidths: over several of the small cells, not through a baffle that the bead touches.
+    // It reaches 3 bandwidths: over several of the small cells, not through a baffle that the particle touches.
     Foam::dictionary gaussian;
     gaussian.add("bandwidth", 0.25 * diameter);
     dict.add("GaussianProps", gaussian);
     return dict;
 }
 
-/// Beads put on a mesh by the whole chain: exchange between the ranks, shares, normalisation.
-class BeadsOnMesh
+/// Particles put on a mesh by the whole chain: exchange between the ranks, shares, normalisation.
+class ParticlesOnMesh
 {
 public:
-    /// Every rank makes all beads and keeps its part of the numbers: not the part of space that it has the cells of.
-    BeadsOnMesh(const Foam::fvMesh& mesh, const std::vector<Vector3d>& positions, const Foam::dictionary& dict)
+    /// Every rank makes all particles and keeps its part of the numbers: not the part of space that it has the cells of.
+    ParticlesOnMesh(const Foam::fvMesh& mesh, const std::vector<Vector3d>& positions, const Foam::dictionary& dict)
         : mesh_(mesh),
           engine_(1e-5),
           distribution_(dict, mesh),
           exchange_(MPI_COMM_WORLD, distribution_.cells().box(), distribution_.voidFractionModel().commonReach())
     {
-        for (std::size_t bead = 0; bead < positions.size(); ++bead)
+        for (std::size_t particle = 0; particle < positions.size(); ++particle)
         {
-            if (static_cast<int>(bead) % Foam::Pstream::nProcs() == Foam::Pstream::myProcNo())
+            if (static_cast<int>(particle) % Foam::Pstream::nProcs() == Foam::Pstream::myProcNo())
             {
-                engine_.addBead(static_cast<int>(bead) + 1, positions[bead], diameter / 2);
+                engine_.addParticle(static_cast<int>(particle) + 1, positions[particle], diameter / 2);
             }
         }
-        exchange_.send(engine_.beads(), Reactions::Zero(reactionSize, engine_.beads().size()));
-        shareSums_ = exchange_.sumAtHome(distribution_.findCells(exchange_.visitors()));
-        distribution_.normalise(exchange_.toVisitors(shareSums_));
+        exchange_.send(engine_.particles(), Reactions::Zero(reactionSize, engine_.particles().size()));
+        shareSums_ = exchange_.sumAtHome(distribution_.findCells(exchange_.ghosts()));
+        distribution_.normalise(exchange_.toGhosts(shareSums_));
     }
 
     Foam::scalarField solidFraction() const
     {
-        const auto& visitors = exchange_.visitors();
-        Eigen::MatrixXd volumes(1, static_cast<Eigen::Index>(visitors.size()));
-        for (Eigen::Index bead = 0; bead < volumes.cols(); ++bead)
+        const auto& ghosts = exchange_.ghosts();
+        Eigen::MatrixXd volumes(1, static_cast<Eigen::Index>(ghosts.size()));
+        for (Eigen::Index particle = 0; particle < volumes.cols(); ++particle)
         {
-            volumes(0, bead) = sphereVolume(visitors[static_cast<std::size_t>(bead)].radius);
+            volumes(0, particle) = sphereVolume(ghosts[static_cast<std::size_t>(particle)].radius);
         }
         Foam::scalarField fraction(mesh_.nCells());
         columns(fraction) = distribution_.densities(volumes);
@@ -170,13 +170,13 @@ public:
         return result;
     }
 
-    void smoothNearBeads()
+    void smoothNearParticles()
     {
-        distribution_.smoothNearBeads();
+        distribution_.smoothNearParticles();
     }
 
-    /// A cell field at the beads of this rank.
-    Eigen::RowVectorXd atBeads(const Foam::scalarField& field) const
+    /// A cell field at the particles of this rank.
+    Eigen::RowVectorXd atParticles(const Foam::scalarField& field) const
     {
         return exchange_.sumAtHome(distribution_.sample(columns(field)));
     }
@@ -196,17 +196,17 @@ private:
     const Foam::fvMesh& mesh_;
     FakeEngine engine_;
     Distribution distribution_;
-    BeadExchange exchange_;
+    ParticleExchange exchange_;
     Eigen::MatrixXd shareSums_;
 };
 
-/// Centres of beads that may touch the walls; the same on every rank.
-std::vector<Vector3d> randomBeads(int count, const Vector3d& low, const Vector3d& high)
+/// Centres of particles that may touch the walls; the same on every rank.
+std::vector<Vector3d> randomParticles(int count, const Vector3d& low, const Vector3d& high)
 {
     std::mt19937 random(17);
     std::uniform_real_distribution<double> part(0, 1);
     std::vector<Vector3d> positions;
-    for (int bead = 0; bead < count; ++bead)
+    for (int particle = 0; particle < count; ++particle)
     {
         Vector3d position;
         for (int axis = 0; axis < 3; ++axis)
@@ -219,9 +219,9 @@ std::vector<Vector3d> randomBeads(int count, const Vector3d& low, const Vector3d
     return positions;
 }
 
-std::vector<Vector3d> beadsEverywhere()
+std::vector<Vector3d> particlesEverywhere()
 {
-    return randomBeads(200, Vector3d::Zero(), {boxWidth, boxWidth, boxHeight});
+    return randomParticles(200, Vector3d::Zero(), {boxWidth, boxWidth, boxHeight});
 }
 
 } // namespace
@@ -229,28 +229,28 @@ std::vector<Vector3d> beadsEverywhere()
 class OnMesh : public testing::TestWithParam<std::tuple<double, const char*, const char*>>
 {};
 
-// The cells hold the beads' volume, to rounding, whatever the cells' size, the model, the smoothing and the number of
+// The cells hold the particles' volume, to rounding, whatever the cells' size, the model, the smoothing and the number of
 // ranks. An empty distribution holds nothing; one that is not normalised at walls or rank boundaries loses per cents.
-TEST_P(OnMesh, CellsHoldTheBeadsVolume)
+TEST_P(OnMesh, CellsHoldTheParticlesVolume)
 {
     const auto& [cellSize, model, smoothing] = GetParam();
     const BoxOnRanks box(cellSize, false);
-    const std::vector<Vector3d> positions = beadsEverywhere();
-    const BeadsOnMesh beads(box.mesh(), positions, properties(model, smoothing));
+    const std::vector<Vector3d> positions = particlesEverywhere();
+    const ParticlesOnMesh particles(box.mesh(), positions, properties(model, smoothing));
 
-    const double beadVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
-    EXPECT_NEAR(beads.integral(beads.solidFraction()) / beadVolume, 1, 1e-12);
-    EXPECT_NEAR(beads.integral(beads.smoothed(beads.solidFraction())) / beadVolume, 1, 1e-12);
+    const double particleVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
+    EXPECT_NEAR(particles.integral(particles.solidFraction()) / particleVolume, 1, 1e-12);
+    EXPECT_NEAR(particles.integral(particles.smoothed(particles.solidFraction())) / particleVolume, 1, 1e-12);
 }
 
-// What a bead samples is the adjoint of what it gives: sum over beads of V_p f(bead) = sum over cells of the bead's
+// What a particle samples is the adjoint of what it gives: sum over particles of V_p f(particle) = sum over cells of the particle's
 // share of V f, with smoothing on either side. This is action = reaction for the pressure gradient. Sampling from the
 // host cell, or smoothing on one side only, fails by per cents.
 TEST_P(OnMesh, SamplingIsTheAdjointOfGiving)
 {
     const auto& [cellSize, model, smoothing] = GetParam();
     const BoxOnRanks box(cellSize, false);
-    const BeadsOnMesh beads(box.mesh(), beadsEverywhere(), properties(model, smoothing));
+    const ParticlesOnMesh particles(box.mesh(), particlesEverywhere(), properties(model, smoothing));
 
     Foam::scalarField field(box.mesh().nCells());
     forAll (field, cell)
@@ -258,10 +258,11 @@ TEST_P(OnMesh, SamplingIsTheAdjointOfGiving)
         const Foam::vector& centre = box.mesh().C()[cell];
         field[cell] = std::sin(400 * centre.x()) + 100 * centre.z() * centre.y();
     }
-    const double onBeads = Foam::returnReduce(
-        sphereVolume(diameter / 2) * beads.atBeads(beads.smoothed(field)).sum(), Foam::sumOp<Foam::scalar>());
-    const double onCells = beads.integral(Foam::scalarField(field * beads.smoothed(beads.solidFraction())));
-    EXPECT_NEAR(onBeads / onCells, 1, 1e-10);
+    const double onParticles =
+        Foam::returnReduce(sphereVolume(diameter / 2) * particles.atParticles(particles.smoothed(field)).sum(),
+            Foam::sumOp<Foam::scalar>());
+    const double onCells = particles.integral(Foam::scalarField(field * particles.smoothed(particles.solidFraction())));
+    EXPECT_NEAR(onParticles / onCells, 1, 1e-10);
 }
 
 INSTANTIATE_TEST_SUITE_P(Cells, OnMesh,
@@ -275,10 +276,11 @@ TEST(Divided, SharesOfBricksAddUpToOne)
     for (const double cellSize : {1e-3, 4e-3})
     {
         const BoxOnRanks box(cellSize, false);
-        const BeadsOnMesh beads(box.mesh(), beadsEverywhere(), properties("divided", "off"));
-        for (Eigen::Index bead = 0; bead < beads.shareSums().cols(); ++bead)
+        const ParticlesOnMesh particles(box.mesh(), particlesEverywhere(), properties("divided", "off"));
+        for (Eigen::Index particle = 0; particle < particles.shareSums().cols(); ++particle)
         {
-            EXPECT_NEAR(beads.shareSums()(0, bead), 1, 1e-9) << "bead " << bead << ", cells of " << cellSize;
+            EXPECT_NEAR(particles.shareSums()(0, particle), 1, 1e-9)
+                << "particle " << particle << ", cells of " << cellSize;
         }
     }
 }
@@ -308,8 +310,8 @@ double partInBox(const Vector3d& centre, double radius, const clepsydra::Box& bo
     return volume * step.x() * step.y() / sphereVolume(radius);
 }
 
-// The share of a bead in a brick is the part of it that lies there, where faces, edges and corners of cells pass through
-// it, with cells of half a bead and of two, by a quadrature that knows nothing of the formula. The product of the parts
+// The share of a particle in a brick is the part of it that lies there, where faces, edges and corners of cells pass through
+// it, with cells of half a particle and of two, by a quadrature that knows nothing of the formula. The product of the parts
 // between opposite faces, whose sums are right as well, has .0244 instead of .0153, and a hundredth where there is nothing.
 TEST(Divided, ShareInABrickIsThePartOfTheSphereInIt)
 {
@@ -317,7 +319,8 @@ TEST(Divided, ShareInABrickIsThePartOfTheSphereInIt)
     {
         const BoxOnRanks box(cellSize, false);
         const CellSlabs cells(box.mesh());
-        for (const Vector3d& centre : randomBeads(12, Vector3d::Constant(3e-3), Vector3d::Constant(boxWidth - 3e-3)))
+        for (const Vector3d& centre :
+            randomParticles(12, Vector3d::Constant(3e-3), Vector3d::Constant(boxWidth - 3e-3)))
         {
             for (int cell = 0; cell < box.mesh().nCells(); ++cell)
             {
@@ -328,30 +331,30 @@ TEST(Divided, ShareInABrickIsThePartOfTheSphereInIt)
                 {
                     EXPECT_NEAR(cells.share(cell, centre, diameter / 2, diameter / 2),
                         partInBox(centre, diameter / 2, brick), 1e-5)
-                        << "bead at " << centre.transpose() << ", cell at " << middle.transpose();
+                        << "particle at " << centre.transpose() << ", cell at " << middle.transpose();
                 }
             }
         }
     }
 }
 
-// Beads that lie on a baffle of zero thickness, even pressed a little into it, put no volume behind it: not by their
+// Particles that lie on a baffle of zero thickness, even pressed a little into it, put no volume behind it: not by their
 // shares and not by diffusion. Kernels by distance, or without the wall rule, put per cents there.
 TEST(Baffle, NothingLeaksThrough)
 {
     for (const double cellSize : {1e-3, 4e-3})
     {
         const BoxOnRanks box(cellSize, true);
-        std::vector<Vector3d> positions = randomBeads(50, {0, 0, boxHeight / 2}, {boxWidth, boxWidth, boxHeight});
+        std::vector<Vector3d> positions = randomParticles(50, {0, 0, boxHeight / 2}, {boxWidth, boxWidth, boxHeight});
         for (Vector3d& position : positions)
         {
             position.z() = boxHeight / 2 + 0.49 * diameter;
         }
         for (const char* model : {"divided", "centre", "Gaussian"})
         {
-            const BeadsOnMesh beads(box.mesh(), positions, properties(model, "constDiffSmoothing"));
-            const Foam::scalarField raw = beads.solidFraction();
-            const Foam::scalarField smooth = beads.smoothed(raw);
+            const ParticlesOnMesh particles(box.mesh(), positions, properties(model, "constDiffSmoothing"));
+            const Foam::scalarField raw = particles.solidFraction();
+            const Foam::scalarField smooth = particles.smoothed(raw);
             double behind = 0;
             forAll (raw, cell)
             {
@@ -361,15 +364,15 @@ TEST(Baffle, NothingLeaksThrough)
                 }
             }
             EXPECT_EQ(behind, 0) << model << ", cells of " << cellSize;
-            const double beadVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
-            EXPECT_NEAR(beads.integral(smooth) / beadVolume, 1, 1e-12);
+            const double particleVolume = static_cast<double>(positions.size()) * sphereVolume(diameter / 2);
+            EXPECT_NEAR(particles.integral(smooth) / particleVolume, 1, 1e-12);
         }
     }
 }
 
-// A mesh's walls are not quite the engine's: at an edge that snappyHexMesh cut short a small bead's centre may lie behind them.
-// The bead is whole in the cells that it is the least behind; with walls that give nothing it would be in no cell.
-TEST(Wall, ABeadBehindItByLessThanItsRadiusIsInTheCellBeforeIt)
+// A mesh's walls are not quite the engine's: at an edge that snappyHexMesh cut short a small particle's centre may lie behind them.
+// The particle is whole in the cells that it is the least behind; with walls that give nothing it would be in no cell.
+TEST(Wall, AParticleBehindItByLessThanItsRadiusIsInTheCellBeforeIt)
 {
     for (const double cellSize : {1e-3, 4e-3})
     {
@@ -378,22 +381,22 @@ TEST(Wall, ABeadBehindItByLessThanItsRadiusIsInTheCellBeforeIt)
         const Vector3d centre(-0.1 * diameter, boxWidth / 2 + 0.3e-3, -0.3 * diameter);
         for (const char* model : {"divided", "centre", "Gaussian"})
         {
-            const BeadsOnMesh beads(box.mesh(), {centre}, properties(model, "off"));
-            const Foam::scalarField density = beads.solidFraction();
+            const ParticlesOnMesh particles(box.mesh(), {centre}, properties(model, "off"));
+            const Foam::scalarField density = particles.solidFraction();
             const double volume = sphereVolume(diameter / 2);
-            EXPECT_NEAR(beads.integral(density) / volume, 1, 1e-12) << model;
+            EXPECT_NEAR(particles.integral(density) / volume, 1, 1e-12) << model;
             if (std::string(model) == "divided")
             {
                 const Foam::scalarField height(box.mesh().C().primitiveField().component(2));
                 const Foam::scalarField fromSide(box.mesh().C().primitiveField().component(0));
-                EXPECT_NEAR(beads.integral(Foam::scalarField(density * height)) / volume, 0.5 * cellSize, 1e-9);
-                EXPECT_NEAR(beads.integral(Foam::scalarField(density * fromSide)) / volume, 0.5 * cellSize, 1e-9);
+                EXPECT_NEAR(particles.integral(Foam::scalarField(density * height)) / volume, 0.5 * cellSize, 1e-9);
+                EXPECT_NEAR(particles.integral(Foam::scalarField(density * fromSide)) / volume, 0.5 * cellSize, 1e-9);
             }
         }
     }
 }
 
-// d(eps)/dt of a moving bead converges as the step falls: its jump from one step to the next falls with the step. With
+// d(eps)/dt of a moving particle converges as the step falls: its jump from one step to the next falls with the step. With
 // the cell of the centre it grows instead, which is the noise of the pressure in many codes.
 TEST(Divided, VoidFractionIsSmoothInTime)
 {
@@ -401,7 +404,7 @@ TEST(Divided, VoidFractionIsSmoothInTime)
     const Vector3d velocity(0.1, 0.07, -0.2);
     const auto largestJump = [&](const char* model, double step) {
         const auto at = [&](double time) {
-            return BeadsOnMesh(
+            return ParticlesOnMesh(
                 box.mesh(), {Vector3d(0.0061, 0.0067, 0.0161) + time * velocity}, properties(model, "off"))
                 .solidFraction();
         };
@@ -422,8 +425,8 @@ TEST(Divided, VoidFractionIsSmoothInTime)
 }
 
 // The kernel is the Gaussian of its bandwidth b, variance b2/2 along each axis (plus a cell's own s2/12), also where it
-// spans the boundary of the ranks: the visit of a bead that touches no cell of a rank, but reaches some. A kernel cut at
-// the bead's radius or at the rank's boundary is narrower.
+// spans the boundary of the ranks: the visit of a particle that touches no cell of a rank, but reaches some. A kernel cut at
+// the particle's radius or at the rank's boundary is narrower.
 TEST(Gaussian, HasItsBandwidth)
 {
     const double bandwidth = diameter;
@@ -432,40 +435,40 @@ TEST(Gaussian, HasItsBandwidth)
     Foam::dictionary dict = properties("Gaussian", "off");
     dict.subDict("GaussianProps").set("bandwidth", bandwidth);
     const Vector3d centre(boxWidth / 2 - 0.6 * diameter, boxWidth / 2, boxHeight / 2);
-    const BeadsOnMesh beads(box.mesh(), {centre}, dict);
-    const Foam::scalarField density = beads.solidFraction();
-    const double volume = beads.integral(density);
+    const ParticlesOnMesh particles(box.mesh(), {centre}, dict);
+    const Foam::scalarField density = particles.solidFraction();
+    const double volume = particles.integral(density);
     EXPECT_NEAR(volume / sphereVolume(diameter / 2), 1, 1e-12);
     for (const Foam::direction axis : {0, 2})
     {
         const Foam::scalarField from(box.mesh().C().primitiveField().component(axis) - centre[axis]);
-        const double variance = beads.integral(Foam::scalarField(density * Foam::sqr(from))) / volume;
+        const double variance = particles.integral(Foam::scalarField(density * Foam::sqr(from))) / volume;
         // A wall 6.8 mm away keeps the tail.
         EXPECT_NEAR(variance / (0.5 * bandwidth * bandwidth + cellSize * cellSize / 12), 1, 0.01)
             << "axis " << int(axis);
     }
 }
 
-// The smoothing is the same on any mesh: the cloud of one bead has the variance of the kernel, b2/2 along each axis,
-// on cells of half a bead and of two. Averaging over neighbours instead would widen with the cells.
-TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingLength)
+// The smoothing is the same on any mesh: the cloud of one particle has the variance of the kernel, b2/2 along each axis,
+// on cells of half a particle and of two. Averaging over neighbours instead would widen with the cells.
+TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingBandwidth)
 {
-    const double smoothingLength = 1.5 * diameter;
+    const double smoothingBandwidth = 1.5 * diameter;
     for (const double cellSize : {1e-3, 2e-3})
     {
         const BoxOnRanks box(cellSize, false);
         Foam::dictionary dict = properties("divided", "constDiffSmoothing");
-        dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
+        dict.subDict("constDiffSmoothingProps").set("bandwidth", smoothingBandwidth);
         const Vector3d centre(boxWidth / 2, boxWidth / 2, boxHeight / 2);
-        const BeadsOnMesh beads(box.mesh(), {centre}, dict);
-        const Foam::scalarField raw = beads.solidFraction();
+        const ParticlesOnMesh particles(box.mesh(), {centre}, dict);
+        const Foam::scalarField raw = particles.solidFraction();
         const Foam::scalarField heights(box.mesh().C().primitiveField().component(2));
         const auto variance = [&](const Foam::scalarField& density) {
-            return beads.integral(Foam::scalarField(density * Foam::sqr(heights - centre.z())))
-                   / beads.integral(density);
+            return particles.integral(Foam::scalarField(density * Foam::sqr(heights - centre.z())))
+                   / particles.integral(density);
         };
-        const double added = variance(beads.smoothed(raw)) - variance(raw);
-        EXPECT_NEAR(added / (0.5 * smoothingLength * smoothingLength), 1, 5e-4) << "cells of " << cellSize;
+        const double added = variance(particles.smoothed(raw)) - variance(raw);
+        EXPECT_NEAR(added / (0.5 * smoothingBandwidth * smoothingBandwidth), 1, 5e-4) << "cells of " << cellSize;
     }
 }
 
@@ -476,11 +479,11 @@ TEST(ConstDiffSmoothing, KernelsWidthIsThatOfTheSmoothingLength)
 // fraction above one.
 TEST(ConstDiffSmoothing, IsTheExponentialOfDiffusionOnALattice)
 {
-    const double smoothingLength = 3 * diameter;
+    const double smoothingBandwidth = 3 * diameter;
     for (const double cellSize : {1e-3, 8e-3})
     {
         const BoxOnRanks box(cellSize, false);
-        const double doubleTime = 0.5 * smoothingLength * smoothingLength / (cellSize * cellSize);
+        const double doubleTime = 0.5 * smoothingBandwidth * smoothingBandwidth / (cellSize * cellSize);
         const auto onLine = [&](int cells, int from, int to) {
             double sum = 0;
             for (int image = -8; image <= 8; ++image)
@@ -503,7 +506,7 @@ TEST(ConstDiffSmoothing, IsTheExponentialOfDiffusionOnALattice)
         {
             density[cell] = (indexOf(centres[cell]) == source).all() ? 1 : 0;
         }
-        const BeadsOnMesh none(box.mesh(), {}, properties("divided", "constDiffSmoothing"));
+        const ParticlesOnMesh none(box.mesh(), {}, properties("divided", "constDiffSmoothing"));
         const Foam::scalarField smooth = none.smoothed(density);
 
         double worst = 0;
@@ -529,10 +532,10 @@ TEST(ConstDiffSmoothing, IsAGaussianOnAFineMesh)
 {
     const int layers = 640;
     const double cellSize = boxHeight / layers;
-    const double smoothingLength = 60 * cellSize;
+    const double smoothingBandwidth = 60 * cellSize;
     const BoxOnRanks box(Eigen::Vector3i(2, 1, layers));
     Foam::dictionary dict = properties("divided", "constDiffSmoothing");
-    dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
+    dict.subDict("constDiffSmoothingProps").set("bandwidth", smoothingBandwidth);
     const Foam::scalarField heights(box.mesh().C().primitiveField().component(2));
     const double source = 0.5 * (layers + 1) * cellSize; // the middle of a cell, for there is an even number
     Foam::scalarField density(heights.size(), 0.0);
@@ -540,49 +543,50 @@ TEST(ConstDiffSmoothing, IsAGaussianOnAFineMesh)
     {
         density[cell] = std::abs(heights[cell] - source) < 0.1 * cellSize ? 1 / cellSize : 0;
     }
-    const BeadsOnMesh none(box.mesh(), {}, dict);
+    const ParticlesOnMesh none(box.mesh(), {}, dict);
     const Foam::scalarField smooth = none.smoothed(density);
-    const double peak = 1 / (std::sqrt(M_PI) * smoothingLength);
+    const double peak = 1 / (std::sqrt(M_PI) * smoothingBandwidth);
     forAll (smooth, cell)
     {
-        const double away = (heights[cell] - source) / smoothingLength;
+        const double away = (heights[cell] - source) / smoothingBandwidth;
         ASSERT_NEAR(smooth[cell] / peak, std::exp(-away * away), 1e-4) << away;
     }
 }
 
-// Beads near one end: beyond four smoothing lengths and two cells, cells keep exactly what they have, 0, where the smoothing of the
+// Particles near one end: beyond four smoothing bandwidths and two cells, cells keep exactly what they have, 0, where the smoothing of the
 // whole mesh leaves the rounding of its series; nearer they are the same to a millionth of the peak. Still conservative
 // and self-adjoint to rounding, also where the boundary between two ranks passes through.
-TEST(ConstDiffSmoothing, LeavesOutWhatIsFarFromBeads)
+TEST(ConstDiffSmoothing, LeavesOutWhatIsFarFromParticles)
 {
-    constexpr double smoothingLength = 1.5 * diameter;
+    constexpr double smoothingBandwidth = 1.5 * diameter;
     double farAway = 0;
-    // The last is wider than the smoothing length.
+    // The last is wider than the smoothing bandwidth.
     for (const double cellSize : {1e-3, 2e-3, 4e-3})
     {
         const BoxOnRanks box(cellSize, false);
         Foam::dictionary dict = properties("divided", "constDiffSmoothing");
-        dict.subDict("constDiffSmoothingProps").set("smoothingLength", smoothingLength);
-        BeadsOnMesh beads(box.mesh(), {{0.0085, 0.01, 0.002}, {0.004, 0.01, 0.003}}, dict);
-        const Foam::scalarField density = beads.solidFraction();
-        const Foam::scalarField whole = beads.smoothed(density);
-        beads.smoothNearBeads();
-        const Foam::scalarField near = beads.smoothed(density);
+        dict.subDict("constDiffSmoothingProps").set("bandwidth", smoothingBandwidth);
+        ParticlesOnMesh particles(box.mesh(), {{0.0085, 0.01, 0.002}, {0.004, 0.01, 0.003}}, dict);
+        const Foam::scalarField density = particles.solidFraction();
+        const Foam::scalarField whole = particles.smoothed(density);
+        particles.smoothNearParticles();
+        const Foam::scalarField near = particles.smoothed(density);
         const double peak = Foam::gMax(whole);
         const Foam::vectorField& centres = box.mesh().C();
         forAll (near, cell)
         {
             ASSERT_NEAR(near[cell] / peak, whole[cell] / peak, 1e-6) << toEigen(centres[cell]).transpose();
-            if (centres[cell].z() > 0.004 + 4 * smoothingLength + 3 * cellSize)
+            if (centres[cell].z() > 0.004 + 4 * smoothingBandwidth + 3 * cellSize)
             {
                 EXPECT_EQ(near[cell], 0);
                 farAway = std::max(farAway, std::abs(whole[cell]));
             }
         }
-        EXPECT_NEAR(beads.integral(near) / beads.integral(density), 1, 1e-13);
+        EXPECT_NEAR(particles.integral(near) / particles.integral(density), 1, 1e-13);
         const Foam::scalarField other(
             centres.component(Foam::vector::Z)() + 0.3 * centres.component(Foam::vector::X)());
-        EXPECT_NEAR(beads.integral(near * other) / beads.integral(density * beads.smoothed(other)), 1, 1e-12);
+        EXPECT_NEAR(
+            particles.integral(near * other) / particles.integral(density * particles.smoothed(other)), 1, 1e-12);
     }
     EXPECT_GT(Foam::returnReduce(farAway, Foam::maxOp<double>()), 0) << "the box is too small to leave anything out";
 }

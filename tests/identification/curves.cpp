@@ -39,8 +39,8 @@ Curve sampled(double end, int points, Function function)
 TEST(Curves, ResumedRunIsOneCurve)
 {
     const TemporaryFolder folder;
-    folder.write("post/0/m.dat", "# time [s]\tmass [kg]\tbeads\n0\t1\t9\n1\t.9\t8\n2\t.7\t7\n3\t.1\t6\n");
-    folder.write("post/2/m.dat", "# time [s]\tmass [kg]\tbeads\n2\t.8\t7\n3\t.6\t6\n");
+    folder.write("post/0/m.dat", "# time [s]\tmass [kg]\tparticles\n0\t1\t9\n1\t.9\t8\n2\t.7\t7\n3\t.1\t6\n");
+    folder.write("post/2/m.dat", "# time [s]\tmass [kg]\tparticles\n2\t.8\t7\n3\t.6\t6\n");
     const Curve curve = readCurve(folder.path() / "post/*/m.dat", "time", "mass");
     EXPECT_EQ(curve.time, (std::vector<double>{0, 1, 2, 3}));
     EXPECT_EQ(curve.value, (std::vector<double>{1, .9, .8, .6}));
@@ -125,7 +125,7 @@ TEST(Features, ValueAtATime)
     EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", -.01}})));
 }
 
-TEST(Features, OfAFallingBead)
+TEST(Features, OfAFallingParticle)
 {
     const Curve curve = sampled(5, 501, [](double t) { return .03 * t; });
     EXPECT_NEAR(feature("logSpeed", curve, {{"from", .02}, {"to", .12}}), std::log(.03), 1e-9);

@@ -4,7 +4,7 @@
 #include "effectOf.h"
 #include "emulator/settings.h"
 #include "nextRuns/chooseRuns.h"
-#include "standIn/standIn.h"
+#include "surrogate/surrogate.h"
 #include "study/readStudy.h"
 
 #include <gtest/gtest.h>
@@ -21,13 +21,13 @@ namespace clepsydra::identification::tests
 namespace
 {
 
-/// The stand-in with its library, and three repeats measured without any effect.
+/// The surrogate with its library, and three repeats measured without any effect.
 struct Bench
 {
-    Study study = readStudy(std::filesystem::path(STAND_IN) / "study.yaml");
-    StandInRig rig{readEntries(study.rig.caseFolder / study.rig.entriesFile)};
-    Simulator simulator{study, rig};
-    Library library = makeLibrary(simulator);
+    Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
+    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / study.simulator.entriesFile)};
+    StudySimulator studySimulator{study, simulator};
+    Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> data;
     std::unique_ptr<Emulator> emulator;
     Layout layout;
@@ -40,11 +40,11 @@ struct Bench
         data.resize(study.conditions.size());
         for (const auto c : study.conditionsOf(Role::training))
         {
-            data[c].features =
-                featureRows(simulator.repeats({c}, simulator.plainSetting(), "measured", 3), c, study.featureCount());
+            data[c].features = featureRows(
+                studySimulator.repeats({c}, studySimulator.plainSetting(), "measured", 3), c, study.featureCount());
             data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
         }
-        emulator = std::make_unique<Emulator>(study, simulator, library.runs, measuredFeatures(study, data));
+        emulator = std::make_unique<Emulator>(study, studySimulator, library.runs, measuredFeatures(study, data));
         std::tie(layout, measured) = arrange(study, *emulator, data);
     }
 
@@ -76,7 +76,7 @@ TEST(Decision, KeepsWhatItPromises)
     }
     EXPECT_NEAR(alarms / (4. * draws), .05, .035);
     double wrong = 0;
-    double foils = 0;
+    double decoys = 0;
     for (const std::string name : {"addedMass", "cohesion", "rollingFriction", "viscosity", "scaleLag"})
     {
         const std::size_t e = bench.effect(name);
@@ -102,7 +102,7 @@ TEST(Decision, KeepsWhatItPromises)
             held += std::count(members.begin(), members.end(), e) > 0 ? 1 : 0;
             const Odds without = oddsOf(bench.study, evidences, e);
             const auto sole = soleMember(bench.study, calibration, without);
-            foils += 1;
+            decoys += 1;
             wrong +=
                 sole && marginOf(bench.study, without, *sole) >= calibration.naming(static_cast<Eigen::Index>(*sole))
                     ? 1
@@ -110,10 +110,10 @@ TEST(Decision, KeepsWhatItPromises)
         }
         EXPECT_GT(held / detected, .8) << name << ": " << held << " of " << detected;
     }
-    EXPECT_LT(wrong / foils, .15) << wrong << " of " << foils;
+    EXPECT_LT(wrong / decoys, .15) << wrong << " of " << decoys;
 }
 
-/// Cohesion changes the spread between repeats much and the means little: it is told by the former. With the spread of the
+/// Cohesion changes the spread between repeats much and the means little: it is reported by the former. With the spread of the
 /// base, the same means say nothing.
 TEST(Decision, SpreadIsADatum)
 {
@@ -200,8 +200,8 @@ TEST(Decision, VariantsShareTheirWeight)
     EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
     EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
     Calibration calibration;
-    calibration.misfits = Eigen::Vector4d::Constant(2);
-    calibration.scatterMisfits = calibration.misfits;
+    calibration.chiSquares = Eigen::Vector4d::Constant(2);
+    calibration.scatterChiSquares = calibration.chiSquares;
     calibration.membership = Eigen::Vector4d(0, -9, -9, 0);
     EXPECT_EQ(soleMember(study, calibration, odds), 1U) << "two variants are one name";
     calibration.membership(0) = -9;

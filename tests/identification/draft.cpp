@@ -131,11 +131,11 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
     EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: holds no numbers"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
-    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: rig.set.beadDiameter: FILL IN"));
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.particleDiameter: FILL IN"));
     const std::string study = "study.yaml";
     EXPECT_THAT(bench.text(study), HasSubstr("decide now, before"));
     EXPECT_EQ(bench.run("plan " + study), 1);
-    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: rig.set.beadDiameter: FILL IN"));
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.particleDiameter: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr(".prior.sd: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr("Replace these by values"));
     bench.fill(study);
@@ -150,7 +150,7 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     EXPECT_EQ(conditions.at("wet12").role, Role::heldOut) << "at the end of the other range";
     EXPECT_EQ(conditions.at("wet10").tags.at("medium"), "water");
     EXPECT_EQ(conditions.at("wet10").command, "./Allrun mesh pour submerged");
-    EXPECT_EQ(conditions.at("wet10").file, "stages/submerged/postProcessing/massInHopper/*/massInHopper.dat");
+    EXPECT_EQ(conditions.at("wet10").file, "steps/submerged/postProcessing/massInHopper/*/massInHopper.dat");
     EXPECT_EQ(conditions.at("dry14").entries.at("orificeDiameter"), "14e-3");
     EXPECT_EQ(conditions.at("dry14").measured.files.size(), 3U);
     EXPECT_GT(read.effects.size(), 25U);
@@ -175,7 +175,7 @@ TEST(Draft, HeldOutValuesAreNotLookedAt)
 }
 
 /// A camera that counts downwards and writes 0 while it sees nothing.
-TEST(Draft, OfFallingBeadsIsAcceptedOnceFilled)
+TEST(Draft, OfFallingParticlesIsAcceptedOnceFilled)
 {
     Bench bench;
     for (const auto& [name, speed] : std::map<std::string, double>{{"bead_1.5", 20}, {"bead_2", 30}})
@@ -188,18 +188,19 @@ TEST(Draft, OfFallingBeadsIsAcceptedOnceFilled)
         }
     }
     const std::string files = " bead_1.5_trial_1.txt bead_1.5_trial_2.txt bead_2_trial_1.txt bead_2_trial_2.txt";
-    ASSERT_EQ(bench.run("new " CASES_FOLDER "/singleBead" + files + " --output beads.yaml"), 0) << bench.output;
-    bench.fill("beads.yaml");
-    ASSERT_EQ(bench.run("plan beads.yaml"), 0) << bench.output;
-    const Study study = readStudy(bench.path("beads.yaml"));
+    ASSERT_EQ(bench.run("new " CASES_FOLDER "/settlingParticle" + files + " --output particles.yaml"), 0)
+        << bench.output;
+    bench.fill("particles.yaml");
+    ASSERT_EQ(bench.run("plan particles.yaml"), 0) << bench.output;
+    const Study study = readStudy(bench.path("particles.yaml"));
     ASSERT_EQ(study.conditions.size(), 2U);
-    EXPECT_EQ(study.conditions[0].entries.at("beadDiameter"), "1.5e-3");
-    EXPECT_EQ(study.rig.seedEntry, "");
+    EXPECT_EQ(study.conditions[0].entries.at("particleDiameter"), "1.5e-3");
+    EXPECT_EQ(study.simulator.seedEntry, "");
     EXPECT_EQ(study.parameters.front().name, "logViscosity");
     const auto measured = readMeasurements(study, 1);
     EXPECT_NEAR(measured.features(0, 0), std::log(30e-3), 1e-9) << "without the zeros";
     EXPECT_NEAR(measured.features(1, 1), std::log(30e-3), 1e-9);
-    const auto numbers = numbersOf(plainEntries(study.rig, study.conditions[0]));
+    const auto numbers = numbersOf(plainEntries(study.simulator, study.conditions[0]));
     EXPECT_EQ(study.conditions[0].observable.factor(numbers), -1);
     EXPECT_EQ(study.conditions[0].observable.offset(numbers), numbers.at("releaseHeight"));
 }
@@ -208,7 +209,7 @@ TEST(Draft, OfFallingBeadsIsAcceptedOnceFilled)
 TEST(Draft, OfAnUnknownCase)
 {
     Bench bench;
-    fs::copy(fs::path(STAND_IN) / "case", bench.path("case"));
+    fs::copy(fs::path(SURROGATE) / "case", bench.path("case"));
     bench.write("rises.csv", table("t_s,collected_mass_g", ",", '.', [](double t) { return std::min(13 * t, 24.); }));
     ASSERT_EQ(bench.run("new case rises.csv"), 0) << bench.output;
     EXPECT_THAT(bench.output, HasSubstr("observable.file: FILL IN"));
@@ -233,19 +234,19 @@ TEST(Draft, RefusesAndWritesNothing)
         {"hopperQuick folder", "folder: holds no table of numbers"},
         {"hopperQuick folder/notes.txt", "notes.txt: holds no numbers"},
         {"hopperQuick fall.csv", "writes a mass"},
-        {"singleBead mass.csv", "writes a length"},
-        {"singleBead fall.csv mass.csv", "no column 't_s'"},
-        {"singleBead fall.csv late.csv", "late.csv: in line 4 the time goes back"},
+        {"settlingParticle mass.csv", "writes a length"},
+        {"settlingParticle fall.csv mass.csv", "no column 't_s'"},
+        {"settlingParticle fall.csv late.csv", "late.csv: in line 4 the time goes back"},
         {"hopperQuick one.csv", "no column beside the time"},
         {"hopperQuick nowhere.csv", "nowhere.csv"},
         {"validation fall.csv", "is no case"},
-        {"singleBead fall.csv --output mine.yaml", "mine.yaml: is there already"},
-        {"singleBead fall.csv --output no/such/folder.yaml", "folder.yaml"},
+        {"settlingParticle fall.csv --output mine.yaml", "mine.yaml: is there already"},
+        {"settlingParticle fall.csv --output no/such/folder.yaml", "folder.yaml"},
     };
-    for (const auto& [arguments, told] : refused)
+    for (const auto& [arguments, reported] : refused)
     {
         EXPECT_NE(bench.run("new " CASES_FOLDER "/" + arguments), 0) << arguments;
-        EXPECT_THAT(bench.output, HasSubstr(told)) << arguments;
+        EXPECT_THAT(bench.output, HasSubstr(reported)) << arguments;
     }
     EXPECT_EQ(bench.text("mine.yaml"), "mine\n");
     EXPECT_FALSE(fs::exists(bench.path("study.yaml")));

@@ -1,7 +1,7 @@
 /// What the emulator learns from runs: coefficients with intervals that cover, noise, and which effects raise it.
 #include "emulator/covariance.h"
 #include "emulator/emulator.h"
-#include "linearRig.h"
+#include "linearSimulator.h"
 #include "study/measurements.h"
 
 #include <gtest/gtest.h>
@@ -113,10 +113,10 @@ TEST(Emulator, FindsLinearEffects)
     {
         const TemporaryFolder folder;
         const Study study = linearStudy(folder, seed);
-        LinearRig rig;
-        Simulator simulator(study, rig);
-        const Library library = makeLibrary(simulator);
-        const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+        LinearSimulator simulator;
+        StudySimulator studySimulator(study, simulator);
+        const Library library = makeLibrary(studySimulator);
+        const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
         const ConditionEmulator& both = *emulator[0];
         const Eigen::VectorXd base = both.at(none, {});
         EXPECT_NEAR(base(0), std::log(.1), 1e-3);
@@ -139,10 +139,10 @@ TEST(Emulator, ParameterOfAnEffect)
         const TemporaryFolder folder;
         const Study study = linearStudy(folder, seed,
             "  - { name: edge, of: x, set: { edge: edge }, prior: { mean: 0, sd: 0.2 }, range: [-1, 1] }\n");
-        LinearRig rig;
-        Simulator simulator(study, rig);
-        const Library library = makeLibrary(simulator);
-        const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+        LinearSimulator simulator;
+        StudySimulator studySimulator(study, simulator);
+        const Library library = makeLibrary(studySimulator);
+        const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
         const auto effectOfEdge = [&](const std::vector<Present>& present) {
             const Eigen::MatrixXd mean = emulator[0]->mean(present, Eigen::Vector2d(0, 0));
             const Eigen::VectorXd moved = parameterTermsAt(Eigen::Vector2d(0, 1));
@@ -165,35 +165,35 @@ TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "none");
-    LinearRig rig;
-    rig.curvature = 200;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
-    const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+    LinearSimulator simulator;
+    simulator.curvature = 200;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
+    const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
     const double base = emulator[0]->at(none, {})(0);
     EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - base, .06 + .08, 2e-3);
     EXPECT_NEAR(emulator[0]->at(none, {{0, -1.}})(0) - base, -.06 + .08, 2e-3);
     EXPECT_NEAR(emulator[0]->at(none, {{1, 1.}})(0) - base, .2, 2e-3);
 }
 
-/// A run that fails is tried again with other seeds, then excluded, and both is told. An effect of which nothing is left is
+/// A run that fails is tried again with other seeds, then excluded, and both is reported. An effect of which nothing is left is
 /// not judged: as one without any influence, or with any, it would lead sets.
-TEST(Emulator, FailedRunsAreToldAndExcluded)
+TEST(Emulator, FailedRunsAreReportedAndExcluded)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "none");
-    LinearRig rig;
-    rig.failsWithY = true;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
-    const Emulator emulator(study, simulator, library.runs, allFeatures(study));
+    LinearSimulator simulator;
+    simulator.failsWithY = true;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
+    const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
     EXPECT_FALSE(emulator.knows(1));
     EXPECT_TRUE(emulator.knows(0));
     EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - emulator[0]->at(none, {})(0), .06, 1e-3);
     ASSERT_EQ(emulator.remarks().size(), 1U);
     EXPECT_NE(emulator.remarks().front().find('y'), std::string::npos);
-    ASSERT_EQ(simulator.effort().failures.size(), 2U);
-    EXPECT_EQ(simulator.effort().failures.back().reason, "y is not possible");
+    ASSERT_EQ(studySimulator.effort().failures.size(), 2U);
+    EXPECT_EQ(studySimulator.effort().failures.back().reason, "y is not possible");
 }
 
 /// Emulators learnt from runs with known coefficients and noise of .1, other noise each time.
@@ -201,15 +201,15 @@ struct NoisyBench
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    const Simulator simulator{study, rig};
+    LinearSimulator simulator;
+    const StudySimulator studySimulator{study, simulator};
     std::mt19937_64 random{3};
 
     Emulator learn()
     {
         std::normal_distribution<double> normal;
         std::vector<identification::Run> runs;
-        for (const auto& order : libraryOrders(simulator))
+        for (const auto& order : libraryOrders(studySimulator))
         {
             const double t = (order.setting.parameters(0) - .15) / .02;
             const Eigen::VectorXd& a = order.setting.amplitudes;
@@ -221,7 +221,7 @@ struct NoisyBench
             run.simulation.plain.value = {1, 0};
             runs.push_back(run);
         }
-        return {study, simulator, runs, allFeatures(study)};
+        return {study, studySimulator, runs, allFeatures(study)};
     }
 };
 
@@ -268,12 +268,12 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
     Study study = linearStudy(folder, "seed");
     study.effects[1].isSwitch = true;
     study.settings.repeatsAlone = 8;
-    LinearRig rig;
-    const Simulator simulator(study, rig);
+    LinearSimulator simulator;
+    const StudySimulator studySimulator(study, simulator);
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;
     std::vector<identification::Run> runs;
-    for (const auto& order : libraryOrders(simulator))
+    for (const auto& order : libraryOrders(studySimulator))
     {
         const double y = order.setting.amplitudes(1);
         identification::Run run{order.setting, {}};
@@ -283,7 +283,7 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
         run.simulation.plain.value = {1, 0};
         runs.push_back(run);
     }
-    const Emulator emulator(study, simulator, runs, allFeatures(study));
+    const Emulator emulator(study, studySimulator, runs, allFeatures(study));
     ASSERT_EQ(emulator[0]->logScatter.count(1), 1U);
     EXPECT_GT(emulator[0]->logScatter.at(1)(0), .7);
     EXPECT_LT(std::sqrt(emulator[0]->noise(0, 0)), .2);
@@ -291,7 +291,7 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
 }
 
 /// ln W = 3 x + ...: an error of .01 in x is one of .03; a scale's gain of 2 % is one of .02; what is stated is taken.
-TEST(CommonErrors, SlopesAreThoseOfTheRig)
+TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
@@ -305,9 +305,9 @@ TEST(CommonErrors, SlopesAreThoseOfTheRig)
     study.commonErrors[1].chainOperation = "gain";
     study.commonErrors[1].chainSize = Expression("0.02*z");
     study.commonErrors[2].featureErrors(0) = .05;
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
     EXPECT_NEAR(library.errorSlopes[0](0, 0), .03, 1e-6);
     EXPECT_NEAR(library.errorSlopes[0](0, 1), .02, 1e-4);
     EXPECT_EQ(library.errorSlopes[0](0, 2), .05);

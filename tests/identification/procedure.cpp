@@ -3,9 +3,9 @@
 #include "effectOf.h"
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
-#include "linearRig.h"
+#include "linearSimulator.h"
 #include "procedure/trace.h"
-#include "standIn/standIn.h"
+#include "surrogate/surrogate.h"
 #include "study/readStudy.h"
 
 #include <gmock/gmock.h>
@@ -26,18 +26,18 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// The linear rig with its effect library. \param scatters  whether its runs do
+/// The linear simulator with its effect library. \param scatters  whether its runs do
 struct Bench
 {
     explicit Bench(bool scatters = true)
-        : rig(scatters)
+        : simulator(scatters)
     {}
 
     TemporaryFolder folder;
     Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    Simulator simulator{study, rig};
-    Library library = makeLibrary(simulator);
+    LinearSimulator simulator;
+    StudySimulator studySimulator{study, simulator};
+    Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> nothing{study.conditions.size()};
     std::mt19937_64 random{1};
 };
@@ -54,7 +54,7 @@ TEST(Trace, HeldOutDataTellNothing)
             data[c].features = (Eigen::MatrixXd(3, 1) << -2.3 - scatter, -2.3, -2.3 + scatter).finished();
             data[c].declaredError = Eigen::VectorXd::Zero(1);
         }
-        return trace(bench.simulator, bench.library, data, bench.random);
+        return trace(bench.studySimulator, bench.library, data, bench.random);
     };
     const Answer one = answerWith(.01);
     const Answer other = answerWith(1);
@@ -74,7 +74,7 @@ TEST(Trace, LookingChangesNothing)
             condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
             condition.declaredError = Eigen::VectorXd::Zero(1);
         }
-        const Answer answer = trace(bench.simulator, bench.library, data, bench.random, withVisibility);
+        const Answer answer = trace(bench.studySimulator, bench.library, data, bench.random, withVisibility);
         return std::tuple(answer.visibility.detected.size(), answer.logOdds, bench.random());
     };
     const auto [seen, logOdds, next] = answerWith(true);
@@ -92,11 +92,11 @@ TEST(Trace, NoAnswerWithoutSimulations)
         condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
         condition.declaredError = Eigen::VectorXd::Zero(1);
     }
-    EXPECT_NO_THROW(trace(bench.simulator, bench.library, data, bench.random));
-    bench.rig.failsAlways = true;
+    EXPECT_NO_THROW(trace(bench.studySimulator, bench.library, data, bench.random));
+    bench.simulator.failsAlways = true;
     try
     {
-        trace(bench.simulator, bench.library, data, bench.random);
+        trace(bench.studySimulator, bench.library, data, bench.random);
         FAIL() << "an answer from nothing";
     }
     catch (const std::runtime_error& error)
@@ -106,41 +106,41 @@ TEST(Trace, NoAnswerWithoutSimulations)
     }
 }
 
-/// Where runs do not scatter draws may be as odd as any data: then a misfit of 470 in a few numbers was called "no residual".
-TEST(Trace, AMisfitBeyondNoiseIsAResidual)
+/// Where runs do not scatter draws may be as odd as any data: then a chiSquare of 470 in a few numbers was called "no residual".
+TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
 {
     for (const std::string seed : {"none", "seed"})
     {
         const TemporaryFolder folder;
         const Study study = linearStudy(folder, seed);
-        LinearRig rig(seed == "seed");
-        Simulator simulator(study, rig);
-        const Library library = makeLibrary(simulator);
+        LinearSimulator simulator(seed == "seed");
+        StudySimulator studySimulator(study, simulator);
+        const Library library = makeLibrary(studySimulator);
         std::vector<MeasuredCondition> data(study.conditions.size());
         for (auto& condition : data)
         {
             condition.features = (Eigen::MatrixXd(6, 1) << -2.31, -2.30, -2.29, -2.31, -2.30, -2.29).finished();
             condition.declaredError = Eigen::VectorXd::Zero(1);
         }
-        const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+        const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, data));
         const Layout layout = arrange(study, emulator, data).first;
         const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
-        EXPECT_DOUBLE_EQ(evidence.chanceOfMisfit(0), 1);
+        EXPECT_DOUBLE_EQ(evidence.chanceOfChiSquare(0), 1);
         if (seed == "none")
         {
-            EXPECT_NEAR(evidence.chanceOfMisfit(2), 0.4, 0.05) << "as large as there are numbers: nothing odd";
-            EXPECT_LT(evidence.chanceOfMisfit(470), 1e-6);
+            EXPECT_NEAR(evidence.chanceOfChiSquare(2), 0.4, 0.05) << "as large as there are numbers: nothing odd";
+            EXPECT_LT(evidence.chanceOfChiSquare(470), 1e-6);
 
             // The same by the answer and by what could have been seen, whatever draws without any effect look like.
             Calibration calibration;
             calibration.nullStatistics.assign(99, 1e9);
             calibration.critical = 1e9;
-            calibration.membership = calibration.misfits = calibration.scatterMisfits = calibration.naming =
+            calibration.membership = calibration.chiSquares = calibration.scatterChiSquares = calibration.naming =
                 Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.effects.size()));
             Odds odds;
-            odds.chanceOfMisfit = .02;
+            odds.chanceOfChiSquare = .02;
             EXPECT_TRUE(isDetected(study, calibration, odds));
-            odds.chanceOfMisfit = .03;
+            odds.chanceOfChiSquare = .03;
             EXPECT_FALSE(isDetected(study, calibration, odds)) << "of two questions";
             std::mt19937_64 random(1);
             const Measured measured = arrange(study, emulator, data).second;
@@ -150,7 +150,7 @@ TEST(Trace, AMisfitBeyondNoiseIsAResidual)
         }
         else
         {
-            EXPECT_DOUBLE_EQ(evidence.chanceOfMisfit(470), 1) << "left to draws, which have the runs' noise";
+            EXPECT_DOUBLE_EQ(evidence.chanceOfChiSquare(470), 1) << "left to draws, which have the runs' noise";
         }
     }
 }
@@ -163,16 +163,16 @@ TEST(Trace, NothingMeasuredIsExact)
     study.features.push_back(study.features.front());
     study.features.back().name = "once";
     study.modelError = Eigen::VectorXd::Zero(2);
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (auto& condition : data)
     {
         condition.features = (Eigen::MatrixXd(3, 2) << -2.31, -2.3, -2.30, NAN, -2.29, NAN).finished();
         condition.declaredError = Eigen::VectorXd::Zero(2);
     }
-    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, data));
     try
     {
         arrange(study, emulator, data);
@@ -198,16 +198,16 @@ TEST(Trace, ParametersKnowLessBesideTheirLike)
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
     study.modelError = Eigen::VectorXd::Constant(1, .001);
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (auto& condition : data)
     {
         condition.features = (Eigen::MatrixXd(3, 1) << -2.3036, -2.3026, -2.3016).finished();
         condition.declaredError = Eigen::VectorXd::Zero(1);
     }
-    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, data));
     const auto [layout, measured] = arrange(study, emulator, data);
     const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
     const Fit fit = evidence.fit(effectOf(study, "x"), measured);
@@ -254,16 +254,16 @@ TEST(Trace, PairsOfVariantsShareTheirWeight)
     study.modelError = Eigen::VectorXd::Constant(1, .01);
     study.effects.push_back(study.effects.back()); // another clock
     study.effects[0].family = study.effects[2].family = "rate";
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (auto& condition : data)
     {
         condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
         condition.declaredError = Eigen::VectorXd::Zero(1);
     }
-    const Emulator emulator(study, simulator, library.runs, measuredFeatures(study, data));
+    const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, data));
     const auto [layout, measured] = arrange(study, emulator, data);
     Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
     // x or clock with y or the other clock, or the latter two.
@@ -279,13 +279,13 @@ TEST(Trace, PairsOfVariantsShareTheirWeight)
 /// The mean start is late and the scale drifts: neither alone explains both, and the two are found together.
 TEST(Trace, TwoEffectsAtOnce)
 {
-    Study study = readStudy(std::filesystem::path(STAND_IN) / "study.yaml");
+    Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
     study.settings.draws = 200;
-    StandInRig rig{readEntries(study.rig.caseFolder / study.rig.entriesFile)};
-    Simulator simulator(study, rig);
-    const Library library = makeLibrary(simulator);
+    SurrogateSimulator simulator{readEntries(study.simulator.caseFolder / study.simulator.entriesFile)};
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
     const std::vector<std::size_t> truth = {effectOf(study, "addedMass"), effectOf(study, "drift")};
-    Setting setting = simulator.plainSetting();
+    Setting setting = studySimulator.plainSetting();
     for (const auto e : truth)
     {
         setting.amplitudes(static_cast<Eigen::Index>(e)) = .8;
@@ -293,11 +293,11 @@ TEST(Trace, TwoEffectsAtOnce)
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (std::size_t c = 0; c < data.size(); ++c)
     {
-        data[c].features = featureRows(simulator.repeats({c}, setting, "measured", 3), c, study.featureCount());
+        data[c].features = featureRows(studySimulator.repeats({c}, setting, "measured", 3), c, study.featureCount());
         data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
     }
     std::mt19937_64 random(1);
-    const Answer answer = trace(simulator, library, data, random);
+    const Answer answer = trace(studySimulator, library, data, random);
     ASSERT_FALSE(answer.set.empty());
     EXPECT_EQ(answer.set.front().effects, truth);
     double likely = 0;
@@ -323,7 +323,7 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
         bench.study.conditions.back().name = "edged";
         bench.study.conditions.back().entries["edge"] = "1";
     }
-    Setting setting = bench.simulator.plainSetting();
+    Setting setting = bench.studySimulator.plainSetting();
     const std::size_t index = effectOf(bench.study, truth);
     setting.amplitudes(static_cast<Eigen::Index>(index)) = 1;
 
@@ -331,18 +331,18 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
     for (std::size_t c = 0; c < data.size(); ++c)
     {
         data[c].features =
-            featureRows(bench.simulator.repeats({c}, setting, "measured", 4), c, bench.study.featureCount());
+            featureRows(bench.studySimulator.repeats({c}, setting, "measured", 4), c, bench.study.featureCount());
         data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
     }
     if (edgeFails)
     {
         data.back().features.array() += .3;
-        bench.rig.failsWithYAtEdge = true;
+        bench.simulator.failsWithYAtEdge = true;
     }
-    Answer answer = trace(bench.simulator, bench.library, data, bench.random);
+    Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
     answer.decision = decision;
     answer.set = {explanationBy(index, setting)};
-    return evaluateHeldOut(bench.simulator, bench.library, answer, data, data, bench.random);
+    return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
 }
 
 /// What acts under water only, no factor of all times imitates: it may enter the model, but only as a name.
@@ -370,18 +370,18 @@ TEST(HeldOut, ComparesTheSameNumbers)
 TEST(HeldOut, OneMoreParameterKnowsWhatRunsWere)
 {
     Bench bench(false);
-    bench.study.rig.seedEntry = "";
-    bench.library = makeLibrary(bench.simulator);
+    bench.study.simulator.seedEntry = "";
+    bench.library = makeLibrary(bench.studySimulator);
     std::vector<MeasuredCondition> data(bench.study.conditions.size());
     for (auto& condition : data)
     {
         condition.features = (Eigen::MatrixXd(4, 1) << -2.26, -2.25, -2.24, -2.25).finished();
         condition.declaredError = Eigen::VectorXd::Zero(1);
     }
-    Answer answer = trace(bench.simulator, bench.library, data, bench.random);
+    Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
     ASSERT_FALSE(answer.null.runs.empty());
     const auto sizeOfOneMore = [&] {
-        return evaluateHeldOut(bench.simulator, bench.library, answer, data, data, bench.random).oneMoreAmplitude;
+        return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random).oneMoreAmplitude;
     };
     const double size = sizeOfOneMore();
     answer.null.setting.parameters(0) -= .02;
@@ -394,13 +394,13 @@ TEST(HeldOut, NothingWithoutMeasurements)
     Bench bench(false);
     Answer answer;
     answer.decision = Decision::named;
-    answer.set = {explanationBy(0, bench.simulator.plainSetting())};
-    const int before = bench.simulator.effort().executed;
+    answer.set = {explanationBy(0, bench.studySimulator.plainSetting())};
+    const int before = bench.studySimulator.effort().executed;
     const HeldOutResult result =
-        evaluateHeldOut(bench.simulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);
+        evaluateHeldOut(bench.studySimulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);
     EXPECT_THAT(result.conditions, IsEmpty());
     EXPECT_FALSE(result.accepted());
-    EXPECT_EQ(bench.simulator.effort().executed, before);
+    EXPECT_EQ(bench.studySimulator.effort().executed, before);
 }
 
 /// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.

@@ -64,7 +64,7 @@ bool soon(const Condition& condition)
     return condition();
 }
 
-/// What is over its time limit is gone with all its children when the run is told to have ended. Signals to the shell or
+/// What is over its time limit is gone with all its children when the run is reported to have ended. Signals to the shell or
 /// its group alone leave the sleepers.
 TEST(Processes, NoneOutlivesTheTimeLimit)
 {
@@ -205,8 +205,8 @@ TEST(Slurm, OptionsAreNoShell)
     EXPECT_FALSE(fs::exists("executed"));
 }
 
-/// A run of an array that has ended is told while another still runs, once: this one ends when the first has been told. An
-/// error while it is told cancels the array.
+/// A run of an array that has ended is reported while another still runs, once: this one ends when the first has been reported. An
+/// error while it is reported cancels the array.
 TEST(Slurm, TellsWhatHasEndedAtOnce)
 {
     const TemporaryFolder folder;
@@ -215,15 +215,15 @@ TEST(Slurm, TellsWhatHasEndedAtOnce)
         "echo \"$@\" > " + (folder.path() / "cancelled").string());
     const auto first = folder.write("first/x", "").parent_path();
     const auto second = folder.write("second/x", "").parent_path();
-    std::vector<std::size_t> told;
+    std::vector<std::size_t> reported;
     SlurmArray array(0, {}, folder.path(), 0);
-    array.run({{first, "exit 3"}, {second, "for i in $(seq 200); do [ -e told ] && exit 4; sleep 0.1; done"}},
+    array.run({{first, "exit 3"}, {second, "for i in $(seq 200); do [ -e reported ] && exit 4; sleep 0.1; done"}},
         [&](const JobEnd& end) {
-            told.push_back(end.job);
+            reported.push_back(end.job);
             EXPECT_EQ(end.status, end.job == 0 ? 3 : 4);
-            folder.write("second/told", "");
+            folder.write("second/reported", "");
         });
-    EXPECT_THAT(told, ElementsAre(0, 1));
+    EXPECT_THAT(reported, ElementsAre(0, 1));
     fs::remove(first / "status.run");
     fs::remove(second / "status.run");
     const auto fails = [](const JobEnd&) { throw std::runtime_error("the disk is full"); };
@@ -235,15 +235,15 @@ TEST(Slurm, TellsWhatHasEndedAtOnce)
 TEST(Slurm, IsCancelledWhenStopped)
 {
     const TemporaryFolder folder;
-    const auto told = folder.path() / "told";
+    const auto reported = folder.path() / "reported";
     const PlayedSlurm slurm(folder,
         "echo Submitted batch job 4711\nkill -TERM " + std::to_string(getpid()) + "\nsleep 1000",
-        "echo \"$@\" > " + told.string());
+        "echo \"$@\" > " + reported.string());
     const auto before = std::signal(SIGTERM, [](int) {});
     EXPECT_THROW(
         SlurmArray(0, {}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {}), std::runtime_error);
     std::signal(SIGTERM, before);
-    EXPECT_EQ(contentOf(told), "4711\n");
+    EXPECT_EQ(contentOf(reported), "4711\n");
 }
 
 } // namespace

@@ -1,8 +1,8 @@
-/// The program from the outside: study file to report, on the stand-in run as a program.
+/// The program from the outside: study file to report, on the surrogate run as a program.
 #include "curves/table.h"
-#include "runner/caseRig.h"
+#include "runner/caseSimulator.h"
 #include "runner/storedFiles.h"
-#include "standIn/standIn.h"
+#include "surrogate/surrogate.h"
 #include "study/readStudy.h"
 #include "temporaryFolder.h"
 
@@ -39,16 +39,16 @@ std::string replaced(std::string text, const std::string& old, const std::string
     return text.replace(text.find(old), old.size(), by);
 }
 
-/// A copy of the stand-in's case and study, with measurements made by the stand-in itself.
+/// A copy of the surrogate's case and study, with measurements made by the surrogate itself.
 class Workshop
 {
 public:
     Workshop()
     {
-        fs::copy(fs::path(STAND_IN) / "case", folder_.path() / "case");
-        study_ = contentOf(fs::path(STAND_IN) / "study.yaml");
+        fs::copy(fs::path(SURROGATE) / "case", folder_.path() / "case");
+        study_ = contentOf(fs::path(SURROGATE) / "study.yaml");
         // The program of the case is in the build folder, wherever that is.
-        folder_.write("case/Allrun", "#!/bin/sh\nexec " STAND_IN_PROGRAM "\n");
+        folder_.write("case/Allrun", "#!/bin/sh\nexec " SURROGATE_PROGRAM "\n");
         fs::permissions(folder_.path() / "case/Allrun", fs::perms::owner_all);
     }
 
@@ -192,17 +192,17 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_THAT(workshop.output, HasSubstr("Fitted: friction"));
 }
 
-/// Beads so light that the wet flow is half as fast drive the null's friction far from where the library was made, and
+/// Particles so light that the wet flow is half as fast drive the null's friction far from where the library was made, and
 /// back takes more steps than a small effect needs. Without them the program calls an effect of its own library unknown.
 TEST(Program, FollowsALargeEffectToItsEnd)
 {
     Workshop workshop;
-    workshop.offer("  - { name: lightBeads, set: { beadDensity: 1900 }, switch: true }\n");
-    workshop.measure({{"beadDensity", "1900"}});
+    workshop.offer("  - { name: lightParticles, set: { particleDensity: 1900 }, switch: true }\n");
+    workshop.measure({{"particleDensity", "1900"}});
     ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
     const auto report = workshop.json("report.json");
     ASSERT_EQ(report["decision"], "named") << report["summary"];
-    EXPECT_EQ(report["name"], "lightBeads");
+    EXPECT_EQ(report["name"], "lightParticles");
     EXPECT_NEAR(report["set"][0]["parameters"]["friction"].get<double>(), .15, .03);
     EXPECT_GT(report["null"]["parameters"]["friction"].get<double>(), .25) << "not as far as this test wants it";
 }
@@ -217,7 +217,7 @@ TEST(Program, FindsNothingWhereNothingIs)
     EXPECT_TRUE(workshop.json("report.json")["name"].is_null());
 }
 
-/// Values of held-out files do not change the answer, which is on disk before they are looked at, and are not told; their
+/// Values of held-out files do not change the answer, which is on disk before they are looked at, and are not reported; their
 /// form is looked at before anything is run. The three kinds of bad files: text, a time that goes back, a number that is none.
 TEST(Program, DoesNotLookAtHeldOutValuesFirst)
 {
@@ -225,16 +225,16 @@ TEST(Program, DoesNotLookAtHeldOutValuesFirst)
     workshop.measure({});
     const auto file = workshop.path() / "dryBetween0.csv";
     const std::string good = contentOf(file);
-    for (const auto& [bad, told] :
+    for (const auto& [bad, reported] :
         std::map<std::string, std::string>{{good + "broken,scale\n", "'broken' is no number"},
             {good + "0.5,3\n", "time goes back"}, {good + "99,1e308\n", "is no number from -1e30"}})
     {
         std::ofstream(file) << bad;
         EXPECT_NE(workshop.run("run"), 0);
         EXPECT_THAT(workshop.output, HasSubstr("dryBetween0.csv"));
-        EXPECT_THAT(workshop.output, HasSubstr(told));
+        EXPECT_THAT(workshop.output, HasSubstr(reported));
         EXPECT_NE(workshop.run("plan"), 0);
-        EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work/cache")) << "not before anything is run";
+        EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work/cache")) << "not before anything is run";
     }
     std::ofstream(file) << good;
     for (int time = 0; time < 2; ++time)
@@ -250,7 +250,7 @@ TEST(Program, DoesNotLookAtHeldOutValuesFirst)
     EXPECT_THAT(workshop.output, testing::Not(HasSubstr("7777")));
 }
 
-/// A wrong unit is told after one run of each condition, not after all of them, and a limit above the difference lets it
+/// A wrong unit is reported after one run of each condition, not after all of them, and a limit above the difference lets it
 /// pass; `plan` says so where those runs are there.
 TEST(Program, DoubtsUnitsAfterTheFirstRuns)
 {
@@ -264,14 +264,14 @@ TEST(Program, DoubtsUnitsAfterTheFirstRuns)
         EXPECT_NE(workshop.run(command), 0);
         EXPECT_THAT(workshop.output, HasSubstr("condition 'dry2mm': the largest value is"));
         EXPECT_THAT(workshop.output, HasSubstr("magnitudeLimit"));
-        const auto runs = fs::directory_iterator(workshop.path() / "standIn.work/cache");
+        const auto runs = fs::directory_iterator(workshop.path() / "surrogate.work/cache");
         EXPECT_EQ(std::distance(begin(runs), end(runs)), 6);
     }
     workshop.append("magnitudeLimit: 2000\n");
     EXPECT_EQ(workshop.run("plan"), 0) << workshop.output;
 }
 
-/// Training files without any of the features are told before a run is made.
+/// Training files without any of the features are reported before a run is made.
 TEST(Program, DoubtsFilesWithoutFeatures)
 {
     Workshop workshop;
@@ -282,10 +282,10 @@ TEST(Program, DoubtsFilesWithoutFeatures)
     }
     EXPECT_NE(workshop.run("run"), 0);
     EXPECT_THAT(workshop.output, HasSubstr("'dry2mm' have none of the features"));
-    EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work"));
+    EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work"));
 }
 
-/// A condition that is held out and has no measurements is told before a run is made, not as "none was held out" after all.
+/// A condition that is held out and has no measurements is reported before a run is made, not as "none was held out" after all.
 TEST(Program, WantsMeasurementsOfWhatIsHeldOut)
 {
     Workshop workshop;
@@ -295,11 +295,11 @@ TEST(Program, WantsMeasurementsOfWhatIsHeldOut)
         << std::regex_replace(right, std::regex("    measured: \\{ files: \\[wetBeyond0.*\n"), "");
     EXPECT_NE(workshop.run("run"), 0);
     EXPECT_THAT(workshop.output, HasSubstr("condition 'wetBeyond' has no 'measured'"));
-    EXPECT_FALSE(fs::exists(workshop.path() / "standIn.work"));
+    EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work"));
     EXPECT_EQ(workshop.run("plan"), 0) << workshop.output;
 }
 
-/// A plan names its cost and runs nothing unless told to; then it says what can be seen.
+/// A plan names its cost and runs nothing unless reported to; then it says what can be seen.
 TEST(Program, PlansBeforeItRuns)
 {
     Workshop workshop;
@@ -307,14 +307,14 @@ TEST(Program, PlansBeforeItRuns)
     ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
     EXPECT_TRUE(std::regex_search(workshop.output, std::regex("effect library: (\\d+) runs, \\1 of them not made yet")))
         << workshop.output;
-    EXPECT_TRUE(fs::is_empty(workshop.path() / "standIn.work/cache"));
+    EXPECT_TRUE(fs::is_empty(workshop.path() / "surrogate.work/cache"));
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("named from"));
     EXPECT_THAT(workshop.output, HasSubstr("a name needs a residual of "));
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
-/// What a run takes is assumed, and said to be, until one has been timed, which is kept. The stand-in takes far less than the
+/// What a run takes is assumed, and said to be, until one has been timed, which is kept. The surrogate takes far less than the
 /// 60 s that a study assumes by itself.
 TEST(Program, PlansByTheTimeOfOneRun)
 {
@@ -328,7 +328,7 @@ TEST(Program, PlansByTheTimeOfOneRun)
     ASSERT_TRUE(std::regex_search(workshop.output, found, said)) << workshop.output;
     EXPECT_EQ(std::stoi(found[2]), std::stoi(found[1]) - 1);
     EXPECT_LT(std::stod(found[3]), 30);
-    const fs::directory_iterator stored(workshop.path() / "standIn.work/cache");
+    const fs::directory_iterator stored(workshop.path() / "surrogate.work/cache");
     EXPECT_EQ(std::distance(begin(stored), end(stored)), 1);
     // Not another one.
     ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
@@ -344,7 +344,7 @@ struct QuietStudy
         fs::permissions(folder.write("case/Allrun", "#!/bin/sh\nprintf '# t m\\n0 1\\n1 0.5\\n2 0\\n' > table\n"),
             fs::perms::owner_all);
         folder.write("study.yaml", "study: s\n"
-                                   "rig: { case: case, seed: none }\n"
+                                   "simulator: { case: case, seed: none }\n"
                                    "observable: { file: table, time: t, value: m, features: "
                                    "[ { kind: logMeanRate, from: 0.9, to: 0.3 } ] }\n"
                                    "conditions: [ { name: only, role: training"
@@ -377,7 +377,7 @@ TEST(Program, PlansWhereNothingShows)
     EXPECT_THAT(study.output, HasSubstr("no effect shows"));
 }
 
-/// A number without repeats or a declared error, where runs do not scatter either, is told before a run is made.
+/// A number without repeats or a declared error, where runs do not scatter either, is reported before a run is made.
 TEST(Program, WantsNoiseBeforeItRuns)
 {
     QuietStudy study(", measured: { numbers: [ { feature: logMeanRate, unit: g/s, values: [0.5] } ] }");
@@ -421,7 +421,7 @@ TEST(Program, FullDiskLeavesTheOldReports)
     EXPECT_THAT(workshop.output, HasSubstr("report.json: damaged"));
 }
 
-/// A stored run that is damaged in any of its parts is not believed: it is told, and made anew with the same result.
+/// A stored run that is damaged in any of its parts is not believed: it is reported, and made again with the same result.
 /// Without checksums all of these but the empty record give another curve without a word.
 TEST(Runner, DamagedStore)
 {
@@ -433,9 +433,9 @@ TEST(Runner, DamagedStore)
         return RunOrder{"./Allrun", study.conditions[0].file, {{"seed", std::to_string(seed)}}, seed, "test"};
     };
     const RunOrder order = orderOf(10007);
-    CaseRig rig(study, progress);
-    const auto results = rig.run({order, orderOf(10009)});
-    const fs::path stored = study.work / "cache" / rig.keyOf(order);
+    CaseSimulator simulator(study, progress);
+    const auto results = simulator.run({order, orderOf(10009)});
+    const fs::path stored = study.work / "cache" / simulator.keyOf(order);
     const fs::path table = stored / "postProcessing/massInHopper/0/massInHopper.dat";
     const fs::path record = stored / "record.json";
     const std::vector<std::function<void()>> damages = {
@@ -450,25 +450,25 @@ TEST(Runner, DamagedStore)
         [&] { fs::remove(record); },
         [&] {
             fs::remove_all(stored);
-            fs::copy(study.work / "cache" / rig.keyOf(orderOf(10009)), stored, fs::copy_options::recursive);
+            fs::copy(study.work / "cache" / simulator.keyOf(orderOf(10009)), stored, fs::copy_options::recursive);
         },
     };
     for (std::size_t i = 0; i < damages.size(); ++i)
     {
         damages[i]();
-        std::ostringstream told;
-        CaseRig again(study, told);
+        std::ostringstream reported;
+        CaseSimulator again(study, reported);
         EXPECT_EQ(again.missing({order}), 1) << i;
         const RunResult result = again.run({order})[0];
         EXPECT_FALSE(result.cached) << i;
         EXPECT_EQ(result.curve.value, results[0].curve.value) << i;
-        EXPECT_THAT(told.str(), HasSubstr("damaged")) << i;
+        EXPECT_THAT(reported.str(), HasSubstr("damaged")) << i;
         EXPECT_EQ(again.missing({order}), 0) << i;
     }
 }
 
 /// Orders that differ by the file of the observable alone share a run, and each gets its own file's curve; another study of
-/// the store that wants a third file makes the run anew and takes none away. Told apart by nothing, the second order got
+/// the store that wants a third file makes the run again and takes none away. Reported apart by nothing, the second order got
 /// the first one's curve.
 TEST(Runner, SeveralFilesOfOneRun)
 {
@@ -479,20 +479,20 @@ TEST(Runner, SeveralFilesOfOneRun)
                                    "observable: { file: a, time: t, value: m, features: [ { kind: residue } ] }\n"
                                    "conditions: [ { name: only, role: training } ]\n"));
     std::ostringstream progress;
-    CaseRig rig(study, progress);
+    CaseSimulator simulator(study, progress);
     const auto orderOf = [](const std::string& file) {
         return RunOrder{R"~(for i in 1 2 3; do printf "# t m\n0 $i\n1 $i\n" > $(printf abc | cut -c$i); done)~", file,
             {}, 0, "test"};
     };
-    const auto results = rig.run({orderOf("a"), orderOf("b"), orderOf("d")});
+    const auto results = simulator.run({orderOf("a"), orderOf("b"), orderOf("d")});
     EXPECT_EQ(results[0].curve.value.at(0), 1);
     EXPECT_EQ(results[1].curve.value.at(0), 2);
     EXPECT_FALSE(results[0].cached);
     EXPECT_TRUE(results[1].cached);
     EXPECT_THAT(results[2].failure, HasSubstr("has not written"));
-    EXPECT_EQ(rig.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 1);
-    EXPECT_EQ(rig.run({orderOf("c")})[0].curve.value.at(0), 3);
-    EXPECT_EQ(rig.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 0);
+    EXPECT_EQ(simulator.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 1);
+    EXPECT_EQ(simulator.run({orderOf("c")})[0].curve.value.at(0), 3);
+    EXPECT_EQ(simulator.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 0);
 }
 
 /// Two studies of one store that want the same run at the same time: one makes it, the other waits and finds it there.
@@ -501,7 +501,7 @@ TEST(Runner, TwoAtOnceInOneStore)
 {
     Workshop workshop;
     workshop.measure({});
-    std::ofstream(workshop.path() / "case/Allrun") << "#!/bin/sh\nsleep 0.3\nexec " STAND_IN_PROGRAM "\n";
+    std::ofstream(workshop.path() / "case/Allrun") << "#!/bin/sh\nsleep 0.3\nexec " SURROGATE_PROGRAM "\n";
     const Study study = readStudy(workshop.path() / "study.yaml");
     const RunOrder order{"./Allrun", study.conditions[0].file, {{"seed", "10007"}}, 10007, "test"};
     std::array<RunResult, 2> results;
@@ -510,7 +510,7 @@ TEST(Runner, TwoAtOnceInOneStore)
     {
         studies[i] = std::thread([&, i]() {
             std::ostringstream progress;
-            results[i] = CaseRig(study, progress).run({order})[0];
+            results[i] = CaseSimulator(study, progress).run({order})[0];
         });
     }
     for (auto& one : studies)
@@ -522,7 +522,7 @@ TEST(Runner, TwoAtOnceInOneStore)
     EXPECT_EQ(results[0].curve.value, results[1].curve.value);
 }
 
-/// A run that fails with its seed is repeated with another, and told. The same through Slurm, played by a script that
+/// A run that fails with its seed is repeated with another, and reported. The same through Slurm, played by a script that
 /// runs the tasks of the array one after the other.
 TEST(Runner, FailuresCacheAndSlurm)
 {
@@ -534,29 +534,29 @@ TEST(Runner, FailuresCacheAndSlurm)
         return RunOrder{"./Allrun", study.conditions[0].file, {{"seed", std::to_string(seed)}}, seed, "test"};
     };
     {
-        CaseRig rig(study, progress);
-        EXPECT_EQ(rig.missing({orderOf(10007), orderOf(10007), orderOf(10009)}), 2);
-        const auto results = rig.run({orderOf(10007), orderOf(10007)});
+        CaseSimulator simulator(study, progress);
+        EXPECT_EQ(simulator.missing({orderOf(10007), orderOf(10007), orderOf(10009)}), 2);
+        const auto results = simulator.run({orderOf(10007), orderOf(10007)});
         EXPECT_EQ(results[0].curve.value, results[1].curve.value);
         EXPECT_FALSE(results[0].cached);
         EXPECT_TRUE(results[1].cached) << "asked for twice, made and counted once";
-        EXPECT_EQ(rig.missing({orderOf(10007)}), 0);
+        EXPECT_EQ(simulator.missing({orderOf(10007)}), 0);
         RunOrder failing = orderOf(10009);
         failing.entries["failWithSeed"] = "10009";
-        const auto failed = rig.run({failing});
+        const auto failed = simulator.run({failing});
         EXPECT_THAT(failed[0].failure, HasSubstr("asked to fail with seed 10009"));
-        EXPECT_EQ(rig.missing({failing}), 1) << "a failure is not a result";
+        EXPECT_EQ(simulator.missing({failing}), 1) << "a failure is not a result";
         Study reported = study;
         reported.settings.budget = 0;
-        CaseRig reports(reported, progress);
+        CaseSimulator reports(reported, progress);
         EXPECT_EQ(reports.missing({failing}), 0) << "but it is reported once more, without a run";
         EXPECT_EQ(reports.run({failing})[0].failure, failed[0].failure);
         RunOrder strange = orderOf(10037);
         strange.command = "true";
-        EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("has not written"));
+        EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("has not written"));
         // as a case that begins with its Allclean does
         strange.command = "rm -f log.*; echo 'the valve is stuck'; exit 3";
-        EXPECT_THAT(rig.run({strange})[0].failure, HasSubstr("the valve is stuck"));
+        EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("the valve is stuck"));
     }
     // What an earlier run of the case has left, fields of a later time and checkpoints, is no part of it: a copy that had
     // them would go on from there.
@@ -565,29 +565,29 @@ TEST(Runner, FailuresCacheAndSlurm)
         fs::create_directories(workshop.path() / left);
         std::ofstream(workshop.path() / left / "U") << "fields\n";
     }
-    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
+    EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 0);
     // Nor is the study, however its file is called; all else is, whatever it begins with.
     writeWhole(workshop.path() / "case/study.yaml", "study: s\n");
     {
         Study within = study;
         within.file = workshop.path() / "results/../case/../case/study.yaml";
         fs::create_directories(workshop.path() / "results");
-        EXPECT_EQ(CaseRig(within, progress).missing({orderOf(10007)}), 0);
+        EXPECT_EQ(CaseSimulator(within, progress).missing({orderOf(10007)}), 0);
     }
     fs::remove(workshop.path() / "case/study.yaml");
     writeWhole(workshop.path() / "case/processors", "2\n");
-    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);
+    EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 1);
     fs::remove(workshop.path() / "case/processors");
     // A store that was made in a checkout that is no more: its runs' surroundings are those of this one.
     const auto sibling = study.work / "tree" / workshop.path().filename() / "study.yaml";
     fs::remove(sibling);
     fs::create_symlink("/of/another/checkout/study.yaml", sibling);
     ASSERT_FALSE(fs::exists(sibling));
-    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 0);
+    EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 0);
     EXPECT_TRUE(fs::exists(sibling));
     // Any change of the case's files is another run.
     std::ofstream(workshop.path() / "case/parameters", std::ios::app) << "// changed\n";
-    EXPECT_EQ(CaseRig(study, progress).missing({orderOf(10007)}), 1);
+    EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 1);
 
     const auto sbatch = workshop.path() / "bin/sbatch";
     fs::create_directories(sbatch.parent_path());
@@ -599,8 +599,8 @@ TEST(Runner, FailuresCacheAndSlurm)
     setenv("PATH", (sbatch.parent_path().string() + ':' + path).c_str(), 1);
     study.executor.kind = "slurm";
     study.executor.processes = 4;
-    CaseRig rig(study, progress);
-    const auto results = rig.run({orderOf(10007), orderOf(10039)});
+    CaseSimulator simulator(study, progress);
+    const auto results = simulator.run({orderOf(10007), orderOf(10039)});
     setenv("PATH", path.c_str(), 1);
     EXPECT_EQ(results[0].failure, "");
     EXPECT_GT(results[1].curve.time.size(), 10U);

@@ -1,5 +1,5 @@
 /// What people read: sentences and numbers, from answers made by hand.
-#include "linearRig.h"
+#include "linearSimulator.h"
 #include "report/fitted.h"
 #include "report/numbers.h"
 #include "report/text.h"
@@ -44,16 +44,16 @@ TEST(Numbers, AreRoundedAsTheirErrorsAllow)
     EXPECT_EQ(percent(.456), "46 %");
 }
 
-/// The linear rig's effects, with meanings, and an answer about them.
+/// The linear simulator's effects, with meanings, and an answer about them.
 struct Bench
 {
     Bench()
     {
         study.effects[0].meaning = "the orifice is wider or narrower than stated";
         study.effects[0].hint = "a plug gauge";
-        study.effects[1].meaning = "water that moves along with a bead.\n";
+        study.effects[1].meaning = "water that moves along with a particle.\n";
         study.parameters[0].unit = "rad";
-        answer.null.setting = simulator.plainSetting();
+        answer.null.setting = studySimulator.plainSetting();
         answer.null.setting.parameters(0) = .2;
         answer.null.fits.resize(1);
         answer.null.fits.front().marginal = Eigen::MatrixXd::Constant(1, 1, .25);
@@ -76,7 +76,7 @@ struct Bench
             Explanation one;
             one.effects = {effect};
             one.fits = {answer.effects[effect].fit};
-            one.setting = simulator.plainSetting();
+            one.setting = studySimulator.plainSetting();
             one.setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
             answer.set.push_back(one);
         }
@@ -93,14 +93,14 @@ struct Bench
 
     TemporaryFolder folder;
     Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    Simulator simulator{study, rig};
+    LinearSimulator simulator;
+    StudySimulator studySimulator{study, simulator};
     Answer answer;
     HeldOutResult heldOut;
-    Findings findings{&study, &answer, nullptr, nullptr, &simulator, nullptr, nullptr};
+    Findings findings{&study, &answer, nullptr, nullptr, &studySimulator, nullptr, nullptr};
 };
 
-/// Reports are committed: why a run failed is told without the folders of the machine that made it.
+/// Reports are committed: why a run failed is reported without the folders of the machine that made it.
 TEST(Text, PathsFromTheStudysFolder)
 {
     const TemporaryFolder folder;
@@ -117,8 +117,9 @@ TEST(Sentence, SaysWhatWasFound)
     Bench bench;
     bench.found(Decision::named, {{1, .5}});
     bench.heldOutErrors(.351, .0207);
-    EXPECT_EQ(sentenceOf(bench.findings), "Found: water that moves along with a bead (y 0.020); with it the error on "
-                                          "measurements that no fit has seen falls from 35 to 2.1 %.");
+    EXPECT_EQ(sentenceOf(bench.findings),
+        "Found: water that moves along with a particle (y 0.020); with it the error on "
+        "measurements that no fit has seen falls from 35 to 2.1 %.");
 }
 
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
@@ -138,8 +139,8 @@ TEST(Sentence, OfASetTellsWhatToMeasure)
     Bench bench;
     bench.found(Decision::set, {{1, .5}, {0, -1}}, true);
     EXPECT_THAT(sentenceOf(bench.findings),
-        AllOf(StartsWith("Either water that moves along with a bead (y 0.020), the orifice is wider"),
-            HasSubstr(", or something that the library does not hold; to tell them apart: a plug gauge.")));
+        AllOf(StartsWith("Either water that moves along with a particle (y 0.020), the orifice is wider"),
+            HasSubstr(", or something that the library does not hold; to distinguish them: a plug gauge.")));
 
     bench.study.conditions[2].role = Role::candidate;
     std::vector<NextExperiment> next(1);
@@ -147,7 +148,7 @@ TEST(Sentence, OfASetTellsWhatToMeasure)
     next[0].outcomes = {{"y", .6, Eigen::VectorXd::Constant(1, -2.3), Eigen::VectorXd::Constant(1, .02)},
         {"x", .4, Eigen::VectorXd::Constant(1, -2.4), Eigen::VectorXd::Constant(1, .03)}};
     bench.findings.next = &next;
-    EXPECT_THAT(sentenceOf(bench.findings), EndsWith("; to tell them apart, measure again."));
+    EXPECT_THAT(sentenceOf(bench.findings), EndsWith("; to distinguish them, measure again."));
     const auto sentences = nextOf(bench.findings);
     ASSERT_EQ(sentences.size(), 2U);
     EXPECT_THAT(sentences[0],
@@ -167,7 +168,7 @@ TEST(Sentence, OfAFitThatStrainsAParameter)
 }
 
 /// One that is left, but not far enough ahead, is no finding.
-TEST(Sentence, OfALoneMemberKeepsTheDoubt)
+TEST(Sentence, OfAnIsolatedMemberKeepsTheDoubt)
 {
     Bench bench;
     bench.found(Decision::set, {{1, .5}}, true);
@@ -175,7 +176,7 @@ TEST(Sentence, OfALoneMemberKeepsTheDoubt)
     bench.answer.otherBesideSet = .3;
     EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("does not hold 30 %")));
     EXPECT_THAT(sentenceOf(bench.findings),
-        StartsWith("Perhaps water that moves along with a bead (y 0.020), perhaps something that"));
+        StartsWith("Perhaps water that moves along with a particle (y 0.020), perhaps something that"));
 }
 
 TEST(Sentence, OfNothingAndOfSomethingElse)

@@ -7,7 +7,7 @@
 #include "study/namedItems.h"
 #include "study/readStudy.h"
 #include "study/units.h"
-#include "linearRig.h"
+#include "linearSimulator.h"
 #include "temporaryFolder.h"
 
 #include <gtest/gtest.h>
@@ -24,15 +24,17 @@ namespace
 
 TEST(Expression, Formulas)
 {
-    const auto value = [](const std::string& text) { return Expression(text)({{"a", .5}, {"beadDiameter", 2e-3}}); };
-    EXPECT_DOUBLE_EQ(value("beadDiameter*(1 + 0.05*a)"), 2.05e-3);
+    const auto value = [](const std::string& text) {
+        return Expression(text)({{"a", .5}, {"particleDiameter", 2e-3}});
+    };
+    EXPECT_DOUBLE_EQ(value("particleDiameter*(1 + 0.05*a)"), 2.05e-3);
     EXPECT_DOUBLE_EQ(value("-2^2 + 3*4/6 - 1e-1"), -2.1);
     EXPECT_DOUBLE_EQ(value("4^a"), 2);
     EXPECT_DOUBLE_EQ(value("max(a, 2)*round(2.6) + min(1, a) + cos(0)"), 7.5);
     EXPECT_DOUBLE_EQ(value("2^3^2 - 2*-a + 2^-1"), 513.5);
     EXPECT_DOUBLE_EQ(value(" sqrt(abs(-4)) +\n.5 "), 2.5);
     EXPECT_TRUE(Expression("1 + exp(-a)").holds("a"));
-    EXPECT_FALSE(Expression("max(1, beadDiameter)").holds("a"));
+    EXPECT_FALSE(Expression("max(1, particleDiameter)").holds("a"));
     for (const std::string bad : {"2*", "(1", "sinus(1)", "1 2", "*3", "", "1e", "1e999", "0x10", "1,2", "a = 3",
              "a == 1", "a ? 1 : 2", "\"a\"", "min(1)", "exp()", "()", "2(3)", "a && 1", "rnd(1)", "\xff"})
     {
@@ -42,12 +44,13 @@ TEST(Expression, Formulas)
     EXPECT_THROW(value("_pi"), std::invalid_argument);
     try
     {
-        value("2*beadDiametre");
+        value("2*particleDiametre");
         ADD_FAILURE();
     }
     catch (const std::invalid_argument& error)
     {
-        EXPECT_NE(std::string(error.what()).find("did you mean 'beadDiameter'?"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("did you mean 'particleDiameter'?"), std::string::npos)
+            << error.what();
     }
 }
 
@@ -86,9 +89,10 @@ TEST(Units, AreFactorsOfSi)
 TEST(Entries, AreReplacedInPlace)
 {
     const TemporaryFolder folder;
-    const auto file = folder.write("parameters", "// beads\nfriction      0.15;   // between beads\nwall $friction;\n");
+    const auto file =
+        folder.write("parameters", "// particles\nfriction      0.15;   // between particles\nwall $friction;\n");
     replaceEntries(file, {{"friction", "0.2"}});
-    EXPECT_EQ(contentOf(file), "// beads\nfriction      0.2;   // between beads\nwall $friction;\n");
+    EXPECT_EQ(contentOf(file), "// particles\nfriction      0.2;   // between particles\nwall $friction;\n");
     EXPECT_DOUBLE_EQ(numbersOf(readEntries(file)).at("wall"), .2);
     EXPECT_THROW(replaceEntries(file, {{"cohesion", "1"}}), std::runtime_error);
 }
@@ -152,7 +156,7 @@ TEST(PlackettBurman, IsOrthogonalAndBalanced)
 //--- The study file ---------------------------------------------------------------------------------------------------
 
 const std::string goodStudy = R"yaml(study: s
-rig: { case: case, seed: seed, set: { wall: 0.3 } }
+simulator: { case: case, seed: seed, set: { wall: 0.3 } }
 observable:
   file: post/m.dat
   value: mass
@@ -163,12 +167,12 @@ conditions:
 parameters:
   - { name: rough, set: { friction: friction + rough }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
 effects:
-  - { name: size, set: { beadDiameter: "beadDiameter*(1 + a)" }, amplitude: [-1, 1] }
+  - { name: size, set: { particleDiameter: "particleDiameter*(1 + a)" }, amplitude: [-1, 1] }
 )yaml";
 
 Study studyOf(const TemporaryFolder& folder, const std::string& text)
 {
-    folder.write("case/parameters", "friction 0.15;\nwall 0.3;\nbeadDiameter 2e-3;\nseed 1;\n");
+    folder.write("case/parameters", "friction 0.15;\nwall 0.3;\nparticleDiameter 2e-3;\nseed 1;\n");
     return readStudy(folder.write("study.yaml", text));
 }
 
@@ -208,7 +212,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
         {"amplitude: [-1, 1]", "switch: true", "study.yaml:13:", "which a switch does not have"},
-        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:13:", "no such entry"},
+        {"set: { particleDiameter:", "set: { particleDiametre:", "study.yaml:13:", "no such entry"},
         {"seed: seed", "seed: seeds", "study.yaml:2:", "did you mean 'seed'"},
         {"set: { friction: 0.2 }", "set: { frictoin: 0.2 }", "study.yaml:9:", "did you mean 'friction'"},
         {"case: case", "case: nowhere", "study.yaml:2:", "no file"},
@@ -216,8 +220,8 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"study: s", "study: [", "study.yaml:", "YAML"},
         {"role: training", "role: traning", "study.yaml:9:", "did you mean 'training'?"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "did you mean 'amplitude'?"},
-        {"set: { beadDiameter:", "set: { beadDiametre:", "study.yaml:", "did you mean 'beadDiameter'?"},
-        {"\"beadDiameter*", "\"beadDiametre*", "study.yaml:", "did you mean 'beadDiameter'?"},
+        {"set: { particleDiameter:", "set: { particleDiametre:", "study.yaml:", "did you mean 'particleDiameter'?"},
+        {"\"particleDiameter*", "\"particleDiametre*", "study.yaml:", "did you mean 'particleDiameter'?"},
         {"study: s", "study: s\nseed: 1\nseed: 2", "study.yaml:3:", "given twice, in line 2"},
         {"sd: 0.02", "sd: 0.02, mean: 0.2", "study.yaml:11:", "given twice"},
         {"set: { friction: 0.2 }", "set: { friction: 0.2, friction: 0.3 }", "study.yaml:9:", "given twice"},
@@ -240,8 +244,8 @@ TEST(StudyFile, MistakesNameTheirLine)
             "  - { name: b, family: walls, set: { friction: 2*a } }\n"
             "  - { name: c, family: wals, set: { friction: 3*a } }\n",
             "study.yaml:", "did you mean 'walls'?"},
-        {"role: training", "role: training, observable: { offset: -beadDiametre }",
-            "study.yaml:9:", "did you mean 'beadDiameter'?"},
+        {"role: training", "role: training, observable: { offset: -particleDiametre }",
+            "study.yaml:9:", "did you mean 'particleDiameter'?"},
         {"role: training", "role: training, observable: { factor: 0 }", "study.yaml:9:", "must not be 0"},
         {"value: mass", "value: mass\n  factor: 1/(friction - 0.2)", "study.yaml:6:", "no finite number"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, features: { rate: 0.1 } } ]",
@@ -263,7 +267,7 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:11:", "condition 'dry' sets"},
         {"parameters:\n",
             "parameters:\n  - { name: w, set: { wall: w }, prior: { mean: 0.3, sd: 0.1 }, range: [0, 1] }\n",
-            "study.yaml:11:", "rig.set sets"},
+            "study.yaml:11:", "simulator.set sets"},
         {"study: s", "study: s\ninference: { level: 0.002, draws: 499 }", "study.yaml:2:", "499 draws"},
         {"role: training",
             "role: training, measured: { numbers: [ { feature: logMeanRate, values: [1], unit: g/s }, "
@@ -352,7 +356,7 @@ TEST(StudyFile, StandardErrorInTheUnitOfTheValues)
 TEST(StudyFile, MisspeltTags)
 {
     const std::string effect = "  - { name: drag, set: { friction: friction + a }, actsIn: { medium: air } }\n";
-    for (const auto& [tags, told] : std::map<std::string, std::string>{
+    for (const auto& [tags, reported] : std::map<std::string, std::string>{
              {"tags: { medum: air }", "did you mean 'medum'?"}, {"tags: { medium: aire }", "did you mean 'air'?"}})
     {
         const TemporaryFolder folder;
@@ -363,7 +367,7 @@ TEST(StudyFile, MisspeltTags)
         }
         catch (const StudyError& error)
         {
-            EXPECT_NE(std::string(error.what()).find(told), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find(reported), std::string::npos) << error.what();
         }
     }
 }
@@ -373,13 +377,13 @@ TEST(StudyFile, MisspeltTags)
 TEST(StudyFile, ScaleOfTheObservableByCondition)
 {
     const TemporaryFolder folder;
-    const Study study = studyOf(
-        folder, replaced(replaced(goodStudy, "  value: mass", "  value: mass\n  factor: 2\n  offset: -beadDiameter/2"),
-                    "conditions:\n",
-                    "conditions:\n  - { name: large, role: training, set: { beadDiameter: 3e-3 } }\n"
-                    "  - { name: own, role: training, observable: { factor: -1 } }\n"));
+    const Study study = studyOf(folder,
+        replaced(replaced(goodStudy, "  value: mass", "  value: mass\n  factor: 2\n  offset: -particleDiameter/2"),
+            "conditions:\n",
+            "conditions:\n  - { name: large, role: training, set: { particleDiameter: 3e-3 } }\n"
+            "  - { name: own, role: training, observable: { factor: -1 } }\n"));
     const auto scale = [&](std::size_t condition) {
-        const auto numbers = numbersOf(plainEntries(study.rig, study.conditions[condition]));
+        const auto numbers = numbersOf(plainEntries(study.simulator, study.conditions[condition]));
         const ObservableScale& observable = study.conditions[condition].observable;
         return std::pair(observable.factor(numbers), observable.offset(numbers));
     };
@@ -395,7 +399,7 @@ TEST(StudyFile, CommonErrors)
     const Study study = studyOf(folder,
         replaced(goodStudy, "conditions:\n", "conditions:\n  - { name: wet, role: heldOut }\n") + R"(commonErrors:
   - { name: law, features: { logMeanRate: 0.03 } }
-  - { name: diameter, each: true, conditions: [dry, wet], set: { beadDiameter: "beadDiameter + 1e-5*z" } }
+  - { name: diameter, each: true, conditions: [dry, wet], set: { particleDiameter: "particleDiameter + 1e-5*z" } }
   - { name: calibration, conditions: dry, chain: { gain: "0.002*z" } }
 )");
     ASSERT_EQ(study.commonErrors.size(), 4U);
@@ -404,7 +408,8 @@ TEST(StudyFile, CommonErrors)
     EXPECT_EQ(study.commonErrors[1].name, "diameter of dry");
     EXPECT_EQ(study.commonErrors[1].conditions, std::vector<std::size_t>{1});
     EXPECT_EQ(study.commonErrors[2].conditions, std::vector<std::size_t>{0});
-    EXPECT_DOUBLE_EQ(study.commonErrors[2].entries.at("beadDiameter")({{"beadDiameter", 2e-3}, {"z", -1}}), 1.99e-3);
+    EXPECT_DOUBLE_EQ(
+        study.commonErrors[2].entries.at("particleDiameter")({{"particleDiameter", 2e-3}, {"z", -1}}), 1.99e-3);
     EXPECT_TRUE(study.commonErrors[2].featureErrors.isZero());
     EXPECT_EQ(study.commonErrors[3].chainOperation, "gain");
     EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), .004);
@@ -416,7 +421,7 @@ TEST(StudyFile, ShippedLibraries)
     const std::filesystem::path folder = EFFECTS_FOLDER;
     const auto hopper = readEffects(YamlPlace::fileAt(folder / "hopper.yaml").at("effects"));
     EXPECT_GE(hopper.size(), 20U);
-    EXPECT_GE(readEffects(YamlPlace::fileAt(folder / "singleBead.yaml").at("effects")).size(), 12U);
+    EXPECT_GE(readEffects(YamlPlace::fileAt(folder / "settlingParticle.yaml").at("effects")).size(), 12U);
     const auto family = [](const std::vector<Effect>& effects, const std::string& name) {
         std::set<std::string> members;
         for (const auto& effect : effects)
@@ -433,9 +438,9 @@ TEST(StudyFile, ShippedLibraries)
         EXPECT_FALSE(effect.meaning.empty()) << effect.name;
         EXPECT_EQ(effect.raisesScatter, effect.name == "cohesion") << effect.name;
     }
-    const auto singleBead = readEffects(YamlPlace::fileAt(folder / "singleBead.yaml").at("effects"));
+    const auto settlingParticle = readEffects(YamlPlace::fileAt(folder / "settlingParticle.yaml").at("effects"));
     EXPECT_EQ(family(hopper, "drag"), (std::set<std::string>{"dragFactor", "dragLaw"}));
-    EXPECT_EQ(family(singleBead, "history"), (std::set<std::string>{"historyForce", "historyForceCreeping"}));
+    EXPECT_EQ(family(settlingParticle, "history"), (std::set<std::string>{"historyForce", "historyForceCreeping"}));
 }
 
 /// A library is for many cases: what this case has no entries for is left out and said, not an error.
@@ -474,50 +479,50 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
 
 /// The simulated curve in the measurement's scale and zero, which are those of the run's own entries: an effect on what the
 /// formula holds moves the zero, too.
-TEST(Simulator, ScaleOfTheObservable)
+TEST(StudySimulator, ScaleOfTheObservable)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
     study.conditions[1].observable = {Expression("-2"), Expression("0.5 + x")};
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    Setting setting = simulator.plainSetting();
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    Setting setting = studySimulator.plainSetting();
     setting.amplitudes(0) = 1;
-    const auto done = simulator.run({{0, setting, "plain"}, {1, setting, "scaled"}});
+    const auto done = studySimulator.run({{0, setting, "plain"}, {1, setting, "scaled"}});
     EXPECT_DOUBLE_EQ(done[1].curve.value[3], .5 + .02 - 2 * done[0].curve.value[3]);
     EXPECT_EQ(done[1].plain.value, done[1].curve.value);
 }
 
-/// The third attempt succeeds: both that failed are told as repeated, not as excluded.
-TEST(Simulator, TellsEveryFailureAsRepeated)
+/// The third attempt succeeds: both that failed are reported as repeated, not as excluded.
+TEST(StudySimulator, TellsEveryFailureAsRepeated)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    rig.failuresFirst = 2;
-    Simulator simulator(study, rig);
-    EXPECT_FALSE(simulator.run({{0, simulator.plainSetting(), "base"}}).front().failed);
-    ASSERT_EQ(simulator.effort().failures.size(), 2U);
-    EXPECT_TRUE(simulator.effort().failures[0].repeated);
-    EXPECT_TRUE(simulator.effort().failures[1].repeated);
+    LinearSimulator simulator;
+    simulator.failuresFirst = 2;
+    StudySimulator studySimulator(study, simulator);
+    EXPECT_FALSE(studySimulator.run({{0, studySimulator.plainSetting(), "base"}}).front().failed);
+    ASSERT_EQ(studySimulator.effort().failures.size(), 2U);
+    EXPECT_TRUE(studySimulator.effort().failures[0].repeated);
+    EXPECT_TRUE(studySimulator.effort().failures[1].repeated);
 }
 
-/// Two orders with the same seeds, as those of the two sides of a common error: the one that fails at every seed is told as
-/// excluded, though the other one succeeds with a seed of its own. By seeds alone its first failure is told as repeated.
-TEST(Simulator, TellsFailuresOfOrdersWithTheSameSeedsApart)
+/// Two orders with the same seeds, as those of the two sides of a common error: the one that fails at every seed is reported as
+/// excluded, though the other one succeeds with a seed of its own. By seeds alone its first failure is reported as repeated.
+TEST(StudySimulator, TellsFailuresOfOrdersWithTheSameSeedsApart)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");
-    LinearRig rig;
-    rig.failuresFirst = 2;
-    rig.failsWithY = true;
-    Simulator simulator(study, rig);
-    Setting withY = simulator.plainSetting();
+    LinearSimulator simulator;
+    simulator.failuresFirst = 2;
+    simulator.failsWithY = true;
+    StudySimulator studySimulator(study, simulator);
+    Setting withY = studySimulator.plainSetting();
     withY.amplitudes(1) = 1;
-    const auto done = simulator.run({{0, withY, "same"}, {0, simulator.plainSetting(), "same"}});
+    const auto done = studySimulator.run({{0, withY, "same"}, {0, studySimulator.plainSetting(), "same"}});
     EXPECT_TRUE(done[0].failed);
     EXPECT_FALSE(done[1].failed);
-    const std::vector<Failure>& failures = simulator.effort().failures;
+    const std::vector<Failure>& failures = studySimulator.effort().failures;
     ASSERT_GE(failures.size(), 3U);
     EXPECT_EQ(failures[0].seed, failures[1].seed);
     EXPECT_FALSE(failures[0].repeated);
@@ -525,14 +530,14 @@ TEST(Simulator, TellsFailuresOfOrdersWithTheSameSeedsApart)
     EXPECT_FALSE(failures[2].repeated);
 }
 
-TEST(Simulator, StopsAtTheBudget)
+TEST(StudySimulator, StopsAtTheBudget)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "seed");
     study.settings.budget = 10;
-    LinearRig rig;
-    Simulator simulator(study, rig);
-    EXPECT_THROW(makeLibrary(simulator), std::runtime_error);
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    EXPECT_THROW(makeLibrary(studySimulator), std::runtime_error);
 }
 
 } // namespace

@@ -74,15 +74,15 @@ class Installed(unittest.TestCase):
             self.assertEqual(said.split(), completed)
 
     def testCopiedCaseRuns(self):
-        self.types(f"cp -r {self.shared}/cases/singleBead bead; . {self.shared}/scripts/environment; bead/Allrun; "
-                   f"{self.shared}/scripts/plotBead bead bead.png")
-        last = (self.folder / "bead/postProcessing/beadHeight/0/beadHeight.dat").read_text().splitlines()[-1].split()
+        self.types(f"cp -r {self.shared}/cases/tutorials/settlingParticle particle; . {self.shared}/scripts/environment; particle/Allrun; "
+                   f"{self.shared}/scripts/plotParticle particle particle.png")
+        last = (self.folder / "particle/postProcessing/particleHeight/0/particleHeight.dat").read_text().splitlines()[-1].split()
         self.assertAlmostEqual(float(last[2]), -0.268, delta=0.003)
 
     def testForceOfOnesOwn(self):
-        """A bead that a force of a user's library holds against its buoyant weight stays where it is."""
+        """A particle that a force of a user's library holds against its buoyant weight stays where it is."""
         shutil.copytree(ROOT / "tests/install/ownForce", self.folder / "ownForce")
-        shutil.copytree(self.shared / "cases/singleBead", self.folder / "held")
+        shutil.copytree(self.shared / "cases/tutorials/settlingParticle", self.folder / "held")
         weight = math.pi / 6 * 2e-3**3 * (2500 - 1000) * 9.81
         self.replace("held/constant/couplingProperties", "Archimedes virtualMassForce", "Archimedes ConstantForce virtualMassForce")
         self.replace("held/constant/couplingProperties", "virtualMassForceProps",
@@ -95,7 +95,7 @@ class Installed(unittest.TestCase):
         self.types(f"export CLEPSYDRA_DEPENDENCIES={headers}; cmake -S ownForce -B ownForce/build -DCMAKE_PREFIX_PATH={self.prefix} > log.cmake; cmake --build ownForce/build > log.build; "
                    f". {self.shared}/scripts/environment; held/Allrun")
         self.assertIn("ConstantForce: 6.16", (self.folder / "held/log.pimpleDemFoam").read_text())
-        last = (self.folder / "held/postProcessing/beadHeight/0/beadHeight.dat").read_text().splitlines()[-1].split()
+        last = (self.folder / "held/postProcessing/particleHeight/0/particleHeight.dat").read_text().splitlines()[-1].split()
         self.assertLess(abs(float(last[2])), 1e-8)
 
     def replace(self, file, old, new):
@@ -104,7 +104,7 @@ class Installed(unittest.TestCase):
         (self.folder / file).write_text(text.replace(old, new, 1))
 
     def testCopiedHopperMakesItsMesh(self):
-        said = self.types(f"cp -r {self.shared}/cases/hopperQuick hopper; . {self.shared}/scripts/environment; hopper/Allrun mesh; "
+        said = self.types(f"cp -r {self.shared}/cases/tutorials/hopperQuick hopper; . {self.shared}/scripts/environment; hopper/Allrun mesh; "
                           "hopper/Allrun check")
         self.assertIn("The case would start", said)
 

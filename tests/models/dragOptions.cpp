@@ -2,7 +2,7 @@
 /// Drag laws with `factor` and with `wallCorrection`.
 
 #include "closures/wallCorrection.h"
-#include "forcesOnBeads.h"
+#include "forcesOnParticles.h"
 #include "support/errorOf.h"
 
 #include <gtest/gtest.h>
@@ -17,8 +17,8 @@ constexpr double radius = 1e-3;
 
 Vector3d dragOn(const std::string& properties, const Vector3d& position, const Vector3d& velocity)
 {
-    ForcesOnBeads test(properties, {1000, 1e-3, Vector3d::Zero()});
-    test.engine().addBead(1, position, radius, 2500, velocity);
+    ForcesOnParticles test(properties, {1000, 1e-3, Vector3d::Zero()});
+    test.engine().addParticle(1, position, radius, 2500, velocity);
     Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
     EXPECT_LT((test.given(0).impulse - test.engine().timeStep() * force).norm(), 1e-14 * force.norm());
     return force;
@@ -33,7 +33,7 @@ TEST(DragFactor, MultipliesTheDrag)
     const Vector3d larger =
         dragOn("forceModels (DiFeliceDrag); \".*DragProps\" { factor 1.25; }", Vector3d::Zero(), velocity);
     EXPECT_LT((larger - 1.25 * plain).norm(), 1e-10 * plain.norm());
-    EXPECT_THROW(ForcesOnBeads("forceModels (StokesDrag); StokesDragProps { factor -1; }"), Foam::IOerror);
+    EXPECT_THROW(ForcesOnParticles("forceModels (StokesDrag); StokesDragProps { factor -1; }"), Foam::IOerror);
 }
 
 /// Half a diameter above a plane's surface (lambda = .5) Stokes' drag of 1.884956e-5 * .01 N grows 1.386 times along the
@@ -47,9 +47,9 @@ TEST(WallCorrection, OfAPlaneDependsOnTheDirection)
     EXPECT_NEAR(force.z(), 1.884956e-7 * 2.125, 1e-13);
 }
 
-/// In a tube the bead at speed k v has the drag of the free bead at v: it settles k times as fast. Here d/D = .2,
+/// In a tube the particle at speed k v has the drag of the free particle at v: it settles k times as fast. Here d/D = .2,
 /// Re = 200 at k v. The correction as a factor on the drag coefficient at the same speed fails.
-TEST(WallCorrection, OfATubeSlowsTheBeadByDiFelicesRatio)
+TEST(WallCorrection, OfATubeSlowsTheParticleByDiFelicesRatio)
 {
     const double freeSpeed = 0.2;
     const double ratio = closures::diFeliceWallVelocityRatio(0.2, 400);
@@ -62,13 +62,13 @@ TEST(WallCorrection, OfATubeSlowsTheBeadByDiFelicesRatio)
     EXPECT_NEAR(ratio, 0.868586, 1e-6);
 }
 
-/// A normal that points away from the beads is an error that names the plane. Taken for a wall that the bead touches it
-/// gives 3.1 times the drag, wherever the bead is.
-TEST(WallCorrection, RefusesAPlaneThatTheBeadIsBehind)
+/// A normal that points away from the particles is an error that names the plane. Taken for a wall that the particle touches it
+/// gives 3.1 times the drag, wherever the particle is.
+TEST(WallCorrection, RefusesAPlaneThatTheParticleIsBehind)
 {
-    ForcesOnBeads test(
+    ForcesOnParticles test(
         "forceModels (StokesDrag); StokesDragProps { wallCorrection { law Faxen; walls ( ((0 0 1) (0 0 -1)) ); } }");
-    test.engine().addBead(1, {0, 0, 2}, radius);
+    test.engine().addParticle(1, {0, 0, 2}, radius);
     EXPECT_NE(errorOf([&] { test.engine().advance(1); }).find("plane through (0 0 1)"), std::string::npos);
 }
 
@@ -78,7 +78,8 @@ TEST(WallCorrection, RefusesWhatItCannotUse)
     for (const std::string entry : {"law Oseen;", "tubeDiameter 0.094;", "law DiFelice1996;",
              "law DiFelice1996; tubeDiameter -1;", "law Faxen;", "law Faxen; walls ( ((0 0 0) (0 0 0)) );"})
     {
-        EXPECT_THROW(ForcesOnBeads("forceModels (StokesDrag); StokesDragProps { wallCorrection { " + entry + " } }"),
+        EXPECT_THROW(
+            ForcesOnParticles("forceModels (StokesDrag); StokesDragProps { wallCorrection { " + entry + " } }"),
             Foam::IOerror)
             << entry;
     }

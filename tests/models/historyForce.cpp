@@ -1,8 +1,8 @@
 /// \file
-/// historyForce: the motion of a bead that starts in still fluid, and who is given what.
+/// historyForce: the motion of a particle that starts in still fluid, and who is given what.
 
 #include "closures/historyForce.h"
-#include "forcesOnBeads.h"
+#include "forcesOnParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -24,16 +24,16 @@ FluidProperties oil()
     return {fluidDensity, viscosity, {0, 0, -9.81}};
 }
 
-/// Gives the engine a bead, and the memory that the forces ask for.
-void addBead(ForcesOnBeads& test, double density, const Vector3d& velocity = Vector3d::Zero())
+/// Gives the engine a particle, and the memory that the forces ask for.
+void addParticle(ForcesOnParticles& test, double density, const Vector3d& velocity = Vector3d::Zero())
 {
-    test.engine().addBead(1, Vector3d::Zero(), radius, density, velocity);
+    test.engine().addParticle(1, Vector3d::Zero(), radius, density, velocity);
     test.engine().keepMemory(test.forces().needs().memory);
 }
 
-/// Velocity over the terminal one of a bead that starts from rest, creeping, with Stokes' drag, added mass and Basset's
+/// Velocity over the terminal one of a particle that starts from rest, creeping, with Stokes' drag, added mass and Basset's
 /// force: with u = sqrt(s) its Laplace transform is ab/(s (u + a)(u + b)), where -a and -b are the roots of
-/// M u2 + 6 pi R2 sqrt(rho mu) u + 6 pi mu R, real for beads lighter than 5/8 of the fluid. T. Boggio (1907), in Clift,
+/// M u2 + 6 pi R2 sqrt(rho mu) u + 6 pi mu R, real for particles lighter than 5/8 of the fluid. T. Boggio (1907), in Clift,
 /// Grace & Weber, Bubbles, Drops, and Particles (1978), ch. 11.
 double boggio(double time, double density)
 {
@@ -46,63 +46,64 @@ double boggio(double time, double density)
     return ((1 - fading(a)) * b - (1 - fading(b)) * a) / (b - a);
 }
 
-/// A bead of .3 times the fluid's density rises from rest, against the closed solution, from a twentieth of its
+/// A particle of .3 times the fluid's density rises from rest, against the closed solution, from a twentieth of its
 /// relaxation time (1.8 ms) to ten of them. Without a history force it has 1 - exp(-1) = .63 of its speed after one
 /// relaxation time and all of it after ten; with one .27 and .63.
 TEST(HistoryForce, DelaysTheStartAsBoggioSays)
 {
     const double density = 300;
-    ForcesOnBeads test("forceModels (StokesDrag virtualMassForce historyForce Archimedes);"
-                       "historyForceProps { law Basset; }",
+    ForcesOnParticles test("forceModels (StokesDrag virtualMassForce historyForce Archimedes);"
+                           "historyForceProps { law Basset; }",
         oil());
-    addBead(test, density);
+    addParticle(test, density);
     const double terminal = 2.0 / 9 * (fluidDensity - density) * 9.81 * radius * radius / viscosity;
     double time = 0;
     for (const int steps : {9, 21, 70, 100, 800, 1000})
     {
         test.engine().advance(steps);
         time += steps * test.engine().timeStep();
-        EXPECT_NEAR(test.engine().beads().velocity(2, 0) / terminal / boggio(time, density), 1, 0.005) << time << " s";
+        EXPECT_NEAR(test.engine().particles().velocity(2, 0) / terminal / boggio(time, density), 1, 0.005)
+            << time << " s";
     }
     EXPECT_NEAR(boggio(time, density), 0.65, 0.01);
 }
 
 /// Without drag and gravity, a velocity that jumps is soon taken off: m dv/dt = -C int K dv. The fluid is given what the
-/// bead has lost, in steps of the explicit sum as in the implicit part.
+/// particle has lost, in steps of the explicit sum as in the implicit part.
 TEST(HistoryForce, IsGivenToTheFluid)
 {
-    ForcesOnBeads test("forceModels (StokesDrag historyForce);", {fluidDensity, viscosity, Vector3d::Zero()});
-    addBead(test, 2500, {0.1, 0.02, 0});
+    ForcesOnParticles test("forceModels (StokesDrag historyForce);", {fluidDensity, viscosity, Vector3d::Zero()});
+    addParticle(test, 2500, {0.1, 0.02, 0});
     const double mass = 2500 * sphereVolume(radius);
-    const Vector3d before = mass * test.engine().beads().velocity.col(0);
+    const Vector3d before = mass * test.engine().particles().velocity.col(0);
     test.engine().advance(300);
-    const Vector3d gained = mass * test.engine().beads().velocity.col(0) - before;
+    const Vector3d gained = mass * test.engine().particles().velocity.col(0) - before;
     EXPECT_LT((test.given(0).impulse - gained).norm(), 1e-12 * gained.norm());
     EXPECT_GT(gained.norm(), 0.1 * before.norm());
 }
 
-/// A bead that goes on with the fluid, whatever that does, has no history with it; one that has always moved through it
+/// A particle that goes on with the fluid, whatever that does, has no history with it; one that has always moved through it
 /// has none either.
 TEST(HistoryForce, BeginsWithTheMotionThatItFinds)
 {
-    ForcesOnBeads test("forceModels (historyForce);", {fluidDensity, viscosity, Vector3d::Zero()});
-    addBead(test, 2500, {0.1, 0, 0});
+    ForcesOnParticles test("forceModels (historyForce);", {fluidDensity, viscosity, Vector3d::Zero()});
+    addParticle(test, 2500, {0.1, 0, 0});
     EXPECT_EQ(test.accelerationOf(0), Vector3d(0, 0, 0));
     test.fluidAt(0).velocity = {-0.1, 0, 0};
     EXPECT_LT(test.accelerationOf(0).x(), -1);
 }
 
 /// The reaction to a past jump fades as tau^-1/2 with Basset's law, and 19 times faster by 20 tau_M with Mei & Adrian's:
-/// (1 + 20^.75)^2 = 109 over what the bead's own slowing takes.
+/// (1 + 20^.75)^2 = 109 over what the particle's own slowing takes.
 TEST(HistoryForce, FadesFasterWithMeiAndAdriansLaw)
 {
     double slowing[2];
     const char* laws[] = {"Basset", "MeiAdrian"};
     for (int i = 0; i < 2; ++i)
     {
-        ForcesOnBeads test(
+        ForcesOnParticles test(
             std::string("forceModels (historyForce); historyForceProps { law ") + laws[i] + "; }", water());
-        test.engine().addBead(1, Vector3d::Zero(), radius, 1e6);
+        test.engine().addParticle(1, Vector3d::Zero(), radius, 1e6);
         test.engine().keepMemory(test.forces().needs().memory);
         test.accelerationOf(0);
         test.fluidAt(0).velocity = {0.5, 0, 0};
@@ -114,11 +115,11 @@ TEST(HistoryForce, FadesFasterWithMeiAndAdriansLaw)
     EXPECT_NEAR(slowing[0] / slowing[1], 109, 10);
 }
 
-/// It keeps numbers per bead, and asks for DU/Dt, which is not sampled otherwise. A second one would use the same numbers.
+/// It keeps numbers per particle, and asks for DU/Dt, which is not sampled otherwise. A second one would use the same numbers.
 TEST(HistoryForce, AsksForMemory)
 {
-    EXPECT_GT(ForcesOnBeads("forceModels (historyForce);").forces().needs().memory, 3 * closures::historyModes);
-    EXPECT_EQ(ForcesOnBeads("forceModels (StokesDrag);").forces().needs().memory, 0);
+    EXPECT_GT(ForcesOnParticles("forceModels (historyForce);").forces().needs().memory, 3 * closures::historyModes);
+    EXPECT_EQ(ForcesOnParticles("forceModels (StokesDrag);").forces().needs().memory, 0);
 }
 
 } // namespace

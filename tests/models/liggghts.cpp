@@ -5,7 +5,7 @@
 #include "closures/lubrication.h"
 #include "engine/liggghts/liggghtsEngine.h"
 #include "engine/liggghts/script.h"
-#include "forcesOnBeads.h"
+#include "forcesOnParticles.h"
 #include "support/demScript.h"
 
 #include <gtest/gtest.h>
@@ -28,18 +28,18 @@ namespace
 {
 
 constexpr double radius = 1e-3;
-constexpr double beadDensity = 2500;
+constexpr double particleDensity = 2500;
 
 /// Exerts nothing, and keeps the sum of the other forces of the last step.
 class Probe final : public FluidForces
 {
 public:
-    void evaluate(const BeadsView& beads, double, Vectors force) override
+    void evaluate(const ParticlesView& particles, double, Vectors force) override
     {
         force.setZero();
-        otherForce = beads.otherForce;
-        id = beads.id;
-        pairs = beads.pairs.list.cols();
+        otherForce = particles.otherForce;
+        id = particles.id;
+        pairs = particles.pairs.list.cols();
     }
 
     Eigen::Matrix3Xd otherForce;
@@ -53,15 +53,15 @@ Vector3d sumOverRanks(Vector3d value)
     return value;
 }
 
-/// LIGGGHTS with beads in a box of 4 x 2 x 2 cm.
-class Beads
+/// LIGGGHTS with particles in a box of 4 x 2 x 2 cm.
+class Particles
 {
 public:
-    Beads()
+    Particles()
     {
         box.upper = {0.04, 0.02, 0.02};
         dem.diameter = 2 * radius;
-        dem.density = beadDensity;
+        dem.density = particleDensity;
         dem.timeStep = 1e-5;
         dem.walls = false;
     }
@@ -90,36 +90,36 @@ public:
         std::filesystem::remove(name + ".log");
         if (pairReach > 0)
         {
-            engine_->seePairs(pairReach);
+            engine_->requestPairs(pairReach);
         }
         engine_->keepState(numbersOf(CouplingState()));
         engine_->initialise(forces);
         if (forces)
         {
-            engine_->feelFluid();
+            engine_->evaluateFluidForces();
         }
         return *engine_;
     }
 
     /// On whichever rank it is.
-    Vector3d velocity(int bead)
+    Vector3d velocity(int particle)
     {
-        const BeadsView beads = engine_->beads();
+        const ParticlesView particles = engine_->particles();
         Vector3d found = Vector3d::Zero();
-        for (Eigen::Index i = 0; i < beads.size(); ++i)
+        for (Eigen::Index i = 0; i < particles.size(); ++i)
         {
-            found += beads.id[i] == bead ? Vector3d(beads.velocity.col(i)) : Vector3d::Zero();
+            found += particles.id[i] == particle ? Vector3d(particles.velocity.col(i)) : Vector3d::Zero();
         }
         return sumOverRanks(found);
     }
 
-    Vector3d position(int bead)
+    Vector3d position(int particle)
     {
-        const BeadsView beads = engine_->beads();
+        const ParticlesView particles = engine_->particles();
         Vector3d found = Vector3d::Zero();
-        for (Eigen::Index i = 0; i < beads.size(); ++i)
+        for (Eigen::Index i = 0; i < particles.size(); ++i)
         {
-            found += beads.id[i] == bead ? Vector3d(beads.position.col(i)) : Vector3d::Zero();
+            found += particles.id[i] == particle ? Vector3d(particles.position.col(i)) : Vector3d::Zero();
         }
         return sumOverRanks(found);
     }
@@ -133,12 +133,12 @@ private:
     std::unique_ptr<LiggghtsEngine> engine_;
 };
 
-Vector3d otherForce(const Probe& probe, int bead)
+Vector3d otherForce(const Probe& probe, int particle)
 {
     Vector3d found = Vector3d::Zero();
     for (Eigen::Index i = 0; i < probe.id.size(); ++i)
     {
-        found += probe.id[i] == bead ? Vector3d(probe.otherForce.col(i)) : Vector3d::Zero();
+        found += probe.id[i] == particle ? Vector3d(probe.otherForce.col(i)) : Vector3d::Zero();
     }
     return sumOverRanks(found);
 }
@@ -157,31 +157,31 @@ std::string errorOf(const std::function<void()>& deed)
     return {};
 }
 
-/// To the fluid, by all beads.
+/// To the fluid, by all particles.
 Vector3d impulseGiven(LiggghtsEngine& engine)
 {
-    const BeadsView beads = engine.beads();
+    const ParticlesView particles = engine.particles();
     Vector3d sum = Vector3d::Zero();
-    for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        sum += beads.state[bead].given.impulse;
+        sum += particles.state[particle].given.impulse;
     }
     return sumOverRanks(sum);
 }
 
-const double beadMass = beadDensity * sphereVolume(radius);
+const double particleMass = particleDensity * sphereVolume(radius);
 
 } // namespace
 
-/// The last fix sees all other forces: the weight of a falling bead, and with it the contact of two that overlap.
+/// The last fix sees all other forces: the weight of a falling particle, and with it the contact of two that overlap.
 /// Defined earlier, or reading the forces of the step before, it sees none of them at the first step.
 TEST(Liggghts, ShowsAllOtherForces)
 {
-    Beads beads;
-    beads.dem.beads = {{0.005, 0.01, 0.01}, {0.0198, 0.01, 0.01}, {0.0217, 0.01, 0.01}};
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}, {0.0198, 0.01, 0.01}, {0.0217, 0.01, 0.01}};
     Probe probe;
-    beads.start(&probe);
-    EXPECT_NEAR(otherForce(probe, 1).z() / (-9.81 * beadMass), 1, 1e-9);
+    particles.start(&probe);
+    EXPECT_NEAR(otherForce(probe, 1).z() / (-9.81 * particleMass), 1, 1e-9);
     // Hertz: 4/3 E* sqrt(R*) overlap^1.5, E* = E/(2 (1 - nu^2)), R* = R/2.
     const double hertz = 4.0 / 3 * 5e6 / (2 * (1 - 0.04)) * std::sqrt(radius / 2) * std::pow(1e-4, 1.5);
     EXPECT_NEAR(otherForce(probe, 3).x() / hertz, 1, 1e-6);
@@ -192,33 +192,33 @@ TEST(Liggghts, ShowsAllOtherForces)
 /// Glass starts with 4.97 m/s2 in LIGGGHTS' own integration too (5.95 without added mass).
 TEST(Liggghts, TakesTheAddedMassImplicitly)
 {
-    Beads beads;
-    beads.dem.beads = {{0.005, 0.01, 0.01}};
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}};
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, ModelType::A, water(), timers);
-    beads.start(&forces).advance(100);
-    EXPECT_NEAR(
-        beads.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5)), 1, 1e-6);
+    ParticleForces forces(dict, ModelType::A, water(), timers);
+    particles.start(&forces).advance(100);
+    EXPECT_NEAR(particles.velocity(1).z() / (-1e-3 * closures::accelerationFromRest(9.81, 1000, particleDensity, 0.5)),
+        1, 1e-6);
 }
 
-/// `fix freeze` holds a bead against the fluid's forces, too, and its added mass has nothing to resist then: it gives
-/// the fluid nothing, in still water. LIGGGHTS' fix alone clears what acts on the bead before the fluid's forces come.
-TEST(Liggghts, FrozenBeadsStayWhatTheFluidDoes)
+/// `fix freeze` holds a particle against the fluid's forces, too, and its added mass has nothing to resist then: it gives
+/// the fluid nothing, in still water. LIGGGHTS' fix alone clears what acts on the particle before the fluid's forces come.
+TEST(Liggghts, FrozenParticlesStayWhatTheFluidDoes)
 {
-    Beads beads;
-    beads.dem.beads = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
-    beads.dem.more = "group frozen id 1\nfix frozen frozen freeze\n";
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+    particles.dem.more = "group frozen id 1\nfix frozen frozen freeze\n";
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, ModelType::A, water(), timers);
-    LiggghtsEngine& engine = beads.start(&forces);
+    ParticleForces forces(dict, ModelType::A, water(), timers);
+    LiggghtsEngine& engine = particles.start(&forces);
     const Vector3d before = impulseGiven(engine);
     engine.advance(100);
-    EXPECT_EQ(beads.velocity(1), Vector3d::Zero());
-    EXPECT_LT(beads.velocity(2).z(), 0);
+    EXPECT_EQ(particles.velocity(1), Vector3d::Zero());
+    EXPECT_LT(particles.velocity(2).z(), 0);
     const double mobile = 100 * engine.timeStep() * closures::addedMass(0.5, 1000, sphereVolume(radius))
-                          * closures::accelerationFromRest(9.81, 1000, beadDensity, 0.5);
+                          * closures::accelerationFromRest(9.81, 1000, particleDensity, 0.5);
     EXPECT_NEAR((impulseGiven(engine) - before).z() / mobile, 1, 1e-6);
 }
 
@@ -227,10 +227,10 @@ TEST(Liggghts, FrozenBeadsStayWhatTheFluidDoes)
 TEST(Liggghts, DoesNotEndTheProcess)
 {
     const auto messageOf = [](const std::string& command) {
-        Beads beads;
-        beads.dem.beads = {{0.005, 0.01, 0.01}};
-        beads.dem.more = command + '\n';
-        return errorOf([&] { beads.start(nullptr); });
+        Particles particles;
+        particles.dem.particles = {{0.005, 0.01, 0.01}};
+        particles.dem.more = command + '\n';
+        return errorOf([&] { particles.start(nullptr); });
     };
     for (const std::string quit : {"quit", "if '2 > 1' then quit"})
     {
@@ -256,9 +256,9 @@ TEST(Liggghts, RefusesWhatIsNoRestartFile)
     for (const std::string& content : {zeros, zeros.substr(0, 4) + "\xff\xff\xff\xff" + zeros, std::string("text")})
     {
         std::ofstream(file) << content;
-        Beads beads;
-        beads.dem.readRestart = file;
-        const std::string message = errorOf([&] { beads.start(nullptr); });
+        Particles particles;
+        particles.dem.readRestart = file;
+        const std::string message = errorOf([&] { particles.start(nullptr); });
         EXPECT_NE(message.find(file + " is no restart file; allowed"), std::string::npos) << message;
     }
     std::filesystem::remove(file);
@@ -298,55 +298,55 @@ TEST(Liggghts, RefusesAScriptThatIncludesItself)
     std::filesystem::remove(second);
 }
 
-/// When the last bead has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
-TEST(Liggghts, TellsThatAllBeadsAreGone)
+/// When the last particle has been thrown out of the box LIGGGHTS speaks of atom types; the error says what has happened.
+TEST(Liggghts, TellsThatAllParticlesAreGone)
 {
-    Beads beads;
-    beads.dem.beads = {{0.005, 0.01, 0.01}};
-    beads.dem.more = "velocity all set 0 0 1e6 units box\n";
-    LiggghtsEngine& engine = beads.start(nullptr);
-    const bool isHere = engine.beads().size() > 0;
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}};
+    particles.dem.more = "velocity all set 0 0 1e6 units box\n";
+    LiggghtsEngine& engine = particles.start(nullptr);
+    const bool isHere = engine.particles().size() > 0;
     try
     {
         engine.advance(500);
-        ADD_FAILURE() << "the bead is gone, and nothing was said";
+        ADD_FAILURE() << "the particle is gone, and nothing was said";
     }
     catch (const DemEngineError& error)
     {
         const std::string message = error.what();
-        EXPECT_EQ(message.find("no bead is left of the 1") != std::string::npos, isHere) << message;
+        EXPECT_EQ(message.find("no particle is left of the 1") != std::string::npos, isHere) << message;
     }
 }
 
 namespace
 {
 
-/// Position, velocity and angular velocity, a column for each bead, after 260 beads of two sizes have fallen into a heap,
+/// Position, velocity and angular velocity, a column for each particle, after 260 particles of two sizes have fallen into a heap,
 /// with friction and sliding. Twenty pairs touch at the start, when no spring is loaded.
 Eigen::MatrixXd heap(
     int steps, const std::string& wordsOfContactLaw, const std::string& more = {}, const std::string& map = "map array")
 {
-    Beads beads;
-    beads.map = map;
-    beads.dem.walls = true;
-    beads.dem.timeStep = 2e-5;
-    beads.dem.beads = simpleLattice(beads.box, {10, 6, 4});
-    jitter(beads.dem.beads, 4e-4, 1);
-    for (std::size_t bead = 0; bead < 20; ++bead)
+    Particles particles;
+    particles.map = map;
+    particles.dem.walls = true;
+    particles.dem.timeStep = 2e-5;
+    particles.dem.particles = simpleLattice(particles.box, {10, 6, 4});
+    jitter(particles.dem.particles, 4e-4, 1);
+    for (std::size_t particle = 0; particle < 20; ++particle)
     {
-        beads.dem.beads.emplace_back(beads.dem.beads[bead] + Vector3d(0, 0, 0.0022));
+        particles.dem.particles.emplace_back(particles.dem.particles[particle] + Vector3d(0, 0, 0.0022));
     }
-    beads.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
-                     "pair_style gran model hertz tangential history "
-                     + wordsOfContactLaw + "\npair_coeff * *\n" + more;
-    LiggghtsEngine& engine = beads.start(nullptr);
+    particles.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
+                         "pair_style gran model hertz tangential history "
+                         + wordsOfContactLaw + "\npair_coeff * *\n" + more;
+    LiggghtsEngine& engine = particles.start(nullptr);
     engine.advance(steps);
-    const BeadsView view = engine.beads();
-    Eigen::MatrixXd state = Eigen::MatrixXd::Zero(9, static_cast<Eigen::Index>(beads.dem.beads.size()));
-    for (Eigen::Index bead = 0; bead < view.size(); ++bead)
+    const ParticlesView view = engine.particles();
+    Eigen::MatrixXd state = Eigen::MatrixXd::Zero(9, static_cast<Eigen::Index>(particles.dem.particles.size()));
+    for (Eigen::Index particle = 0; particle < view.size(); ++particle)
     {
-        state.col(view.id[bead] - 1) << view.position.col(bead), view.velocity.col(bead),
-            view.angularVelocity.col(bead);
+        state.col(view.id[particle] - 1) << view.position.col(particle), view.velocity.col(particle),
+            view.angularVelocity.col(particle);
     }
     MPI_Allreduce(MPI_IN_PLACE, state.data(), static_cast<int>(state.size()), MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
     return state;
@@ -380,15 +380,15 @@ TEST(Liggghts, ForgetsWhatItsOwnForgetsWithAListForEveryStep)
     EXPECT_NE(ours, heap(steps, "forget_parted off"));
 }
 
-/// Beads are found by a hash of their numbers, whose memory does not grow with the largest of them on every rank, with the
+/// Particles are found by a hash of their numbers, whose memory does not grow with the largest of them on every rank, with the
 /// same springs of contacts, to the last bit, as by an array.
-TEST(Liggghts, FindsBeadsByAHashAsByAnArray)
+TEST(Liggghts, FindsParticlesByAHashAsByAnArray)
 {
     constexpr int steps = 1200;
     EXPECT_EQ(heap(steps, "", "", "map hash"), heap(steps, ""));
 }
 
-/// A bead is led past another: it touches it and shears the contact by B, parts, goes back, and touches it again with a
+/// A particle is led past another: it touches it and shears the contact by B, parts, goes back, and touches it again with a
 /// shear of B, all within one neighbour list. The second contact is a new one, its spring k_t B. LIGGGHTS goes on with
 /// the old one, 2 k_t B, which `forget_parted off` keeps. Both hold whoever evaluates the contact: a further word in the
 /// line brings LIGGGHTS' own loop back.
@@ -397,12 +397,12 @@ TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
     constexpr double deepest = 1e-5;
     constexpr double shear = 1e-6;
     const auto secondSpring = [](const std::string& words) {
-        Beads beads;
-        beads.dem.gravity = 0;
-        beads.dem.fixed = true;
-        beads.dem.restitution = 1; // no damping
-        beads.dem.friction = 1e6;  // no sliding
-        beads.dem.beads = {{0.01, 0.01, 0.01}, {0.01, 0.01, 0.01 + 2 * radius - deepest}};
+        Particles particles;
+        particles.dem.gravity = 0;
+        particles.dem.fixed = true;
+        particles.dem.restitution = 1; // no damping
+        particles.dem.friction = 1e6;  // no sliding
+        particles.dem.particles = {{0.01, 0.01, 0.01}, {0.01, 0.01, 0.01 + 2 * radius - deepest}};
         const auto line = [](const std::string& name, double scale, const std::string& function) {
             std::ostringstream text;
             text << "variable " << name << " equal " << scale << '*' << function << '\n';
@@ -412,15 +412,15 @@ TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
         constexpr double rate = 2 * static_cast<double>(EIGEN_PI) / period;
         std::ostringstream phase;
         phase << '(' << rate << "*step*dt)";
-        beads.dem.more =
+        particles.dem.more =
             "group led id 2\n" + line("x", shear, "sin" + phase.str()) + line("vx", shear * rate, "cos" + phase.str())
             + line("z", deepest, "(1-cos" + phase.str() + ")") + line("vz", deepest * rate, "sin" + phase.str())
             + "fix lead led move variable v_x NULL v_z v_vx NULL v_vz units box\n"
               "pair_style gran model hertz tangential history "
             + words + "\npair_coeff * *\n";
         Probe probe;
-        beads.start(&probe).advance(static_cast<int>(std::lround(period / beads.dem.timeStep)));
-        const double shearModulus = beads.dem.youngsModulus / (4 * (2 - 0.2) * (1 + 0.2));
+        particles.start(&probe).advance(static_cast<int>(std::lround(period / particles.dem.timeStep)));
+        const double shearModulus = particles.dem.youngsModulus / (4 * (2 - 0.2) * (1 + 0.2));
         const double stiffness = 8 * shearModulus * std::sqrt(radius / 2 * deepest);
         return otherForce(probe, 1).x() / (stiffness * shear);
     };
@@ -431,46 +431,47 @@ TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
     EXPECT_THROW(secondSpring("forget_parted maybe"), DemEngineError);
 }
 
-/// Two beads 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by
+/// Two particles 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by
 /// .2 mm/s: lubrication slows both alike by c v/m, and no contact force acts at that distance. A list that ends at
-/// the skin shows no force; pairs counted once per rank but applied to both beads on either show twice of it.
+/// the skin shows no force; pairs counted once per rank but applied to both particles on either show twice of it.
 TEST(Liggghts, LubricatesPairsAcrossRanks)
 {
-    Beads beads;
+    Particles particles;
     constexpr double gap = 5e-5;
     constexpr double speed = 1e-4;
-    beads.dem.gravity = 0;
-    beads.dem.beads = {{0.02 - radius - gap / 2, 0.01, 0.01}, {0.02 + radius + gap / 2, 0.01, 0.01}};
-    beads.dem.more = "neighbor 1e-6 bin\ngroup first id 1\ngroup second id 2\nvelocity first set 1e-4 0 0 units box\n"
-                     "velocity second set -1e-4 0 0 units box\n";
+    particles.dem.gravity = 0;
+    particles.dem.particles = {{0.02 - radius - gap / 2, 0.01, 0.01}, {0.02 + radius + gap / 2, 0.01, 0.01}};
+    particles.dem.more =
+        "neighbor 1e-6 bin\ngroup first id 1\ngroup second id 2\nvelocity first set 1e-4 0 0 units box\n"
+        "velocity second set -1e-4 0 0 units box\n";
     const FluidProperties fluid{1000, 1e-3, Vector3d::Zero()};
     Foam::dictionary dict(
         Foam::IStringStream("forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.1; }")());
     PhaseTimers timers;
-    BeadForces forces(dict, ModelType::A, fluid, timers);
-    LiggghtsEngine& engine = beads.start(&forces, forces.needs().pairReach);
+    ParticleForces forces(dict, ModelType::A, fluid, timers);
+    LiggghtsEngine& engine = particles.start(&forces, forces.needs().pairReach);
     engine.advance(20);
     const double coefficient = closures::squeezeCoefficient(1e-3, radius / 2, gap, 1e-6, 0.2 * radius);
-    const double slowed = speed - beads.velocity(1).x();
-    EXPECT_NEAR(slowed / (20 * engine.timeStep() * coefficient * 2 * speed / beadMass), 1, 0.01);
-    EXPECT_LT((beads.velocity(1) + beads.velocity(2)).norm(), 1e-12 * speed);
+    const double slowed = speed - particles.velocity(1).x();
+    EXPECT_NEAR(slowed / (20 * engine.timeStep() * coefficient * 2 * speed / particleMass), 1, 0.01);
+    EXPECT_LT((particles.velocity(1) + particles.velocity(2)).norm(), 1e-12 * speed);
 }
 
 /// sjkr: an attraction k A, A the area where the spheres cut each other, pi (R^2 - (l/2)^2) for alike ones at distance
-/// l: R 1 mm, l 1.9 mm: pi*9.75e-8 = 3.063053e-7 m2, * 1e5 J/m3 = 3.063053e-2 N. With the wrong sign the beads repel.
+/// l: R 1 mm, l 1.9 mm: pi*9.75e-8 = 3.063053e-7 m2, * 1e5 J/m3 = 3.063053e-2 N. With the wrong sign the particles repel.
 TEST(Liggghts, CohesionSjkrAttractsByTheAreaOfContact)
 {
     const auto forceOnSecond = [](const std::string& model, double energyDensity) {
-        Beads beads;
-        beads.dem.gravity = 0;
-        beads.dem.beads = {{0.0090, 0.01, 0.01}, {0.0109, 0.01, 0.01}};
+        Particles particles;
+        particles.dem.gravity = 0;
+        particles.dem.particles = {{0.0090, 0.01, 0.01}, {0.0109, 0.01, 0.01}};
         if (energyDensity > 0)
         {
-            beads.dem.more =
+            particles.dem.more =
                 "fix cohesion all property/global cohesionEnergyDensity peratomtypepair 2 1e5 1e5 1e5 1e5\n";
         }
         Probe probe;
-        beads.start(&probe, 0, model);
+        particles.start(&probe, 0, model);
         return otherForce(probe, 2).x();
     };
     const double attraction =
@@ -483,31 +484,31 @@ namespace
 
 struct Roll
 {
-    double sliding; // deceleration while the bead slides, in units of g
+    double sliding; // deceleration while the particle slides, in units of g
     double rolling; // speed when it has begun to roll, in units of the first
     double slowing; // deceleration while it rolls, in units of g
 };
 
-/// A bead on the floor, started at 10 cm/s without spin.
+/// A particle on the floor, started at 10 cm/s without spin.
 Roll roll(double wallFriction, const std::string& model, double rollingFriction)
 {
-    Beads beads;
-    beads.dem.walls = true;
-    beads.dem.restitution = 0.5;
-    beads.dem.wallFriction = wallFriction;
-    beads.dem.beads = {{0.005, 0.01, radius}};
-    beads.dem.more = "velocity all set 0.1 0 0 units box\n";
+    Particles particles;
+    particles.dem.walls = true;
+    particles.dem.restitution = 0.5;
+    particles.dem.wallFriction = wallFriction;
+    particles.dem.particles = {{0.005, 0.01, radius}};
+    particles.dem.more = "velocity all set 0.1 0 0 units box\n";
     if (rollingFriction > 0)
     {
         const std::string value = std::to_string(rollingFriction);
-        beads.dem.more += "fix rolling all property/global coefficientRollingFriction peratomtypepair 2 " + value + ' '
-                          + value + ' ' + value + ' ' + value + '\n';
+        particles.dem.more += "fix rolling all property/global coefficientRollingFriction peratomtypepair 2 " + value
+                              + ' ' + value + ' ' + value + ' ' + value + '\n';
     }
     Probe probe;
-    LiggghtsEngine& engine = beads.start(&probe, 0, model);
+    LiggghtsEngine& engine = particles.start(&probe, 0, model);
     const auto speedAfter = [&](double seconds) {
         engine.advance(static_cast<int>(std::lround(seconds / engine.timeStep())));
-        return beads.velocity(1).x();
+        return particles.velocity(1).x();
     };
     const double first = speedAfter(0.003);
     const double second = speedAfter(0.006);
@@ -518,8 +519,8 @@ Roll roll(double wallFriction, const std::string& model, double rollingFriction)
 
 } // namespace
 
-/// Friction of its own for the floor: a sliding bead is slowed by mu g (.15 among beads, .3 here), then rolls on at 5/7
-/// of its speed for ever. With the beads' own friction for the wall it is half.
+/// Friction of its own for the floor: a sliding particle is slowed by mu g (.15 among particles, .3 here), then rolls on at 5/7
+/// of its speed for ever. With the particles' own friction for the wall it is half.
 TEST(Liggghts, WallsHaveTheirOwnFriction)
 {
     for (const double friction : {0.15, 0.3})
@@ -531,8 +532,8 @@ TEST(Liggghts, WallsHaveTheirOwnFriction)
     }
 }
 
-/// Rolling friction mu_r: a torque mu_r F_n R slows a rolling bead by 5/7 mu_r g; none is there without the model.
-TEST(Liggghts, RollingFrictionSlowsARollingBead)
+/// Rolling friction mu_r: a torque mu_r F_n R slows a rolling particle by 5/7 mu_r g; none is there without the model.
+TEST(Liggghts, RollingFrictionSlowsARollingParticle)
 {
     for (const std::string model : {"cdt", "epsd2"})
     {
@@ -559,21 +560,21 @@ std::string outputOf(const std::string& command)
 
 } // namespace
 
-/// scripts/sizeDistribution's lines make LIGGGHTS pour beads of a normal distribution cut at two deviations: mean 2 mm,
+/// scripts/sizeDistribution's lines make LIGGGHTS pour particles of a normal distribution cut at two deviations: mean 2 mm,
 /// deviation .8796 * .1 mm (a normal one cut there), less 1 % for the classes, none outside. Shares taken by mass, as
 /// LIGGGHTS does by default, shift the mean by a per cent; a single template has no deviation.
-TEST(Liggghts, PoursADistributionOfSizes)
+TEST(Liggghts, FillsADistributionOfSizes)
 {
-    Beads beads;
-    beads.dem.more = outputOf(std::string(SIZE_DISTRIBUTION) + " --mean 2e-3 --deviation 1e-4")
-                     + "region inside block 0 0.04 0 0.02 0 0.02 units box\n"
-                       "fix pour all insert/pack seed 86028157 distributiontemplate beads maxattempt 200 "
-                       "insert_every once overlapcheck yes all_in yes vel constant 0. 0. 0. region inside "
-                       "particles_in_region 800\n";
+    Particles particles;
+    particles.dem.more = outputOf(std::string(SIZE_DISTRIBUTION) + " --mean 2e-3 --deviation 1e-4")
+                         + "region inside block 0 0.04 0 0.02 0 0.02 units box\n"
+                           "fix pour all insert/pack seed 86028157 distributiontemplate particles maxattempt 200 "
+                           "insert_every once overlapcheck yes all_in yes vel constant 0. 0. 0. region inside "
+                           "particles_in_region 800\n";
     Probe probe;
-    LiggghtsEngine& engine = beads.start(&probe);
+    LiggghtsEngine& engine = particles.start(&probe);
     engine.advance(2);
-    const Eigen::ArrayXd diameters = 2 * engine.beads().radius;
+    const Eigen::ArrayXd diameters = 2 * engine.particles().radius;
     const Vector3d sums =
         sumOverRanks({static_cast<double>(diameters.size()), diameters.sum(), diameters.square().sum()});
     const double mean = sums[1] / sums[0];
@@ -588,17 +589,18 @@ TEST(Liggghts, PoursADistributionOfSizes)
 namespace
 {
 
-/// Beads that rest below 5 mm once slower than 5 mm/s for 10 ms, and then are no more integrated.
-Beads restingBeads()
+/// Particles that rest below 5 mm once slower than 5 mm/s for 10 ms, and then are no more integrated.
+Particles restingParticles()
 {
-    Beads beads;
-    beads.dem.walls = true;
-    beads.dem.fixed = true;
-    beads.dem.restitution = 0.3;
-    beads.dem.more = "group moving union all\ngroup resting initialize\nneigh_modify exclude group resting resting\n"
-                     "fix integrate moving nve/sphere\n";
-    beads.groupChanges = {{"atRest", "moving", "resting", 5e-3, GroupChange::Rest{5e-3, 0.01}}};
-    return beads;
+    Particles particles;
+    particles.dem.walls = true;
+    particles.dem.fixed = true;
+    particles.dem.restitution = 0.3;
+    particles.dem.more =
+        "group moving union all\ngroup resting initialize\nneigh_modify exclude group resting resting\n"
+        "fix integrate moving nve/sphere\n";
+    particles.groupChanges = {{"atRest", "moving", "resting", 5e-3, GroupChange::Rest{5e-3, 0.01}}};
+    return particles;
 }
 
 void advanceInIntervals(LiggghtsEngine& engine, double seconds)
@@ -612,63 +614,63 @@ void advanceInIntervals(LiggghtsEngine& engine, double seconds)
 
 } // namespace
 
-/// A bead that has settled on the floor does not move any more, not even when another falls on it; that one, which
+/// A particle that has settled on the floor does not move any more, not even when another falls on it; that one, which
 /// starts at the same time but higher, is thrown back by it and does not go through. Without the change of group the
-/// bead below is moved by micrometres and more; a resting bead that is taken out altogether lets the other through.
-TEST(GroupChange, RestingBeadsStayAndAreFeltByOthers)
+/// particle below is moved by micrometres and more; a resting particle that is taken out altogether lets the other through.
+TEST(GroupChange, RestingParticlesStayAndAreFeltByOthers)
 {
-    Beads beads = restingBeads();
-    beads.dem.beads = {{0.0201, 0.01, 1.1e-3}, {0.0199, 0.01, 0.019}};
-    LiggghtsEngine& engine = beads.start(nullptr);
+    Particles particles = restingParticles();
+    particles.dem.particles = {{0.0201, 0.01, 1.1e-3}, {0.0199, 0.01, 0.019}};
+    LiggghtsEngine& engine = particles.start(nullptr);
     advanceInIntervals(engine, 0.05);
-    const Vector3d before = beads.position(1);
-    EXPECT_EQ(beads.velocity(1), Vector3d::Zero());
-    ASSERT_GT(beads.position(2).z(), 3e-3);
+    const Vector3d before = particles.position(1);
+    EXPECT_EQ(particles.velocity(1), Vector3d::Zero());
+    ASSERT_GT(particles.position(2).z(), 3e-3);
     advanceInIntervals(engine, 0.05);
-    EXPECT_EQ(beads.position(1), before);
-    EXPECT_GT((beads.position(2) - before).norm(), 1.98e-3);
-    EXPECT_NE(beads.velocity(2), Vector3d::Zero());
+    EXPECT_EQ(particles.position(1), before);
+    EXPECT_GT((particles.position(2) - before).norm(), 1.98e-3);
+    EXPECT_NE(particles.velocity(2), Vector3d::Zero());
 }
 
-/// Added mass is the fluid's resistance to a bead's acceleration, and a bead that is held has none: in still water two
-/// beads at rest, one upon the other, give the fluid nothing. `exclude` spares their contact, and so the weight of the
-/// upper one seems to let it fall: taken for a free bead it pushed the fluid down for ever.
-TEST(GroupChange, RestingBeadsDoNotPushTheFluidByTheirAddedMass)
+/// Added mass is the fluid's resistance to a particle's acceleration, and a particle that is held has none: in still water two
+/// particles at rest, one upon the other, give the fluid nothing. `exclude` spares their contact, and so the weight of the
+/// upper one seems to let it fall: taken for a free particle it pushed the fluid down for ever.
+TEST(GroupChange, RestingParticlesDoNotPushTheFluidByTheirAddedMass)
 {
-    Beads beads = restingBeads();
-    beads.dem.beads = {{0.0201, 0.01, 1.0e-3}, {0.0201, 0.01, 3.0e-3}};
+    Particles particles = restingParticles();
+    particles.dem.particles = {{0.0201, 0.01, 1.0e-3}, {0.0201, 0.01, 3.0e-3}};
     Foam::dictionary dict(Foam::IStringStream("forceModels (virtualMassForce Archimedes);")());
     PhaseTimers timers;
-    BeadForces forces(dict, ModelType::A, water(), timers);
-    LiggghtsEngine& engine = beads.start(&forces);
+    ParticleForces forces(dict, ModelType::A, water(), timers);
+    LiggghtsEngine& engine = particles.start(&forces);
     advanceInIntervals(engine, 0.05);
-    ASSERT_EQ(beads.velocity(1), Vector3d::Zero());
-    ASSERT_EQ(beads.velocity(2), Vector3d::Zero());
+    ASSERT_EQ(particles.velocity(1), Vector3d::Zero());
+    ASSERT_EQ(particles.velocity(2), Vector3d::Zero());
     const Vector3d before = impulseGiven(engine);
     EXPECT_GT(before.norm(), 0) << "they gave nothing while they settled either";
     advanceInIntervals(engine, 0.01);
     EXPECT_EQ(impulseGiven(engine), before);
 }
 
-/// Above the threshold no bead rests for good: the same bead on the same floor goes on trembling.
-TEST(GroupChange, LeavesBeadsAboveTheThreshold)
+/// Above the threshold no particle rests for good: the same particle on the same floor goes on trembling.
+TEST(GroupChange, LeavesParticlesAboveTheThreshold)
 {
-    Beads beads = restingBeads();
-    beads.groupChanges.front().below = 0.5e-3;
-    beads.dem.beads = {{0.0201, 0.01, 1.1e-3}};
-    advanceInIntervals(beads.start(nullptr), 0.05);
-    EXPECT_NE(beads.velocity(1), Vector3d::Zero());
+    Particles particles = restingParticles();
+    particles.groupChanges.front().below = 0.5e-3;
+    particles.dem.particles = {{0.0201, 0.01, 1.1e-3}};
+    advanceInIntervals(particles.start(nullptr), 0.05);
+    EXPECT_NE(particles.velocity(1), Vector3d::Zero());
 }
 
-/// A group that the script does not make, and beads that are in neither of the two, are refused by name: nothing would
+/// A group that the script does not make, and particles that are in neither of the two, are refused by name: nothing would
 /// move them.
 TEST(GroupChange, RefusesWhatTheScriptLacks)
 {
-    const auto messageOf = [](Beads& beads) {
-        beads.dem.beads = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+    const auto messageOf = [](Particles& particles) {
+        particles.dem.particles = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
         try
         {
-            beads.start(nullptr).advance(1);
+            particles.start(nullptr).advance(1);
         }
         catch (const DemEngineError& error)
         {
@@ -676,14 +678,14 @@ TEST(GroupChange, RefusesWhatTheScriptLacks)
         }
         return std::string();
     };
-    Beads misspelt = restingBeads();
+    Particles misspelt = restingParticles();
     misspelt.groupChanges.front().to = "restng";
     const std::string unknown = messageOf(misspelt);
     EXPECT_NE(unknown.find("atRest"), std::string::npos) << unknown;
     EXPECT_NE(unknown.find("'restng'"), std::string::npos) << unknown;
     EXPECT_NE(unknown.find("all moving resting"), std::string::npos) << unknown;
 
-    Beads forgotten = restingBeads();
+    Particles forgotten = restingParticles();
     forgotten.groupChanges.front().from = "resting";
     forgotten.groupChanges.front().to = "other";
     forgotten.dem.more += "group other initialize\n";

@@ -1,8 +1,8 @@
 /// \file
-/// lubricationForce between beads of the fake engine and at a wall.
+/// lubricationForce between particles of the fake engine and at a wall.
 
 #include "closures/wallCorrection.h"
-#include "forcesOnBeads.h"
+#include "forcesOnParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -15,22 +15,22 @@ namespace
 constexpr double radius = 1e-3;
 const FluidProperties weightlessWater{1000, 1e-3, {0, 0, 0}};
 
-/// Two beads of 2 mm, 10 um apart, approaching by 2 cm/s, reach 0.05 (R1 + R2) = 100 um: 4.241150e-4 kg/s * .02 m/s
+/// Two particles of 2 mm, 10 um apart, approaching by 2 cm/s, reach 0.05 (R1 + R2) = 100 um: 4.241150e-4 kg/s * .02 m/s
 /// push them apart, along the line between them only, equal and opposite, and the fluid is given nothing. The third
-/// bead, beyond the reach, feels nothing.
-TEST(Lubrication, PushesApproachingBeadsApart)
+/// particle, beyond the reach, feels nothing.
+TEST(Lubrication, PushesApproachingParticlesApart)
 {
-    ForcesOnBeads test(
+    ForcesOnParticles test(
         "forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; reach 0.05; }", weightlessWater);
     EXPECT_EQ(test.forces().needs().pairReach, 0.05);
-    test.engine().seePairs(0.05);
-    test.engine().addBead(1, {0, 0, 0}, radius, 2500, {0.01, 0.003, 0});
-    test.engine().addBead(2, {2.01e-3, 0, 0}, radius, 2500, {-0.01, 0.007, 0});
-    test.engine().addBead(3, {0, 2.101e-3, 0}, radius, 2500, {0, -1, 0});
-    const Eigen::Matrix3Xd before = test.engine().beads().velocity;
+    test.engine().requestPairs(0.05);
+    test.engine().addParticle(1, {0, 0, 0}, radius, 2500, {0.01, 0.003, 0});
+    test.engine().addParticle(2, {2.01e-3, 0, 0}, radius, 2500, {-0.01, 0.007, 0});
+    test.engine().addParticle(3, {0, 2.101e-3, 0}, radius, 2500, {0, -1, 0});
+    const Eigen::Matrix3Xd before = test.engine().particles().velocity;
     test.engine().advance(1);
     const Eigen::Matrix3Xd force =
-        (test.engine().beads().velocity - before) * 2500 * sphereVolume(radius) / test.engine().timeStep();
+        (test.engine().particles().velocity - before) * 2500 * sphereVolume(radius) / test.engine().timeStep();
     EXPECT_NEAR(force(0, 0), -8.482300e-6, 1e-11);
     EXPECT_LT((force.col(0) + force.col(1)).norm(), 1e-16);
     EXPECT_NEAR(force(1, 0), 0, 1e-16);
@@ -41,10 +41,10 @@ TEST(Lubrication, PushesApproachingBeadsApart)
 /// At a wall: 10 um above it, reach 0.05*2 R = 100 um, sinking by 1 cm/s: 1.698360e-3*.01 upwards; sliding costs nothing.
 TEST(Lubrication, SlowsTheApproachToAWall)
 {
-    ForcesOnBeads test("forceModels (lubricationForce); lubricationForceProps"
-                       " { roughness 1e-6; reach 0.05; walls ( ((5 5 0.1) (0 0 2)) ); }",
+    ForcesOnParticles test("forceModels (lubricationForce); lubricationForceProps"
+                           " { roughness 1e-6; reach 0.05; walls ( ((5 5 0.1) (0 0 2)) ); }",
         weightlessWater);
-    test.engine().addBead(1, {0, 0, 0.1 + radius + 1e-5}, radius, 2500, {0.3, 0, -0.01});
+    test.engine().addParticle(1, {0, 0, 0.1 + radius + 1e-5}, radius, 2500, {0.3, 0, -0.01});
     const Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
     EXPECT_NEAR(force.z(), 1.698360e-5, 1e-10);
     EXPECT_NEAR(force.x(), 0, 1e-16);
@@ -67,39 +67,39 @@ TEST(Lubrication, AndStokesDragAreBrennersFromAfarToTheTouch)
         const double expected = 0.01 * 1.884955592e-5 * closures::brennerPerpendicularFactor(gap);
         for (const std::string& properties : {fromAfar, inTwo})
         {
-            ForcesOnBeads test(properties, weightlessWater);
-            test.engine().addBead(1, {0, 0, (1 + gap) * radius}, radius, 2500, {0, 0, -0.01});
+            ForcesOnParticles test(properties, weightlessWater);
+            test.engine().addParticle(1, {0, 0, (1 + gap) * radius}, radius, 2500, {0, 0, -0.01});
             const double force = 2500 * sphereVolume(radius) * test.accelerationOf(0).z();
             EXPECT_NEAR(force / expected, 1, 1e-5) << gap << ' ' << properties;
         }
     }
 }
 
-/// The reach at walls is not that between beads, whose neighbour lists must not grow with it.
+/// The reach at walls is not that between particles, whose neighbour lists must not grow with it.
 TEST(Lubrication, HasAReachOfItsOwnAtWalls)
 {
     const std::string begin = "forceModels (lubricationForce); lubricationForceProps { roughness 1e-6; ";
     const auto forceAt = [&](double gap, const std::string& reach) {
-        ForcesOnBeads test(begin + reach + " walls ( ((0 0 0) (0 0 1)) ); }", weightlessWater);
+        ForcesOnParticles test(begin + reach + " walls ( ((0 0 0) (0 0 1)) ); }", weightlessWater);
         EXPECT_EQ(test.forces().needs().pairReach, 0.05);
-        test.engine().addBead(1, {0, 0, radius + gap}, radius, 2500, {0, 0, -0.01});
+        test.engine().addParticle(1, {0, 0, radius + gap}, radius, 2500, {0, 0, -0.01});
         return test.accelerationOf(0).z();
     };
     EXPECT_EQ(forceAt(1.1e-4, "reach 0.05;"), 0);
     EXPECT_GT(forceAt(1.1e-4, "reach 0.05; wallReach 1;"), 0);
     EXPECT_GT(forceAt(1.9e-3, "reach 0.05; wallReach 1;"), 0);
     EXPECT_EQ(forceAt(2.1e-3, "reach 0.05; wallReach 1;"), 0);
-    EXPECT_THROW(ForcesOnBeads(begin + "wallReach 0; }"), Foam::IOerror);
+    EXPECT_THROW(ForcesOnParticles(begin + "wallReach 0; }"), Foam::IOerror);
 }
 
-/// A step that is too long for so smooth a bead is an error with the longest step: m/c = 1.047198e-5/1.884956e-8*1e-9 =
-/// .56 us here. Left alone the bead would bounce off the squeezed film with more than it brought.
+/// A step that is too long for so smooth a particle is an error with the longest step: m/c = 1.047198e-5/1.884956e-8*1e-9 =
+/// .56 us here. Left alone the particle would bounce off the squeezed film with more than it brought.
 TEST(Lubrication, RefusesAStepThatItCannotDamp)
 {
-    ForcesOnBeads test(
+    ForcesOnParticles test(
         "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; walls ( ((0 0 0) (0 0 1)) ); }",
         weightlessWater);
-    test.engine().addBead(1, {0, 0, radius}, radius, 2500, {0, 0, -0.01});
+    test.engine().addParticle(1, {0, 0, radius}, radius, 2500, {0, 0, -0.01});
     try
     {
         test.engine().advance(1);
@@ -111,18 +111,18 @@ TEST(Lubrication, RefusesAStepThatItCannotDamp)
     }
 }
 
-/// A large bead could take the step, the small one beside it could not, in whichever order they are listed. A look at the
+/// A large particle could take the step, the small one beside it could not, in whichever order they are listed. A look at the
 /// first one only takes the step in one order.
-TEST(Lubrication, RefusesAStepThatTheSmallerOfTwoBeadsCannotTake)
+TEST(Lubrication, RefusesAStepThatTheSmallerOfTwoParticlesCannotTake)
 {
     for (const double first : {radius, 0.1 * radius})
     {
         const double second = 1.1 * radius - first;
-        ForcesOnBeads test(
+        ForcesOnParticles test(
             "forceModels (lubricationForce); lubricationForceProps { roughness 1e-9; }", weightlessWater);
-        test.engine().seePairs(0.1);
-        test.engine().addBead(1, {0, 0, 0}, first);
-        test.engine().addBead(2, {1.1 * radius, 0, 0}, second);
+        test.engine().requestPairs(0.1);
+        test.engine().addParticle(1, {0, 0, 0}, first);
+        test.engine().addParticle(2, {1.1 * radius, 0, 0}, second);
         EXPECT_THROW(test.engine().advance(1), Foam::error) << first;
     }
 }
@@ -130,7 +130,7 @@ TEST(Lubrication, RefusesAStepThatTheSmallerOfTwoBeadsCannotTake)
 /// The roughness has no default: results depend on it.
 TEST(Lubrication, AsksForARoughness)
 {
-    EXPECT_THROW(ForcesOnBeads("forceModels (lubricationForce);"), Foam::IOerror);
+    EXPECT_THROW(ForcesOnParticles("forceModels (lubricationForce);"), Foam::IOerror);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 /// \file
-/// Every model that can be chosen is told by -listModels, and nothing that is told is unknown to the program.
+/// Every model that can be chosen is reported by -listModels, and nothing that is reported is unknown to the program.
 
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
@@ -17,7 +17,7 @@ namespace
 
 using namespace clepsydra;
 
-std::set<std::string> told(const std::string& entry)
+std::set<std::string> reported(const std::string& entry)
 {
     std::set<std::string> names;
     for (const auto& [name, line] : ModelLines::all().at(entry))
@@ -34,23 +34,24 @@ std::set<std::string> selectable(const Foam::wordList& names)
 
 TEST(ModelLines, TellEachForceAndNoOther)
 {
-    EXPECT_EQ(told("forceModels"), selectable(ForceModel::dictionaryConstructorTablePtr_->sortedToc()));
+    EXPECT_EQ(reported("forceModels"), selectable(ForceModel::dictionaryConstructorTablePtr_->sortedToc()));
 }
 
 TEST(ModelLines, TellEachVoidFractionModelAndNoOther)
 {
-    EXPECT_EQ(told("voidFractionModel"), selectable(VoidFractionModel::dictionaryConstructorTablePtr_->sortedToc()));
+    EXPECT_EQ(
+        reported("voidFractionModel"), selectable(VoidFractionModel::dictionaryConstructorTablePtr_->sortedToc()));
 }
 
 TEST(ModelLines, TellEachSmoothingModelAndNoOther)
 {
-    EXPECT_EQ(told("smoothingModel"), selectable(SmoothingModel::dictionaryConstructorTablePtr_->sortedToc()));
+    EXPECT_EQ(reported("smoothingModel"), selectable(SmoothingModel::dictionaryConstructorTablePtr_->sortedToc()));
 }
 
 /// The other way round OpenFOAM's own are in the table, too.
 TEST(ModelLines, TellFunctionObjectsThatThereAre)
 {
-    for (const std::string& name : told("functions { type }"))
+    for (const std::string& name : reported("functions { type }"))
     {
         EXPECT_TRUE(Foam::functionObject::dictionaryConstructorTablePtr_->found(name)) << name;
     }

@@ -6,7 +6,7 @@
 #include "closures/addedMass.h"
 #include "closures/constants.h"
 #include "closures/ergun.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -19,13 +19,13 @@ namespace clepsydra::tests
 namespace
 {
 
-/// The momentum that beads and fluid exchanged balances (the run itself stops above 1e-9).
+/// The momentum that particles and fluid exchanged balances (the run itself stops above 1e-9).
 void expectBalance(const TestCase& test)
 {
-    EXPECT_LT(std::abs(test.ledgerSummary().at("momentumError").get<double>()), 1e-9);
+    EXPECT_LT(std::abs(test.conservationSummary().at("momentumError").get<double>()), 1e-9);
 }
 
-/// dp [Pa] along a column of fixed beads of 1 mm, void fraction .451335, and water's flow through it.
+/// dp [Pa] along a column of fixed particles of 1 mm, void fraction .451335, and water's flow through it.
 double pressureDropOfFixedBed(const std::string& modelType, const std::string& momentumModel)
 {
     constexpr double diameter = 1e-3;
@@ -48,10 +48,10 @@ double pressureDropOfFixedBed(const std::string& modelType, const std::string& m
         .set("momCoupleModels", '(' + momentumModel + ')')
         .set("forceModels",
             modelType == "A" ? "(GidaspowDrag gradPForce viscForce Archimedes)" : "(GidaspowDrag Archimedes)")
-        .set("constDiffSmoothingProps/smoothingLength", 3 * diameter);
+        .set("constDiffSmoothingProps/bandwidth", 3 * diameter);
     test.dem.diameter = diameter;
     test.dem.density = 2000;
-    test.dem.beads = bodyCentredLattice(test.box, lattice);
+    test.dem.particles = bodyCentredLattice(test.box, lattice);
     test.dem.fixed = true;
     test.dem.timeStep = 2e-5;
     const Outcome outcome = test.run();
@@ -85,7 +85,7 @@ struct Start
     double lastSpeed;
 };
 
-/// A bead of 2 mm released in water that the program solves, smoothed over 3 d.
+/// A particle of 2 mm released in water that the program solves, smoothed over 3 d.
 Start release(double density, double seconds, const std::string& forces)
 {
     TestCase test;
@@ -95,7 +95,7 @@ Start release(double density, double seconds, const std::string& forces)
     test.setTimes(seconds, 5e-4, seconds);
     test.dem.density = density;
     test.dem.timeStep = 1.25e-5;
-    test.dem.beads = {{0.0203, 0.0197, 0.03}};
+    test.dem.particles = {{0.0203, 0.0197, 0.03}};
     test.dem.dumpEvery = 40;
     const Outcome outcome = test.run();
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
@@ -104,9 +104,9 @@ Start release(double density, double seconds, const std::string& forces)
         return {};
     }
     expectBalance(test);
-    const auto history = test.beadHistory();
+    const auto history = test.particleHistory();
     Start start{-history[4].velocity(2, 0) / 2e-3, 0, -history.back().velocity(2, 0)};
-    for (const BeadSnapshot& snapshot : history)
+    for (const ParticleSnapshot& snapshot : history)
     {
         start.largestSpeed = std::max(start.largestSpeed, std::abs(snapshot.velocity(2, 0)));
     }
@@ -114,8 +114,8 @@ Start release(double density, double seconds, const std::string& forces)
 }
 
 /// Glass starts with 4.97 m/s2 (5.95 without added mass), less what drag takes within 2 ms, some 2 %. The water around
-/// it is pushed along, so that the bead in the program gains a little on the formula.
-TEST(AddedMass, SlowsTheStartOfABeadInTheProgram)
+/// it is pushed along, so that the particle in the program gains a little on the formula.
+TEST(AddedMass, SlowsTheStartOfAParticleInTheProgram)
 {
     const double expected = closures::accelerationFromRest(9.81, 1000, 2540, 0.5);
     const Start with = release(2540, 0.02, "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce)");
@@ -126,8 +126,8 @@ TEST(AddedMass, SlowsTheStartOfABeadInTheProgram)
     EXPECT_NEAR(without.mean / closures::accelerationFromRest(9.81, 1000, 2540, 0), 1, 0.04);
 }
 
-/// Beads of 1.05 and of 0.5 of the water's density settle and rise steadily, with the added mass taken implicitly on the
-/// bead and given back to water that is solved: no oscillation drives them beyond their last speed.
+/// Particles of 1.05 and of 0.5 of the water's density settle and rise steadily, with the added mass taken implicitly on the
+/// particle and given back to water that is solved: no oscillation drives them beyond their last speed.
 TEST(AddedMass, IsStableNearAndBelowTheWatersDensity)
 {
     for (const double density : {1050.0, 500.0})
@@ -141,7 +141,7 @@ TEST(AddedMass, IsStableNearAndBelowTheWatersDensity)
     }
 }
 
-/// 105 beads that fall through water with every force that there is, spread by the Gaussian model.
+/// 105 particles that fall through water with every force that there is, spread by the Gaussian model.
 void fallingCloud(TestCase& test)
 {
     test.box.upper = {0.016, 0.008, 0.024};
@@ -157,18 +157,18 @@ void fallingCloud(TestCase& test)
     Box cloud = test.box;
     cloud.lower.z() = 0.002;
     cloud.upper.z() = 0.014;
-    test.dem.beads = simpleLattice(cloud, {7, 3, 5});
-    jitter(test.dem.beads, 1e-4, 3);
+    test.dem.particles = simpleLattice(cloud, {7, 3, 5});
+    jitter(test.dem.particles, 1e-4, 3);
     test.dem.timeStep = 2e-5;
     test.dem.dumpEvery = 500;
 }
 
-/// All forces at once, with a Gaussian void fraction, on one rank and on two: the beads fall alike (to solver tolerance;
+/// All forces at once, with a Gaussian void fraction, on one rank and on two: the particles fall alike (to solver tolerance;
 /// 1e-4 of a diameter after 20 ms) and the momentum balances. Forces that need the fluid's acceleration or curl, or
-/// pairs across ranks, and miss them on one side of the boundary, move the beads near it by more.
+/// pairs across ranks, and miss them on one side of the boundary, move the particles near it by more.
 TEST(AllForces, ActAlikeOnOneRankAndOnTwo)
 {
-    std::vector<BeadSnapshot> last;
+    std::vector<ParticleSnapshot> last;
     for (const int ranks : {1, 2})
     {
         TestCase test;
@@ -177,10 +177,10 @@ TEST(AllForces, ActAlikeOnOneRankAndOnTwo)
         const Outcome outcome = test.run(ranks);
         ASSERT_TRUE(outcome.succeeded()) << outcome.output;
         expectBalance(test);
-        last.push_back(test.beadHistory().back());
+        last.push_back(test.particleHistory().back());
     }
     const double moved = (last[1].position - last[0].position).colwise().norm().maxCoeff();
-    std::cout << "largest distance between one rank's beads and two ranks' " << moved << " m" << std::endl;
+    std::cout << "largest distance between one rank's particles and two ranks' " << moved << " m" << std::endl;
     EXPECT_LT(moved, 1e-4 * 0.002);
     EXPECT_GT(last[0].velocity.colwise().norm().minCoeff(), 1e-3);
 }
@@ -189,7 +189,7 @@ TEST(AllForces, ActAlikeOnOneRankAndOnTwo)
 /// steps from the checkpoint. Without DU/Dt in the checkpoint the added mass differs at once.
 TEST(AllForces, SurviveAStop)
 {
-    std::vector<BeadSnapshot> last;
+    std::vector<ParticleSnapshot> last;
     for (const bool stop : {false, true})
     {
         TestCase test;
@@ -204,7 +204,7 @@ TEST(AllForces, SurviveAStop)
             ASSERT_TRUE(outcome.succeeded()) << outcome.output;
             EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << outcome.output;
         }
-        last.push_back(test.beadHistory().back());
+        last.push_back(test.particleHistory().back());
     }
     ASSERT_EQ(last[0].step, last[1].step);
     const double apart = (last[1].position - last[0].position).colwise().norm().maxCoeff() / 0.002;

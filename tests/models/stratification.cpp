@@ -1,7 +1,7 @@
 /// \file
-/// Forces on beads in a liquid whose viscosity changes with height.
+/// Forces on particles in a liquid whose viscosity changes with height.
 
-#include "forcesOnBeads.h"
+#include "forcesOnParticles.h"
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ Eigen::Matrix3Xd accelerations(const std::string& force, const std::vector<Fluid
     Eigen::Matrix3Xd found(3, 3);
     for (std::size_t i = 0; i < 3; ++i)
     {
-        ForcesOnBeads test(
+        ForcesOnParticles test(
             "forceModels (" + force + "); lubricationForceProps { roughness 1e-6; " + wall + " }", fluids[i]);
         const double heights[] = {0.014, 0.0185, 0.03};
-        for (int bead = 0; bead < 3; ++bead)
+        for (int particle = 0; particle < 3; ++particle)
         {
-            test.engine().addBead(bead + 1, {0, 0, heights[bead]}, radius, 2500, {0.01, 0.002, -0.03});
-            test.fluidAt(bead).vorticity = {2, 3, 5};
+            test.engine().addParticle(particle + 1, {0, 0, heights[particle]}, radius, 2500, {0.01, 0.002, -0.03});
+            test.fluidAt(particle).vorticity = {2, 3, 5};
         }
         test.engine().keepMemory(test.forces().needs().memory);
         test.engine().advance(1);
@@ -44,9 +44,9 @@ Eigen::Matrix3Xd accelerations(const std::string& force, const std::vector<Fluid
     return found;
 }
 
-/// Every force that knows the viscosity takes it at the height of its bead: what a liquid has that is all of that
-/// viscosity, but for the .3 um of the first step. One that takes the lower liquid's, or the first bead's for all, fails.
-TEST(Stratification, EveryForceTakesTheViscosityAtItsBead)
+/// Every force that knows the viscosity takes it at the height of its particle: what a liquid has that is all of that
+/// viscosity, but for the .3 um of the first step. One that takes the lower liquid's, or the first particle's for all, fails.
+TEST(Stratification, EveryForceTakesTheViscosityAtItsParticle)
 {
     const FluidProperties liquid = layers();
     const auto uniform = [&](double h, double diameter) {
@@ -62,7 +62,7 @@ TEST(Stratification, EveryForceTakesTheViscosityAtItsBead)
         EXPECT_LT((found - expected).norm(), 1e-4 * expected.norm()) << force;
         EXPECT_GT((expected.col(0) - expected.col(2)).norm(), 0.1 * expected.norm()) << force;
     }
-    // The film between bead and wall is liquid that lies there, not what the bead brings along.
+    // The film between particle and wall is liquid that lies there, not what the particle brings along.
     const Eigen::Matrix3Xd found = accelerations("lubricationForce", {liquid, liquid, liquid});
     const Eigen::Matrix3Xd expected =
         accelerations("lubricationForce", {uniform(0.014, 0), uniform(0.0185, 0), uniform(0.03, 0)});

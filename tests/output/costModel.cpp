@@ -19,11 +19,11 @@ namespace
 class Machine
 {
 public:
-    void interval(double beads, double demSteps)
+    void interval(double particles, double demSteps)
     {
-        seconds["DEM"] += 3e-7 * beads * demSteps;
-        seconds["forces"] += 1e-7 * beads * demSteps;
-        seconds["locate"] += 2e-6 * beads;
+        seconds["DEM"] += 3e-7 * particles * demSteps;
+        seconds["forces"] += 1e-7 * particles * demSteps;
+        seconds["locate"] += 2e-6 * particles;
         seconds["pressure"] += 0.05;
         seconds["output"] += 0.002;
     }
@@ -43,7 +43,7 @@ public:
 
 } // namespace
 
-/// A hundredth of a run has been done while beads came in and the interval became longer; then 5000 beads remain, and the
+/// A hundredth of a run has been done while particles came in and the interval became longer; then 5000 particles remain, and the
 /// interval is four times as long as at first. What is left is known to rounding, though the start took longer than all of
 /// it; by the wall time so far it would be 4 times as much, and by that without the start 1.9 times.
 TEST(CostModel, KnowsTheRestOfARunByItsFirstIntervals)
@@ -52,11 +52,11 @@ TEST(CostModel, KnowsTheRestOfARunByItsFirstIntervals)
     CostModel model(machine.seconds);
     for (int interval = 0; interval < 10; ++interval)
     {
-        const double beads = 500.0 * interval;
+        const double particles = 500.0 * interval;
         const double steps = 25 + 5 * interval;
-        // A step without beads takes as long as with one.
-        machine.interval(std::max(beads, 1.0), steps);
-        model.add(beads, steps);
+        // A step without particles takes as long as with one.
+        machine.interval(std::max(particles, 1.0), steps);
+        model.add(particles, steps);
     }
     const std::map<std::string, double> soFar = machine.seconds;
     const double before = machine.total();

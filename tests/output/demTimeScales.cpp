@@ -20,49 +20,49 @@ namespace
 
 const FluidProperties water{1000, 1e-3, {0, 0, -9.81}};
 
-/// An engine with beads of 4 mm on every rank and one of 2 mm on the last; glass softened to E = 5e6 Pa.
-std::unique_ptr<FakeEngine> engineWithBeads()
+/// An engine with particles of 4 mm on every rank and one of 2 mm on the last; glass softened to E = 5e6 Pa.
+std::unique_ptr<FakeEngine> engineWithParticles()
 {
     auto made = std::make_unique<FakeEngine>(4e-5);
     FakeEngine& engine = *made;
     engine.setContactMaterials({{5e6, 0.2}});
     const int rank = Foam::Pstream::myProcNo();
-    engine.addBead(rank, {0, 0, 0}, 0.002, 2540);
+    engine.addParticle(rank, {0, 0, 0}, 0.002, 2540);
     if (rank == Foam::Pstream::nProcs() - 1)
     {
-        engine.addBead(100, {0, 0, 0.01}, 0.001, 2540);
+        engine.addParticle(100, {0, 0, 0.01}, 0.001, 2540);
     }
     engine.initialise(nullptr);
     return made;
 }
 
-/// By hand for the 2 mm bead: Rayleigh time 1.206475e-4 s; collision at 1 m/s 4.384447e-4 s (at 0.1 m/s)/10^0.2;
+/// By hand for the 2 mm particle: Rayleigh time 1.206475e-4 s; collision at 1 m/s 4.384447e-4 s (at 0.1 m/s)/10^0.2;
 /// relaxation 4/3 (rho_p/rho) d/(C_d U) with C_d = 0.44 at Re = 2000. Cells of 0.1 x 0.05 x 0.02 m: 0.02 m at 1 m/s,
-/// where the cube root of the volume would give 0.046. The other beads are larger: a mean, or one rank's own minimum,
+/// where the cube root of the volume would give 0.046. The other particles are larger: a mean, or one rank's own minimum,
 /// fails.
-TEST(DemTimeScales, AreThoseOfTheSmallestBeadAndTheThinnestCell)
+TEST(DemTimeScales, AreThoseOfTheSmallestParticleAndTheThinnestCell)
 {
     TemporaryCase temporaryCase;
     const auto mesh = boxMesh(temporaryCase.time(), {0, 0, 0}, {0.2, 0.2, 0.1}, {2, 4, 5});
-    const auto engine = engineWithBeads();
+    const auto engine = engineWithParticles();
 
     const DemTimeScales scales = demTimeScales(*engine, 1e-3, &water, *mesh);
 
     EXPECT_EQ(scales.demStep, 4e-5);
-    EXPECT_EQ(scales.couplingInterval, 1e-3);
-    EXPECT_EQ(scales.beads, Foam::Pstream::nProcs() + 1);
+    EXPECT_EQ(scales.couplingTimeStep, 1e-3);
+    EXPECT_EQ(scales.particles, Foam::Pstream::nProcs() + 1);
     EXPECT_NEAR(scales.rayleigh.value(), 1.206475e-4, 1e-10);
     EXPECT_NEAR(scales.collision.value(), 2.766399e-4, 1e-9);
     EXPECT_NEAR(scales.relaxation.value(), 4.0 / 3 * 2.54 * 0.002 / 0.44, 1e-9);
     EXPECT_NEAR(scales.courant.value(), 0.02, 1e-12);
 }
 
-/// What is not known must be empty, not zero or huge: no fluid, then no bead and no material.
+/// What is not known must be empty, not zero or huge: no fluid, then no particle and no material.
 TEST(DemTimeScales, AreEmptyWhereNotKnown)
 {
     TemporaryCase temporaryCase;
     const auto mesh = boxMesh(temporaryCase.time(), {0, 0, 0}, {1, 1, 1}, {1, 1, 1});
-    const auto dry = engineWithBeads();
+    const auto dry = engineWithParticles();
     const DemTimeScales ofDry = demTimeScales(*dry, 1e-3, nullptr, *mesh);
     EXPECT_TRUE(ofDry.rayleigh.has_value());
     EXPECT_FALSE(ofDry.relaxation.has_value());
@@ -71,7 +71,7 @@ TEST(DemTimeScales, AreEmptyWhereNotKnown)
     FakeEngine empty(4e-5);
     empty.initialise(nullptr);
     const DemTimeScales ofEmpty = demTimeScales(empty, 1e-3, &water, *mesh);
-    EXPECT_EQ(ofEmpty.beads, 0);
+    EXPECT_EQ(ofEmpty.particles, 0);
     EXPECT_FALSE(ofEmpty.rayleigh.has_value());
     EXPECT_FALSE(ofEmpty.collision.has_value());
     EXPECT_FALSE(ofEmpty.relaxation.has_value());

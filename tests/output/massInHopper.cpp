@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "functionObjects/massInHopper.h"
-#include "functionObjects/observedBeads.h"
+#include "functionObjects/observedParticles.h"
 #include "functionObjects/trailingRate.h"
 #include "support/boxMesh.h"
 #include "support/errorOf.h"
@@ -28,7 +28,7 @@ struct Row
 {
     double time;
     double mass;
-    double beads;
+    double particles;
     double rate;
 };
 
@@ -40,7 +40,7 @@ std::vector<Row> rows(const std::filesystem::path& file)
     for (std::string line; Pstream::master() && std::getline(in, line);)
     {
         Row row{};
-        if (line.front() != '#' && std::istringstream(line) >> row.time >> row.mass >> row.beads >> row.rate)
+        if (line.front() != '#' && std::istringstream(line) >> row.time >> row.mass >> row.particles >> row.rate)
         {
             all.push_back(row);
         }
@@ -54,12 +54,12 @@ std::string functions(const std::string& more)
 }
 
 constexpr double radius = 0.01;
-const double beadMass = 2500 * sphereVolume(radius);
+const double particleMass = 2500 * sphereVolume(radius);
 const Vector3d inside(0.1, 0.5, 0.5);
 const Vector3d outside(0.1, 0.5, -0.1);
 
-/// A unit cube whose wall xMin plays the hopper's wall: axis through (0, 0.5), radius 0.5, bottom at z = 0. Ten beads
-/// are in it, 0 to 9, bead i on rank i modulo the number of ranks.
+/// A unit cube whose wall xMin plays the hopper's wall: axis through (0, 0.5), radius 0.5, bottom at z = 0. Ten particles
+/// are in it, 0 to 9, particle i on rank i modulo the number of ranks.
 class Discharge
 {
 public:
@@ -72,18 +72,18 @@ public:
         {
             if (mine(id))
             {
-                engine_.addBead(id, inside, radius);
+                engine_.addParticle(id, inside, radius);
             }
         }
         engine_.initialise(nullptr);
     }
 
-    /// Moves a bead below the bottom.
+    /// Moves a particle below the bottom.
     void drop(int id)
     {
         if (mine(id))
         {
-            engine_.moveBead(id, outside);
+            engine_.moveParticle(id, outside);
         }
     }
 
@@ -100,17 +100,17 @@ private:
 
     std::unique_ptr<Foam::fvMesh> mesh_;
     FakeEngine engine_;
-    ObservedBeads observed_;
+    ObservedParticles observed_;
 };
 
-/// Runs to the end; the bead with the number of the step leaves in that step, up to bead `last`.
+/// Runs to the end; the particle with the number of the step leaves in that step, up to particle `last`.
 void run(Foam::Time& time, Discharge& discharge, int last)
 {
-    for (int bead = 0; time.loop(); ++bead)
+    for (int particle = 0; time.loop(); ++particle)
     {
-        if (bead <= last)
+        if (particle <= last)
         {
-            discharge.drop(bead);
+            discharge.drop(particle);
         }
         time.write();
     }
@@ -154,8 +154,8 @@ TEST(TrailingRate, IsTheMeanOverTheWindow)
     EXPECT_DOUBLE_EQ(rate.add(4, 4), 2.5);
 }
 
-/// One bead leaves in each of the first ten of 100 steps of 0.01 s. Row k must hold 10 - k beads of all ranks and their
-/// mass, and the rate one bead per step; nothing written, one rank's beads only or a wrong sign fails. The row at
+/// One particle leaves in each of the first ten of 100 steps of 0.01 s. Row k must hold 10 - k particles of all ranks and their
+/// mass, and the rate one particle per step; nothing written, one rank's particles only or a wrong sign fails. The row at
 /// t = 0 is what OpenFOAM leaves out by itself.
 TEST(MassInHopper, RecordsTheDischarge)
 {
@@ -172,11 +172,11 @@ TEST(MassInHopper, RecordsTheDischarge)
         {
             const auto left = static_cast<double>(10 - i);
             EXPECT_NEAR(all[i].time, 0.01 * static_cast<double>(i), 1e-9);
-            EXPECT_EQ(all[i].beads, left);
-            EXPECT_NEAR(all[i].mass, left * beadMass, 1e-5 * beadMass);
-            EXPECT_NEAR(all[i].rate, i == 0 ? 0 : beadMass / 0.01, 1e-5 * beadMass / 0.01);
+            EXPECT_EQ(all[i].particles, left);
+            EXPECT_NEAR(all[i].mass, left * particleMass, 1e-5 * particleMass);
+            EXPECT_NEAR(all[i].rate, i == 0 ? 0 : particleMass / 0.01, 1e-5 * particleMass / 0.01);
         }
-        EXPECT_NEAR(all[15].rate, 0.5 * beadMass / 0.01, 1e-5 * beadMass / 0.01)
+        EXPECT_NEAR(all[15].rate, 0.5 * particleMass / 0.01, 1e-5 * particleMass / 0.01)
             << "0.1 s, half of them with an outflow";
         EXPECT_EQ(all.back().rate, 0);
     }
@@ -201,7 +201,7 @@ TEST(MassInHopper, KeepsTheSampleInterval)
     }
 }
 
-/// The last bead leaves in the step to 0.05 s; with stopWhenFlowStops 0.2 the run must end just after 0.25 s, with its
+/// The last particle leaves in the step to 0.05 s; with stopWhenFlowStops 0.2 the run must end just after 0.25 s, with its
 /// fields written, not at 1 s. Before the first departure nothing must stop it.
 TEST(MassInHopper, EndsTheRunWhenTheFlowStops)
 {
@@ -226,7 +226,7 @@ TEST(MassInHopper, DoesNotStopBeforeTheFlowBegins)
 
 /// A run that ends at 0.1 s and goes on from there: the old curve stays up to 0.1 s, the new one has its own folder and
 /// begins there, so that every time has one row; and the last departure (0.05 s) is remembered, so that the run ends at
-/// 0.25 s though no bead leaves in it. Forgetting it, doubling the row of 0.1 s or writing into the old file fails.
+/// 0.25 s though no particle leaves in it. Forgetting it, doubling the row of 0.1 s or writing into the old file fails.
 TEST(MassInHopper, GoesOnAfterARestart)
 {
     const std::string entries = "stopAt endTime; deltaT 0.01; writeControl timeStep; writeInterval 10; "
@@ -241,9 +241,9 @@ TEST(MassInHopper, GoesOnAfterARestart)
     temporaryCase.restart(entries + "startTime 0.1; endTime 1;");
     {
         Discharge discharge(temporaryCase);
-        for (int bead = 0; bead <= 4; ++bead)
+        for (int particle = 0; particle <= 4; ++particle)
         {
-            discharge.drop(bead);
+            discharge.drop(particle);
         }
         run(temporaryCase.time(), discharge, -1);
     }
@@ -258,7 +258,7 @@ TEST(MassInHopper, GoesOnAfterARestart)
         const auto second = rows(folder / "0.1/massInHopper.dat");
         ASSERT_FALSE(second.empty());
         EXPECT_NEAR(second.front().time, 0.1, 1e-9);
-        EXPECT_EQ(second.front().beads, 5);
+        EXPECT_EQ(second.front().particles, 5);
     }
 }
 

@@ -1,4 +1,4 @@
-#include "words/nearestWord.h"
+#include "tokens/nearestWord.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@ namespace
 TEST(Progress, TellsSpeedAndTimeToGo)
 {
     EXPECT_EQ(describe({1.5, 1, 3, 60, 2931, 180}),
-        "t = 1.5/3 s, 2931 beads in the hopper, 120 s per simulated s, 00:03:00 to go");
+        "t = 1.5/3 s, 2931 particles in the hopper, 120 s per simulated s, 00:03:00 to go");
     EXPECT_EQ(describe({1, 1, 3, 0, -1, -1}), "t = 1/3 s");
 }
 
@@ -41,7 +41,7 @@ TEST(Progress, WritesPlainLinesToALog)
     EXPECT_THAT(text, testing::Not(testing::HasSubstr("\x1b")));
     if (Foam::Pstream::master())
     {
-        EXPECT_THAT(text, testing::HasSubstr("t = 0.5/2 s, 50 beads in the hopper"));
+        EXPECT_THAT(text, testing::HasSubstr("t = 0.5/2 s, 50 particles in the hopper"));
     }
 }
 
@@ -61,7 +61,7 @@ TEST(Progress, DrawsABarOnATerminal)
     {
         const std::string text = terminal.str();
         EXPECT_LT(text.size(), 2000U);
-        EXPECT_THAT(text, testing::HasSubstr("50 beads in the hopper"));
+        EXPECT_THAT(text, testing::HasSubstr("50 particles in the hopper"));
         EXPECT_THAT(text, testing::EndsWith("\r\x1b[K"));
     }
 }

@@ -41,7 +41,7 @@ def main():
 
 def pages():
     """Path in the repository -> text."""
-    made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|runs|stages)/")
+    made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|runs|steps)/")
     found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
     return {page: (ROOT / page).read_text() for page in found if not made.match(page)}
 
@@ -104,7 +104,7 @@ def copyRepository(home):
 
 
 def linkBuild(folder, build):
-    """What was built, as a build that is up to date: scripts/setup must not build anew beneath the other tests."""
+    """What was built, as a build that is up to date: scripts/setup must not build again beneath the other tests."""
     folder.mkdir()
     for part in ("bin", "lib"):
         (folder / part).symlink_to(build / part)

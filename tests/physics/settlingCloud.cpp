@@ -30,10 +30,11 @@ double sphereVolume(double diameter)
     return closures::pi / 6 * diameter * diameter * diameter;
 }
 
-/// Weight less buoyancy of all beads [N].
-double buoyantWeight(Eigen::Index beads, double diameter, double beadDensity, double fluidDensity)
+/// Weight less buoyancy of all particles [N].
+double buoyantWeight(Eigen::Index particles, double diameter, double particleDensity, double fluidDensity)
 {
-    return static_cast<double>(beads) * sphereVolume(diameter) * (beadDensity - fluidDensity) * closures::usualGravity;
+    return static_cast<double>(particles) * sphereVolume(diameter) * (particleDensity - fluidDensity)
+           * closures::usualGravity;
 }
 
 double crossSection(const TestCase& test)
@@ -94,14 +95,14 @@ double largestSpeed(const Eigen::MatrixXd& velocities)
     return velocities.colwise().norm().maxCoeff();
 }
 
-/// A cloud of 275 beads settles through a closed box whose sides let the water slip. Its speed is constant, so the
+/// A cloud of 275 particles settles through a closed box whose sides let the water slip. Its speed is constant, so the
 /// momentum of everything in the box is, too, and the only force left to carry its buoyant weight is the pressure
-/// difference from bottom to top: dp A = buoyant weight. At the end the beads lie on the bottom, whose contacts carry
+/// difference from bottom to top: dp A = buoyant weight. At the end the particles lie on the bottom, whose contacts carry
 /// them: no difference.
 ///
-/// Fails where the water does not receive what the beads receive (no difference at all), where it receives the drag but
+/// Fails where the water does not receive what the particles receive (no difference at all), where it receives the drag but
 /// model A's (1 - eps) grad p is lost or counted twice (12 % too much at this void fraction), or where the bed at rest
-/// keeps a pressure. The mean over 0.17 s is held to 3 %: the beads' paths are not straight, their momentum fluctuates.
+/// keeps a pressure. The mean over 0.17 s is held to 3 %: the particles' paths are not straight, their momentum fluctuates.
 TEST(SettlingCloud, IsCarriedByThePressureUntilItRests)
 {
     constexpr double diameter = 0.001;
@@ -110,15 +111,15 @@ TEST(SettlingCloud, IsCarriedByThePressureUntilItRests)
     test.cells = {4, 4, 16};
     test.setFluid(waterDensity, 1e-5);
     test.file("0/U").set("boundaryField/walls/type", "slip");
-    test.coupling().set("constDiffSmoothingProps/smoothingLength", 3 * diameter);
+    test.coupling().set("constDiffSmoothingProps/bandwidth", 3 * diameter);
     test.dem.diameter = diameter;
     test.dem.density = glassDensity;
     Box cloud = test.box;
     cloud.lower.z() = 0.011;
     cloud.upper.z() = 0.029;
-    test.dem.beads = simpleLattice(cloud, {5, 5, 11});
-    jitter(test.dem.beads, 5e-5, 1);
-    const auto beads = static_cast<Eigen::Index>(test.dem.beads.size());
+    test.dem.particles = simpleLattice(cloud, {5, 5, 11});
+    jitter(test.dem.particles, 5e-5, 1);
+    const auto particles = static_cast<Eigen::Index>(test.dem.particles.size());
     test.dem.timeStep = 2e-5;
     test.dem.dumpEvery = 500;
     test.setTimes(1.2, 1e-3, 1.2);
@@ -127,18 +128,18 @@ TEST(SettlingCloud, IsCarriedByThePressureUntilItRests)
     const Outcome outcome = test.run();
     ASSERT_TRUE(outcome.succeeded()) << outcome.output;
 
-    const double load = buoyantWeight(beads, diameter, glassDensity, waterDensity) / crossSection(test);
+    const double load = buoyantWeight(particles, diameter, glassDensity, waterDensity) / crossSection(test);
     const std::vector<EndPressures> pressures = endPressures(test, waterDensity);
-    const auto history = test.beadHistory();
+    const auto history = test.particleHistory();
 
     // Relaxed after some five times 6 ms, not yet at the bottom; entries of the dump are 10 ms apart.
     constexpr double from = 0.03;
     constexpr double to = 0.2;
-    ASSERT_GT(history.at(20).position.row(2).minCoeff(), diameter) << "the first bead has reached the bottom";
+    ASSERT_GT(history.at(20).position.row(2).minCoeff(), diameter) << "the first particle has reached the bottom";
     const double settling = meanDifference(pressures, from, to);
     const double resting = meanDifference(pressures, 1.1, 1.2);
 
-    // What the change of momentum takes: the water flows back as much volume as the beads bring down.
+    // What the change of momentum takes: the water flows back as much volume as the particles bring down.
     const double gained = (history[3].velocity - history[20].velocity).row(2).sum() * sphereVolume(diameter)
                           * (glassDensity - waterDensity) / (to - from) / crossSection(test);
     std::cout << "settling: dp " << settling << " Pa, buoyant weight " << load << " Pa, deviation "

@@ -3,7 +3,7 @@
 /// a script notices, and leave every file as it was: the case's own, and results of an earlier run.
 
 #include "support/testCase.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ using namespace clepsydra::tests;
 const std::string couplingProperties = "constant/couplingProperties";
 const std::string transportProperties = "constant/transportProperties";
 const std::string controlDict = "system/controlDict";
-const std::string script = "DEM/in.beads";
+const std::string script = "DEM/in.particles";
 
 using Change = std::function<void(TestCase&)>;
 using Words = std::vector<std::string>;
@@ -43,22 +43,23 @@ Files filesIn(const std::filesystem::path& folder)
     return files;
 }
 
-/// A case that is right, where an earlier run has left its results: one bead above the middle of a box of water.
+/// A case that is right, where an earlier run has left its results: one particle above the middle of a box of water.
 void fillIn(TestCase& test)
 {
     test.cells = {4, 4, 8};
-    test.dem.beads = {{0.0101, 0.0099, 0.02}};
+    test.dem.particles = {{0.0101, 0.0099, 0.02}};
     test.dem.timeStep = 4e-5;
     test.setTimes(0.004, 1e-3, 0.002);
-    test.coupling().set("beadOutput/writeVtk", "on").set("DEM/writeRestart", "\"DEM/end.restart\"");
+    test.coupling().set("particleOutput/writeVtk", "on").set("DEM/writeRestart", "\"DEM/end.restart\"");
     test.control()
         .set("functions/massInHopper/type", "massInHopper")
         .set("functions/massInHopper/libs", "()")
         .set("functions/massInHopper/patch", "walls");
-    test.extraFiles["VTK/beads.pvd"] = "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
-                                       "<DataSet timestep=\"0\" file=\"beads_0.vtp\"/></Collection></VTKFile>\n";
-    for (const char* result : {"postProcessing/massInHopper/0/massInHopper.dat", "postProcessing/ledger/0/summary.json",
-             "VTK/beads_0.vtp", "DEM/end.restart", "log.liggghts"})
+    test.extraFiles["VTK/particles.pvd"] =
+        "<VTKFile type=\"Collection\" version=\"0.1\"><Collection>"
+        "<DataSet timestep=\"0\" file=\"particles_0.vtp\"/></Collection></VTKFile>\n";
+    for (const char* result : {"postProcessing/massInHopper/0/massInHopper.dat",
+             "postProcessing/conservation/0/summary.json", "VTK/particles_0.vtp", "DEM/end.restart", "log.liggghts"})
     {
         test.extraFiles[result] = "of an earlier run\n";
     }
@@ -163,8 +164,8 @@ TEST(BadInput, TheSameCaseWithoutMistakeRuns)
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
 }
 
-/// Sides that are joined to each other would need every bead near them twice. A program that took them would let the fluid
-/// pass, and keep the beads and their volume at their own side.
+/// Sides that are joined to each other would need every particle near them twice. A program that took them would let the fluid
+/// pass, and keep the particles and their volume at their own side.
 TEST(BadInput, CyclicPatches)
 {
     const Change joinSides = [](TestCase& test) {
@@ -200,21 +201,21 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("fluid", "water", {"'water'", "incompressible", "none"});
     expectEntryRefused("modelType", "C", {"'C'", "(A"});
     expectEntryRefused("momCoupleModels", "(implicit)", {"'implicit'", "implicitCouple", "explicitCouple"});
-    expectEntryRefused("constDiffSmoothingProps/nSteps", "4", {"'nSteps'", "smoothingLength"});
+    expectEntryRefused("constDiffSmoothingProps/nSteps", "4", {"'nSteps'", "bandwidth"});
     expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
 }
 
-/// A keyword that nobody reads is refused, with the known one that it may stand for: the user waits for its effect in
+/// A keyword that is unknown is refused, with the known one that it may stand for: the user waits for its effect in
 /// vain. A program that looks up what it knows and no more would run to its end.
 TEST(BadInput, EntriesThatNobodyReads)
 {
     expectRefused(
         [](TestCase& test) { test.coupling().set("selfDisturbence", "Oseen").set("dividdProps/alphaMin", "0.2"); },
-        {couplingProperties, "'selfDisturbence' is read by nobody (did you mean 'selfDisturbance'?)",
-            "'dividdProps' is read by nobody (did you mean 'dividedProps'?)", "allowed:"},
+        {couplingProperties, "'selfDisturbence' is unknown (did you mean 'selfInducedVelocityCorrection'?)",
+            "'dividdProps' is unknown (did you mean 'dividedProps'?)", "allowed:"},
         SeenBy::dictionaries);
     expectEntryRefused("DiFeliceDragProps/facotr", "2", {"did you mean 'factor'?"});
-    expectEntryRefused("dividedProps/minimumAlpha", "0.2", {"'minimumAlpha' is read by nobody", "alphaMin"});
+    expectEntryRefused("dividedProps/minimumAlpha", "0.2", {"'minimumAlpha' is unknown", "alphaMin"});
     expectEntryRefused("DEM/maxRaleighFraction", "0.2", {"did you mean 'maxRayleighFraction'?"});
     expectRefused(
         [](TestCase& test) {
@@ -226,11 +227,36 @@ TEST(BadInput, EntriesThatNobodyReads)
             test.coupling().set("DEM/groupChanges/atRest", "{ from all; to all; below 1; during 0.1; }");
         },
         {couplingProperties, "'slowerThan'"}, SeenBy::dictionaries);
-    expectEntryRefused("maxCo", "0.5", {"without 'adjustableInterval'"});
-    expectRefused([](TestCase& test) { test.coupling().set("ledger/momentumTollerance", "1e-6"); },
+    expectEntryRefused("maxCo", "0.5", {"without 'adjustableCouplingTimeStep'"});
+    expectRefused([](TestCase& test) { test.coupling().set("conservationCheck/momentumTollerance", "1e-6"); },
         {couplingProperties, "did you mean 'momentumTolerance'?"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/stopWhenFlowEnds", "0.3"); },
         {controlDict, "'stopWhenFlowEnds'", "did you mean 'stopWhenFlowStops'?"}, SeenBy::engine);
+}
+
+/// Entries and function objects under the name that they had in an earlier version, or that they have in CFDEMcoupling
+/// with another meaning, are errors that name the new one. A program that knew the new names alone would suggest whatever
+/// known word is spelt most alike, and none for names that have nothing in common.
+TEST(BadInput, OldNamesAreRefusedWithTheNewOnes)
+{
+    const std::map<std::string, std::string> entries = {{"couplingInterval", "couplingTimeStep"},
+        {"adjustableInterval", "adjustableCouplingTimeStep"}, {"minInterval", "minCouplingTimeStep"},
+        {"maxInterval", "maxCouplingTimeStep"}, {"selfDisturbance", "selfInducedVelocityCorrection"},
+        {"beadOutlets", "particleOutlets"}};
+    for (const auto& [oldName, newName] : entries)
+    {
+        expectEntryRefused(oldName, "100", {"'" + oldName + "' is unknown (it is now called '" + newName + "'"});
+    }
+    expectEntryRefused("couplingInterval", "100", {"counts DEM steps", "[s]"});
+    expectEntryRefused("beadOutput", "{ writeVtk on; }", {"now called 'particleOutput'"});
+    expectEntryRefused("ledger", "{ momentumTolerance 1e-6; }", {"now called 'conservationCheck'"});
+    expectEntryRefused("constDiffSmoothingProps/smoothingLength", "3e-3", {"now called 'bandwidth'", "half of"});
+    for (const auto& [oldName, newName] :
+        std::map<std::string, std::string>{{"beadHeight", "particleHeight"}, {"beadFlux", "particleFlux"}})
+    {
+        expectRefused([type = oldName](TestCase& test) { test.control().set("functions/massInHopper/type", type); },
+            {controlDict, "'" + oldName + "'", "now called '" + newName + "'"}, SeenBy::dictionaries);
+    }
 }
 
 /// What helps to write couplingProperties is no mistake: a word that it uses as $word, what an included file holds, and
@@ -240,19 +266,19 @@ TEST(BadInput, EntriesThatOthersReadAreNoMistake)
 {
     TestCase test;
     fillIn(test);
-    test.extraFiles["constant/lengths"] = "bead 2e-3; coarse { cell 5e-3; }\n";
+    test.extraFiles["constant/lengths"] = "particle 2e-3; coarse { cell 5e-3; }\n";
     test.extraFiles["constant/common.couplingProperties"] = "fine { cell 1e-3; }\n";
     test.extraFiles["shared/couplingProperties"] = "liquid water;\n";
     test.coupling()
         .remove("forceModels")
-        .remove("constDiffSmoothingProps/smoothingLength")
+        .remove("constDiffSmoothingProps/bandwidth")
         .set("#include \"lengths\"\n#include \"common.couplingProperties\"\nlift",
             "SaffmanLiftForce;\n#include \"../shared/couplingProperties\"\nuseDDTvoidfraction on")
         .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes $lift)")
         .set("constDiffSmoothingProps/length", "6e-3")
-        .set("constDiffSmoothingProps/smoothingLength", "$length")
+        .set("constDiffSmoothingProps/bandwidth", "$length")
         .set("\".*DragProps\"/factor", "1")
-        .set("GaussianProps/bandwidth", "$bead");
+        .set("GaussianProps/bandwidth", "$particle");
     const Outcome outcome = test.run();
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
 }
@@ -298,29 +324,29 @@ TEST(BadInput, ValuesOfTheWrongKind)
     expectEntryRefused("DEM/variables/friction", "", {"has 0 values", "one number, word or"});
     expectEntryRefused("DEM/variables/friction", "0.1 0.2", {"has 2 values", "one number, word or"});
     expectEntryRefused("DEM/variables/friction", "1e200", {"1e+200", "1e60"});
-    expectEntryRefused("constDiffSmoothingProps/smoothingLength", "1e200", {"1e+200", "a number > 0, at most 1e60"});
+    expectEntryRefused("constDiffSmoothingProps/bandwidth", "1e200", {"1e+200", "a number > 0, at most 1e60"});
 }
 
-/// The correction for a bead's own disturbance is for beads that are smeared over more than their size: elsewhere its
+/// The correction for a particle's own disturbance is for particles that are smeared over more than their size: elsewhere its
 /// formula gives numbers that mean nothing, and a program that used them would run to its end.
-TEST(BadInput, SelfDisturbanceWithoutSmoothing)
+TEST(BadInput, SelfInducedVelocityCorrectionWithoutSmoothing)
 {
     const auto oseenAnd = [](const std::string& entry, const std::string& value) {
-        return [=](TestCase& test) { test.coupling().set("selfDisturbance", "Oseen").set(entry, value); };
+        return [=](TestCase& test) { test.coupling().set("selfInducedVelocityCorrection", "Oseen").set(entry, value); };
     };
     expectRefused(oseenAnd("smoothingModel", "off"),
-        {couplingProperties, "'selfDisturbance'", "smoothingModel", "allowed:"}, SeenBy::engine);
+        {couplingProperties, "'selfInducedVelocityCorrection'", "smoothingModel", "allowed:"}, SeenBy::engine);
     expectRefused(oseenAnd("momCoupleModels", "(explicitCouple)"),
-        {couplingProperties, "'selfDisturbance'", "allowed:", "implicitCouple"}, SeenBy::engine);
-    expectRefused(oseenAnd("constDiffSmoothingProps/smoothingLength", "1e-3"),
-        {couplingProperties, "'selfDisturbance'", "smoothingLength", "allowed:"}, SeenBy::engine);
+        {couplingProperties, "'selfInducedVelocityCorrection'", "allowed:", "implicitCouple"}, SeenBy::engine);
+    expectRefused(oseenAnd("constDiffSmoothingProps/bandwidth", "1e-3"),
+        {couplingProperties, "'selfInducedVelocityCorrection'", "bandwidth", "allowed:"}, SeenBy::engine);
 }
 
 /// A missing file, dictionary or entry is named. A program with silent defaults would run to its end.
 TEST(BadInput, MissingEntries)
 {
-    for (const std::string entry : {"couplingInterval", "fluid", "modelType", "forceModels", "voidFractionModel",
-             "smoothingModel", "constDiffSmoothingProps/smoothingLength", "momCoupleModels", "DEM", "DEM/script"})
+    for (const std::string entry : {"couplingTimeStep", "fluid", "modelType", "forceModels", "voidFractionModel",
+             "smoothingModel", "constDiffSmoothingProps/bandwidth", "momCoupleModels", "DEM", "DEM/script"})
     {
         SCOPED_TRACE(entry);
         expectRefused([&](TestCase& test) { test.coupling().remove(entry); },
@@ -341,11 +367,11 @@ TEST(BadInput, MissingEntries)
 }
 
 /// Quantities that cannot be negative are refused with their file and what is allowed. Negative friction is the
-/// treacherous one: LIGGGHTS takes it and pushes beads on instead of holding them.
+/// treacherous one: LIGGGHTS takes it and pushes particles on instead of holding them.
 TEST(BadInput, NegativeQuantities)
 {
-    for (const char* entry : {"DEM/variables/beadDensity", "DEM/variables/beadDiameter",
-             "constDiffSmoothingProps/smoothingLength", "couplingInterval", "dividedProps/alphaMin"})
+    for (const char* entry : {"DEM/variables/particleDensity", "DEM/variables/particleDiameter",
+             "constDiffSmoothingProps/bandwidth", "couplingTimeStep", "dividedProps/alphaMin"})
     {
         expectEntryRefused(entry, "-0.1", {"-0.1", "a number > 0"});
     }
@@ -381,12 +407,12 @@ TEST(BadInput, NegativeQuantities)
 
 /// Steps that do not fit each other, or at which contacts explode: refused before the first step, with the number that
 /// would be right. A program that rounded the number of DEM steps would drift from the fluid's time; one without the
-/// check of the Rayleigh time would lose beads later on.
+/// check of the Rayleigh time would lose particles later on.
 TEST(BadInput, Steps)
 {
-    expectEntryRefused("couplingInterval", "2e-3", {"0.002 s", "deltaT", controlDict, "0.001 s"});
+    expectEntryRefused("couplingTimeStep", "2e-3", {"0.002 s", "deltaT", controlDict, "0.001 s"});
     expectRefused([](TestCase& test) { test.dem.timeStep = 3e-5; },
-        {couplingProperties, "'couplingInterval' is 0.001 s", "allowed: a whole multiple", "3e-05 s", script},
+        {couplingProperties, "'couplingTimeStep' is 0.001 s", "allowed: a whole multiple", "3e-05 s", script},
         SeenBy::engine);
     expectRefused([](TestCase& test) { test.dem.timeStep = 2.5e-4; },
         {couplingProperties, "DEM step above the stable one", script, "0.00025 s", "Rayleigh", "allowed: at most",
@@ -397,7 +423,7 @@ TEST(BadInput, Steps)
 }
 
 /// Limits of an adjustable interval that leave none, and times that no whole number of DEM steps can hit.
-TEST(BadInput, AdjustableInterval)
+TEST(BadInput, AdjustableCouplingTimeStep)
 {
     const auto refused = [](const std::string& file, const std::string& entry, const std::string& value,
                              const Words& allowed, SeenBy seenBy) {
@@ -407,38 +433,40 @@ TEST(BadInput, AdjustableInterval)
         expectRefused(
             [&](TestCase& test) {
                 test.coupling()
-                    .set("adjustableInterval", "yes")
+                    .set("adjustableCouplingTimeStep", "yes")
                     .set("maxCo", "0.5")
-                    .set("minInterval", "4e-4")
-                    .set("maxInterval", "2e-3");
+                    .set("minCouplingTimeStep", "4e-4")
+                    .set("maxCouplingTimeStep", "2e-3");
                 test.file(file).set(entry, value);
             },
             words, seenBy);
     };
     refused(couplingProperties, "maxCo", "0", {"a number > 0"}, SeenBy::dictionaries);
-    refused(couplingProperties, "minInterval", "3e-3", {"at most maxInterval", "0.002 s"}, SeenBy::dictionaries);
-    refused(couplingProperties, "maxInterval", "-1", {"a number > 0"}, SeenBy::dictionaries);
+    refused(couplingProperties, "minCouplingTimeStep", "3e-3", {"at most maxCouplingTimeStep", "0.002 s"},
+        SeenBy::dictionaries);
+    refused(couplingProperties, "maxCouplingTimeStep", "-1", {"a number > 0"}, SeenBy::dictionaries);
     expectRefused(
         [](TestCase& test) {
             test.coupling()
-                .set("adjustableInterval", "yes")
+                .set("adjustableCouplingTimeStep", "yes")
                 .set("maxCo", "0.5")
-                .set("minInterval", "2e-3")
-                .set("maxInterval", "2e-3");
+                .set("minCouplingTimeStep", "2e-3")
+                .set("maxCouplingTimeStep", "2e-3");
         },
-        {couplingProperties, "'couplingInterval' is 0.001 s", "allowed: from minInterval to maxInterval"},
+        {couplingProperties, "'couplingTimeStep' is 0.001 s",
+            "allowed: from minCouplingTimeStep to maxCouplingTimeStep"},
         SeenBy::dictionaries);
-    refused(couplingProperties, "minInterval", "3e-5", {"at least the DEM step", "4e-05 s"}, SeenBy::engine);
+    refused(couplingProperties, "minCouplingTimeStep", "3e-5", {"at least the DEM step", "4e-05 s"}, SeenBy::engine);
     refused(controlDict, "writeInterval", "0.00202", {"a whole multiple of the DEM step", "4e-05 s"}, SeenBy::engine);
     refused(controlDict, "endTime", "0.00402", {"a whole multiple of the DEM step", "4e-05 s"}, SeenBy::engine);
 }
 
-/// What the script says is at odds with the fluid's case. A bead outside the mesh would feel no water; with different
-/// gravity in the two engines beads would float or sink that should not; without the patch massInHopper counts nothing.
-TEST(BadInput, BeadsAndFluidAtOdds)
+/// What the script says is at odds with the fluid's case. A particle outside the mesh would feel no water; with different
+/// gravity in the two engines particles would float or sink that should not; without the patch massInHopper counts nothing.
+TEST(BadInput, ParticlesAndFluidAtOdds)
 {
-    expectRefused([](TestCase& test) { test.dem.beads.emplace_back(0.01, 0.01, 0.0412); },
-        {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh", "spans"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.dem.particles.emplace_back(0.01, 0.01, 0.0412); },
+        {"Particle 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh", "spans"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.dem.gravity = 1.62; },
         {"constant/g is (0 0 -9.81)", "fix gravity of the DEM script gives (0 0 -1.62)", "allowed: the same"},
         SeenBy::engine);
@@ -466,30 +494,31 @@ TEST(BadInput, DemScript)
         {"LIGGGHTS stopped", "coefficientFriction", script}, SeenBy::engine);
 }
 
-/// Beads that LIGGGHTS leaves out without a word, divides by zero for (SIGFPE, no bead named), or lets explode out of
+/// Particles that LIGGGHTS leaves out without a word, divides by zero for (SIGFPE, no particle named), or lets explode out of
 /// the box ("the DEM box is too small"): each is named with its place.
-TEST(BadInput, PlacesOfBeads)
+TEST(BadInput, PlacesOfParticles)
 {
-    const auto withBeadAt = [](const Eigen::Vector3d& place) {
-        return [=](TestCase& test) { test.dem.beads.push_back(place); };
+    const auto withParticleAt = [](const Eigen::Vector3d& place) {
+        return [=](TestCase& test) { test.dem.particles.push_back(place); };
     };
+    expectRefused(withParticleAt({0.0101, 0.0099, 0.02}), {"particle 2 is at the same place", "0.0099 0.02) m", script},
+        SeenBy::engine);
+    expectRefused(withParticleAt({0, 0.01, 0.03}),
+        {"particle 2 at (0 0.01 0.03) m is not a finite number", "exactly on a wall"}, SeenBy::engine);
     expectRefused(
-        withBeadAt({0.0101, 0.0099, 0.02}), {"bead 2 is at the same place", "0.0099 0.02) m", script}, SeenBy::engine);
-    expectRefused(withBeadAt({0, 0.01, 0.03}),
-        {"bead 2 at (0 0.01 0.03) m is not a finite number", "exactly on a wall"}, SeenBy::engine);
-    expectRefused(
-        withBeadAt({0.1, 0.01, 0.03}), {script + " line ", "made no bead", "the box, (-0.002"}, SeenBy::engine);
-    expectRefused(
-        withBeadAt({0.0101, 0.0099, 0.0208}), {"Beads 1 and 2 at", "overlap by 0.0012 m", "allowed"}, SeenBy::engine);
+        withParticleAt({0.1, 0.01, 0.03}), {script + " line ", "made no particle", "the box, (-0.002"}, SeenBy::engine);
+    expectRefused(withParticleAt({0.0101, 0.0099, 0.0208}), {"Particles 1 and 2 at", "overlap by 0.0012 m", "allowed"},
+        SeenBy::engine);
 }
 
-/// The script's own `run` moves the beads without the fluid; it was taken, with exit 0, and within an `if` for longer. A last
+/// The script's own `run` moves the particles without the fluid; it was taken, with exit 0, and within an `if` for longer. A last
 /// line that is to go on was left out without a word. What LIGGGHTS says of a command with variables comes with their values.
 TEST(BadInput, RunAndVariablesInDemScript)
 {
     expectRefused([](TestCase& test) { test.dem.more = "run 10"; }, {script + " line ", "'run 10'", "without 'run'"},
         SeenBy::engine);
-    for (const std::string command : {"run 10", "create_atoms 1 single 0.01 0.01 0.03", "if 1 then 'jump in.beads'"})
+    for (const std::string command :
+        {"run 10", "create_atoms 1 single 0.01 0.01 0.03", "if 1 then 'jump in.particles'"})
     {
         SCOPED_TRACE(command);
         expectRefused([&](TestCase& test) { test.dem.more = R"(if 1 then "variable a equal 1" ")" + command + '"'; },
@@ -508,17 +537,17 @@ TEST(BadInput, RunAndVariablesInDemScript)
 /// name: refused, where the program ran, or began a smoothing of thousands of sweeps.
 TEST(BadInput, SizesAndFilesThatNobodyReads)
 {
-    expectEntryRefused("DEM/variables/beadDiameter", "2", {"2 m", "the mesh spans"});
+    expectEntryRefused("DEM/variables/particleDiameter", "2", {"2 m", "the mesh spans"});
     expectEntryRefused("DEM/variables/youngsModulus", "1e200", {"1e+200"});
-    expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/smoothingLength", "1"); },
-        {couplingProperties, "'smoothingLength' is 1 m", "the mesh spans"}, SeenBy::engine);
+    expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/bandwidth", "1"); },
+        {couplingProperties, "'bandwidth' is 1 m", "the mesh spans"}, SeenBy::engine);
     expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationType", "RAS"); },
         {"turbulenceProperties", "'RAS'", "laminar"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.file("0/voidfraction") = test.file("0/p"); },
         {"0/voidfraction", "did you mean 'voidFraction'?", "allowed:"}, SeenBy::engine);
 }
 
-/// A pressure solver that stops at maxIter is told once, counted at the end, and ends a run that goes on like that. The
+/// A pressure solver that stops at maxIter is reported once, counted at the end, and ends a run that goes on like that. The
 /// program went on in silence.
 TEST(BadInput, UnconvergedPressure)
 {
@@ -537,7 +566,7 @@ TEST(BadInput, UnconvergedPressure)
     expectRefused(test.runCommand("$SOLVER"), {"DICPCG stopped after 1 iterations", "in the last 50 intervals"});
 }
 
-/// An interval in which a bead crosses many cells: warned of with the figure. A hundredfold deltaT went unnoticed.
+/// An interval in which a particle crosses many cells: warned of with the figure. A hundredfold deltaT went unnoticed.
 TEST(BadInput, LongInterval)
 {
     TestCase test;
@@ -545,8 +574,8 @@ TEST(BadInput, LongInterval)
     test.extraFiles.clear();
     test.setTimes(0.05, 0.05, 0.05);
     const Outcome outcome = test.run();
-    EXPECT_TRUE(outcome.says("in a coupling interval of 0.05 s")) << outcome.output;
-    EXPECT_TRUE(outcome.says("WARNING: beads moved farther")) << outcome.output;
+    EXPECT_TRUE(outcome.says("in a coupling step of 0.05 s")) << outcome.output;
+    EXPECT_TRUE(outcome.says("WARNING: particles moved farther")) << outcome.output;
 }
 
 /// `-dryRun` refuses what a start refuses, writes nothing (no table of function objects, no dump, no lock), replaces
@@ -558,7 +587,7 @@ TEST(BadInput, DryRun)
     fillIn(test);
     test.dem.dumpEvery = 10;
     test.dem.more = "compute energy all ke\nfix mean all ave/time 1 1 1 c_energy file DEM/energy.txt\n"
-                    "fix told all print 1 \"file 1\" file DEM/told.txt screen no\n";
+                    "fix reported all print 1 \"file 1\" file DEM/reported.txt screen no\n";
     ASSERT_TRUE(test.makeMesh().succeeded());
     const Files before = filesIn(test.path());
     const Outcome outcome = test.runCommand("$SOLVER -dryRun");
@@ -574,10 +603,11 @@ TEST(BadInput, DryRun)
     EXPECT_TRUE(atEnd.succeeded()) << atEnd.output;
     EXPECT_TRUE(atEnd.says("Dry run: the case is at its end, 0.004 s")) << atEnd.output;
 
-    test.dem.beads.emplace_back(0.01, 0.01, 0.0412);
+    test.dem.particles.emplace_back(0.01, 0.01, 0.0412);
     test.write();
     const Files wrong = filesIn(test.path());
-    expectRefused(test.runCommand("$SOLVER -dryRun"), {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"});
+    expectRefused(
+        test.runCommand("$SOLVER -dryRun"), {"Particle 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"});
     EXPECT_EQ(wrong, filesIn(test.path()));
 }
 
@@ -591,11 +621,11 @@ TEST(BadInput, OnTwoRanks)
     expectRefused(
         [](TestCase& test) {
             test.dem.readRestart = "DEM/none.restart";
-            test.dem.beads.clear();
+            test.dem.particles.clear();
         },
         {script + " line ", "Cannot open DEM/none.restart"}, SeenBy::engine, 2);
-    expectRefused([](TestCase& test) { test.dem.beads.emplace_back(0.01, 0.01, 0.0412); },
-        {"Bead 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"}, SeenBy::engine, 2);
+    expectRefused([](TestCase& test) { test.dem.particles.emplace_back(0.01, 0.01, 0.0412); },
+        {"Particle 2 at (0.01 0.01 0.0412) m lies in no cell of the mesh"}, SeenBy::engine, 2);
 }
 
 /// A case that is decomposed for two ranks does not start on three, nor one that is not decomposed on two. A program

@@ -22,7 +22,7 @@ namespace
 constexpr double diameter = 0.002;
 constexpr double interval = 1e-4;
 
-/// Beads that lie loosely all over a box of water: the more ranks, the fewer beads and cells has one of them.
+/// Particles that lie loosely all over a box of water: the more ranks, the fewer particles and cells has one of them.
 void bedInABox(TestCase& test, const std::string& boxes, double writeInterval)
 {
     test.box.upper = {0.032, 0.032, 0.064};
@@ -34,12 +34,12 @@ void bedInABox(TestCase& test, const std::string& boxes, double writeInterval)
         test.solution().set(
             "solvers/" + field, "{ solver PCG; preconditioner DIC; tolerance 1e-3; relTol 0; maxIter 3; }");
     }
-    test.coupling().set("ledger/continuityTolerance", "1");
-    Box beads = test.box;
-    beads.upper.z() = 0.06;
+    test.coupling().set("conservationCheck/continuityTolerance", "1");
+    Box particles = test.box;
+    particles.upper.z() = 0.06;
     test.dem.diameter = diameter;
-    test.dem.beads = simpleLattice(beads, {10, 10, 20});
-    jitter(test.dem.beads, 5e-5, 1);
+    test.dem.particles = simpleLattice(particles, {10, 10, 20});
+    jitter(test.dem.particles, 5e-5, 1);
     test.dem.timeStep = interval / 3;
     test.file("system/decomposeParDict")
         .set("method", "simple")
@@ -51,8 +51,8 @@ struct Counts
 {
     nlohmann::json ofRanks = nlohmann::json::array();
     int sweeps = 0;
-    /// The smallest of the files of their beads.
-    double beadsFile = 0;
+    /// The smallest of the files of their particles.
+    double particlesFile = 0;
 
     double largest(const std::string& phase, const std::string& quantity) const
     {
@@ -85,14 +85,14 @@ Counts countsOn(int ranks, const std::string& boxes, double writeInterval)
         + std::to_string(ranks) + " -x MESSAGE_COUNTS -x LD_PRELOAD=" COUNT_MESSAGES " $SOLVER -parallel");
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
     Counts counts;
-    counts.beadsFile = std::numeric_limits<double>::max();
+    counts.particlesFile = std::numeric_limits<double>::max();
     for (int rank = 0; rank < ranks; ++rank)
     {
         std::ifstream file(test.path() / (std::to_string(rank) + ".json"));
         counts.ofRanks.push_back(nlohmann::json::parse(file));
-        const std::string beads = "checkpoints/0.0004/beads." + std::to_string(rank) + ".restart";
-        counts.beadsFile =
-            std::min(counts.beadsFile, static_cast<double>(std::filesystem::file_size(test.path() / beads)));
+        const std::string particles = "checkpoints/0.0004/particles." + std::to_string(rank) + ".restart";
+        counts.particlesFile =
+            std::min(counts.particlesFile, static_cast<double>(std::filesystem::file_size(test.path() / particles)));
     }
     std::smatch found;
     if (std::regex_search(outcome.output, found, std::regex("in ([0-9]+) sweeps")))
@@ -109,18 +109,18 @@ Counts countsOn(int ranks, const std::string& boxes, double writeInterval)
         }
         std::cout << '\n';
     }
-    std::cout << "    memory " << counts.largestMemory() / 1e6 << " MB, " << counts.sweeps << " sweeps, beads on disk "
-              << counts.beadsFile << " bytes\n";
+    std::cout << "    memory " << counts.largestMemory() / 1e6 << " MB, " << counts.sweeps
+              << " sweeps, particles on disk " << counts.particlesFile << " bytes\n";
     return counts;
 }
 
 } // namespace
 
-/// The same bed on 2, 4 and 8 ranks. Nothing that a rank is told grows with their number: not the bytes of collective
+/// The same bed on 2, 4 and 8 ranks. Nothing that a rank is reported grows with their number: not the bytes of collective
 /// calls, which a list of all ranks' boxes in every interval made grow by 96 a rank; not the messages to one neighbour; not
-/// its memory. The smoothing passes the mesh twice in an interval, with all that the beads give and with what they feel:
-/// one message to each neighbour a sweep, and two for each of the few rounds in which cells near beads are found. When it
-/// took eight quantities at most, and what is given in advance by itself, there were four passes.
+/// its memory. The smoothing passes the mesh twice in an interval, with all that the particles give and with what they feel:
+/// one message to each neighbour a sweep, and two for each of the few rounds in which cells near particles are found. When it
+/// took eight quantities at most, and what is given semi-implicitly by itself, there were four passes.
 TEST(Messages, OfARankDoNotGrowWithTheRanks)
 {
     const Counts two = countsOn(2, "(2 1 1)", 4 * interval);
@@ -147,13 +147,13 @@ TEST(Messages, OfARankDoNotGrowWithTheRanks)
     EXPECT_LT(eight.largestMemory(), two.largestMemory());
 }
 
-/// With a checkpoint in every interval a rank hands on what lies at its border and the checksums of its files, not its beads:
+/// With a checkpoint in every interval a rank hands on what lies at its border and the checksums of its files, not its particles:
 /// those it writes itself. When the first rank wrote all that the others sent to it, they sent as much as lies on the disk.
-TEST(Messages, OfACheckpointAreNotItsBeads)
+TEST(Messages, OfACheckpointAreNotItsParticles)
 {
     const Counts counts = countsOn(2, "(2 1 1)", interval);
-    EXPECT_LT(counts.largest("output", "bytes"), 0.1 * counts.beadsFile);
-    EXPECT_LT(counts.largest("output", "collectiveBytes"), 0.1 * counts.beadsFile);
+    EXPECT_LT(counts.largest("output", "bytes"), 0.1 * counts.particlesFile);
+    EXPECT_LT(counts.largest("output", "collectiveBytes"), 0.1 * counts.particlesFile);
 }
 
 } // namespace clepsydra::tests

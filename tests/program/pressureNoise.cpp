@@ -1,5 +1,5 @@
 /// \file
-/// Noise of the pressure in a hopper that discharges under water, against the length of the coupling interval.
+/// Noise of the pressure in a hopper that discharges under water, against the length of the coupling step.
 
 #include "quickHopper.h"
 
@@ -15,7 +15,7 @@ namespace
 
 using namespace clepsydra::tests;
 
-/// From when the beads flow at a steady rate until half of them have left.
+/// From when the particles flow at a steady rate until half of them have left.
 constexpr double windowStart = 0.05;
 constexpr double windowEnd = 1.05;
 /// The slow course of the pressure is the mean over this time round each instant [s].
@@ -59,38 +59,38 @@ Noise noise(const Eigen::VectorXd& pressure, double step)
 }
 
 /// The pressure 3 mm above the orifice does not get noisier as the interval falls: the noise is the grains', not the
-/// coupling's. The pressure answers to d2(eps)/dt2, so a void fraction that jumps in time (whole beads in the cells of
+/// coupling's. The pressure answers to d2(eps)/dt2, so a void fraction that jumps in time (whole particles in the cells of
 /// their centres) makes it grow like a power of 1/step: 50, 18 and 11 Pa at .5, 1 and 2 ms in a prototype with a compact
-/// kernel. A program that left d(eps)/dt out, or moved no beads, would be quiet: 2.7 Pa there. So the noise has a lower
+/// kernel. A program that left d(eps)/dt out, or moved no particles, would be quiet: 2.7 Pa there. So the noise has a lower
 /// limit here as well.
 ///
-/// One packing of 1300 beads, two runs, the case's own low-pass of d(eps)/dt (smoothingTime 4 ms). After the first
+/// One packing of 1300 particles, two runs, the case's own low-pass of d(eps)/dt (smoothingTime 4 ms). After the first
 /// contacts the runs are independent of one another. Measured at .5 and 2 ms: 6.5 and 5.1 Pa, each +-6 % (one standard
 /// error from 140 independent samples in 1 s), so a ratio of 1.29 +- .11: the drag that is given for the whole interval
 /// damps some of the noise. The limit is a growth like the root of 1/step, a ratio of 2, three standard errors or more
 /// above what is measured; the prototype's ratio of .5 to 2 ms was 4.5.
 TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
 {
-    QuickHopper hopper({{"beadCount", "1300"}, {"hopperDiameter", "0.018"}, {"orificeDiameter", "0.009"},
+    QuickHopper hopper({{"particleCount", "1300"}, {"hopperDiameter", "0.018"}, {"orificeDiameter", "0.009"},
         {"hopperHeight", "0.06"}, {"tankDiameter", "0.036"}, {"tankDepth", "0.03"}, {"waterAboveRim", "0.01"},
-        {"cellSize", "3e-3"}, {"demStep", "4.166667e-5"}, {"pourTime", "0.8"},
+        {"cellSize", "3e-3"}, {"demStep", "4.166667e-5"}, {"fillingTime", "0.8"},
         {"submergedTime", std::to_string(windowEnd)}, {"fieldInterval", "10"}});
-    const Outcome poured = hopper.pour();
-    ASSERT_TRUE(poured.succeeded()) << poured.output;
+    const Outcome filled = hopper.filling();
+    ASSERT_TRUE(filled.succeeded()) << filled.output;
     ASSERT_EQ(hopper.parameter("dilationTime"), 4e-3);
 
     std::vector<Noise> measured;
     for (const std::string milliseconds : {"0.5", "2"})
     {
-        const std::string stage = "interval" + milliseconds;
-        const Outcome drained = hopper.runVariant("submerged", stage,
-            "couplingInterval " + milliseconds
+        const std::string step = "interval" + milliseconds;
+        const Outcome discharged = hopper.runVariant("submerged", step,
+            "couplingTimeStep " + milliseconds
                 + "e-3;\n"
                   "functions { probes { type probes; libs (sampling); fields (p); probeLocations ((0 0 0.003)); "
                   "writeControl timeStep; writeInterval 1; } }");
-        ASSERT_TRUE(drained.succeeded()) << drained.output;
+        ASSERT_TRUE(discharged.succeeded()) << discharged.output;
         const double interval = 1e-3 * std::stod(milliseconds);
-        const auto rows = hopper.table(stage, "probes/0/p");
+        const auto rows = hopper.table(step, "probes/0/p");
         ASSERT_EQ(rows.size(), static_cast<std::size_t>(std::lround(windowEnd / interval)));
         Eigen::VectorXd pressure(static_cast<Eigen::Index>(rows.size()));
         for (Eigen::Index i = 0; i < pressure.size(); ++i)
@@ -101,8 +101,8 @@ TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
         std::cout << "interval " << milliseconds << " ms: standard deviation of p " << measured.back().deviation
                   << " Pa +- " << 100 * measured.back().relativeError() << " % ("
                   << std::lround(measured.back().independentSamples) << " independent samples), "
-                  << hopper.table(stage, "massInHopper/0/massInHopper.dat").back()[2] << " beads left, "
-                  << drained.wallSeconds << " s" << std::endl;
+                  << hopper.table(step, "massInHopper/0/massInHopper.dat").back()[2] << " particles left, "
+                  << discharged.wallSeconds << " s" << std::endl;
     }
     for (std::size_t i = 0; i + 1 < measured.size(); ++i)
     {

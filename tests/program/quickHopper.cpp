@@ -15,7 +15,7 @@ namespace clepsydra::tests
 namespace
 {
 
-const std::string caseFolder = "cases/hopperQuick/";
+const std::string caseFolder = "cases/tutorials/hopperQuick/";
 
 } // namespace
 
@@ -23,11 +23,11 @@ QuickHopper::QuickHopper(const std::map<std::string, std::string>& parameters)
 {
     std::string commands =
         "set -euo pipefail\n"
-        "mkdir -p cases/hopperQuick\n"
+        "mkdir -p cases/tutorials/hopperQuick\n"
         "ln -s \"$CLEPSYDRA/meshes\" \"$CLEPSYDRA/scripts\" .\n"
-        "cd \"$CLEPSYDRA/cases/hopperQuick\"\n"
-        "cp -r 0 constant system DEM parameters stage.* Allrun Allclean \"$OLDPWD/cases/hopperQuick\"\n"
-        "cd \"$OLDPWD/cases/hopperQuick\"\n"
+        "cd \"$CLEPSYDRA/cases/tutorials/hopperQuick\"\n"
+        "cp -r 0 constant system DEM parameters step.* Allrun Allclean \"$OLDPWD/cases/tutorials/hopperQuick\"\n"
+        "cd \"$OLDPWD/cases/tutorials/hopperQuick\"\n"
         // All of Allrun but its last line, which calls main.
         "sed '$d' Allrun > functions\n";
     for (const auto& [name, value] : parameters)
@@ -39,7 +39,7 @@ QuickHopper::QuickHopper(const std::map<std::string, std::string>& parameters)
     const Outcome copied = folder_.runCommand("bash copyCase");
     if (!copied.succeeded())
     {
-        throw std::runtime_error("cannot copy cases/hopperQuick: " + copied.output);
+        throw std::runtime_error("cannot copy cases/tutorials/hopperQuick: " + copied.output);
     }
 }
 
@@ -52,43 +52,42 @@ Outcome QuickHopper::withAllrun(const std::string& commands)
     return folder_.runCommand("bash runCase");
 }
 
-Outcome QuickHopper::pour()
+Outcome QuickHopper::filling()
 {
-    return withAllrun("startAfresh\nmakeMesh\nrunStages pour\nrequireAllBeads\n");
+    return withAllrun("startAfresh\nmakeMesh\nrunSteps filling\nrequireAllParticles\n");
 }
 
-Outcome QuickHopper::run(const std::string& stage)
+Outcome QuickHopper::run(const std::string& step)
 {
-    return withAllrun("runStages " + stage + '\n');
+    return withAllrun("runSteps " + step + '\n');
 }
 
-Outcome QuickHopper::runVariant(const std::string& stage, const std::string& name, const std::string& entries)
+Outcome QuickHopper::runVariant(const std::string& step, const std::string& name, const std::string& entries)
 {
-    return withAllrun("prepareStage " + stage + "\ncp -r stages/" + stage + " stages/" + name + "\ncat >> stages/"
-                      + name + "/stage << 'END'\n" + entries + "\nEND\nrunStages " + name + '\n');
+    return withAllrun("prepareStep " + step + "\ncp -r steps/" + step + " steps/" + name + "\ncat >> steps/" + name
+                      + "/step << 'END'\n" + entries + "\nEND\nrunSteps " + name + '\n');
 }
 
-std::vector<std::vector<double>> QuickHopper::table(const std::string& stage, const std::string& file) const
+std::vector<std::vector<double>> QuickHopper::table(const std::string& step, const std::string& file) const
 {
-    return folder_.table(caseFolder + "stages/" + stage + "/postProcessing/" + file);
+    return folder_.table(caseFolder + "steps/" + step + "/postProcessing/" + file);
 }
 
-nlohmann::json QuickHopper::ledger(const std::string& stage) const
+nlohmann::json QuickHopper::conservation(const std::string& step) const
 {
-    std::ifstream is(folder_.path() / caseFolder / "stages" / stage / "postProcessing/ledger/0/summary.json");
+    std::ifstream is(folder_.path() / caseFolder / "steps" / step / "postProcessing/conservation/0/summary.json");
     if (!is)
     {
-        throw std::runtime_error("no summary of the ledger of stage " + stage);
+        throw std::runtime_error("no summary of the conservation check of step " + step);
     }
     return nlohmann::json::parse(is);
 }
 
-std::vector<DrawnBead> QuickHopper::lastBeads(const std::string& stage) const
+std::vector<DrawnParticle> QuickHopper::lastParticles(const std::string& step) const
 {
     std::filesystem::path last;
     double latest = -1;
-    for (const auto& entry :
-        std::filesystem::directory_iterator(folder_.path() / caseFolder / "stages" / stage / "VTK"))
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path() / caseFolder / "steps" / step / "VTK"))
     {
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() == ".vtp" && std::stod(name.substr(name.find('_') + 1)) > latest)
@@ -102,14 +101,14 @@ std::vector<DrawnBead> QuickHopper::lastBeads(const std::string& stage) const
     reader->Update();
     vtkPolyData& drawn = *reader->GetOutput();
     vtkDataArray* const id = drawn.GetPointData()->GetArray("id");
-    std::vector<DrawnBead> beads(static_cast<std::size_t>(drawn.GetNumberOfPoints()));
-    for (std::size_t bead = 0; bead < beads.size(); ++bead)
+    std::vector<DrawnParticle> particles(static_cast<std::size_t>(drawn.GetNumberOfPoints()));
+    for (std::size_t particle = 0; particle < particles.size(); ++particle)
     {
-        const auto point = static_cast<vtkIdType>(bead);
-        beads[bead].id = static_cast<int>(id->GetTuple1(point));
-        drawn.GetPoint(point, beads[bead].position.data());
+        const auto point = static_cast<vtkIdType>(particle);
+        particles[particle].id = static_cast<int>(id->GetTuple1(point));
+        drawn.GetPoint(point, particles[particle].position.data());
     }
-    return beads;
+    return particles;
 }
 
 double QuickHopper::parameter(const std::string& name) const

@@ -1,5 +1,5 @@
 /// \file
-/// cases/hopperQuick in a temporary folder, with parameters of one's own: the case's generator, scripts and stages.
+/// cases/tutorials/hopperQuick in a temporary folder, with parameters of one's own: the case's generator, scripts and steps.
 #pragma once
 
 #include "support/testCase.h"
@@ -11,8 +11,8 @@
 namespace clepsydra::tests
 {
 
-/// One bead of a VTK file.
-struct DrawnBead
+/// One particle of a VTK file.
+struct DrawnParticle
 {
     int id = 0;
     Eigen::Vector3d position;
@@ -25,22 +25,22 @@ public:
     explicit QuickHopper(const std::map<std::string, std::string>& parameters);
 
     /// Mesh and packing. Call first.
-    Outcome pour();
+    Outcome filling();
 
-    /// Runs one stage of the case.
-    Outcome run(const std::string& stage);
+    /// Runs one step of the case.
+    Outcome run(const std::string& step);
 
-    /// Runs a stage under another name, with more entries in its file `stage`.
-    Outcome runVariant(const std::string& stage, const std::string& name, const std::string& entries);
+    /// Runs a step under another name, with more entries in its file `step`.
+    Outcome runVariant(const std::string& step, const std::string& name, const std::string& entries);
 
-    /// Rows of postProcessing/<observable>/0/<file> of a stage.
-    std::vector<std::vector<double>> table(const std::string& stage, const std::string& file) const;
+    /// Rows of postProcessing/<observable>/0/<file> of a step.
+    std::vector<std::vector<double>> table(const std::string& step, const std::string& file) const;
 
-    /// postProcessing/ledger/0/summary.json of a stage.
-    nlohmann::json ledger(const std::string& stage) const;
+    /// postProcessing/conservation/0/summary.json of a step.
+    nlohmann::json conservation(const std::string& step) const;
 
-    /// Beads in the last VTK file of a stage, by the order in the file.
-    std::vector<DrawnBead> lastBeads(const std::string& stage) const;
+    /// Particles in the last VTK file of a step, by the order in the file.
+    std::vector<DrawnParticle> lastParticles(const std::string& step) const;
 
     /// A number of the case's file `parameters`, overrides included.
     double parameter(const std::string& name) const;

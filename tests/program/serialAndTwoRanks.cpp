@@ -19,7 +19,7 @@ constexpr double interval = 1e-3;
 constexpr int intervals = 350;
 constexpr double rankBoundary = 0.01;
 
-/// Sixty beads in water that drift through the plane between the two ranks, x = .01 m, while they fall to the floor.
+/// Sixty particles in water that drift through the plane between the two ranks, x = .01 m, while they fall to the floor.
 void fillIn(TestCase& test)
 {
     test.box.upper = {0.02, 0.02, 0.04};
@@ -35,27 +35,27 @@ void fillIn(TestCase& test)
     cloud.lower = {0.003, 0.004, 0.026};
     cloud.upper = {0.0155, 0.016, 0.036};
     test.dem.diameter = diameter;
-    test.dem.beads = simpleLattice(cloud, {5, 4, 3});
-    jitter(test.dem.beads, 5e-5, 1);
+    test.dem.particles = simpleLattice(cloud, {5, 4, 3});
+    jitter(test.dem.particles, 5e-5, 1);
     test.dem.timeStep = 4e-5;
     test.dem.dumpEvery = 25;
     test.dem.more = "velocity all set 0.1 0 0 units box";
 }
 
-/// Whether beads touch each other or a wall.
-bool anyContact(const BeadSnapshot& beads, const Box& box)
+/// Whether particles touch each other or a wall.
+bool anyContact(const ParticleSnapshot& particles, const Box& box)
 {
     const double radius = 0.5 * diameter;
-    for (Eigen::Index i = 0; i < beads.position.cols(); ++i)
+    for (Eigen::Index i = 0; i < particles.position.cols(); ++i)
     {
-        const Eigen::Vector3d x = beads.position.col(i);
+        const Eigen::Vector3d x = particles.position.col(i);
         if ((x - box.lower).minCoeff() < radius || (box.upper - x).minCoeff() < radius)
         {
             return true;
         }
         for (Eigen::Index j = 0; j < i; ++j)
         {
-            if ((x - beads.position.col(j)).norm() < diameter)
+            if ((x - particles.position.col(j)).norm() < diameter)
             {
                 return true;
             }
@@ -77,14 +77,14 @@ double fieldDifference(const TestCase& a, const TestCase& b, const std::string& 
     return (first - second).colwise().norm().maxCoeff() / first.colwise().norm().maxCoeff();
 }
 
-/// Beads and fields of a settling cloud are the same in serial and on two ranks, although 24 of 60 beads change rank on
-/// their way. A program that did nothing would agree with itself, so beads must have fallen, crossed and touched; one
-/// that lost a bead's force, volume or contact at the boundary between the ranks would differ by parts of a diameter.
+/// Particles and fields of a settling cloud are the same in serial and on two ranks, although 24 of 60 particles change rank on
+/// their way. A program that did nothing would agree with itself, so particles must have fallen, crossed and touched; one
+/// that lost a particle's force, volume or contact at the boundary between the ranks would differ by parts of a diameter.
 ///
 /// For how long the comparison means something: in free fall drag damps differences, and what the order of sums and the
 /// solvers' tolerance (1e-13 here) leave stays below the dump's resolution of 5e-12 d until the first contact at .156 s.
 /// Contacts are chaotic: a collision multiplies a difference by some times the free path over d. Measured: a factor of
-/// ten every 12 ms, so that beads agree to 1e-6 d until .25 s, and to 1e-2 d at .32 s; soon after that single beads can no
+/// ten every 12 ms, so that particles agree to 1e-6 d until .25 s, and to 1e-2 d at .32 s; soon after that single particles can no
 /// longer be compared. What remains are means: the mean height stays within .1 d.
 TEST(SerialAndTwoRanks, SettlingCloud)
 {
@@ -96,17 +96,17 @@ TEST(SerialAndTwoRanks, SettlingCloud)
     ASSERT_TRUE(alone.succeeded()) << alone.output;
     const Outcome together = parallel.run(2);
     ASSERT_TRUE(together.succeeded()) << together.output;
-    ASSERT_EQ(parallel.ledgerSummary()["ranks"], 2);
+    ASSERT_EQ(parallel.conservationSummary()["ranks"], 2);
 
-    const auto one = serial.beadHistory();
-    const auto two = parallel.beadHistory();
+    const auto one = serial.particleHistory();
+    const auto two = parallel.particleHistory();
     ASSERT_EQ(one.size(), static_cast<std::size_t>(intervals + 1));
     ASSERT_EQ(two.size(), one.size());
     double firstContact = -1;
     double largestBefore = 0;
     double largestSoonAfter = 0;
     Eigen::Index crossed = 0;
-    std::cout << "time [s], largest difference of a bead's position [d]:\n";
+    std::cout << "time [s], largest difference of a particle's position [d]:\n";
     for (std::size_t i = 0; i < one.size(); ++i)
     {
         const double time = static_cast<double>(i) * interval;
@@ -128,7 +128,7 @@ TEST(SerialAndTwoRanks, SettlingCloud)
             std::cout << "    " << time << "  " << difference << (firstContact < 0 ? "" : "  after contacts") << '\n';
         }
     }
-    std::cout << "first contact at " << firstContact << " s, " << crossed << " beads had changed rank by then\n";
+    std::cout << "first contact at " << firstContact << " s, " << crossed << " particles had changed rank by then\n";
     EXPECT_GT(firstContact, 0.1);
     EXPECT_LT(firstContact, intervals * interval - 0.04);
     EXPECT_GT(crossed, 10);

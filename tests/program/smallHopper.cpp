@@ -1,5 +1,5 @@
 /// \file
-/// The quick hopper, smaller still: poured, drained dry and under water.
+/// The quick hopper, smaller still: filled, discharged dry and under water.
 
 #include "quickHopper.h"
 
@@ -15,7 +15,7 @@ namespace
 
 using namespace clepsydra::tests;
 
-constexpr int beadCount = 300;
+constexpr int particleCount = 300;
 
 /// What five packings (seeds 100003 to 100057) gave. Another compiler's rounding gives another packing.
 struct Packings
@@ -47,82 +47,84 @@ double meanRate(const std::vector<std::vector<double>>& massInHopper, double upp
     return last == massInHopper.end() ? 0 : 1e3 * ((*first)[1] - (*last)[1]) / ((*last)[0] - (*first)[0]);
 }
 
-/// Every bead is found again, in the hopper or in the tank, and massInHopper counts those that a look at the drawn
-/// beads finds inside.
-void expectAllBeadsAccountedFor(const QuickHopper& hopper, const std::string& stage)
+/// Every particle is found again, in the hopper or in the tank, and massInHopper counts those that a look at the drawn
+/// particles finds inside.
+void expectAllParticlesAccountedFor(const QuickHopper& hopper, const std::string& step)
 {
-    SCOPED_TRACE(stage);
-    const double radius = 0.5 * hopper.parameter("beadDiameter");
+    SCOPED_TRACE(step);
+    const double radius = 0.5 * hopper.parameter("particleDiameter");
     std::set<int> ids;
     int inside = 0;
     int outside = 0;
-    for (const DrawnBead& bead : hopper.lastBeads(stage))
+    for (const DrawnParticle& particle : hopper.lastParticles(step))
     {
-        ids.insert(bead.id);
-        const double fromAxis = bead.position.head<2>().norm();
-        const double z = bead.position.z();
+        ids.insert(particle.id);
+        const double fromAxis = particle.position.head<2>().norm();
+        const double z = particle.position.z();
         if (z > 0 && z < hopper.parameter("hopperHeight") && fromAxis < 0.5 * hopper.parameter("hopperDiameter"))
         {
             ++inside;
         }
-        // Contacts are soft: a bead may sink into a wall a little.
+        // Contacts are soft: a particle may sink into a wall a little.
         else if (z > -hopper.parameter("tankDepth") + 0.9 * radius && z < 0
                  && fromAxis < 0.5 * hopper.parameter("tankDiameter") - 0.9 * radius)
         {
             ++outside;
         }
     }
-    EXPECT_EQ(ids.size(), static_cast<std::size_t>(beadCount));
-    EXPECT_EQ(inside, static_cast<int>(hopper.table(stage, "massInHopper/0/massInHopper.dat").back()[2]));
-    EXPECT_EQ(inside + outside, beadCount);
-    std::cout << stage << ": " << inside << " beads in the hopper, " << outside << " in the tank" << std::endl;
+    EXPECT_EQ(ids.size(), static_cast<std::size_t>(particleCount));
+    EXPECT_EQ(inside, static_cast<int>(hopper.table(step, "massInHopper/0/massInHopper.dat").back()[2]));
+    EXPECT_EQ(inside + outside, particleCount);
+    std::cout << step << ": " << inside << " particles in the hopper, " << outside << " in the tank" << std::endl;
 }
 
-/// 300 beads, one packing, both media: the beads flow, water slows them, none gets lost, and the books of solid volume
-/// and momentum close to rounding. A program that moved no beads would have no rate; one without the fluid's forces
-/// the same rate in both media, one with buoyancy alone .78 of it; one that lost beads or part of their volume or momentum
+/// 300 particles, one packing, both media: the particles flow, water slows them, none gets lost, and the balances of solid volume
+/// and momentum close to rounding. A program that moved no particles would have no rate; one without the fluid's forces
+/// the same rate in both media, one with buoyancy alone .78 of it; one that lost particles or part of their volume or momentum
 /// would miss the counts.
-TEST(SmallHopper, EveryBeadIsAccountedFor)
+TEST(SmallHopper, EveryParticleIsAccountedFor)
 {
-    QuickHopper hopper({{"beadCount", std::to_string(beadCount)}, {"hopperDiameter", "0.015"},
+    QuickHopper hopper({{"particleCount", std::to_string(particleCount)}, {"hopperDiameter", "0.015"},
         {"orificeDiameter", "0.009"}, {"hopperHeight", "0.04"}, {"tankDiameter", "0.04"}, {"tankDepth", "0.025"},
-        {"waterAboveRim", "0.01"}, {"pourTime", "0.8"}, {"dryTime", "1.5"}, {"submergedTime", "2"}});
-    const Outcome poured = hopper.pour();
-    ASSERT_TRUE(poured.succeeded()) << poured.output;
+        {"waterAboveRim", "0.01"}, {"fillingTime", "0.8"}, {"dryTime", "1.5"}, {"submergedTime", "2"}});
+    const Outcome filled = hopper.filling();
+    ASSERT_TRUE(filled.succeeded()) << filled.output;
     std::map<std::string, double> rate;
-    for (const std::string stage : {"dry", "submerged"})
+    for (const std::string step : {"dry", "submerged"})
     {
-        const Outcome drained = hopper.run(stage);
-        ASSERT_TRUE(drained.succeeded()) << drained.output;
-        const auto massInHopper = hopper.table(stage, "massInHopper/0/massInHopper.dat");
-        rate[stage] = meanRate(massInHopper, 0.95, 0.6);
-        std::cout << stage << ": " << rate[stage] << " g/s, " << massInHopper.back()[0] << " s simulated in "
-                  << drained.wallSeconds << " s" << std::endl;
-        expectAllBeadsAccountedFor(hopper, stage);
+        const Outcome discharged = hopper.run(step);
+        ASSERT_TRUE(discharged.succeeded()) << discharged.output;
+        const auto massInHopper = hopper.table(step, "massInHopper/0/massInHopper.dat");
+        rate[step] = meanRate(massInHopper, 0.95, 0.6);
+        std::cout << step << ": " << rate[step] << " g/s, " << massInHopper.back()[0] << " s simulated in "
+                  << discharged.wallSeconds << " s" << std::endl;
+        expectAllParticlesAccountedFor(hopper, step);
 
-        const nlohmann::json books = hopper.ledger(stage);
-        EXPECT_EQ(books["beadsStart"], beadCount);
-        EXPECT_EQ(books["beadsEnd"], beadCount);
-        EXPECT_EQ(books["beadsLost"], 0);
-        const auto volumeError = books["solidVolumeError"].get<double>();
-        const auto momentumError = books["momentumError"].get<double>();
-        std::cout << stage << ": errors of solid volume " << volumeError << ", of momentum " << momentumError
+        const nlohmann::json balances = hopper.conservation(step);
+        EXPECT_EQ(balances["particlesStart"], particleCount);
+        EXPECT_EQ(balances["particlesEnd"], particleCount);
+        EXPECT_EQ(balances["particlesLost"], 0);
+        const auto volumeError = balances["solidVolumeError"].get<double>();
+        const auto momentumError = balances["momentumError"].get<double>();
+        std::cout << step << ": errors of solid volume " << volumeError << ", of momentum " << momentumError
                   << std::endl;
         EXPECT_LT(std::abs(volumeError), 1e-12);
         EXPECT_LT(std::abs(momentumError), 1e-9);
     }
-    std::cout << "pour " << poured.wallSeconds << " s, submerged/dry " << rate["submerged"] / rate["dry"] << std::endl;
+    std::cout << "filling " << filled.wallSeconds << " s, submerged/dry " << rate["submerged"] / rate["dry"]
+              << std::endl;
     EXPECT_NEAR(rate["dry"], dryRate.mean, dryRate.allowed());
     EXPECT_NEAR(rate["submerged"], submergedRate.mean, submergedRate.allowed());
     EXPECT_NEAR(rate["submerged"] / rate["dry"], ratioOfRates.mean, ratioOfRates.allowed());
 }
 
-/// The softest beads that scripts/rules/hopper.py allows. LIGGGHTS refuses beads of less than 5 MPa unless it is told.
-TEST(SmallHopper, BeadsMayBeAsSoftAsTheRulesSay)
+/// The softest particles that scripts/rules/hopper.py allows. LIGGGHTS refuses particles of less than 5 MPa unless it is reported.
+TEST(SmallHopper, ParticlesMayBeAsSoftAsTheRulesSay)
 {
-    QuickHopper hopper({{"beadCount", "20"}, {"youngsModulus", "1e5"}, {"pourDuration", "0.04"}, {"pourTime", "0.06"}});
-    const Outcome poured = hopper.pour();
-    EXPECT_TRUE(poured.succeeded()) << poured.output;
+    QuickHopper hopper(
+        {{"particleCount", "20"}, {"youngsModulus", "1e5"}, {"fillingDuration", "0.04"}, {"fillingTime", "0.06"}});
+    const Outcome filled = hopper.filling();
+    EXPECT_TRUE(filled.succeeded()) << filled.output;
 }
 
 } // namespace

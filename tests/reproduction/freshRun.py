@@ -14,12 +14,12 @@ import yaml
 REPOSITORY = Path(__file__).resolve().parent.parent.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(REPOSITORY / "scripts"))
-import beadFiles
-import campaignResults
+import particleFiles
+import parameterStudyResults
 import flow
 
 DRY, SUBMERGED = 0.8, 0.6       # s
-WINDOW = (0.95, 0.85)           # of the fill, which is four beads deep: hence not the rates of the paper's
+WINDOW = (0.95, 0.85)           # of the fill, which is four particles deep: hence not the rates of the paper's
 # g/s in WINDOW: mean and standard deviation of three packings (100003, 100019, 100043). Other rounding is another packing.
 RATES = {"dry": (7.21, 0.21), "submerged": (5.46, 0.46)}
 OF_ONE_MORE = 3 * np.sqrt(1 + 1 / 3)    # deviations that one packing more may be from the mean of three
@@ -33,45 +33,45 @@ class FreshRun(unittest.TestCase):
         file = cls.folder / "fresh.yaml"
         file.write_text(yaml.safe_dump({
             "base": str(REPOSITORY / "cases" / "hopper5cm" / "hopper.yaml"), "work": str(cls.folder / "work"),
-            "results": str(cls.folder / "results"), "stages": ["dry", "submerged"], "runs": {"fresh": {}},
-            "parameters": {"fillMass": 0.02, "meshLevel": "quick", "pourDuration": 0.4, "pourTime": 1.1, "dryTime": DRY,
-                           "submergedTime": SUBMERGED, "fieldInterval": 0.05, "drawBeads": True}}))
-        outcome = subprocess.run([REPOSITORY / "scripts" / "campaign", "run", file], capture_output=True, text=True)
+            "results": str(cls.folder / "results"), "steps": ["dry", "submerged"], "runs": {"fresh": {}},
+            "parameters": {"fillMass": 0.02, "meshLevel": "quick", "fillingDuration": 0.4, "fillingTime": 1.1, "dryTime": DRY,
+                           "submergedTime": SUBMERGED, "fieldInterval": 0.05, "drawParticles": True}}))
+        outcome = subprocess.run([REPOSITORY / "scripts" / "parameterStudy", "run", file], capture_output=True, text=True)
         if outcome.returncode != 0:
             raise AssertionError(outcome.stdout + outcome.stderr)
-        cls.runs = {run.stage: run for run in campaignResults.read(cls.folder / "results")}
+        cls.runs = {run.step: run for run in parameterStudyResults.read(cls.folder / "results")}
 
-    def testNothingIsLostAndBothStartFromOnePour(self):
-        for stage, run in self.runs.items():
+    def testNothingIsLostAndBothStartFromOneFilling(self):
+        for step, run in self.runs.items():
             summary = json.loads((self.folder / "results" / f"{run.name}.json").read_text())["summary"]
-            self.assertEqual(summary["beads_lost"], 0, stage)
-            self.assertLess(summary["solid_volume_error"], 1e-9, stage)
-            self.assertEqual(summary["beads_start"], run.parameters["beadCount"], stage)
+            self.assertEqual(summary["particles_lost"], 0, step)
+            self.assertLess(summary["solid_volume_error"], 1e-9, step)
+            self.assertEqual(summary["particles_start"], run.parameters["particleCount"], step)
         self.assertEqual(self.runs["dry"].mass[0], self.runs["submerged"].mass[0])
 
     def testWaterSlowsTheFlow(self):
         """By more than the 5 % that two packings differ by; a run whose water does nothing would leave at the dry rate."""
-        left = {stage: 1e3 * (run.mass[0] - np.interp(0.5, run.time, run.mass)) for stage, run in self.runs.items()}
+        left = {step: 1e3 * (run.mass[0] - np.interp(0.5, run.time, run.mass)) for step, run in self.runs.items()}
         print(f"left in 0.5 s: dry {left['dry']:.2f} g, submerged {left['submerged']:.2f} g")
         self.assertGreater(left["submerged"], 1)
         self.assertLess(left["submerged"], 0.9 * left["dry"])
 
     def testRates(self):
         """A law of drag or friction that is not the case's moves them by more than packings differ."""
-        for stage, (expected, deviation) in RATES.items():
-            run = self.runs[stage]
+        for step, (expected, deviation) in RATES.items():
+            run = self.runs[step]
             rate = 1e3 * flow.meanRate(run.time, run.mass, *WINDOW)
-            print(f"{stage}: {rate:.2f} g/s, expected {expected} +- {OF_ONE_MORE * deviation:.2f}")
-            self.assertAlmostEqual(rate, expected, delta=OF_ONE_MORE * deviation, msg=stage)
+            print(f"{step}: {rate:.2f} g/s, expected {expected} +- {OF_ONE_MORE * deviation:.2f}")
+            self.assertAlmostEqual(rate, expected, delta=OF_ONE_MORE * deviation, msg=step)
 
-    def testNoBeadIsFasterThanItCanFall(self):
-        """Beads that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
-        # from the top of the beads, of which none lies higher than 2 cm, to the floor of the tank
+    def testNoParticleIsFasterThanItCanFall(self):
+        """Particles that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
+        # from the top of the particles, of which none lies higher than 2 cm, to the floor of the tank
         limit = np.sqrt(2 * 9.81 * (self.runs["dry"].parameters["tankDepth"] + 0.02))
-        case = self.folder / "work" / "runs" / self.runs["dry"].name / "stages" / "dry"
-        fastest = max(np.linalg.norm(beadFiles.readBeads(file)[2], axis=1).max()
-                      for file in beadFiles.writtenTimes(case).values())
-        print(f"fastest bead {fastest:.2f} m/s, free fall {limit:.2f} m/s")
+        case = self.folder / "work" / "runs" / self.runs["dry"].name / "steps" / "dry"
+        fastest = max(np.linalg.norm(particleFiles.readParticles(file)[2], axis=1).max()
+                      for file in particleFiles.writtenTimes(case).values())
+        print(f"fastest particle {fastest:.2f} m/s, free fall {limit:.2f} m/s")
         self.assertLess(fastest, limit)
 
 

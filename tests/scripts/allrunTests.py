@@ -1,4 +1,4 @@
-"""cases/hopperQuick/Allrun as its user meets it: stops, changed parameters, mistakes. The solver is a stand-in; seconds."""
+"""cases/tutorials/hopperQuick/Allrun as its user meets it: stops, changed parameters, mistakes. The solver is a surrogate; seconds."""
 
 import contextlib
 import re
@@ -14,40 +14,40 @@ import parameterFile
 
 class Stops(HopperCase):
     def testCtrlCAndSigtermWriteACheckpointAndThePlainCommandGoesOn(self):
-        """Stopped in the pour by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked, the status tells
-        which, and the plain `Allrun` goes on: no row is lost or doubled and the pour is not done again. An Allrun that
-        wipes first would start the pour three times; one that knows no SIGINT would end with another status and no word."""
-        status, said = self.interrupted(by=signal.SIGINT, stages=["pour"])
+        """Stopped in the filling by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked, the status tells
+        which, and the plain `Allrun` goes on: no row is lost or doubled and the filling is not done again. An Allrun that
+        wipes first would start the filling three times; one that knows no SIGINT would end with another status and no word."""
+        status, said = self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.assertEqual(status, 130, said)
         self.assertIn("stopped; the same command goes on", said)
-        self.assertIn("Asked to stop", (self.case / "stages/pour/log.pimpleDemFoam").read_text())
-        status, said = self.interrupted(by=signal.SIGTERM, stages=["dry", "submerged"]) if self.pourIsDone() else (None, "no pour")
+        self.assertIn("Asked to stop", (self.case / "steps/filling/log.pimpleDemFoam").read_text())
+        status, said = self.interrupted(by=signal.SIGTERM, steps=["dry", "submerged"]) if self.fillingIsDone() else (None, "no filling")
         self.assertEqual(status, 143, said)
         self.succeeds()
-        self.assertEqual(sorted(self.starts()), ["dry", "dry", "pour", "pour", "submerged", "submerged"])
-        self.assertEqual([self.rows(stage) for stage in ("pour", "dry", "submerged")], [20, 20, 20])
+        self.assertEqual(sorted(self.starts()), ["dry", "dry", "filling", "filling", "submerged", "submerged"])
+        self.assertEqual([self.rows(step) for step in ("filling", "dry", "submerged")], [20, 20, 20])
 
-    def pourIsDone(self):
-        self.succeeds("pour")
+    def fillingIsDone(self):
+        self.succeeds("filling")
         return True
 
-    def testAStoppedPourIsNotDrained(self):
-        """All beads lie in the hopper, yet the pour was stopped: draining must be refused, with the command that goes on."""
-        self.interrupted("mesh", "pour", by=signal.SIGTERM, stages=["pour"])
+    def testAStoppedFillingIsNotDischarged(self):
+        """All particles lie in the hopper, yet the filling was stopped: discharging must be refused, with the command that goes on."""
+        self.interrupted("mesh", "filling", by=signal.SIGTERM, steps=["filling"])
         said = self.refuses("dry")
-        self.assertIn("the pour has not come to its end: './Allrun pour' goes on with it", said)
-        self.assertEqual(self.starts(), ["pour"])
-        self.succeeds("pour", "dry")
-        self.assertEqual(self.starts(), ["pour", "pour", "dry"])
+        self.assertIn("the filling has not come to its end: './Allrun filling' goes on with it", said)
+        self.assertEqual(self.starts(), ["filling"])
+        self.succeeds("filling", "dry")
+        self.assertEqual(self.starts(), ["filling", "filling", "dry"])
 
-    def testAPackingOfAnEarlierPourDoesNotCount(self):
-        """A pour that goes on, for its time was raised, and is stopped leaves no packing, though one was there before."""
-        self.succeeds("mesh", "pour")
-        table = self.table("pour")
+    def testAPackingOfAnEarlierFillingDoesNotCount(self):
+        """A filling that goes on, for its time was raised, and is stopped leaves no packing, though one was there before."""
+        self.succeeds("mesh", "filling")
+        table = self.table("filling")
         table.write_text("".join(table.read_text().splitlines(keepends=True)[:5]))
-        self.set(pourTime=2)
-        self.interrupted("pour", by=signal.SIGTERM, stages=["pour"])
-        self.assertIn("the pour has not come to its end", self.refuses("dry"))
+        self.set(fillingTime=2)
+        self.interrupted("filling", by=signal.SIGTERM, steps=["filling"])
+        self.assertIn("the filling has not come to its end", self.refuses("dry"))
 
     def testDoneIsNotDoneAgainUnlessAskedTo(self):
         self.succeeds()
@@ -61,65 +61,65 @@ class Stops(HopperCase):
 
     def testChangedParametersAreNotMixedIntoAStoppedRun(self):
         """Named with both ways out, and nothing is touched; what only says how long or how often may change."""
-        self.interrupted(by=signal.SIGINT, stages=["pour"])
+        self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.set(friction=0.3)
-        for arguments in ([], ["pour"]):
+        for arguments in ([], ["filling"]):
             said = self.refuses(*arguments)
             self.assertIn("friction 0.15 -> 0.3", said)
             self.assertIn("Put them back and the same command goes on", said)
             self.assertIn("./Allrun -fresh", said)
-        self.assertEqual(self.starts(), ["pour"])
-        self.assertEqual(self.rows("pour"), 10)
+        self.assertEqual(self.starts(), ["filling"])
+        self.assertEqual(self.rows("filling"), 10)
         self.set(friction=0.15, dryTime=5)
         self.succeeds()
-        self.assertEqual(self.rows("pour"), 20)
+        self.assertEqual(self.rows("filling"), 20)
 
     def testAnotherMeshOrPackingThanTheParametersSayIsNotUsed(self):
-        """A friction of the discharge's own is allowed: one packing serves all frictions. Other beads or cells are not."""
-        self.succeeds("mesh", "pour")
+        """A friction of the discharge's own is allowed: one packing serves all frictions. Other particles or cells are not."""
+        self.succeeds("mesh", "filling")
         self.set(friction=0.3)
         self.succeeds("dry")
-        self.set(beadDiameter=1.9e-3)
-        self.assertIn("beadDiameter 0.002 -> 0.0019", self.refuses("submerged"))
-        self.set(beadDiameter=2e-3, cellSize=2e-3)
+        self.set(particleDiameter=1.9e-3)
+        self.assertIn("particleDiameter 0.002 -> 0.0019", self.refuses("submerged"))
+        self.set(particleDiameter=2e-3, cellSize=2e-3)
         self.assertIn("'./Allrun mesh' makes another", self.refuses("submerged"))
 
 
 class Results(HopperCase):
-    def testWithoutBeadsWrittenAllButTheirPictureIsMade(self):
-        """What draws beads fails here, as it does where none were written; with beads it is called, and its failure told."""
+    def testWithoutParticlesWrittenAllButTheirPictureIsMade(self):
+        """What draws particles fails here, as it does where none were written; with particles it is called, and its failure reported."""
         self.program(self.folder / "bin" / "xvfb-run", "#!/bin/sh\nexit 1\n")
         self.refuses()
-        self.set(drawBeads="off")
+        self.set(drawParticles="off")
         self.succeeds()
         self.assertTrue((self.case / "results" / "summary.json").exists())
 
 
 class Ranks(HopperCase):
-    def testTheirBoxesAllReachTheBeads(self):
-        """As many as ranks, at most two along x and y, said once however often a stage is prepared, also for a stage that was
+    def testTheirBoxesAllReachTheParticles(self):
+        """As many as ranks, at most two along x and y, said once however often a step is prepared, also for a step that was
         begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the second
         number."""
         shares = {1: (1, 1, 1), 2: (2, 1, 1), 3: (1, 1, 3), 4: (2, 2, 1), 6: (2, 1, 3), 8: (2, 2, 2), 12: (2, 2, 3), 16: (2, 2, 4)}
-        stage = self.case / "stages" / "dry" / "stage"
+        step = self.case / "steps" / "dry" / "step"
         for ranks, along in shares.items():
             self.prepare("dry", ranks)
-            said = re.findall(r"^(ranks\w*) +(\d+);$", stage.read_text(), re.MULTILINE)
+            said = re.findall(r"^(ranks\w*) +(\d+);$", step.read_text(), re.MULTILINE)
             expected = [("ranks", ranks), *zip(("ranksAlongX", "ranksAlongY", "ranksAlongZ"), along)]
             self.assertEqual(said, [(name, str(number)) for name, number in expected])
-        text = (self.case / "stage.dry").read_text()
-        stage.write_text(text + "ranks           4;\n")
+        text = (self.case / "step.dry").read_text()
+        step.write_text(text + "ranks           4;\n")
         self.prepare("dry", 4)
-        self.assertTrue(stage.read_text().startswith(text))
-        self.assertIn("ranksAlongY     2;\n", stage.read_text())
+        self.assertTrue(step.read_text().startswith(text))
+        self.assertIn("ranksAlongY     2;\n", step.read_text())
 
-    def prepare(self, stage, ranks):
-        subprocess.run(["bash", "-euc", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; ranks={ranks}; prepareStage {stage}"],
+    def prepare(self, step, ranks):
+        subprocess.run(["bash", "-euc", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; ranks={ranks}; prepareStep {step}"],
                        env=self.environment, check=True)
 
 
 class Mistakes(HopperCase):
-    """Each must be told in a line that names file and entry, and what is allowed, before anything is made."""
+    """Each must be reported in a line that names file and entry, and what is allowed, before anything is made."""
 
     def expectRefused(self, *words, arguments=()):
         before = sorted(self.case.rglob("*"))
@@ -150,33 +150,33 @@ class Mistakes(HopperCase):
                 ("friction", "friction 0.15; friction 0.2;", ["parameters:14: entry 'friction' is there twice"]),
                 ("friction", "", ["entry 'frictionWall' is $friction, which refers to no entry above it",
                                   "entry 'friction' is missing"]),
-                ("friction", "friction 0.15; fricton 0.2;", ["'fricton' is read by nobody (is 'friction' meant?)"]),
+                ("friction", "friction 0.15; fricton 0.2;", ["'fricton' is unknown (is 'friction' meant?)"]),
                 ("friction", "friction nan;", ["entry 'friction' is nan; allowed: a number from 0 to 10"]),
                 ("friction", "friction 1e400;", ["entry 'friction' is 1e400; allowed: numbers up to"]),
-                ("beadDiameter", "beadDiameter 25mm;", ["entry 'beadDiameter' is 25mm, which has a unit; allowed: a number", "[m]"]),
-                ("beadDiameter", "beadDiameter 2;", ["entry 'beadDiameter' is 2; allowed: a number from 1e-05 to 0.1 [m]"]),
-                ("beadDensity", "beadDensity 1e308;", ["entry 'beadDensity' is 1e+308; allowed"]),
+                ("particleDiameter", "particleDiameter 25mm;", ["entry 'particleDiameter' is 25mm, which has a unit; allowed: a number", "[m]"]),
+                ("particleDiameter", "particleDiameter 2;", ["entry 'particleDiameter' is 2; allowed: a number from 1e-05 to 0.1 [m]"]),
+                ("particleDensity", "particleDensity 1e308;", ["entry 'particleDensity' is 1e+308; allowed"]),
                 ("mesher", "mesher ../../bin/sh;", ["entry 'mesher' is ../../bin/sh; allowed: hopperInTank, hopperBySnappy, "
                                                         "hopperFromSurface"]),
                 ("seed", "seed 100004;", ["entry 'seed' is 100004; allowed: a prime"]),
-                ("seed", "seed 10007;", ["entry 'seed' is 10007; allowed: a prime from 11003"])):       # a bead template has it
+                ("seed", "seed 10007;", ["entry 'seed' is 10007; allowed: a prime from 11003"])):       # a particle template has it
             with self.otherParameters(self.otherLine(name, line)):
                 self.expectRefused("parameters", *words)
         with self.otherParameters(self.otherLine("friction", "friction x;")):
-            for arguments in (["check"], ["mesh"], ["pour"], ["dry"]):
+            for arguments in (["check"], ["mesh"], ["filling"], ["dry"]):
                 self.expectRefused("entry 'friction' is x; allowed: a number from 0 to 10", arguments=arguments)
 
     def testSizesAgainstEachOther(self):
         for values, words in (
-                ({"orificeDiameter": 1.5e-3}, ["beads (0.002 m) cannot pass orificeDiameter 0.0015 m"]),
+                ({"orificeDiameter": 1.5e-3}, ["particles (0.002 m) cannot pass orificeDiameter 0.0015 m"]),
                 ({"hopperDiameter": 25, "orificeDiameter": 10}, ["entry 'hopperDiameter' is 25; allowed", "[m]"]),
                 ({"hopperDiameter": 0.25, "tankDiameter": 0.7, "tankDepth": 0.4, "hopperHeight": 0.65, "cellSize": 1e-5},
                  ["cells, which need", "Are all lengths in metres?"]),
                 ({"demStep": 1e-4}, ["demStep 0.0001 s is 0.83 of the Rayleigh time"]),
-                ({"couplingInterval": 0.2}, ["couplingInterval 0.2 s", "cells in it; allowed: 10"]),
-                ({"couplingInterval": 1.99e-3}, ["is 49.75 demSteps of 4e-05 s; allowed: a whole number"]),
-                ({"smoothingLength": 6}, ["smoothingLength 6 m; allowed: at most hopperDiameter"]),
-                ({"beadCount": 30000}, ["beadCount 30000 beads lie at least"])):
+                ({"couplingTimeStep": 0.2}, ["couplingTimeStep 0.2 s", "cells in it; allowed: 10"]),
+                ({"couplingTimeStep": 1.99e-3}, ["is 49.75 demSteps of 4e-05 s; allowed: a whole number"]),
+                ({"smoothingBandwidth": 6}, ["smoothingBandwidth 6 m; allowed: at most hopperDiameter"]),
+                ({"particleCount": 30000}, ["particleCount 30000 particles lie at least"])):
             with self.otherParameters(lambda text: parameterFile.withParameters(
                     text, {name: str(value) for name, value in values.items()})):
                 self.expectRefused("parameters", *words)
@@ -192,16 +192,16 @@ class Mistakes(HopperCase):
             with self.otherParameters(self.otherLine("friction", f"friction {value};")):
                 self.refuses("mesh")
                 functions = f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; "
-                for use in (f"setParameter stage.dry stageEndTime {chr(39)}{value}{chr(39)}",
+                for use in (f"setParameter step.dry stepEndTime {chr(39)}{value}{chr(39)}",
                             "cp parameters other; parameterFile merge other parameters", "at \"$(parameter friction)\""):
                     subprocess.run(["bash", "-c", functions + use], env=self.environment, capture_output=True)
                 self.assertFalse(made.exists())
 
     def testAnAbsentProgramIsNamed(self):
         """And not the end of the log that it left when it was there."""
-        self.succeeds("mesh", "pour")
-        log = self.case / "stages" / "dry" / "log.pimpleDemFoam"
-        self.interrupted("dry", by=signal.SIGTERM, stages=["dry"])
+        self.succeeds("mesh", "filling")
+        log = self.case / "steps" / "dry" / "log.pimpleDemFoam"
+        self.interrupted("dry", by=signal.SIGTERM, steps=["dry"])
         before = log.read_text()
         (self.folder / "bin" / "pimpleDemFoam").unlink()
         said = self.refuses("dry")
@@ -218,14 +218,14 @@ class Mistakes(HopperCase):
     def testAMeshThatCheckMeshHasNotSeenIsNotUsed(self):
         """What an interrupted `Allrun mesh` leaves."""
         (self.case / "constant" / "polyMesh").mkdir()
-        for part in ("pour", "dry"):
+        for part in ("filling", "dry"):
             self.assertIn("there is no whole mesh here: './Allrun mesh' makes it", self.refuses(part))
 
     def testASpaceInThePath(self):
         self.layOut(self.folder / "with space")
         said = self.refuses("mesh")
         self.assertIn("has a space or a quote in it, which OpenFOAM cannot bear; move it", said)
-        self.assertFalse((self.case / "stages").exists())
+        self.assertFalse((self.case / "steps").exists())
 
     def testCheckMakesNothing(self):
         before = sorted(self.case.rglob("*"))
@@ -233,9 +233,9 @@ class Mistakes(HopperCase):
         self.assertIn("3000 of 2 mm", said)
         self.assertIn("cells (hopperInTank); memory: some", said)
         self.assertEqual(sorted(self.case.rglob("*")), before)
-        self.succeeds("mesh", "pour")
+        self.succeeds("mesh", "filling")
         before = sorted(self.case.rglob("*"))
-        self.assertIn("stage submerged", self.succeeds("check"))
+        self.assertIn("step submerged", self.succeeds("check"))
         self.assertEqual(sorted(self.case.rglob("*")), before)
 
 
@@ -248,8 +248,8 @@ class Copies(HopperCase):
         self.case = elsewhere
         self.assertIn("source its scripts/environment first", self.refuses("mesh"))
         self.environment["CLEPSYDRA"] = str(self.folder)
-        self.succeeds("mesh", "pour")
-        self.assertEqual(self.starts(), ["pour"])
+        self.succeeds("mesh", "filling")
+        self.assertEqual(self.starts(), ["filling"])
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ COUPLING = REPOSITORY / "coupling"
 
 # From below to above; each may include those before it. Files that lie in coupling/ itself stand for themselves.
 ORDER = ["words", "files", "closures", "vectorUnits.h", "phaseTimers.h", "engine", "vectors.h", "couplingState.h",
-         "knownEntries.h", "modelLines.h", "runTimeSelection.h", "ranks.h", "exchange", "distribution", "forces", "traffic", "ledger", "interval",
+         "knownEntries.h", "modelLines.h", "runTimeSelection.h", "ranks.h", "exchange", "distribution", "forces", "insertionAndRemoval", "conservationCheck", "interval",
          "checkpoint", "functionObjects", "output", "run"]
 
 

@@ -1,4 +1,4 @@
-"""cases/hopperQuick in a copy of the repository's layout, with stand-ins for setup, solver, mesh programs and pictures."""
+"""cases/tutorials/hopperQuick in a copy of the repository's layout, with surrogates for setup, solver, mesh programs and pictures."""
 
 import os
 import shutil
@@ -11,7 +11,7 @@ import unittest
 from pathlib import Path
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-STAND_IN = Path(__file__).resolve().parent / "standIn"
+SURROGATE = Path(__file__).resolve().parent / "surrogate"
 MESH_PROGRAMS = ("blockMesh", "topoSet", "createBaffles", "checkMesh")
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(REPOSITORY / "scripts"))
@@ -27,22 +27,22 @@ class HopperCase(unittest.TestCase):
     def layOut(self, root):
         self.case = root / "cases" / "hopperQuick"
         shutil.copytree(REPOSITORY / "cases" / "hopperQuick", self.case,
-                        ignore=shutil.ignore_patterns("stages", "results", "polyMesh", "*.png"))
+                        ignore=shutil.ignore_patterns("steps", "results", "polyMesh", "*.png"))
         (root / "meshes").symlink_to(REPOSITORY / "meshes")
         (root / "scripts").mkdir()
         for path in (REPOSITORY / "scripts").iterdir():
             (root / "scripts" / path.name).symlink_to(path)
-        for name in ("setup", "plotFlow", "renderBeads"):
+        for name in ("setup", "plotFlow", "renderParticles"):
             self.program(root / "scripts" / name, "#!/bin/sh\n")
         self.program(self.case / "summarise", "#!/bin/sh\nmkdir -p results; touch results/summary.json\n")
         for name in MESH_PROGRAMS:
-            self.program(root / "bin" / name, (STAND_IN / "meshTool").read_text())
-        self.program(root / "bin" / "pimpleDemFoam", (STAND_IN / "pimpleDemFoam").read_text())
+            self.program(root / "bin" / name, (SURROGATE / "meshTool").read_text())
+        self.program(root / "bin" / "pimpleDemFoam", (SURROGATE / "pimpleDemFoam").read_text())
         self.program(root / "bin" / "xvfb-run", "#!/bin/sh\n")
         etc = root / "dependencies" / "openfoam-1912" / "etc"
         etc.mkdir(parents=True)
         (etc / "controlDict").touch()
-        # only what a machine has, and the stand-ins
+        # only what a machine has, and the surrogates
         self.environment = {"PATH": "/usr/bin:/bin", "CLEPSYDRA_BUILD": str(root), "CLEPSYDRA_DEPENDENCIES": str(etc.parents[1])}
 
     @staticmethod
@@ -69,16 +69,16 @@ class HopperCase(unittest.TestCase):
         self.assertNotIn("Traceback", said)
         return said
 
-    def interrupted(self, *arguments, by, stages):
-        """Its exit status and words, after a signal, in the midst of stages, to all that a terminal would send it to."""
+    def interrupted(self, *arguments, by, steps):
+        """Its exit status and words, after a signal, in the midst of steps, to all that a terminal would send it to."""
         (self.case / "hold").touch()
         process = subprocess.Popen([self.case / "Allrun", *arguments], env=self.environment, text=True, start_new_session=True,
                                    stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         end = time.time() + 60
-        for stage in stages:
-            table = self.table(stage)
+        for step in steps:
+            table = self.table(step)
             while not (table.exists() and table.read_text().count("\n") >= 10):
-                self.assertLess(time.time(), end, f"stage {stage} did not come to its midst")
+                self.assertLess(time.time(), end, f"step {step} did not come to its midst")
                 time.sleep(0.05)
         os.killpg(process.pid, by) if by == signal.SIGINT else process.send_signal(by)
         said, _ = process.communicate(timeout=30)
@@ -91,8 +91,8 @@ class HopperCase(unittest.TestCase):
     def starts(self):
         return (self.case / "starts").read_text().split()
 
-    def rows(self, stage):
-        return len(self.table(stage).read_text().splitlines())
+    def rows(self, step):
+        return len(self.table(step).read_text().splitlines())
 
-    def table(self, stage):
-        return self.case / "stages" / stage / "postProcessing/massInHopper/0/massInHopper.dat"
+    def table(self, step):
+        return self.case / "steps" / step / "postProcessing/massInHopper/0/massInHopper.dat"

@@ -30,13 +30,13 @@ def setUpModule():
     folder = tempfile.TemporaryDirectory(prefix="clepsydra-pictures-")
     unittest.addModuleCleanup(folder.cleanup)
     Pictures.folder = Path(folder.name)
-    case = Pictures.folder / "cases/hopperQuick"
-    shutil.copytree(REPOSITORY / "cases/hopperQuick", case, ignore=shutil.ignore_patterns("stages", "results", "polyMesh"))
+    case = Pictures.folder / "cases/tutorials/hopperQuick"
+    shutil.copytree(REPOSITORY / "cases/tutorials/hopperQuick", case, ignore=shutil.ignore_patterns("steps", "results", "polyMesh"))
     for name in ("scripts", "meshes", "tests"):
         (Pictures.folder / name).symlink_to(REPOSITORY / name)
-    subprocess.run(["bash", "-ec", ". tests/pages/smallHopper; cases/hopperQuick/Allrun mesh pour dry submerged"], cwd=Pictures.folder, check=True,
+    subprocess.run(["bash", "-ec", ". tests/pages/smallHopper; cases/tutorials/hopperQuick/Allrun mesh filling dry submerged"], cwd=Pictures.folder, check=True,
                    stdout=subprocess.DEVNULL, env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)})
-    Pictures.dry, Pictures.submerged = (case / "stages" / stage for stage in ("dry", "submerged"))
+    Pictures.dry, Pictures.submerged = (case / "steps" / step for step in ("dry", "submerged"))
 
 
 class Pictures(unittest.TestCase):
@@ -74,8 +74,8 @@ class Film(Pictures):
         webp = (self.folder / "film.webp").read_bytes()
         self.assertEqual((webp[8:12], webp.count(b"ANMF")), (b"WEBP", TIMES))
 
-    def testBeadsAtRestAreNotBlack(self):
-        """The end of the dry run: 47 beads lie in the hopper and nothing else is drawn there."""
+    def testParticlesAtRestAreNotBlack(self):
+        """The end of the dry run: 47 particles lie in the hopper and nothing else is drawn there."""
         self.makes("movie", "--view", -5.5, 5.5, 0.3, 3, self.dry, "dry.apng")
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-i", "dry.apng", "-update", "1", "last.png"], check=True, cwd=self.folder)
         picture = matplotlib.image.imread(self.folder / "last.png")[:, :, :3]
@@ -99,7 +99,7 @@ class Film(Pictures):
         self.assertIn("film.gif: 2 pictures", self.makes("movie", "--between", 0.15, 0.35, self.submerged, "film.gif"))
 
     def testSaysWhatItCannotDo(self):
-        for arguments, complaint in (((self.submerged, "film.avi"), "allowed: .mp4"), ((self.folder, "film.mp4"), "has no VTK/beads.pvd"),
+        for arguments, complaint in (((self.submerged, "film.avi"), "allowed: .mp4"), ((self.folder, "film.mp4"), "has no VTK/particles.pvd"),
                                      (("--view", 3, 1, 0, 1, self.submerged, "film.mp4"), "--view is X0 < X1"),
                                      (("--between", 0.2, 0.1, self.submerged, "film.mp4"), "--between is T0 < T1")):
             done = self.runs("movie", *arguments)
@@ -119,14 +119,14 @@ class Report(Pictures):
 
     def testSaysWhatTheRunWrote(self):
         page = self.page(self.submerged)
-        books = json.loads((self.submerged / "postProcessing/ledger/0/summary.json").read_text())
+        balances = json.loads((self.submerged / "postProcessing/conservation/0/summary.json").read_text())
         self.assertIn("<h1>submerged: ended at t = 0.5 s</h1>", page)
-        self.assertIn("100 beads at the start, 100 at the end, none lost", page)
-        self.assertIn(f"{books['momentumError']:.2e}", page)
+        self.assertIn("100 particles at the start, 100 at the end, none lost", page)
+        self.assertIn(f"{balances['momentumError']:.2e}", page)
         self.assertIn("No warnings.", page)
         phases = dict(re.findall(r"<tr><td>(\w+)</td><td class=number>([.\d]+) s</td>", page))
-        self.assertEqual(phases, {name: f"{seconds:.1f}" for name, seconds in books["phaseSeconds"].items()})
-        for said in ("Clepsydra 0.1.0, commit", "LIGGGHTS-PUBLIC 3.8.0", "DiFeliceDrag: fluid density", "Rayleigh time", "couplingInterval    2e-3;"):
+        self.assertEqual(phases, {name: f"{seconds:.1f}" for name, seconds in balances["phaseSeconds"].items()})
+        for said in ("Clepsydra 0.1.0, commit", "LIGGGHTS-PUBLIC 3.8.0", "DiFeliceDrag: fluid density", "Rayleigh time", "couplingTimeStep    2e-3;"):
             self.assertIn(said, page)
         self.assertEqual(page.count("<svg"), 1)
 
@@ -138,44 +138,44 @@ class Report(Pictures):
     def testSaysWhatWasNotReadAndWhatFailed(self):
         case = self.copied("warned")
         with open(case / "log.pimpleDemFoam", "a") as log:
-            log.write("--> FOAM Warning : Unless a function object does, nobody reads the field pp\n\n" * 2)
+            log.write("--> FOAM Warning : Unless a function object does, is unknown the field pp\n\n" * 2)
         page = self.page(case)
         self.assertIn("1 warnings", page)
-        self.assertIn("nobody reads the field pp\n(2 times)", page)
+        self.assertIn("is unknown the field pp\n(2 times)", page)
         with open(case / "log.pimpleDemFoam", "a") as log:
-            log.write("--> FOAM FATAL ERROR:\nlost <beads> & more\n\n    From somewhere\n\nFOAM exiting\n")
+            log.write("--> FOAM FATAL ERROR:\nlost <particles> & more\n\n    From somewhere\n\nFOAM exiting\n")
         page = self.page(case)
         self.assertIn("ended by an error at t = 0.5 s", page)
-        self.assertIn("lost &lt;beads&gt; &amp; more", page)
+        self.assertIn("lost &lt;particles&gt; &amp; more", page)
 
     def testOfARunThatHasNotEnded(self):
         case = self.copied("unfinished")
         log = case / "log.pimpleDemFoam"
         log.write_text(log.read_text().split("\nTime = 0.31")[0])
-        shutil.rmtree(case / "postProcessing/ledger")
+        shutil.rmtree(case / "postProcessing/conservation")
         page = self.page(case)
         self.assertIn("has not ended: at t = 0.308 s", page)
-        self.assertIn("No ledger", page)
+        self.assertIn("No conservation check", page)
 
     def testCountsOverAllPartsOfARun(self):
         case = self.copied("resumed")
-        books = json.loads((case / "postProcessing/ledger/0/summary.json").read_text())
-        (case / "postProcessing/ledger/0.3").mkdir()
-        (case / "postProcessing/ledger/0.3/summary.json").write_text(json.dumps(books | {"beadsLost": 3, "momentumError": 2.5e-3, "beadsEnd": 97}))
+        balances = json.loads((case / "postProcessing/conservation/0/summary.json").read_text())
+        (case / "postProcessing/conservation/0.3").mkdir()
+        (case / "postProcessing/conservation/0.3/summary.json").write_text(json.dumps(balances | {"particlesLost": 3, "momentumError": 2.5e-3, "particlesEnd": 97}))
         page = self.page(case)
         for said in ("97 at the end", "3 lost", "2.50e-03"):
             self.assertIn(said, page)
 
-    def testSaysOfWhichTimeThereAreNoBooks(self):
-        """Killed after .3 s, it went on from the checkpoint at .25 s; before that, a stop at .2 s wrote books."""
+    def testSaysOfWhichTimeThereAreNoBalances(self):
+        """Killed after .3 s, it went on from the checkpoint at .25 s; before that, a stop at .2 s wrote balances."""
         self.assertNotIn("are missing", self.page(self.submerged))
         case = self.copied("killed")
-        ledger = case / "postProcessing/ledger"
-        books = json.loads((ledger / "0/summary.json").read_text())
-        (ledger / "0/summary.json").write_text(json.dumps(books | {"timeEnd": 0.2}))
-        (ledger / "0.25").mkdir()
-        (ledger / "0.25/summary.json").write_text(json.dumps(books | {"timeStart": 0.25}))
-        self.assertIn("The books of 0.2 to 0.25 s are missing", self.page(case))
+        conservation = case / "postProcessing/conservation"
+        balances = json.loads((conservation / "0/summary.json").read_text())
+        (conservation / "0/summary.json").write_text(json.dumps(balances | {"timeEnd": 0.2}))
+        (conservation / "0.25").mkdir()
+        (conservation / "0.25/summary.json").write_text(json.dumps(balances | {"timeStart": 0.25}))
+        self.assertIn("The balances of 0.2 to 0.25 s are missing", self.page(case))
 
     def testWithoutARun(self):
         done = self.runs("runReport", self.folder, "report.html")
@@ -186,7 +186,7 @@ class Report(Pictures):
 class Studies(Pictures):
     def testWhatNoFitHasSeen(self):
         """Measured in black, the model before and after in red and blue; a study that held nothing out has no picture."""
-        self.makes("studies", "--picture", "studies.png", "beadsInTwoLiquids")
+        self.makes("studies", "--picture", "studies.png", "particlesInTwoLiquids")
         red, green, blue = np.moveaxis(matplotlib.image.imread(self.folder / "studies.png")[:, :, :3], 2, 0)
         for drawn in (red > blue + 0.4, blue > red + 0.4, red + green + blue < 0.1):
             self.assertGreater(drawn.sum(), 20)
@@ -197,17 +197,17 @@ class Studies(Pictures):
 
 @unittest.skipUnless(shutil.which("pvpython"), "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)")
 class ParaView(Pictures):
-    def testStateWithBeadsAndWater(self):
+    def testStateWithParticlesAndWater(self):
         display = [] if "DISPLAY" in os.environ else ["xvfb-run", "--auto-servernum"]
         subprocess.run([*display, "pvpython", SCRIPTS / "paraviewState", self.submerged, "state.png"], check=True, cwd=self.folder, capture_output=True)
         state = (self.submerged / "run.pvsm").read_text()
-        for part in ("beads.pvd", "run.foam", "SphereSource", "velocity"):
+        for part in ("particles.pvd", "run.foam", "SphereSource", "velocity"):
             self.assertIn(part, state)
         picture = matplotlib.image.imread(self.folder / "state.png")[:, :, :3]
         left = picture[:, :int(0.75 * picture.shape[1])]        # without the colour bars
-        beads = (left[:, :, 0] > 0.5) & (left[:, :, 2] < 0.75 * left[:, :, 0])
+        particles = (left[:, :, 0] > 0.5) & (left[:, :, 2] < 0.75 * left[:, :, 0])
         water = left[:, :, 2] > 1.1 * left[:, :, 0]
-        self.assertGreater(beads.mean(), 0.002)
+        self.assertGreater(particles.mean(), 0.002)
         self.assertGreater(water.mean(), 0.01)
 
 

@@ -1,4 +1,4 @@
-"""meshes/hopperFromSurface: a surface of the user's own becomes the walls of beads and water, or is refused in words."""
+"""meshes/hopperFromSurface: a surface of the user's own becomes the walls of particles and water, or is refused in words."""
 
 import struct
 import subprocess
@@ -28,7 +28,7 @@ class Surface(unittest.TestCase):
         self.case = Path(folder.name)
         (self.case / "system").mkdir()
         self.parameters = self.case / "parameters"
-        self.parameters.write_text((REPOSITORY / "cases/hopperQuick/parameters").read_text())
+        self.parameters.write_text((REPOSITORY / "cases/tutorials/hopperQuick/parameters").read_text())
         self.file = self.case / "hopper.stl"
         self.file.write_text(self.cone())
 
@@ -47,16 +47,16 @@ class Surface(unittest.TestCase):
     def write(self, triangles):
         self.file.write_text(hopperWalls.stl("hopper", triangles))
 
-    def testBeadsAndWaterHaveTheSameWalls(self):
-        """And those of the beads, plugged, are open at the rim only: an edge of one triangle elsewhere would be a leak."""
+    def testParticlesAndWaterHaveTheSameWalls(self):
+        """And those of the particles, plugged, are open at the rim only: an edge of one triangle elsewhere would be a leak."""
         self.assertEqual(self.made().returncode, 0)
         wall, plate, plug = (corners(self.case / f"DEM/meshes/{name}.stl") for name in ("hopperWall", "hopperPlate", "plug"))
         self.assertEqual(sorted(corners(self.case / "constant/triSurface/hopper.stl")), sorted(wall + plate))
-        self.assertEqual(len(wall), 2 * hopperWalls.BEAD_CORNERS)
+        self.assertEqual(len(wall), 2 * hopperWalls.PARTICLE_CORNERS)
         edges = Counter(frozenset((triangle[i - 1], triangle[i])) for triangle in wall + plate + plug for i in range(3))
         height = parameterFile.parameters(self.parameters)["hopperHeight"]
         alone = [edge for edge, count in edges.items() if count != 2]
-        self.assertEqual(len(alone), hopperWalls.BEAD_CORNERS)
+        self.assertEqual(len(alone), hopperWalls.PARTICLE_CORNERS)
         self.assertEqual({point[2] for edge in alone for point in edge}, {height})
 
     def testBinaryFilesAsOtherProgramsWriteThem(self):

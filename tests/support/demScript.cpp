@@ -12,7 +12,7 @@ namespace clepsydra::tests
 namespace
 {
 
-constexpr int beadMaterial = 1;
+constexpr int particleMaterial = 1;
 constexpr int wallMaterial = 2;
 
 } // namespace
@@ -64,12 +64,12 @@ std::string DemScript::text(const Box& box) const
             }
         }
     }
-    for (const Eigen::Vector3d& bead : beads)
+    for (const Eigen::Vector3d& particle : particles)
     {
-        os << "create_atoms " << beadMaterial << " single " << bead.x() << ' ' << bead.y() << ' ' << bead.z()
-           << " units box\n";
+        os << "create_atoms " << particleMaterial << " single " << particle.x() << ' ' << particle.y() << ' '
+           << particle.z() << " units box\n";
     }
-    if (!beads.empty())
+    if (!particles.empty())
     {
         os << "set group all diameter " << diameter << " density " << density << '\n';
     }
@@ -79,8 +79,9 @@ std::string DemScript::text(const Box& box) const
     }
     if (dumpEvery > 0)
     {
-        os << "dump beads all custom " << dumpEvery
-           << " DEM/beads.dump id x y z vx vy vz\ndump_modify beads sort id format \"%d %.12g %.12g %.12g %.12g %.12g "
+        os << "dump particles all custom " << dumpEvery
+           << " DEM/particles.dump id x y z vx vy vz\ndump_modify particles sort id format \"%d %.12g %.12g %.12g "
+              "%.12g %.12g "
               "%.12g\"\n";
     }
     os << more << '\n';

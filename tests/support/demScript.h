@@ -9,7 +9,7 @@
 namespace clepsydra::tests
 {
 
-/// A box along the axes, as fluid mesh and as walls of the beads. SI units.
+/// A box along the axes, as fluid mesh and as walls of the particles. SI units.
 struct Box
 {
     Eigen::Vector3d lower = Eigen::Vector3d::Zero();
@@ -21,15 +21,15 @@ struct Box
     }
 };
 
-/// A LIGGGHTS script: alike beads in a box, Hertz contacts. Every member may be changed by a test.
+/// A LIGGGHTS script: alike particles in a box, Hertz contacts. Every member may be changed by a test.
 struct DemScript
 {
     double diameter = 0.002;
     double density = 2500;
-    std::vector<Eigen::Vector3d> beads;
-    /// Beads that never move: no integration, yet the fluid's forces on them.
+    std::vector<Eigen::Vector3d> particles;
+    /// Particles that never move: no integration, yet the fluid's forces on them.
     bool fixed = false;
-    /// Instead of `beads`: a file that `DEM/writeRestart` of couplingProperties has written.
+    /// Instead of `particles`: a file that `DEM/writeRestart` of couplingProperties has written.
     std::string readRestart;
 
     double timeStep = 2.5e-5;
@@ -46,7 +46,7 @@ struct DemScript
     /// Height of the bottom plane, where it is not the box's (a floor that lets the fluid through).
     double floor = std::numeric_limits<double>::quiet_NaN();
 
-    /// DEM steps between two entries of DEM/beads.dump; 0: none.
+    /// DEM steps between two entries of DEM/particles.dump; 0: none.
     int dumpEvery = 0;
     /// Lines at the end of the script.
     std::string more;

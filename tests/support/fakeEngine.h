@@ -11,7 +11,7 @@
 namespace clepsydra::tests
 {
 
-/// An engine without contacts: beads fall and feel the fluid. Each rank keeps the beads that it was given; none moves
+/// An engine without contacts: particles fall and feel the fluid. Each rank keeps the particles that it was given; none moves
 /// to another rank. Steps are explicit: velocity first, then position with the new velocity.
 class FakeEngine : public DemEngine
 {
@@ -22,7 +22,7 @@ public:
     {}
 
     /// On this rank. \param density  [kg/m3]. \pre ids are unique over all ranks. Invalidates views.
-    void addBead(int id, const Vector3d& position, double radius, double density = 2500,
+    void addParticle(int id, const Vector3d& position, double radius, double density = 2500,
         const Vector3d& velocity = Vector3d::Zero())
     {
         id_.push_back(id);
@@ -32,30 +32,30 @@ public:
         radius_.push_back(radius);
         mass_.push_back(density * sphereVolume(radius));
         state_.emplace_back();
-        introduced_.push_back(1);
+        insertionRamp_.push_back(1);
     }
 
     /// From now on no force moves it.
-    void holdBead(int id)
+    void holdParticle(int id)
     {
-        heldIds_.insert(id);
+        fixedIds_.insert(id);
     }
 
-    /// What LIGGGHTS does to a bead that leaves its box. \pre this rank has the bead. Invalidates views.
-    void removeBead(int id)
+    /// What LIGGGHTS does to a particle that leaves its box. \pre this rank has the particle. Invalidates views.
+    void removeParticle(int id)
     {
         const auto at = std::find(id_.begin(), id_.end(), id) - id_.begin();
         const auto removeFrom = [at](auto&... lists) { (lists.erase(lists.begin() + at), ...); };
-        removeFrom(id_, position_, velocity_, angularVelocity_, radius_, mass_, state_, introduced_);
+        removeFrom(id_, position_, velocity_, angularVelocity_, radius_, mass_, state_, insertionRamp_);
     }
 
     void remove(const std::vector<int>& ids) override
     {
-        std::for_each(ids.begin(), ids.end(), [this](int id) { removeBead(id); });
+        std::for_each(ids.begin(), ids.end(), [this](int id) { removeParticle(id); });
     }
 
-    /// \pre this rank has the bead.
-    void moveBead(int id, const Vector3d& position)
+    /// \pre this rank has the particle.
+    void moveParticle(int id, const Vector3d& position)
     {
         position_[static_cast<std::size_t>(std::find(id_.begin(), id_.end(), id) - id_.begin())] = position;
     }
@@ -65,17 +65,17 @@ public:
         materials_ = std::move(materials);
     }
 
-    /// All pairs of beads of this rank, near or not.
-    void seePairs(double) override
+    /// All pairs of particles of this rank, near or not.
+    void requestPairs(double) override
     {
         seesPairs_ = true;
     }
 
-    /// Not heeded: every bead begins as one that has been in the fluid all along.
+    /// Not heeded: every particle begins as one that has been in the fluid all along.
     void keepState(const std::vector<double>&) override
     {}
 
-    /// For the beads that there are.
+    /// For the particles that there are.
     void keepMemory(int numbers) override
     {
         memory_.setZero(numbers, static_cast<Eigen::Index>(id_.size()));
@@ -92,13 +92,13 @@ public:
         for (int step = 0; step < steps; ++step)
         {
             evaluateForces(force);
-            for (std::size_t bead = 0; bead < id_.size(); ++bead)
+            for (std::size_t particle = 0; particle < id_.size(); ++particle)
             {
-                const auto column = static_cast<Eigen::Index>(bead);
+                const auto column = static_cast<Eigen::Index>(particle);
                 if (!held_[column])
                 {
-                    velocity_[bead] += timeStep_ * (gravity_ + force.col(column) / mass_[bead]);
-                    position_[bead] += timeStep_ * velocity_[bead];
+                    velocity_[particle] += timeStep_ * (gravity_ + force.col(column) / mass_[particle]);
+                    position_[particle] += timeStep_ * velocity_[particle];
                 }
             }
         }
@@ -108,13 +108,13 @@ public:
     {}
 
     /// The forces of a step, which is not made.
-    void feelFluid() override
+    void evaluateFluidForces() override
     {
         Eigen::Matrix3Xd force(3, static_cast<Eigen::Index>(id_.size()));
         evaluateForces(force);
     }
 
-    BeadsView beads() override
+    ParticlesView particles() override
     {
         const auto count = static_cast<Eigen::Index>(id_.size());
         const auto vectors = [count](const std::vector<Vector3d>& list) {
@@ -123,9 +123,9 @@ public:
         return {ConstView<int>(id_.data(), count), vectors(position_), vectors(velocity_), vectors(angularVelocity_),
             ConstView<double>(radius_.data(), count), ConstView<double>(mass_.data(), count), state_.data(),
             ConstVectors(weight_.data(), 3, weight_.cols()),
-            BeadPairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
+            ParticlePairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
                 Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
-            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), introduced_.data()};
+            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), insertionRamp_.data()};
     }
 
     double timeStep() const override
@@ -143,14 +143,15 @@ public:
         return materials_;
     }
 
-    /// A line per bead of this rank: id, position, velocity.
+    /// A line per particle of this rank: id, position, velocity.
     std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& file) override
     {
         std::ofstream out(file);
         out.precision(17);
-        for (std::size_t bead = 0; bead < id_.size(); ++bead)
+        for (std::size_t particle = 0; particle < id_.size(); ++particle)
         {
-            out << id_[bead] << ' ' << position_[bead].transpose() << ' ' << velocity_[bead].transpose() << '\n';
+            out << id_[particle] << ' ' << position_[particle].transpose() << ' ' << velocity_[particle].transpose()
+                << '\n';
         }
         return {file};
     }
@@ -165,16 +166,16 @@ private:
     {
         force.setZero();
         weight_.resize(3, force.cols());
-        for (Eigen::Index bead = 0; bead < force.cols(); ++bead)
+        for (Eigen::Index particle = 0; particle < force.cols(); ++particle)
         {
-            weight_.col(bead) = mass_[static_cast<std::size_t>(bead)] * gravity_;
+            weight_.col(particle) = mass_[static_cast<std::size_t>(particle)] * gravity_;
         }
         held_.resize(force.cols());
-        std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return heldIds_.count(id) > 0; });
+        std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return fixedIds_.count(id) > 0; });
         listPairs();
         if (forces_ != nullptr)
         {
-            forces_->evaluate(beads(), timeStep_, Vectors(force.data(), 3, force.cols()));
+            forces_->evaluate(particles(), timeStep_, Vectors(force.data(), 3, force.cols()));
         }
     }
 
@@ -205,10 +206,10 @@ private:
     std::vector<double> radius_;
     std::vector<double> mass_;
     std::vector<CouplingState> state_;
-    std::vector<double> introduced_;
+    std::vector<double> insertionRamp_;
     /// Of the step that advance() is in.
     Eigen::Matrix3Xd weight_;
-    std::set<int> heldIds_;
+    std::set<int> fixedIds_;
     Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool seesPairs_ = false;
     Eigen::Matrix2Xi pairs_;

@@ -1,6 +1,6 @@
 #include "support/foamFile.h"
 
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include <algorithm>
 #include <fstream>

@@ -11,6 +11,7 @@ target_include_directories(openfoamTestMain PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(openfoamTestMain
     PUBLIC clepsydra::coupling GTest::gtest GTest::gmock OpenFOAM::finiteVolume MPI::MPI_CXX
     PRIVATE clepsydra_warnings)
+clepsydra_precompile(openfoamTestMain OPENFOAM EIGEN GTEST)
 
 function(clepsydra_openfoam_test target)
     cmake_parse_arguments(PARSE_ARGV 1 arg "" "TIMEOUT" "RANKS")
@@ -18,6 +19,7 @@ function(clepsydra_openfoam_test target)
         set(arg_TIMEOUT 300)
     endif()
     target_link_libraries(${target} PRIVATE openfoamTestMain clepsydra_warnings)
+    clepsydra_reuse_precompiled(${target} openfoamTestMain)
     set(environment ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/inEnvironment ${OpenFOAM_ROOT})
     foreach(ranks IN LISTS arg_RANKS)
         if(ranks EQUAL 1)

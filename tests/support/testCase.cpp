@@ -1,5 +1,5 @@
 #include "support/testCase.h"
-#include "words/exactText.h"
+#include "tokens/exactText.h"
 
 #include <gtest/gtest.h>
 
@@ -96,11 +96,11 @@ TestCase::TestCase()
         .set("modelType", "A")
         .set("voidFractionModel", "divided")
         .set("smoothingModel", "constDiffSmoothing")
-        .set("constDiffSmoothingProps/smoothingLength", "6e-3")
+        .set("constDiffSmoothingProps/bandwidth", "6e-3")
         .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes)")
         .set("momCoupleModels", "(implicitCouple)")
         .set("DEM/engine", "liggghts")
-        .set("DEM/script", "\"DEM/in.beads\"");
+        .set("DEM/script", "\"DEM/in.particles\"");
 
     setFluid(1000, 1e-6);
 
@@ -134,7 +134,7 @@ TestCase::~TestCase()
 void TestCase::setTimes(double endTime, double deltaT, double writeInterval)
 {
     control().set("endTime", endTime).set("deltaT", deltaT).set("writeInterval", writeInterval);
-    coupling().set("couplingInterval", deltaT);
+    coupling().set("couplingTimeStep", deltaT);
 }
 
 void TestCase::setFluid(double density, double kinematicViscosity)
@@ -188,7 +188,7 @@ void TestCase::write()
         writeText(path_ / name, dictionary.text(std::filesystem::path(name).filename().string()));
     }
     writeText(path_ / "system/blockMeshDict", blockMeshDict());
-    writeText(path_ / "DEM/in.beads", dem.text(box));
+    writeText(path_ / "DEM/in.particles", dem.text(box));
     for (const auto& [name, text] : extraFiles)
     {
         writeText(path_ / name, text);
@@ -270,24 +270,24 @@ Outcome TestCase::run(int ranks)
     return solved;
 }
 
-nlohmann::json TestCase::ledgerSummary(const std::string& startTime) const
+nlohmann::json TestCase::conservationSummary(const std::string& startTime) const
 {
-    std::ifstream is(path_ / "postProcessing/ledger" / startTime / "summary.json");
+    std::ifstream is(path_ / "postProcessing/conservation" / startTime / "summary.json");
     if (!is)
     {
-        throw std::runtime_error("no summary of the ledger in " + path_.string());
+        throw std::runtime_error("no summary of the conservation check in " + path_.string());
     }
     return nlohmann::json::parse(is);
 }
 
-std::vector<BeadSnapshot> TestCase::beadHistory() const
+std::vector<ParticleSnapshot> TestCase::particleHistory() const
 {
-    std::ifstream is(path_ / "DEM/beads.dump");
+    std::ifstream is(path_ / "DEM/particles.dump");
     if (!is)
     {
-        throw std::runtime_error("no DEM/beads.dump in " + path_.string());
+        throw std::runtime_error("no DEM/particles.dump in " + path_.string());
     }
-    std::vector<BeadSnapshot> history;
+    std::vector<ParticleSnapshot> history;
     Eigen::Index count = 0;
     for (std::string line; std::getline(is, line);)
     {
@@ -304,21 +304,21 @@ std::vector<BeadSnapshot> TestCase::beadHistory() const
         }
         else if (line.compare(0, 11, "ITEM: ATOMS") == 0)
         {
-            BeadSnapshot& beads = history.back();
-            beads.position.resize(3, count);
-            beads.velocity.resize(3, count);
+            ParticleSnapshot& particles = history.back();
+            particles.position.resize(3, count);
+            particles.velocity.resize(3, count);
             for (Eigen::Index i = 0; i < count && std::getline(is, line); ++i)
             {
                 std::istringstream row(line);
-                beads.id.emplace_back();
-                row >> beads.id.back();
+                particles.id.emplace_back();
+                row >> particles.id.back();
                 for (Eigen::Index axis = 0; axis < 3; ++axis)
                 {
-                    row >> beads.position(axis, i);
+                    row >> particles.position(axis, i);
                 }
                 for (Eigen::Index axis = 0; axis < 3; ++axis)
                 {
-                    row >> beads.velocity(axis, i);
+                    row >> particles.velocity(axis, i);
                 }
             }
         }

@@ -33,8 +33,8 @@ struct Outcome
     }
 };
 
-/// One entry of DEM/beads.dump, beads in the order of their ids.
-struct BeadSnapshot
+/// One entry of DEM/particles.dump, particles in the order of their ids.
+struct ParticleSnapshot
 {
     long step = 0;
     std::vector<long> id;
@@ -42,13 +42,13 @@ struct BeadSnapshot
     Eigen::Matrix3Xd velocity;
 };
 
-/// A small case of pimpleDemFoam in a fresh temporary folder: a box of water between walls with beads in it, complete
+/// A small case of pimpleDemFoam in a fresh temporary folder: a box of water between walls with particles in it, complete
 /// and ready to run. A test changes what it is about:
 ///
 ///     TestCase test;
 ///     test.box.upper = {0.04, 0.04, 0.08};
 ///     test.cells = {10, 10, 20};
-///     test.dem.beads = {{0.02, 0.02, 0.07}};
+///     test.dem.particles = {{0.02, 0.02, 0.07}};
 ///     test.coupling().set("forceModels", "(SchillerNaumannDrag Archimedes)");
 ///     test.setTimes(0.2, 1e-3, 0.05);
 ///     const Outcome outcome = test.run();
@@ -133,11 +133,11 @@ public:
         return path_;
     }
 
-    /// postProcessing/ledger/<startTime>/summary.json
-    nlohmann::json ledgerSummary(const std::string& startTime = "0") const;
+    /// postProcessing/conservation/<startTime>/summary.json
+    nlohmann::json conservationSummary(const std::string& startTime = "0") const;
 
-    /// DEM/beads.dump, all entries.
-    std::vector<BeadSnapshot> beadHistory() const;
+    /// DEM/particles.dump, all entries.
+    std::vector<ParticleSnapshot> particleHistory() const;
 
     /// Components x cells; cells in blockMesh's order, x fastest, then y, then z.
     Eigen::MatrixXd field(const std::string& name, const std::string& time) const;

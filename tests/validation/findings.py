@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/validate on two stand-ins of cases, which write the rows that a test asks for.
+"""scripts/validate on two surrogates of cases, which write the rows that a test asks for.
 
 A finding is a row that is known not to agree with its reference. It holds while it is found again, and only then: a
 table that let every finding hold, as it once did, passes neither of the tests of a change.
@@ -26,7 +26,7 @@ if isinstance(asked, int):
 validation.write([validation.row("v", "m/s", 2, "a formula", "computed", **asked)] if asked else [])
 """
 # 10 % above the reference of 2, known to .5 % of it from one repeat to the next
-FINDING = {"ours": 2.2, "uncertainty": 0.3, "repeats": 0.01, "tolerancePercent": 5, "finding": "soft beads"}
+FINDING = {"ours": 2.2, "uncertainty": 0.3, "repeats": 0.01, "tolerancePercent": 5, "finding": "soft particles"}
 AGREEING = {"ours": 2.01, "uncertainty": 0.01, "tolerancePercent": 5}
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What the measurement says: velocities with their standard errors, and the viscosity that bead 3 needs.
+"""What the measurement says: velocities with their standard errors, and the viscosity that particle 3 needs.
 
 Writes `measured` from the raw files where they are (they are not ours to keep here); else leaves the committed one.
 """
@@ -19,7 +19,7 @@ DATA = Path("../../../../shared/data/beadfall_glycerol/data")
 # of another group with the same set, +-0.02 mm
 DIAMETERS = {1: 1.59e-3, 2: 2.37e-3, 3: 3.16e-3, 4: 4.73e-3, 5: 6.34e-3}
 FITTED = 3
-# Of five repeats the fifth, and the two files named centre and edge, were filmed in another setting: there a bead
+# Of five repeats the fifth, and the two files named centre and edge, were filmed in another setting: there a particle
 # seems to lose 12 % of its speed on the way down, in the others 2 %. They serve for a ratio only.
 REPEATS = (1, 2, 3, 4)
 # Seen from the first to the last mark, away from the release and the floor [mm]
@@ -31,17 +31,17 @@ def main():
         print(f"{DATA} is not here: using the committed file `measured`, which was computed from it")
         return
     entries = {}
-    for bead, diameter in DIAMETERS.items():
-        velocities = [velocity(DATA / "glycerol" / f"glycerolbead{bead}t{repeat}.txt") for repeat in REPEATS]
-        entries |= {f"beadDiameter{bead}": diameter, f"velocity{bead}": np.mean(velocities),
-                    f"velocityError{bead}": np.std(velocities, ddof=1) / np.sqrt(len(velocities))}
+    for particle, diameter in DIAMETERS.items():
+        velocities = [velocity(DATA / "glycerol" / f"glycerolbead{particle}t{repeat}.txt") for repeat in REPEATS]
+        entries |= {f"particleDiameter{particle}": diameter, f"velocity{particle}": np.mean(velocities),
+                    f"velocityError{particle}": np.std(velocities, ddof=1) / np.sqrt(len(velocities))}
     quarters = [velocity(DATA / "glycerolbead3tedge.txt", part) / velocity(DATA / "glycerolbead3tcenter.txt", part)
                 for part in range(4)]
     entries |= {"edgeOverCentre": np.mean(quarters), "edgeOverCentreError": np.std(quarters, ddof=1) / 2}
     entries["fluidViscosity"] = fittedViscosity(entries)
     Path("measured").write_text(
         "// Written by ./measure.py from kyleyhw/PHY324_motion_in_fluids (GitHub), 1f0af8ed. SI units; errors are standard\n"
-        "// errors of the mean of four repeats. fluidViscosity (kinematic) is fitted to bead 3 on the axis.\n"
+        "// errors of the mean of four repeats. fluidViscosity (kinematic) is fitted to particle 3 on the axis.\n"
         + "".join(f"{name:<20}{value:.5g};\n" for name, value in entries.items()))
 
 
@@ -57,16 +57,16 @@ def velocity(file, quarter=None):
 
 def fittedViscosity(entries):
     def tooFast(viscosity):
-        return axisVelocity(entries[f"beadDiameter{FITTED}"], viscosity) - entries[f"velocity{FITTED}"]
+        return axisVelocity(entries[f"particleDiameter{FITTED}"], viscosity) - entries[f"velocity{FITTED}"]
 
     return brentq(tooFast, 1e-4, 1e-3, xtol=1e-9)
 
 
 def axisVelocity(diameter, viscosity, wall=True):
-    """Of a bead on the axis, by the case's drag law and, with a wall, Di Felice's."""
+    """Of a particle on the axis, by the case's drag law and, with a wall, Di Felice's."""
     p = caseFiles.parameters("parameters")
-    free = closures.value("terminalVelocity", dragLaw=p["dragLaw"], beadDiameter=diameter,
-                          beadDensity=p["beadDensity"], fluidDensity=p["fluidDensity"], fluidViscosity=viscosity)
+    free = closures.value("terminalVelocity", dragLaw=p["dragLaw"], particleDiameter=diameter,
+                          particleDensity=p["particleDensity"], fluidDensity=p["fluidDensity"], fluidViscosity=viscosity)
     if not wall:
         return free
     return free * closures.value("tubeVelocityRatio", diameterRatio=diameter / p["tankDiameter"],

@@ -7,7 +7,7 @@ namespace clepsydra
 
 /// While it lives, exactly these floating-point exceptions (FE_INVALID | ...) end the program; afterwards those as before.
 ///
-/// OpenFOAM lets them end the program, which then cannot say which bead it was. LIGGGHTS goes on with "not a number".
+/// OpenFOAM lets them end the program, which then cannot say which particle it was. LIGGGHTS goes on with "not a number".
 class FloatingPointTraps
 {
 public:

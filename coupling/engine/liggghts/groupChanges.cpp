@@ -50,31 +50,32 @@ void GroupChanger::apply(double elapsed)
             propertyName(change_).c_str(), "property/atom", "scalar", 0, 0, "coupling"));
     }
     LAMMPS_NS::Atom& atom = *program_.atom;
-    for (int bead = 0; bead < atom.nlocal; ++bead)
+    for (int particle = 0; particle < atom.nlocal; ++particle)
     {
-        const bool before = (atom.mask[bead] & fromBit_) != 0;
-        const bool after = (atom.mask[bead] & toBit_) != 0;
+        const bool before = (atom.mask[particle] & fromBit_) != 0;
+        const bool after = (atom.mask[particle] & toBit_) != 0;
         if (before == after)
         {
-            throw DemEngineError("Entry 'DEM/groupChanges/" + change_.name + "': bead " + std::to_string(atom.tag[bead])
-                                 + " is in " + (before ? "both" : "neither") + " of the groups '" + change_.from
-                                 + "' and '" + change_.to + "'; allowed: every bead in one of them");
+            throw DemEngineError("Entry 'DEM/groupChanges/" + change_.name + "': particle "
+                                 + std::to_string(atom.tag[particle]) + " is in " + (before ? "both" : "neither")
+                                 + " of the groups '" + change_.from + "' and '" + change_.to
+                                 + "'; allowed: every particle in one of them");
         }
-        if (after || atom.x[bead][2] >= change_.below)
+        if (after || atom.x[particle][2] >= change_.below)
         {
             continue;
         }
         if (change_.rest)
         {
-            double& atRest = restTime_->vector_atom[bead];
-            atRest = isSlow(bead) ? atRest + elapsed : 0;
+            double& atRest = restTime_->vector_atom[particle];
+            atRest = isSlow(particle) ? atRest + elapsed : 0;
             if (atRest < change_.rest->duration)
             {
                 continue;
             }
-            stop(bead);
+            stop(particle);
         }
-        atom.mask[bead] ^= fromBit_ | toBit_;
+        atom.mask[particle] ^= fromBit_ | toBit_;
     }
 }
 
@@ -95,18 +96,18 @@ int GroupChanger::groupBit(const std::string& group) const
     return groups.bitmask[index];
 }
 
-bool GroupChanger::isSlow(int bead) const
+bool GroupChanger::isSlow(int particle) const
 {
     const LAMMPS_NS::Atom& atom = *program_.atom;
     const double limit = change_.rest->speed * change_.rest->speed;
-    const double radius = atom.radius[bead];
-    return squaredLength(atom.v[bead]) < limit && radius * radius * squaredLength(atom.omega[bead]) < limit;
+    const double radius = atom.radius[particle];
+    return squaredLength(atom.v[particle]) < limit && radius * radius * squaredLength(atom.omega[particle]) < limit;
 }
 
-void GroupChanger::stop(int bead) const
+void GroupChanger::stop(int particle) const
 {
-    std::fill_n(program_.atom->v[bead], 3, 0.0);
-    std::fill_n(program_.atom->omega[bead], 3, 0.0);
+    std::fill_n(program_.atom->v[particle], 3, 0.0);
+    std::fill_n(program_.atom->omega[particle], 3, 0.0);
 }
 
 } // namespace clepsydra

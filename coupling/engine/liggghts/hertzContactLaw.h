@@ -6,7 +6,7 @@
 namespace clepsydra
 {
 
-/// Contacts between beads, each quantity of all of them side by side, as vector units take them. SI units.
+/// Contacts between particles, each quantity of all of them side by side, as vector units take them. SI units.
 struct HertzContacts
 {
     static constexpr std::size_t most = 64;
@@ -15,7 +15,7 @@ struct HertzContacts
 
     std::size_t count = 0;
 
-    /// Of bead i from bead j.
+    /// Of particle i from particle j.
     Vectors distance;
     Vectors velocity;
     Values radiusI;
@@ -30,10 +30,10 @@ struct HertzContacts
     Values damping;
     Values friction;
 
-    /// Tangential displacement since the beads met: taken and brought up to date.
+    /// Tangential displacement since the particles met: taken and brought up to date.
     Vectors shear;
 
-    /// On bead i; bead j has the opposite.
+    /// On particle i; particle j has the opposite.
     Vectors force;
     Vectors torqueI;
     Vectors torqueJ;

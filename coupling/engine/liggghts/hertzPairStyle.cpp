@@ -66,7 +66,7 @@ constexpr const char* forgetKeyword = "forget_parted";
 /// LIGGGHTS' style, with a loop over many contacts at a time in the place of a chain of calls for each. What only some
 /// scripts ask for is left to LIGGGHTS' own loop.
 ///
-/// LIGGGHTS keeps the spring of a contact until the next neighbour list, so that beads which have parted and meet again
+/// LIGGGHTS keeps the spring of a contact until the next neighbour list, so that particles which have parted and meet again
 /// before that go on with the old one. Here it goes with the contact, unless the script says `forget_parted off`.
 class HertzPairStyle : public HertzOfLiggghts
 {
@@ -98,10 +98,10 @@ public:
     {
         if (!canEvaluate(*pair, energies != 0 || virials != 0 || forCompute != 0))
         {
-            for (int bead = 0; pair->listgranhistory && bead < pair->list->inum; ++bead)
+            for (int particle = 0; pair->listgranhistory && particle < pair->list->inum; ++particle)
             {
-                findContacts(*pair, pair->list->ilist[bead]);
-                forgetParted(*pair, pair->list->ilist[bead]);
+                findContacts(*pair, pair->list->ilist[particle]);
+                forgetParted(*pair, pair->list->ilist[particle]);
             }
 #ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style has not
             HertzOfLiggghts::compute_force(pair, energies, virials, forCompute);
@@ -112,9 +112,9 @@ public:
         fillMaterials();
         const double shearStep = pair->shearupdate() ? program_.update->dt : 0;
         const lmp::NeighList& list = *pair->list;
-        for (int bead = 0; bead < list.inum; ++bead)
+        for (int particle = 0; particle < list.inum; ++particle)
         {
-            addContacts(*pair, list.ilist[bead], shearStep);
+            addContacts(*pair, list.ilist[particle], shearStep);
         }
         evaluate(*pair, shearStep);
     }
@@ -135,7 +135,7 @@ private:
         double* shear;
     };
 
-    /// Some of a bead's neighbours, by their number in its list.
+    /// Some of a particle's neighbours, by their number in its list.
     struct Chosen
     {
         std::vector<int> which;
@@ -186,7 +186,7 @@ private:
 
     void fillMaterials()
     {
-        // LIGGGHTS has no values for types that no bead and no wall has.
+        // LIGGGHTS has no values for types that no particle and no wall has.
         typeCount_ = program_.atom->get_properties()->max_type() + 1;
         materials_.resize(static_cast<std::size_t>(typeCount_) * typeCount_);
         for (int i = 1; i < typeCount_; ++i)
@@ -199,7 +199,7 @@ private:
         }
     }
 
-    /// The contacts of bead i with the later ones of its neighbours.
+    /// The contacts of particle i with the later ones of its neighbours.
     void addContacts(lmp::PairGran& pair, int i, double shearStep)
     {
         findContacts(pair, i);
@@ -219,7 +219,7 @@ private:
         }
     }
 
-    /// Which neighbours of bead i touch it, and which did until now.
+    /// Which neighbours of particle i touch it, and which did until now.
     void findContacts(const lmp::PairGran& pair, int i)
     {
         const lmp::Atom& atoms = *program_.atom;

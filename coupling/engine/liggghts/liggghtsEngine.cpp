@@ -1,6 +1,6 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
-#include "engine/liggghts/beadChecks.h"
+#include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/floatingPointTraps.h"
 #include "engine/liggghts/hertzPairStyle.h"
 #include "engine/liggghts/liggghtsProgram.h"
@@ -41,7 +41,7 @@ constexpr const char* stateFixId = "clepsydraState";
 constexpr const char* forceFixId = "clepsydraForce";
 constexpr const char* lastForceFixId = "clepsydraLastForces";
 constexpr const char* memoryFixId = "clepsydraMemory";
-constexpr const char* introducedFixId = "clepsydraIntroduced";
+constexpr const char* insertionRampFixId = "clepsydraInsertionRamp";
 
 bool isNumber(const std::string& text)
 {
@@ -57,7 +57,7 @@ bool isNumber(const std::string& text)
     return used == text.size();
 }
 
-/// By the forces on its beads, not as the script states or not at all.
+/// By the forces on its particles, not as the script states or not at all.
 bool movesByForces(const lmp::Fix& fix)
 {
     const std::string style = fix.style;
@@ -94,7 +94,7 @@ public:
         }
     }
 
-    /// A command of the script. LIGGGHTS makes no bead that is outside the box, and says nothing.
+    /// A command of the script. LIGGGHTS makes no particle that is outside the box, and says nothing.
     void executeOfScript(const ScriptCommand& command)
     {
         const auto before = program_->atom->natoms;
@@ -102,7 +102,7 @@ public:
         if (isCommand(command.text, "create_atoms") && program_->atom->natoms == before)
         {
             throw DemEngineError(command.where + ": '" + command.text + "'" + program_.valuesIn(command.text)
-                                 + " made no bead; allowed: places in " + boxText(*program_));
+                                 + " made no particle; allowed: places in " + boxText(*program_));
         }
     }
 
@@ -128,45 +128,45 @@ public:
             if (before > 0 && program_->atom->nlocal == 0)
             {
                 throw DemEngineError(
-                    std::string(error.what()) + "; no bead is left of the " + std::to_string(before)
+                    std::string(error.what()) + "; no particle is left of the " + std::to_string(before)
                     + " that were here: a force has thrown them out of the box within these steps, as one "
-                      "does that is unstable with this DEM step or coupling interval");
+                      "does that is unstable with this DEM step or coupling step");
             }
             throw;
         }
     }
 
-    void keepState(const std::vector<double>& ofNewBead)
+    void keepState(const std::vector<double>& ofNewParticle)
     {
-        stateOfNewBead_ = ofNewBead;
+        stateOfNewParticle_ = ofNewParticle;
     }
 
     void addState()
     {
-        if (stateOfNewBead_.empty())
+        if (stateOfNewParticle_.empty())
         {
             return;
         }
         // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
         std::string command =
             std::string("fix ") + stateFixId + " all property/atom " + stateFixId + " vector no no no";
-        for (const double value : stateOfNewBead_)
+        for (const double value : stateOfNewParticle_)
         {
             command += ' ' + std::to_string(value);
         }
         program_.execute(command, "coupling state");
         stateFix_ = program_->modify->find_fix_property(
-            stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewBead_.size()), 0, "coupling");
+            stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewParticle_.size()), 0, "coupling");
     }
 
-    /// Part of LIGGGHTS' restart files. 1 of beads in files that do not have it.
-    void addIntroduced()
+    /// Part of LIGGGHTS' restart files. 1 of particles in files that do not have it.
+    void addInsertionRamp()
     {
-        program_.execute(
-            std::string("fix ") + introducedFixId + " all property/atom " + introducedFixId + " scalar yes no no 1.",
-            "beads that come in");
-        introducedFix_ =
-            program_->modify->find_fix_property(introducedFixId, "property/atom", "scalar", 0, 0, "coupling");
+        program_.execute(std::string("fix ") + insertionRampFixId + " all property/atom " + insertionRampFixId
+                             + " scalar yes no no 1.",
+            "particles that come in");
+        insertionRampFix_ =
+            program_->modify->find_fix_property(insertionRampFixId, "property/atom", "scalar", 0, 0, "coupling");
     }
 
     void addGroupChanges()
@@ -213,13 +213,13 @@ public:
         lastForcesKnown_ = !fresh_;
     }
 
-    /// Forces and torques on beads, rows 0 to 3 and 3 to 6.
+    /// Forces and torques on particles, rows 0 to 3 and 3 to 6.
     Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> lastForces()
     {
         return {firstElement(lastForceFix_->array_atom), 6, program_->atom->nlocal};
     }
 
-    /// With which the next step begins. LIGGGHTS makes others at a `run` that begins anew, and in a resumed process: from
+    /// With which the next step begins. LIGGGHTS makes others at a `run` that begins again, and in a resumed process: from
     /// the velocities at the end of a step, where damping and drag had those in its middle.
     void keepForces()
     {
@@ -241,17 +241,17 @@ public:
         }
     }
 
-    void feelFluid()
+    void evaluateFluidForces()
     {
         lastForcesKnown_ = false;
-        feelsAnew_ = true;
+        reevaluatesFluidForces_ = true;
         prepare();
-        feelsAnew_ = false;
+        reevaluatesFluidForces_ = false;
         keepForces();
     }
 
     /// Those at rest by `groupChanges` are in no group that moves.
-    void findHeldBeads()
+    void findFixedParticles()
     {
         const lmp::Atom& atom = *program_->atom;
         held_.resize(atom.nlocal);
@@ -260,27 +260,27 @@ public:
     }
 
     /// `fix freeze` has cleared all forces but the fluid's, which come after it.
-    void clearForceOnHeldBeads(Vectors force) const
+    void clearForceOnFixedParticles(Vectors force) const
     {
-        for (Eigen::Index bead = 0; frozenGroups_ != 0 && bead < force.cols(); ++bead)
+        for (Eigen::Index particle = 0; frozenGroups_ != 0 && particle < force.cols(); ++particle)
         {
-            if (held_[bead])
+            if (held_[particle])
             {
-                force.col(bead).setZero();
+                force.col(particle).setZero();
             }
         }
     }
 
-    void seePairs(double reach)
+    void requestPairs(double reach)
     {
         seesPairs_ = true;
-        // Widens the lists beyond the skin, so that what the skin allows the beads to move costs none of it.
+        // Widens the lists beyond the skin, so that what the skin allows the particles to move costs none of it.
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
 
-    /// LIGGGHTS looks among beads and fixes for the first material, and stops where it finds none, as when all beads have
-    /// left. A template has it; its radius matters to no bead, for there is none.
-    void allowNoBeads()
+    /// LIGGGHTS looks among particles and fixes for the first material, and stops where it finds none, as when all particles have
+    /// left. A template has it; its radius matters to no particle, for there is none.
+    void allowNoParticles()
     {
         const lmp::Modify& modify = *program_->modify;
         const bool found =
@@ -292,9 +292,9 @@ public:
         program_.execute(
             "fix clepsydraTemplate all particletemplate/sphere 10007 atom_type 1 density constant 1. radius constant "
                 + std::to_string(program_->neighbor->skin),
-            "no beads");
+            "no particles");
         program_.execute(
-            "fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no beads");
+            "fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no particles");
     }
 
     /// As LIGGGHTS' own fixes delete atoms.
@@ -302,29 +302,29 @@ public:
     {
         const FloatingPointTraps none(0);
         lmp::Atom& atom = *program_->atom;
-        // While the neighbour lists that hold the contacts' history still fit the beads: it goes to the beads.
+        // While the neighbour lists that hold the contacts' history still fit the particles: it goes to the particles.
         program_->modify->setup_pre_exchange();
         const std::unordered_set<int> leaving(ids.begin(), ids.end());
-        for (int bead = 0; bead < atom.nlocal;)
+        for (int particle = 0; particle < atom.nlocal;)
         {
-            if (leaving.count(atom.tag[bead]) == 0)
+            if (leaving.count(atom.tag[particle]) == 0)
             {
-                ++bead;
+                ++particle;
                 continue;
             }
             constexpr int deleting = 1;
-            atom.avec->copy(--atom.nlocal, bead, deleting);
+            atom.avec->copy(--atom.nlocal, particle, deleting);
         }
         const lmp::bigint here = atom.nlocal;
         MPI_Allreduce(&here, &atom.natoms, 1, MPI_LMP_BIGINT, MPI_SUM, program_->world);
-        // Copies of beads that are no longer there must not be found.
+        // Copies of particles that are no longer there must not be found.
         atom.nghost = 0;
         if (atom.map_style != 0)
         {
             atom.map_init();
             atom.map_set();
         }
-        allowNoBeads();
+        allowNoParticles();
     }
 
     void keepMemory(int numbers)
@@ -350,35 +350,35 @@ public:
             program_->modify->find_fix_property(memoryFixId, "property/atom", "vector", memorySize_, 0, "coupling");
     }
 
-    BeadsView beads()
+    ParticlesView particles()
     {
         lmp::Atom& atom = *program_->atom;
         const Eigen::Index count = atom.nlocal;
-        return BeadsView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
+        return ParticlesView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
             ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
             ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
             stateFix_ ? reinterpret_cast<CouplingState*>(firstElement(stateFix_->array_atom)) : nullptr,
-            ConstVectors(firstElement(atom.f), 3, count), BeadPairs{},
+            ConstVectors(firstElement(atom.f), 3, count), ParticlePairs{},
             memoryFix_ ? firstElement(memoryFix_->array_atom) : nullptr, memorySize_, true, ConstView<bool>(nullptr, 0),
-            introducedFix_->vector_atom};
+            insertionRampFix_->vector_atom};
     }
 
     /// LIGGGHTS' own list: half, with `newton off` pairs across ranks on both.
-    BeadPairs pairs()
+    ParticlePairs pairs()
     {
         pairList_.clear();
         lmp::NeighList* const neighbours = program_->force->pair ? program_->force->pair->list : nullptr;
         for (int i = 0; neighbours && i < neighbours->inum; ++i)
         {
-            const int bead = neighbours->ilist[i];
-            for (int j = 0; j < neighbours->numneigh[bead]; ++j)
+            const int particle = neighbours->ilist[i];
+            for (int j = 0; j < neighbours->numneigh[particle]; ++j)
             {
-                pairList_.push_back({bead, neighbours->firstneigh[bead][j] & NEIGHMASK});
+                pairList_.push_back({particle, neighbours->firstneigh[particle][j] & NEIGHMASK});
             }
         }
         lmp::Atom& atom = *program_->atom;
         const Eigen::Index count = atom.nlocal + atom.nghost;
-        return BeadPairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
+        return ParticlePairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
             ConstView<double>(atom.radius, count),
             Eigen::Map<const Eigen::Matrix2Xi>(pairList_.empty() ? nullptr : pairList_.front().data(), 2,
                 static_cast<Eigen::Index>(pairList_.size()))};
@@ -404,7 +404,7 @@ private:
             {
                 command.text = withoutFiles(command.text);
             }
-            if (resumeFrom.empty() || !makesBeads(command.text))
+            if (resumeFrom.empty() || !makesParticles(command.text))
             {
                 requireUndamagedInput(program_, command);
                 executeOfScript(command);
@@ -422,38 +422,38 @@ private:
         auto& engine = *static_cast<Implementation*>(self);
         requireFiniteForces(*engine.program_);
         const FloatingPointTraps asOutside(engine.program_.trapsOutside());
-        const BeadsView own = engine.beads();
+        const ParticlesView own = engine.particles();
         Vectors ofFluid(firstElement(force), 3, own.size());
         const bool preparing = engine.program_->update->setupflag != 0;
-        if (preparing && !engine.feelsAnew_)
+        if (preparing && !engine.reevaluatesFluidForces_)
         {
             ofFluid.setZero();
             return;
         }
-        engine.findHeldBeads();
-        const BeadsView beads{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass, own.state,
-            own.otherForce, engine.seesPairs_ ? engine.pairs() : BeadPairs{},
+        engine.findFixedParticles();
+        const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
+            own.state, own.otherForce, engine.seesPairs_ ? engine.pairs() : ParticlePairs{},
             engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_, !preparing,
             ConstView<bool>(engine.held_.data(), own.size())};
-        engine.forces_->evaluate(beads, engine.program_->update->dt, ofFluid);
-        engine.clearForceOnHeldBeads(ofFluid);
+        engine.forces_->evaluate(particles, engine.program_->update->dt, ofFluid);
+        engine.clearForceOnFixedParticles(ofFluid);
     }
 
     LiggghtsProgram program_;
     lmp::Fix* stateFix_ = nullptr;
-    std::vector<double> stateOfNewBead_;
+    std::vector<double> stateOfNewParticle_;
     FluidForces* forces_ = nullptr;
     lmp::Fix* lastForceFix_ = nullptr;
     bool lastForcesKnown_ = false;
-    bool feelsAnew_ = false;
-    /// Of which groups forces move the beads, and of which a fix forbids it.
+    bool reevaluatesFluidForces_ = false;
+    /// Of which groups forces move the particles, and of which a fix forbids it.
     int movingGroups_ = 0;
     int frozenGroups_ = 0;
     Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool seesPairs_ = false;
     lmp::Fix* memoryFix_ = nullptr;
     int memorySize_ = 0;
-    lmp::Fix* introducedFix_ = nullptr;
+    lmp::Fix* insertionRampFix_ = nullptr;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
     bool fresh_ = true;
@@ -465,14 +465,14 @@ LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
 
 LiggghtsEngine::~LiggghtsEngine() = default;
 
-void LiggghtsEngine::seePairs(double reach)
+void LiggghtsEngine::requestPairs(double reach)
 {
-    implementation_->seePairs(reach);
+    implementation_->requestPairs(reach);
 }
 
-void LiggghtsEngine::keepState(const std::vector<double>& ofNewBead)
+void LiggghtsEngine::keepState(const std::vector<double>& ofNewParticle)
 {
-    implementation_->keepState(ofNewBead);
+    implementation_->keepState(ofNewParticle);
 }
 
 void LiggghtsEngine::keepMemory(int numbers)
@@ -483,7 +483,7 @@ void LiggghtsEngine::keepMemory(int numbers)
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     implementation_->addState();
-    implementation_->addIntroduced();
+    implementation_->addInsertionRamp();
     implementation_->addMemory();
     implementation_->addLastForces();
     implementation_->addGroupChanges();
@@ -492,10 +492,10 @@ void LiggghtsEngine::initialise(FluidForces* forces)
         implementation_->addFluidForce(forces);
     }
     requireNoNegativeFriction(*implementation_->program());
-    // Lost beads are found, named and reported by the coupling's census; LIGGGHTS would end the process.
+    // Lost particles are found, named and reported by the coupling's census; LIGGGHTS would end the process.
     implementation_->program().execute("thermo_modify lost ignore flush yes", "initialise");
-    requireBeadsInBox(*implementation_->program());
-    implementation_->allowNoBeads();
+    requireParticlesInBox(*implementation_->program());
+    implementation_->allowNoParticles();
     prepare();
     implementation_->checkStart();
 }
@@ -505,9 +505,9 @@ void LiggghtsEngine::prepare()
     implementation_->prepare();
 }
 
-void LiggghtsEngine::feelFluid()
+void LiggghtsEngine::evaluateFluidForces()
 {
-    implementation_->feelFluid();
+    implementation_->evaluateFluidForces();
 }
 
 void LiggghtsEngine::advance(int steps)
@@ -522,9 +522,9 @@ void LiggghtsEngine::remove(const std::vector<int>& ids)
     implementation_->remove(ids);
 }
 
-BeadsView LiggghtsEngine::beads()
+ParticlesView LiggghtsEngine::particles()
 {
-    return implementation_->beads();
+    return implementation_->particles();
 }
 
 double LiggghtsEngine::timeStep() const

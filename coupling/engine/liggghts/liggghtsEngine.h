@@ -21,16 +21,16 @@ struct LiggghtsSetup
     std::filesystem::path logFile;
     /// Leaves out the script's commands that write files.
     bool writesNothing = false;
-    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was told its name; empty: the script's own beginning. With a
+    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was reported its name; empty: the script's own beginning. With a
     /// checkpoint the script's first `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or
-    /// changes beads (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
+    /// changes particles (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
     std::filesystem::path resumeFrom;
     /// Between two intervals, in this order.
     std::vector<GroupChange> groupChanges;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 
-/// LIGGGHTS 3.8 in this process. The script sets up beads, walls, contacts and gravity; it must not define
+/// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity; it must not define
 /// `fix external` (the coupling adds that as the last fix, so that it sees all other forces).
 class LiggghtsEngine final : public DemEngine
 {
@@ -39,15 +39,15 @@ public:
     explicit LiggghtsEngine(const LiggghtsSetup& setup);
     ~LiggghtsEngine() override;
 
-    void seePairs(double reach) override;
-    void keepState(const std::vector<double>& ofNewBead) override;
+    void requestPairs(double reach) override;
+    void keepState(const std::vector<double>& ofNewParticle) override;
     void keepMemory(int numbers) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;
-    void feelFluid() override;
+    void evaluateFluidForces() override;
     void remove(const std::vector<int>& ids) override;
-    BeadsView beads() override;
+    ParticlesView particles() override;
     double timeStep() const override;
     Vector3d gravity() const override;
     std::vector<ContactMaterial> contactMaterials() const override;

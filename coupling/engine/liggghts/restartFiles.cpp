@@ -76,7 +76,7 @@ std::vector<std::filesystem::path> filesRead(const std::filesystem::path& restar
     return files;
 }
 
-/// Measures an insertion's region by random numbers, the same ones that then place the beads: what LIGGGHTS does once in each
+/// Measures an insertion's region by random numbers, the same ones that then place the particles: what LIGGGHTS does once in each
 /// process.
 struct InsertionRegion : lmp::FixInsertPack
 {
@@ -86,7 +86,7 @@ struct InsertionRegion : lmp::FixInsertPack
     }
 };
 
-/// A fix that has inserted all its beads has no next insertion, which LIGGGHTS writes as step 0. When it is read
+/// A fix that has inserted all its particles has no next insertion, which LIGGGHTS writes as step 0. When it is read
 /// again, 0 is taken for "not known", and the fix tries at once and then stands in the way of every `run`.
 void keepFinishedInsertionsFinished(const lmp::Modify& modify)
 {

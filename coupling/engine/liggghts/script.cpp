@@ -63,7 +63,7 @@ void requireHarmless(const std::string& ifCommand, const std::string& where)
         {
             requireHarmless(inside, where);
         }
-        else if (others.count(name) > 0 || makesBeads(name))
+        else if (others.count(name) > 0 || makesParticles(name))
         {
             throw DemEngineError(where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
                                  + "', for it would be done unseen, and again in a resumed run");
@@ -203,7 +203,7 @@ std::string withoutFiles(const std::string& command)
     return kept;
 }
 
-bool makesBeads(const std::string& command)
+bool makesParticles(const std::string& command)
 {
     static const std::set<std::string> commands = {"create_box", "read_data", "read_restart", "create_atoms",
         "delete_atoms", "displace_atoms", "group", "set", "velocity", "reset_timestep"};

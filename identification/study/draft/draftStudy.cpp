@@ -2,10 +2,10 @@
 
 #include "features/features.h"
 #include "files/wholeFile.h"
-#include "study/draft/draftedRig.h"
+#include "study/draft/draftedSimulator.h"
 #include "study/draft/measuredFiles.h"
 #include "study/yaml.h"
-#include "words/didYouMean.h"
+#include "tokens/didYouMean.h"
 
 #include <yaml-cpp/emitter.h>
 
@@ -67,7 +67,7 @@ public:
 
 private:
     void writeHead();
-    void writeRig();
+    void writeSimulator();
     void writeObservable();
     void writeFeatures();
     void writeWindows(double last);
@@ -89,10 +89,10 @@ private:
     /// The entry that is most likely to differ from condition to condition.
     std::string varied() const
     {
-        return measured_.conditions.size() < 2 ? ""
-               : rig_.has("orificeDiameter")   ? "orificeDiameter"
-               : rig_.has("beadDiameter")      ? "beadDiameter"
-                                               : "";
+        return measured_.conditions.size() < 2      ? ""
+               : simulator_.has("orificeDiameter")  ? "orificeDiameter"
+               : simulator_.has("particleDiameter") ? "particleDiameter"
+                                                    : "";
     }
     bool isUnderWater(const DraftedCondition& condition) const
     {
@@ -100,7 +100,7 @@ private:
         return std::regex_search(condition.name, water);
     }
 
-    DraftedRig rig_;
+    DraftedSimulator simulator_;
     MeasuredFiles measured_;
     fs::path folder_; // of the study file
     std::string name_;
@@ -109,14 +109,14 @@ private:
 };
 
 Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study)
-    : rig_(draftRig(caseFolder)),
-      measured_(readMeasuredFiles(measured, rig_)),
+    : simulator_(draftSimulator(caseFolder)),
+      measured_(readMeasuredFiles(measured, simulator_)),
       folder_(fs::weakly_canonical(fs::absolute(study)).parent_path()),
-      name_(rig_.folder.filename().string()),
+      name_(simulator_.folder.filename().string()),
       said_(measured_.remarks)
 {
     writeHead();
-    writeRig();
+    writeSimulator();
     writeObservable();
     writeMeasured();
     writeConditions();
@@ -132,55 +132,56 @@ void Draft::writeHead()
           << "study: " << yamlWord(name_) << "\n\n";
 }
 
-void Draft::writeRig()
+void Draft::writeSimulator()
 {
-    text_ << "rig:\n  case: " << relative(rig_.folder) << "\n  seed: " << (rig_.has("seed") ? "seed" : "none")
-          << (rig_.has("seed") ? "          # the entry that makes another packing\n"
-                               : "          # no entry for it: runs do not scatter\n");
+    text_ << "simulator:\n  case: " << relative(simulator_.folder)
+          << "\n  seed: " << (simulator_.has("seed") ? "seed" : "none")
+          << (simulator_.has("seed") ? "          # the entry that makes another packing\n"
+                                     : "          # no entry for it: runs do not scatter\n");
     const std::vector<std::pair<std::string, std::string>> apparatus = {
-        {"beadDiameter", "m"},
-        {"beadDensity", "kg/m3"},
-        {"beadCount", "how many lie in the hopper"},
+        {"particleDiameter", "m"},
+        {"particleDensity", "kg/m3"},
+        {"particleCount", "how many lie in the hopper"},
         {"hopperDiameter", "m"},
         {"orificeDiameter", "m"},
         {"fluidDensity", "kg/m3"},
         {"fluidViscosity", "m2/s, kinematic"},
         {"tankDiameter", "m"},
         {"tankHeight", "m"},
-        {"releaseHeight", "m, of the bead's centre above the floor"},
+        {"releaseHeight", "m, of the particle's centre above the floor"},
     };
-    // A bead in a tank, one-way: see the second study file of README.md.
+    // A particle in a tank, one-way: see the second study file of README.md.
     const std::vector<std::pair<std::string, std::string>> falling = {
         {"stopBelow", fillIn("m above the floor, below all that is measured; a run ends there")},
-        {"smoothingLength", fillIn("m, twice the tank's diameter leaves the liquid at rest on any mesh")},
+        {"smoothingBandwidth", fillIn("m, twice the tank's diameter leaves the liquid at rest on any mesh")},
         {"cellsCore", "2"},
         {"cellsRing", "2"},
         {"cellsHigh", "8"},
-        {"couplingInterval", "5e-3"},
+        {"couplingTimeStep", "5e-3"},
         {"demStep", "1e-4             # nothing is touched"},
         {"maxRayleighFraction", "100"},
     };
     text_ << "  set:                  # your apparatus; an entry that is left out keeps the case's own value\n";
-    const bool isBead = rig_.observable == "beadHeight";
-    if (isBead && rig_.has("vessel"))
+    const bool isParticle = simulator_.observable == "particleHeight";
+    if (isParticle && simulator_.has("vessel"))
     {
         text_ << "    vessel: tank        # or box: see the case's parameters\n";
     }
-    const bool isWet = isBead || !rig_.hasStages
+    const bool isWet = isParticle || !simulator_.hasSteps
                        || std::any_of(measured_.conditions.begin(), measured_.conditions.end(),
                            [&](const auto& c) { return isUnderWater(c); });
     for (const auto& [entry, unit] : apparatus)
     {
-        const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isBead && entry.rfind("tank", 0) == 0);
-        if (rig_.has(entry) && entry != varied() && (isWet || !isOfWater))
+        const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isParticle && entry.rfind("tank", 0) == 0);
+        if (simulator_.has(entry) && entry != varied() && (isWet || !isOfWater))
         {
-            text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + rig_.entries.at(entry)) << '\n';
+            text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + simulator_.entries.at(entry)) << '\n';
         }
     }
     const double seconds = 1.5 * measured_.shape.duration * measured_.columns.time.siUnits();
     for (const std::string entry : {"dryTime", "submergedTime", "endTime"})
     {
-        if (rig_.has(entry) && (isWet || entry != "submergedTime"))
+        if (simulator_.has(entry) && (isWet || entry != "submergedTime"))
         {
             text_ << "    " << entry << ": "
                   << (measured_.columns.time.unit.empty()
@@ -191,7 +192,7 @@ void Draft::writeRig()
     }
     for (const auto& [entry, value] : falling)
     {
-        if (isBead && measured_.shape.bounces == 0 && rig_.has(entry))
+        if (isParticle && measured_.shape.bounces == 0 && simulator_.has(entry))
         {
             text_ << "    " << entry << ": " << value << '\n';
         }
@@ -201,7 +202,7 @@ void Draft::writeRig()
 void Draft::writeObservable()
 {
     text_ << "\nobservable:\n";
-    if (rig_.observable.empty())
+    if (simulator_.observable.empty())
     {
         text_ << "  file: " << fillIn("the table that a run writes, as post/*/m.dat; a folder * stands for start times")
               << '\n'
@@ -211,12 +212,12 @@ void Draft::writeObservable()
     else
     {
         const bool isSpeed = measured_.columns.quantity == "speed";
-        text_ << "  file: " << (rig_.hasStages ? "stages/dry/" : "") << "postProcessing/" << rig_.observable << "/*/"
-              << rig_.observable << ".dat\n"
+        text_ << "  file: " << (simulator_.hasSteps ? "steps/dry/" : "") << "postProcessing/" << simulator_.observable
+              << "/*/" << simulator_.observable << ".dat\n"
               << "  value: "
-              << (rig_.observable == "massInHopper" ? "mass"
-                     : isSpeed                      ? "velocity"
-                                                    : "height")
+              << (simulator_.observable == "massInHopper" ? "mass"
+                     : isSpeed                            ? "velocity"
+                                                          : "height")
               << '\n';
         if (isSpeed)
         {
@@ -224,14 +225,15 @@ void Draft::writeObservable()
         }
         if (measured_.columns.quantity == "length" && measured_.shape.bounces > 0)
         {
-            text_ << "  offset: -beadDiameter/2       # gap below the bead; without it the height of its centre\n";
+            text_ << "  offset: -particleDiameter/2       # gap below the particle; without it the height of its "
+                     "centre\n";
         }
         if (measured_.columns.quantity == "length" && !measured_.shape.falls)
         {
-            text_ << "  # The measured position grows while the bead falls: the way since its release\n"
+            text_ << "  # The measured position grows while the particle falls: the way since its release\n"
                   << "  factor: -1\n  offset: releaseHeight\n";
         }
-        say("observable: " + rig_.observable + ", which the case writes");
+        say("observable: " + simulator_.observable + ", which the case writes");
     }
     text_
         << "  # modelError: 0.01    # standard deviation of the simulation's own error (mesh, steps) on every feature\n"
@@ -388,14 +390,14 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
 {
     text_ << "  - name: " << yamlWord(condition.name)
           << "\n    role: " << (condition.isHeldOut ? "heldOut       # PROPOSED" : "training") << '\n';
-    if (!rig_.tagValues.empty() && rig_.observable == "massInHopper")
+    if (!simulator_.tagValues.empty() && simulator_.observable == "massInHopper")
     {
         const bool isWet = isUnderWater(condition);
         text_ << "    tags: { medium: " << (isWet ? "water" : "air") << " }\n";
-        if (rig_.hasStages)
+        if (simulator_.hasSteps)
         {
-            text_ << "    command: ./Allrun mesh pour " << (isWet ? "submerged" : "dry") << '\n'
-                  << (isWet ? "    file: stages/submerged/postProcessing/massInHopper/*/massInHopper.dat\n" : "");
+            text_ << "    command: ./Allrun mesh filling " << (isWet ? "submerged" : "dry") << '\n'
+                  << (isWet ? "    file: steps/submerged/postProcessing/massInHopper/*/massInHopper.dat\n" : "");
         }
     }
     if (!entry.empty())
@@ -421,13 +423,13 @@ void Draft::writeParameters()
     text_ << "\n# What all conditions share and is fitted; the prior is an independent measurement, never this study's "
              "data\n"
           << "parameters:\n";
-    if (rig_.has("friction"))
+    if (simulator_.has("friction"))
     {
         text_ << "  - name: friction\n    set: { friction: friction }\n    prior: { mean: "
-              << fillIn("of bead on bead, as measured by itself on a tilted plate")
+              << fillIn("of particle on particle, as measured by itself on a tilted plate")
               << ", sd: " << fillIn("its standard error") << " }\n    range: [0.02, 0.8]\n";
     }
-    else if (rig_.has("fluidViscosity"))
+    else if (simulator_.has("fluidViscosity"))
     {
         text_ << "  - name: logViscosity  # relative to fluidViscosity above\n"
               << "    set: { fluidViscosity: \"fluidViscosity*exp(logViscosity)\" }\n    prior: { mean: 0, sd: "
@@ -447,14 +449,16 @@ void Draft::writeEnd()
     text_
         << "\n# What the model may lack. Narrow the ranges to what you know; add effects of your own below `effects:`\n"
         << "effectsFrom: "
-        << (rig_.library.empty() ? fillIn("a library, as identification/effects/hopper.yaml") : relative(rig_.library))
+        << (simulator_.library.empty() ? fillIn("a library, as identification/effects/hopper.yaml")
+                                       : relative(simulator_.library))
         << "\n# withoutEffects: [what you have measured or excluded]\n"
-        << "# commonErrors: what all numbers of a condition share, as the diameter of a bead that was measured once\n"
+        << "# commonErrors: what all numbers of a condition share, as the diameter of a particle that was measured "
+           "once\n"
         << "\nbudget: { runs: 300 }\n";
-    if (!rig_.library.empty())
+    if (!simulator_.library.empty())
     {
-        say("effects: " + rig_.library.filename().string() + ", of whose " + std::to_string(rig_.effects) + " effects "
-            + std::to_string(rig_.fitting) + " fit the case");
+        say("effects: " + simulator_.library.filename().string() + ", of whose " + std::to_string(simulator_.effects)
+            + " effects " + std::to_string(simulator_.fitting) + " fit the case");
     }
 }
 

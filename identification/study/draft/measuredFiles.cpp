@@ -84,27 +84,27 @@ Curve curveOf(const fs::path& file, const fs::path& first, const GuessedColumns&
     }
 }
 
-std::string quantityWritten(const DraftedRig& rig)
+std::string quantityWritten(const DraftedSimulator& simulator)
 {
-    return rig.observable == "massInHopper" ? "mass" : rig.observable == "beadHeight" ? "length" : "";
+    return simulator.observable == "massInHopper" ? "mass" : simulator.observable == "particleHeight" ? "length" : "";
 }
 
-void requireFit(const GuessedColumns& columns, const fs::path& file, const DraftedRig& rig)
+void requireFit(const GuessedColumns& columns, const fs::path& file, const DraftedSimulator& simulator)
 {
     static const std::map<std::string, std::set<std::string>> fitting = {
         {"mass", {"mass", "share"}}, {"length", {"length", "speed"}}};
-    const auto fits = fitting.find(quantityWritten(rig));
+    const auto fits = fitting.find(quantityWritten(simulator));
     if (fits != fitting.end() && fits->second.count(columns.quantity) == 0)
     {
         throw std::runtime_error(file.string() + ": column '" + columns.value.column + "' is a " + columns.quantity
-                                 + ", but the case " + rig.folder.string() + " writes a " + fits->first + " ("
-                                 + rig.observable + "); is it the right case?");
+                                 + ", but the case " + simulator.folder.string() + " writes a " + fits->first + " ("
+                                 + simulator.observable + "); is it the right case?");
     }
 }
 
 } // namespace
 
-MeasuredFiles readMeasuredFiles(const std::vector<fs::path>& places, const DraftedRig& rig)
+MeasuredFiles readMeasuredFiles(const std::vector<fs::path>& places, const DraftedSimulator& simulator)
 {
     MeasuredFiles measured;
     auto& [conditions, columns, shape, remarks] = measured;
@@ -137,9 +137,9 @@ MeasuredFiles readMeasuredFiles(const std::vector<fs::path>& places, const Draft
     }
     if (columns.quantity.empty())
     {
-        columns.quantity = quantityWritten(rig);
+        columns.quantity = quantityWritten(simulator);
     }
-    requireFit(columns, first, rig);
+    requireFit(columns, first, simulator);
     shape = shapeOf(std::move(curves), columns.quantity == "length");
     shape.bounces = columns.quantity == "length" ? shape.bounces : 0;
     const auto unit = [](const GuessedColumn& column) { return column.unit.empty() ? "unit unknown" : column.unit; };

@@ -71,7 +71,7 @@ Shape shapeOf(std::vector<Curve> curves, bool mayHaveBlanks)
         const double range = *highest - *lowest;
         const double first = curve.value.front();
         const double last = curve.value.back();
-        // A bead that bounces has its largest height at the start.
+        // A particle that bounces has its largest height at the start.
         const bool falls = first - *lowest > 0.5 * range;
         falling += falls ? 1 : -1;
         shape.bounces = std::min(shape.bounces, falls ? bouncesOf(curve) : 0);

@@ -6,7 +6,7 @@
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
 #include "forces/forceModel.h"
-#include "interval/couplingSettings.h"
+#include "couplingStep/couplingSettings.h"
 
 #include "error.H"
 #include "Time.H"
@@ -74,7 +74,7 @@ void read()
     settings.writeVtk();
     clepsydra::liggghtsSetup(settings, {});
     settings.finalRestart();
-    settings.stepsPerInterval(demStep);
+    settings.demStepsPerCouplingStep(demStep);
 }
 
 } // namespace
@@ -86,7 +86,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         read();
     }
-    catch (const Foam::error&) // the user's error, told with its place; IOerror is one of these
+    catch (const Foam::error&) // the user's error, reported with its place; IOerror is one of these
     {
         return 0;
     }

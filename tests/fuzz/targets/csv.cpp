@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         read(file);
     }
-    catch (const std::runtime_error&) // the user's error, told
+    catch (const std::runtime_error&) // the user's error, reported
     {
         return 0;
     }

@@ -14,7 +14,7 @@ void use(const Expression& formula)
 {
     try
     {
-        formula({{"a", 1.0}, {"beadDiameter", 2e-3}});
+        formula({{"a", 1.0}, {"particleDiameter", 2e-3}});
     }
     catch (const std::invalid_argument&) // a name that the case does not have
     {
@@ -48,7 +48,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         read(file);
     }
-    catch (const StudyError&) // the user's error, told with its place
+    catch (const StudyError&) // the user's error, reported with its place
     {
         return 0;
     }

@@ -39,7 +39,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         changeAndReadAgain(file);
     }
-    catch (const std::runtime_error&) // the user's error, told
+    catch (const std::runtime_error&) // the user's error, reported
     {
         return 0;
     }

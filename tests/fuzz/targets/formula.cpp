@@ -20,7 +20,7 @@ bool same(double a, double b)
 
 void evaluate(const std::string& text)
 {
-    const Expression::Variables variables = {{"a", 0.5}, {"beadDiameter", 2e-3}, {"friction", 0.15}};
+    const Expression::Variables variables = {{"a", 0.5}, {"particleDiameter", 2e-3}, {"friction", 0.15}};
     const Expression formula(text);
     const double value = formula(variables);
     if (!same(formula(variables), value) || !same(Expression("(" + text + ")")(variables), value))
@@ -38,7 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         evaluate(clepsydra::inputText(data, size));
     }
-    catch (const std::invalid_argument&) // the user's error, told
+    catch (const std::invalid_argument&) // the user's error, reported
     {
         return 0;
     }

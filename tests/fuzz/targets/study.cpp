@@ -15,7 +15,7 @@ namespace
 
 void use(const Study& study)
 {
-    const auto numbers = numbersOf(readEntries(study.rig.caseFolder / study.rig.entriesFile));
+    const auto numbers = numbersOf(readEntries(study.simulator.caseFolder / study.simulator.entriesFile));
     for (const auto& parameter : study.parameters)
     {
         for (const auto& [entry, formula] : parameter.entries)
@@ -52,7 +52,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     {
         study = readStudy(file);
     }
-    catch (const StudyError&) // the user's error, told with its place
+    catch (const StudyError&) // the user's error, reported with its place
     {
         return 0;
     }

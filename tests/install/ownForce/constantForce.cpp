@@ -9,7 +9,7 @@ namespace
 
 using namespace clepsydra;
 
-/// The same force on every bead, as a magnet far away would give it; no reaction in the fluid. ConstantForceProps { force (x y z); } [N].
+/// The same force on every particle, as a magnet far away would give it; no reaction in the fluid. ConstantForceProps { force (x y z); } [N].
 class ConstantForce : public ForceModel
 {
 public:
@@ -22,11 +22,11 @@ public:
         force_ = Vector3d(force.x(), force.y(), force.z());
     }
 
-    void add(const BeadsView& beads, ForceSum& sum) const override
+    void add(const ParticlesView& particles, ForceSum& sum) const override
     {
-        for (Eigen::Index bead = 0; bead < beads.size(); ++bead)
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            sum.mutual.col(bead) += force_;
+            sum.mutual.col(particle) += force_;
         }
     }
 

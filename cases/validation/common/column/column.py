@@ -30,20 +30,20 @@ class Column:
         return self.width**2
 
     @property
-    def beadVolume(self):
-        return np.pi / 6 * self.beadDiameter**3
+    def particleVolume(self):
+        return np.pi / 6 * self.particleDiameter**3
 
     @property
     def load(self):
-        """Buoyant weight of all beads per cross-section [Pa]."""
-        return self.beadCount * self.beadVolume * (self.beadDensity - self.fluidDensity) * GRAVITY / self.area
+        """Buoyant weight of all particles per cross-section [Pa]."""
+        return self.particleCount * self.particleVolume * (self.particleDensity - self.fluidDensity) * GRAVITY / self.area
 
     def terminalVelocity(self):
         return closures.value("terminalVelocity", **self.closureOptions())
 
     def closureOptions(self):
         return {name: getattr(self, name)
-                for name in ("dragLaw", "beadDiameter", "beadDensity", "fluidDensity", "fluidViscosity")}
+                for name in ("dragLaw", "particleDiameter", "particleDensity", "fluidDensity", "fluidViscosity")}
 
     def pressureDrop(self):
         """Times and the pressure at the bottom face above that at the top [Pa], without its hydrostatic part."""
@@ -68,10 +68,10 @@ class Column:
         """Middles of the layers of cells [m]."""
         return (np.arange(self.cellsUp) + 0.5) * self.height / self.cellsUp
 
-    def beads(self):
-        """Times, positions and velocities (time, bead, axis) of all beads."""
-        entries = caseFiles.dumpedBeads(self.run)
+    def particles(self):
+        """Times, positions and velocities (time, particle, axis) of all particles."""
+        entries = caseFiles.dumpedParticles(self.run)
         start = entries[0][0]
         time = np.array([(step - start) * self.demStep for step, _ in entries])
-        rows = np.array([beads for _, beads in entries])
+        rows = np.array([particles for _, particles in entries])
         return time, rows[:, :, 1:4], rows[:, :, 4:7]

@@ -1,3 +1,3 @@
-# A floor that all beads fall through
+# A floor that all particles fall through
 
 include         DEM/in.bottomless

@@ -1,0 +1,142 @@
+#include "conservation/particleCensus.h"
+
+#include "vectors.h"
+
+#include "DynamicList.H"
+#include "HashSet.H"
+#include "ListListOps.H"
+#include "Pstream.H"
+#include "PstreamReduceOps.H"
+#include "error.H"
+#include "pointField.H"
+
+#include <cstdlib>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// The lists of all ranks after each other; nothing on any rank but the first. Collective.
+template<class Type>
+Foam::List<Type> onMaster(const Foam::UList<Type>& own)
+{
+    Foam::List<Foam::List<Type>> ofRanks(Foam::Pstream::nProcs());
+    ofRanks[Foam::Pstream::myProcNo()] = own;
+    Foam::Pstream::gatherList(ofRanks);
+    return Foam::Pstream::master()
+               ? Foam::ListListOps::combine<Foam::List<Type>>(ofRanks, Foam::accessOp<Foam::List<Type>>())
+               : Foam::List<Type>();
+}
+
+} // namespace
+
+int ParticleCensus::count(const ParticlesView& particles)
+{
+    using namespace Foam;
+
+    label stillThere = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        stillThere += particles.id[particle] <= highestId_;
+    }
+    reduce(stillThere, sumOp<label>());
+    if (stillThere != now_)
+    {
+        reportMissing(particles, now_ - stillThere);
+    }
+
+    const bool first = atStart_ < 0;
+    const label highestBefore = highestId_;
+    remember(particles);
+    if (first)
+    {
+        atStart_ = now_;
+        return static_cast<int>(highestId_);
+    }
+    inserted_ += now_ - stillThere;
+    return static_cast<int>(highestBefore);
+}
+
+void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::label removed)
+{
+    using namespace Foam;
+
+    const label expected = now_ - removed;
+    remember(particles);
+    removed_ += removed;
+    if (now_ != expected)
+    {
+        FatalErrorInFunction << "The DEM engine has " << now_ << " particles after " << removed << " of "
+                             << expected + removed << " have left and were taken out" << exit(FatalError);
+    }
+}
+
+void ParticleCensus::remember(const ParticlesView& particles)
+{
+    using namespace Foam;
+
+    now_ = returnReduce(static_cast<label>(particles.size()), sumOp<label>());
+    highestId_ = returnReduce(particles.size() > 0 ? static_cast<label>(particles.id.maxCoeff()) : 0, maxOp<label>());
+    last_.clear();
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        last_.push_back({particles.id[particle], particles.position.col(particle)});
+    }
+}
+
+void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label missing) const
+{
+    using namespace Foam;
+
+    // What a rank no longer has is new on another, or nowhere: only these are reported, not all particles.
+    labelHashSet before;
+    for (const Sighting& seen : last_)
+    {
+        before.insert(seen.id);
+    }
+    labelHashSet here;
+    DynamicList<label> arrived;
+    for (const int id : particles.id)
+    {
+        here.insert(id);
+        if (id <= highestId_ && !before.found(id))
+        {
+            arrived.append(id);
+        }
+    }
+    DynamicList<label> gone;
+    DynamicList<point> places;
+    for (const Sighting& seen : last_)
+    {
+        if (!here.found(seen.id))
+        {
+            gone.append(seen.id);
+            places.append(toFoam(seen.position));
+        }
+    }
+    const labelHashSet arrivedAnywhere(onMaster<label>(arrived));
+    const labelList goneAnywhere = onMaster<label>(gone);
+    const pointField placesOfGone(onMaster<point>(places));
+    string names;
+    forAll (goneAnywhere, i)
+    {
+        if (!arrivedAnywhere.found(goneAnywhere[i]))
+        {
+            const point& at = placesOfGone[i];
+            names += "\n    particle " + Foam::name(goneAnywhere[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
+                     + Foam::name(at.y()) + ' ' + Foam::name(at.z()) + ") m";
+        }
+    }
+    // Nobody ends the run before all know why.
+    Pstream::scatter(names);
+    FatalErrorInFunction
+        << missing << " of " << now_ << " particles were lost in the last interval:" << names.c_str()
+        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Particles may leave "
+        << "through particleOutlets; the DEM box must go on behind these for a particle's diameter and its "
+        << "travel of one interval." << exit(FatalError);
+    std::abort();
+}
+
+} // namespace clepsydra

@@ -1,0 +1,37 @@
+#pragma once
+
+#include "volFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+namespace clepsydra
+{
+
+/// A field of the coupling: read where the run was stopped, otherwise uniform. READ_IF_PRESENT alone takes a file
+/// that cannot be opened for one that is not there.
+template<class Type>
+Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
+    const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions, const Type& value)
+{
+    using namespace Foam;
+    using Field = GeometricField<Type, fvPatchField, volMesh>;
+    IOobject file(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    {
+        return Field(file, mesh);
+    }
+    file.readOpt() = IOobject::READ_IF_PRESENT;
+    return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
+}
+
+/// A field that is made again in every interval: neither read nor written, uniform at first.
+template<class Field>
+Field fieldOfInterval(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
+    const typename Field::value_type& value = Foam::pTraits<typename Field::value_type>::zero,
+    const Foam::word& patchType = Field::Patch::calculatedType())
+{
+    using namespace Foam;
+    return Field(IOobject(name, mesh.time().timeName(), mesh, IOobject::NO_READ, IOobject::NO_WRITE), mesh,
+        dimensioned<typename Field::value_type>(name, dimensions, value), patchType);
+}
+
+} // namespace clepsydra

@@ -1,0 +1,58 @@
+#include "couplingStep/semiImplicitSource.h"
+
+#include "couplingStep/couplingField.h"
+#include "vectors.h"
+
+#include "fvmSup.H"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+SemiImplicitSource::SemiImplicitSource(const fvMesh& mesh, double fluidDensity)
+    : fluidDensity_(fluidDensity),
+      coefficient_(fieldOfInterval<volScalarField>("anticipatedDrag", mesh, dimless / dimTime)),
+      particleSource_(couplingField<vector>("particleSource", mesh, dimAcceleration, vector::zero)),
+      given_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero)),
+      deferred_(couplingField<vector>("deferredMomentum", mesh, dimVelocity, vector::zero))
+{}
+
+void SemiImplicitSource::addDeferred(Eigen::Ref<Eigen::MatrixXd> densities) const
+{
+    densities.topRows<3>() += fluidDensity_ * columns(deferred_.primitiveField());
+}
+
+void SemiImplicitSource::update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
+{
+    interval_ = interval;
+    const double perMassAndTime = 1 / (fluidDensity_ * interval);
+    columns(particleSource_.primitiveFieldRef()) = -perMassAndTime * densities.topRows<3>();
+    columns(coefficient_.primitiveFieldRef()) = perMassAndTime * densities.row(3);
+    particleSource_.correctBoundaryConditions();
+}
+
+tmp<fvVectorMatrix> SemiImplicitSource::source(volVectorField& U) const
+{
+    const dimensionedScalar interval("interval", dimTime, interval_);
+    return particleSource_ + given_ / interval - fvm::Sp(coefficient_, U);
+}
+
+void SemiImplicitSource::carry(
+    const volVectorField& U, const volVectorField& sourceOfPressure, const Eigen::Ref<const Eigen::MatrixXd>& densities)
+{
+    given_.primitiveFieldRef() =
+        interval_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());
+    given_.correctBoundaryConditions();
+    columns(deferred_.primitiveFieldRef()) = densities / fluidDensity_;
+}
+
+void SemiImplicitSource::takeFrom(volVectorField& U, const volScalarField& voidFraction) const
+{
+    const scalarField& fluid = voidFraction.primitiveField();
+    U.primitiveFieldRef() = (fluid * U.primitiveField() + interval_ * particleSource_.primitiveField())
+                            / (fluid + interval_ * coefficient_.primitiveField());
+    U.correctBoundaryConditions();
+}
+
+} // namespace clepsydra

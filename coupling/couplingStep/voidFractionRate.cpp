@@ -1,0 +1,97 @@
+#include "couplingStep/voidFractionRate.h"
+
+#include "couplingStep/couplingField.h"
+#include "vectors.h"
+
+#include "fvcDiv.H"
+#include "surfaceInterpolate.H"
+
+#include <cmath>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+/// No particle is anticipated to leave or to come in.
+template<class Type>
+void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
+{
+    for (fvsPatchField<Type>& patch : field.boundaryFieldRef())
+    {
+        if (!patch.coupled())
+        {
+            patch == pTraits<Type>::zero;
+        }
+    }
+}
+
+} // namespace
+
+VoidFractionRate::VoidFractionRate(const fvMesh& mesh, const CouplingSettings& settings)
+    : used_(settings.ddtVoidFraction()),
+      smoothingTime_(settings.ddtSmoothingTime()),
+      integral_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
+      explicitRate_(fieldOfInterval<volScalarField>("explicitRate", mesh, dimless / dimTime)),
+      velocityResponse_(fieldOfInterval<surfaceScalarField>("following", mesh, dimless)),
+      pressureResponse_(fieldOfInterval<surfaceScalarField>("pressureResponse", mesh, dimTime)),
+      rate_(couplingField<scalar>("ddtVoidFraction", mesh, dimless / dimTime, 0))
+{}
+
+void VoidFractionRate::start(const volScalarField& voidFraction)
+{
+    integral_ == voidFraction;
+}
+
+void VoidFractionRate::update(
+    const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
+{
+    interval_ = interval;
+    spread_ = 0;
+    if (!used_)
+    {
+        return;
+    }
+    const fvMesh& mesh = voidFraction.mesh();
+    const double approach = smoothingTime_ > 0 ? -std::expm1(-interval / smoothingTime_) : 1;
+    const auto inCells = [&](Eigen::Index row, const dimensionSet& dimensions) {
+        auto field = fieldOfInterval<volScalarField>("ofParticles", mesh, dimensions);
+        columns(field.primitiveFieldRef()) = approach * densities.row(row);
+        field.correctBoundaryConditions();
+        return field;
+    };
+    velocityResponse_ = fvc::interpolate(inCells(0, dimless));
+    pressureResponse_ = fvc::interpolate(inCells(1, dimTime));
+    auto particleFlux = fieldOfInterval<volVectorField>("particleFlux", mesh, dimVelocity);
+    columns(particleFlux.primitiveFieldRef()) = approach * densities.bottomRows<3>();
+    particleFlux.correctBoundaryConditions();
+    surfaceScalarField flux(fvc::interpolate(particleFlux) & mesh.Sf());
+    closeBoundary(velocityResponse_);
+    closeBoundary(pressureResponse_);
+    closeBoundary(flux);
+    explicitRate_ = fvc::div(flux);
+    explicitRate_.primitiveFieldRef() +=
+        approach / interval * (voidFraction.primitiveField() - integral_.primitiveField());
+}
+
+double VoidFractionRate::spreadImbalance(double outflow)
+{
+    const scalarField& cellVolumes = rate_.mesh().V().field();
+    const double imbalance =
+        returnReduce(sum(explicitRate_.primitiveField() * cellVolumes) + outflow, sumOp<scalar>()) / gSum(cellVolumes);
+    explicitRate_.primitiveFieldRef() -= imbalance;
+    spread_ += imbalance;
+    return imbalance;
+}
+
+void VoidFractionRate::close(const surfaceScalarField& flux)
+{
+    rate_ = explicitRate_ + fvc::div(flux);
+    // What was spread has been dealt with.
+    integral_.primitiveFieldRef() += interval_ * (rate_.primitiveField() + spread_);
+}
+
+} // namespace clepsydra

@@ -1,0 +1,271 @@
+#include "exchange/particleExchange.h"
+
+#include "couplingState.h"
+
+#include <algorithm>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+constexpr int messageTag = 51;
+
+/// On each side, in parts of the box around a rank's particles: what spreads is published ever less often, and no rank hears
+/// of many more particles than touch it.
+constexpr double roomAroundParticles = 0.25;
+
+/// Collective.
+std::vector<Box> subdomainBounds(MPI_Comm communicator, const Box& own)
+{
+    int rankCount = 1;
+    MPI_Comm_size(communicator, &rankCount);
+    Eigen::Matrix<double, 6, 1> corners;
+    corners << own.min(), own.max();
+    Eigen::Matrix<double, 6, Eigen::Dynamic> all(6, rankCount);
+    MPI_Allgather(corners.data(), 6, MPI_DOUBLE, all.data(), 6, MPI_DOUBLE, communicator);
+    std::vector<Box> boxes;
+    for (const auto& of : all.colwise())
+    {
+        // An empty one stays empty.
+        boxes.emplace_back(Vector3d(of.head<3>()), Vector3d(of.tail<3>()));
+    }
+    return boxes;
+}
+
+Box boxAround(const ParticlesView& particles, double commonReach)
+{
+    Box around;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const SphereInFluid sphere = sphereInFluid(particles, particle);
+        const Vector3d reach = Vector3d::Constant(std::max(sphere.radius, commonReach));
+        around.extend(sphere.centre - reach);
+        around.extend(sphere.centre + reach);
+    }
+    return around;
+}
+
+GhostParticle visitFrom(const ParticlesView& particles, const Reactions& reactions, Eigen::Index particle)
+{
+    const SphereInFluid sphere = sphereInFluid(particles, particle);
+    return {sphere.centre, reactions.col(particle), particles.state[particle].given.implicitCoefficientTime,
+        volumeInFluid(particles, particle), sphere.radius, static_cast<double>(particles.id[particle])};
+}
+
+} // namespace
+
+ParticleExchange::ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach)
+    : communicator_(communicator),
+      cells_(cells),
+      commonReach_(commonReach),
+      subdomainBounds_(subdomainBounds(communicator, cells))
+{
+    MPI_Comm_rank(communicator_, &rank_);
+}
+
+void ParticleExchange::publishBounds(const Box& particles)
+{
+    if (!publishedBounds_.contains(particles))
+    {
+        const Vector3d room = roomAroundParticles * particles.sizes();
+        publishedBounds_.extend(Box(particles.min() - room, particles.max() + room));
+    }
+    const std::vector<Box> published = subdomainBounds(communicator_, publishedBounds_);
+    receivingRanks_.clear();
+    sendingRanks_.clear();
+    const auto add = [&](int rank) {
+        const auto of = static_cast<std::size_t>(rank);
+        if (publishedBounds_.intersects(subdomainBounds_[of]))
+        {
+            receivingRanks_.push_back(rank);
+        }
+        if (published[of].intersects(cells_))
+        {
+            sendingRanks_.push_back(rank);
+        }
+    };
+    add(rank_);
+    for (int rank = 0; rank < static_cast<int>(published.size()); ++rank)
+    {
+        if (rank != rank_)
+        {
+            add(rank);
+        }
+    }
+}
+
+void ParticleExchange::makePlan(const ParticlesView& particles)
+{
+    const Box around = boxAround(particles, commonReach_);
+    int anyLeft = publishedBounds_.contains(around) ? 0 : 1;
+    MPI_Allreduce(MPI_IN_PLACE, &anyLeft, 1, MPI_INT, MPI_MAX, communicator_);
+    if (anyLeft != 0)
+    {
+        publishBounds(around);
+    }
+    exports_.clear();
+    for (const int host : receivingRanks_)
+    {
+        Exports leaving{host, {}};
+        const Box& cells = subdomainBounds_[static_cast<std::size_t>(host)];
+        for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+        {
+            const SphereInFluid sphere = sphereInFluid(particles, particle);
+            if (cubeMeets(cells, sphere.centre, std::max(sphere.radius, commonReach_)))
+            {
+                leaving.particles.push_back(particle);
+            }
+        }
+        exports_.push_back(std::move(leaving));
+    }
+    imports_.clear();
+    for (const int guest : sendingRanks_)
+    {
+        imports_.push_back({guest, 0, 0});
+    }
+}
+
+std::vector<std::vector<double>> ParticleExchange::swap(const std::vector<int>& toRanks,
+    const std::vector<std::vector<double>>& out, const std::vector<int>& fromRanks) const
+{
+    std::vector<MPI_Request> requests;
+    const std::vector<double>* toSelf = nullptr;
+    for (std::size_t i = 0; i < toRanks.size(); ++i)
+    {
+        if (toRanks[i] == rank_)
+        {
+            toSelf = &out[i];
+            continue;
+        }
+        requests.emplace_back();
+        MPI_Isend(out[i].data(), static_cast<int>(out[i].size()), MPI_DOUBLE, toRanks[i], messageTag, communicator_,
+            &requests.back());
+        bytesSent_ += out[i].size() * sizeof(double);
+    }
+    std::vector<std::vector<double>> in(fromRanks.size());
+    for (std::size_t i = 0; i < fromRanks.size(); ++i)
+    {
+        if (fromRanks[i] == rank_)
+        {
+            // There is one: both plans compare this rank's own two boxes.
+            in[i] = toSelf ? *toSelf : std::vector<double>();
+            continue;
+        }
+        MPI_Status status;
+        int count = 0;
+        MPI_Probe(fromRanks[i], messageTag, communicator_, &status);
+        MPI_Get_count(&status, MPI_DOUBLE, &count);
+        in[i].resize(static_cast<std::size_t>(count));
+        MPI_Recv(in[i].data(), count, MPI_DOUBLE, fromRanks[i], messageTag, communicator_, MPI_STATUS_IGNORE);
+    }
+    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    return in;
+}
+
+void ParticleExchange::send(const ParticlesView& particles, const Reactions& reactions)
+{
+    constexpr std::size_t size = sizeof(GhostParticle) / sizeof(double);
+    static_assert(std::is_standard_layout_v<GhostParticle> && sizeof(GhostParticle) % sizeof(double) == 0);
+
+    particleCount_ = particles.size();
+    makePlan(particles);
+
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Exports& leaving : exports_)
+    {
+        toRanks.push_back(leaving.rank);
+        std::vector<double>& message = out.emplace_back(leaving.particles.size() * size);
+        double* place = message.data();
+        for (const Eigen::Index particle : leaving.particles)
+        {
+            const GhostParticle visit = visitFrom(particles, reactions, particle);
+            std::copy_n(reinterpret_cast<const double*>(&visit), size, place);
+            place += size;
+        }
+    }
+    std::vector<int> fromRanks;
+    for (const Imports& arriving : imports_)
+    {
+        fromRanks.push_back(arriving.rank);
+    }
+
+    ghosts_.clear();
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        const std::size_t count = in[i].size() / size;
+        imports_[i].first = static_cast<Eigen::Index>(ghosts_.size());
+        imports_[i].count = static_cast<Eigen::Index>(count);
+        for (std::size_t visit = 0; visit < count; ++visit)
+        {
+            std::copy_n(&in[i][visit * size], size, reinterpret_cast<double*>(&ghosts_.emplace_back()));
+        }
+    }
+}
+
+Eigen::MatrixXd ParticleExchange::sumAtHome(const Eigen::MatrixXd& perGhost) const
+{
+    const Eigen::Index width = perGhost.rows();
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Imports& hosted : imports_)
+    {
+        toRanks.push_back(hosted.rank);
+        const double* first = perGhost.data() + hosted.first * width;
+        out.emplace_back(first, first + hosted.count * width);
+    }
+    std::vector<int> fromRanks;
+    for (const Exports& home : exports_)
+    {
+        fromRanks.push_back(home.rank);
+    }
+
+    Eigen::MatrixXd perParticle = Eigen::MatrixXd::Zero(width, particleCount_);
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        const double* column = in[i].data();
+        for (const Eigen::Index particle : exports_[i].particles)
+        {
+            perParticle.col(particle) += Eigen::Map<const Eigen::VectorXd>(column, width);
+            column += width;
+        }
+    }
+    return perParticle;
+}
+
+Eigen::MatrixXd ParticleExchange::toGhosts(const Eigen::MatrixXd& perParticle) const
+{
+    const Eigen::Index width = perParticle.rows();
+    std::vector<int> toRanks;
+    std::vector<std::vector<double>> out;
+    for (const Exports& home : exports_)
+    {
+        toRanks.push_back(home.rank);
+        std::vector<double>& message = out.emplace_back();
+        message.reserve(home.particles.size() * static_cast<std::size_t>(width));
+        for (const Eigen::Index particle : home.particles)
+        {
+            message.insert(message.end(), perParticle.col(particle).begin(), perParticle.col(particle).end());
+        }
+    }
+    std::vector<int> fromRanks;
+    for (const Imports& hosted : imports_)
+    {
+        fromRanks.push_back(hosted.rank);
+    }
+
+    Eigen::MatrixXd perGhost(width, static_cast<Eigen::Index>(ghosts_.size()));
+    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        perGhost.middleCols(imports_[i].first, imports_[i].count) =
+            Eigen::Map<const Eigen::MatrixXd>(in[i].data(), width, imports_[i].count);
+    }
+    return perGhost;
+}
+
+} // namespace clepsydra

@@ -1,0 +1,160 @@
+#include "forces/particleForces.h"
+
+#include "HashSet.H"
+#include "wordList.H"
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+constexpr Eigen::Index particlesAtATime = 64;
+
+/// Asks for what every force needs of the states of particles `first` to `end`: the engine's contacts have pushed it out of
+/// the near caches.
+void prefetch(const ParticlesView& particles, Eigen::Index first, Eigen::Index end)
+{
+    constexpr std::size_t cacheLine = 64;
+    for (Eigen::Index particle = first; particle < end; ++particle)
+    {
+        const char* const state = reinterpret_cast<const char*>(particles.state + particle);
+        for (std::size_t byte = 0; byte <= offsetof(CouplingState, fluid.velocityInCells); byte += cacheLine)
+        {
+            __builtin_prefetch(state + byte, 1);
+        }
+    }
+}
+
+/// Particles `first` to `first + count`, with all the pairs.
+ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eigen::Index count)
+{
+    const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
+    const auto vectors = [&](const ConstVectors& all) { return ConstVectors(all.data() + 3 * first, 3, count); };
+    return {values(particles.id), vectors(particles.position), vectors(particles.velocity),
+        vectors(particles.angularVelocity), values(particles.radius), values(particles.mass), particles.state + first,
+        vectors(particles.otherForce), particles.pairs, particles.memory + first * particles.memorySize,
+        particles.memorySize, particles.memoryAges, values(particles.held)};
+}
+
+} // namespace
+
+ParticleForces::ParticleForces(
+    const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid, PhaseTimers& timers)
+    : timers_(timers),
+      modelType_(modelType)
+{
+    Foam::wordHashSet names;
+    for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
+    {
+        if (!names.insert(name))
+        {
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry 'forceModels' lists '" << name << "' twice; allowed: each force once"
+                << Foam::exit(Foam::FatalIOError);
+        }
+        const bool memoryTaken = needs().memory > 0;
+        models_.append(ForceModel::New(name, couplingProperties, fluid).ptr());
+        if (modelType_ == ModelType::B && models_.last().onlyInModelA())
+        {
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry 'forceModels' lists '" << name << "' and entry 'modelType' is B; allowed: without it, for in "
+                << "model B the fluid keeps the whole pressure gradient and viscous stress, and the particles' part of "
+                << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
+        }
+        if (memoryTaken && models_.last().needs().memory > 0)
+        {
+            FatalIOErrorInFunction(couplingProperties) << "Entry 'forceModels' lists a second force with a memory, '"
+                                                       << name << "'; allowed: one" << Foam::exit(Foam::FatalIOError);
+        }
+    }
+    pairs_ = needs().pairReach > 0;
+}
+
+ForceNeeds ParticleForces::needs() const
+{
+    ForceNeeds needs;
+    for (const ForceModel& model : models_)
+    {
+        needs.acceleration = needs.acceleration || model.needs().acceleration;
+        needs.vorticity = needs.vorticity || model.needs().vorticity;
+        needs.viscousStress = needs.viscousStress || model.needs().viscousStress;
+        needs.pairReach = std::max(needs.pairReach, model.needs().pairReach);
+        needs.memory = std::max(needs.memory, model.needs().memory);
+    }
+    return needs;
+}
+
+void ParticleForces::evaluate(const ParticlesView& particles, double timeStep, Vectors force)
+{
+    const PhaseTimers::Scope timing = timers_.time("forces");
+    // Pairs may be of any two particles, everything else is done for a few at a time: their states stay in the cache.
+    const Eigen::Index most = pairs_ ? particles.size() : particlesAtATime;
+    for (Eigen::Index first = 0; first < particles.size(); first += most)
+    {
+        const Eigen::Index count = std::min(most, particles.size() - first);
+        prefetch(particles, first + count, std::min(first + 2 * count, particles.size()));
+        evaluatePart(segmentOf(particles, first, count), timeStep, Vectors(force.data() + 3 * first, 3, count));
+    }
+}
+
+void ParticleForces::evaluatePart(const ParticlesView& particles, double timeStep, Vectors force)
+{
+    sum_.setZero(particles.size());
+    sum_.timeStep = timeStep;
+    removeSelfInducedVelocity(particles);
+    for (const ForceModel& model : models_)
+    {
+        model.add(particles, sum_);
+    }
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        const double submergedFraction = state.fluid.submergedFraction;
+        const double ofModel =
+            modelType_ == ModelType::B ? submergedFraction / state.fluid.voidFraction : submergedFraction;
+        const double coefficient = ofModel * sum_.implicitCoefficient[particle];
+        const double addedMass = ofModel * sum_.addedMass[particle];
+        Vector3d handedOver = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
+                              + ofModel * sum_.source.col(particle);
+        const Vector3d notHandedOver = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
+        if (addedMass > 0)
+        {
+            state.given.addedMassTime += timeStep * addedMass;
+            // The particle's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
+            const Vector3d others = particles.otherForce.col(particle) + handedOver + notHandedOver;
+            const Vector3d free =
+                (others + addedMass * state.fluid.acceleration) / (particles.mass[particle] + addedMass);
+            const Vector3d acceleration = particles.held[particle] ? Vector3d(Vector3d::Zero()) : free;
+            handedOver += addedMass * (state.fluid.acceleration - acceleration);
+        }
+        force.col(particle) = handedOver + notHandedOver;
+        if (state.fluid.selfMobility > 0)
+        {
+            state.drag = coefficient * (state.fluid.velocity - particles.velocity.col(particle));
+        }
+        state.given.impulse += timeStep * handedOver;
+        state.given.implicitCoefficientTime += timeStep * coefficient;
+    }
+}
+
+void ParticleForces::removeSelfInducedVelocity(const ParticlesView& particles)
+{
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        FluidAtParticle& fluid = particles.state[particle].fluid;
+        if (fluid.selfMobility > 0)
+        {
+            // The fluid has the opposite force. The one of the step before: it changes little from step to step. Only the drag,
+            // for the disturbance is a steady one; added mass and history force answer a change of the fluid's velocity
+            // with so large a force that each step would change it more.
+            fluid.velocity = fluid.velocityInCells + fluid.selfMobility * particles.state[particle].drag;
+        }
+    }
+}
+
+} // namespace clepsydra

@@ -1,0 +1,228 @@
+#include "functionObjects/particleFlux.h"
+
+#include "functionObjects/observableTable.h"
+#include "modelLines.h"
+#include "tokens/exactText.h"
+
+#include "Time.H"
+#include "addToRunTimeSelectionTable.H"
+#include "fvMesh.H"
+#include "OStringStream.H"
+#include "stringList.H"
+
+#include <sstream>
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(ParticleFlux, 0);
+addToRunTimeSelectionTable(functionObject, ParticleFlux, dictionary);
+static const ModelLines lines(
+    "functions { type }", {{ParticleFlux::typeName_(), "particles that come in and that leave through outlets"}});
+
+namespace
+{
+
+/// The outlets' names; one text per patchFlux; the time of the last row with the masses then, and the row. As text: OpenFOAM
+/// would write numbers with the fields' digits.
+const word outletsEntry = "outlets";
+const word patchFluxesEntry = "patchFluxes";
+const word lastSampleEntry = "lastSample";
+const word lastRowEntry = "lastRow";
+const word rowsEntry = "rows";
+
+template<class... Numbers>
+std::string textOf(const Numbers&... numbers)
+{
+    return ((exactText(static_cast<double>(numbers)) + ' ') + ...);
+}
+
+} // namespace
+
+ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary& dict)
+    : fvMeshFunctionObject(name, time, dict),
+      writeFile(mesh_, name, name)
+{
+    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    ParticleFlux::read(dict);
+    requireSameOutlets();
+    const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
+    resetFile(name);
+
+    wordList columns({"inserted"});
+    columns.append(insertionAndRemoval().outlets());
+    Ostream& os = file();
+    writeHeader(
+        os, "Particles inserted, and those that left through " + std::to_string(columns.size() - 1) + " outlets");
+    writeCommented(os, "time [s]");
+    for (const word& column : columns)
+    {
+        for (const char* quantity : {" particles [-]", " mass [kg]", " momentum x [N s]", " momentum y [N s]",
+                 " momentum z [N s]", " rate [kg/s]"})
+        {
+            writeTabbed(os, column + quantity);
+        }
+    }
+    os << endl;
+
+    patchFluxes_.resize(static_cast<std::size_t>(columns.size()));
+    lastMasses_.resize(patchFluxes_.size());
+    resume(rowsThatStay);
+    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    if (lastSample_ < 0)
+    {
+        sample();
+    }
+    lastCount_ = time_.value();
+}
+
+const InsertionAndRemoval& ParticleFlux::insertionAndRemoval() const
+{
+    return mesh_.lookupObject<InsertionAndRemoval>(InsertionAndRemoval::registryName);
+}
+
+void ParticleFlux::requireSameOutlets() const
+{
+    wordList before;
+    if (getProperty(outletsEntry, before) && before != insertionAndRemoval().outlets())
+    {
+        FatalIOError(FUNCTION_NAME, __FILE__, __LINE__, time_.globalPath() / time_.constant() / "couplingProperties")
+            << "Entry 'particleOutlets' is " << flatOutput(insertionAndRemoval().outlets()) << " and was "
+            << flatOutput(before) << " when " << name()
+            << " counted what left; allowed: as it was, for its totals are those since the fresh "
+            << "start, or another name for " << name() << " in system/controlDict, by which it begins at 0"
+            << exit(FatalIOError);
+    }
+}
+
+void ParticleFlux::resume(label rowsThatStay)
+{
+    stringList patchFluxes;
+    string lastSample;
+    // Checkpoints of earlier versions have no outlets' names: their number is all that can be compared.
+    if (!getProperty(patchFluxesEntry, patchFluxes) || !getProperty(lastSampleEntry, lastSample)
+        || !getProperty(lastRowEntry, lastRow_) || patchFluxes.size() != static_cast<label>(patchFluxes_.size()))
+    {
+        return;
+    }
+    for (std::size_t i = 0; i < patchFluxes_.size(); ++i)
+    {
+        PatchFlux& patchFlux = patchFluxes_[i];
+        std::istringstream text(patchFluxes[static_cast<label>(i)]);
+        text >> patchFlux.particles >> patchFlux.mass >> patchFlux.momentum.x() >> patchFlux.momentum.y()
+            >> patchFlux.momentum.z();
+    }
+    std::istringstream text(lastSample);
+    text >> lastSample_;
+    for (double& mass : lastMasses_)
+    {
+        text >> mass;
+    }
+    getProperty(rowsEntry, rows_);
+    const bool again = isRowOfNow(time_, lastSample_);
+    warnOfLostRows(rowsThatStay, again ? rows_ - 1 : rows_, name() + ".dat");
+    if (again)
+    {
+        writeRow();
+    }
+}
+
+bool ParticleFlux::read(const dictionary& dict)
+{
+    fvMeshFunctionObject::read(dict);
+    writeFile::read(dict);
+    requireKnownEntries(
+        dict, {"type", "libs", "enabled", "log", "region", "writePrecision", "sampleInterval", "useUserTime"});
+    sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
+    return true;
+}
+
+bool ParticleFlux::execute()
+{
+    count();
+    if (isRowDue(time_, lastSample_, sampleInterval_))
+    {
+        sample();
+    }
+    keepState();
+    return true;
+}
+
+bool ParticleFlux::end()
+{
+    count();
+    sample();
+    keepState();
+    return true;
+}
+
+void ParticleFlux::count()
+{
+    if (time_.value() <= lastCount_)
+    {
+        return;
+    }
+    lastCount_ = time_.value();
+    patchFluxes_.front() += insertionAndRemoval().lastInserted();
+    const std::vector<PatchFlux>& left = insertionAndRemoval().lastLeft();
+    for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
+    {
+        patchFluxes_[outlet + 1] += left[outlet];
+    }
+}
+
+void ParticleFlux::sample()
+{
+    const scalar now = time_.value();
+    if (now <= lastSample_)
+    {
+        return;
+    }
+    OStringStream row;
+    row.precision(file().precision());
+    writeCurrentTime(row);
+    for (std::size_t i = 0; i < patchFluxes_.size(); ++i)
+    {
+        const scalar rate = lastSample_ < 0 ? 0 : (patchFluxes_[i].mass - lastMasses_[i]) / (now - lastSample_);
+        const vector& momentum = patchFluxes_[i].momentum;
+        row << tab << setw(charWidth()) << patchFluxes_[i].particles;
+        for (const scalar value : {patchFluxes_[i].mass, momentum.x(), momentum.y(), momentum.z(), rate})
+        {
+            row << tab << setw(charWidth()) << value;
+        }
+        lastMasses_[i] = patchFluxes_[i].mass;
+    }
+    lastRow_ = row.str();
+    lastSample_ = now;
+    ++rows_;
+    writeRow();
+}
+
+void ParticleFlux::writeRow()
+{
+    Ostream& os = file();
+    os << lastRow_.c_str() << endl;
+    requireWritten(os);
+}
+
+void ParticleFlux::keepState()
+{
+    stringList texts;
+    std::string lastSample = textOf(lastSample_);
+    for (const PatchFlux& patchFlux : patchFluxes_)
+    {
+        const vector& momentum = patchFlux.momentum;
+        texts.append(textOf(patchFlux.particles, patchFlux.mass, momentum.x(), momentum.y(), momentum.z()));
+    }
+    for (const double mass : lastMasses_)
+    {
+        lastSample += textOf(mass);
+    }
+    setProperty(outletsEntry, insertionAndRemoval().outlets());
+    setProperty(patchFluxesEntry, texts);
+    setProperty(lastSampleEntry, string(lastSample));
+    setProperty(lastRowEntry, lastRow_);
+    setProperty(rowsEntry, rows_);
+}
+
+} // namespace clepsydra

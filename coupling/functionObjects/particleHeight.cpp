@@ -1,0 +1,148 @@
+#include "functionObjects/particleHeight.h"
+
+#include "functionObjects/observableTable.h"
+#include "functionObjects/observedParticles.h"
+#include "modelLines.h"
+#include "tokens/exactText.h"
+
+#include "Time.H"
+#include "addToRunTimeSelectionTable.H"
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+defineTypeNameAndDebug(ParticleHeight, 0);
+addToRunTimeSelectionTable(functionObject, ParticleHeight, dictionary);
+static const ModelLines lines(
+    "functions { type }", {{ParticleHeight::typeName_(), "height and velocity of one particle"}});
+
+namespace
+{
+
+/// As text: OpenFOAM would write the number with the fields' digits.
+const word lastRowEntry = "lastRow";
+const word rowsEntry = "rows";
+
+} // namespace
+
+ParticleHeight::ParticleHeight(const word& name, const Time& time, const dictionary& dict)
+    : fvMeshFunctionObject(name, time, dict),
+      writeFile(mesh_, name, name)
+{
+    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    ParticleHeight::read(dict);
+    const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
+    resetFile(name);
+
+    Ostream& os = file();
+    writeHeader(os, "Particle " + Foam::name(particle_));
+    writeHeaderValue(os, "Axis", toFoam(axis_));
+    writeCommented(os, "time [s]");
+    writeTabbed(os, "height [m]");
+    writeTabbed(os, "velocity [m/s]");
+    os << endl;
+
+    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    if (resume(rowsThatStay) && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
+    {
+        sample();
+    }
+}
+
+bool ParticleHeight::resume(label rowsThatStay)
+{
+    string lastRow;
+    if (!getProperty(lastRowEntry, lastRow))
+    {
+        return true;
+    }
+    getProperty(rowsEntry, rows_);
+    const bool again = isRowOfNow(time_, std::stod(lastRow));
+    rows_ -= again ? 1 : 0;
+    warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
+    return again;
+}
+
+bool ParticleHeight::read(const dictionary& dict)
+{
+    fvMeshFunctionObject::read(dict);
+    writeFile::read(dict);
+    requireKnownEntries(dict, functionObjectEntries({"particle", "axis", "stopBelow"}));
+
+    const auto axis = dict.getOrDefault<vector>("axis", vector(0, 0, 1));
+    if (mag(axis) < SMALL)
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'axis' is " << axis << "; allowed: a vector that is not zero"
+                                     << exit(FatalIOError);
+    }
+    axis_ = toEigen(axis).normalized();
+
+    stopBelow_ = dict.getOrDefault<scalar>("stopBelow", -GREAT);
+    particle_ = dict.getOrDefault<label>("particle", 1);
+    gone_ = false;
+    // Later, and in a resumed run, it may have left.
+    if (time_.timeIndex() == 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
+    {
+        const ParticlesView particles =
+            mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
+        if (!returnReduce((particles.id == particle_).any(), orOp<bool>()))
+        {
+            FatalIOErrorInFunction(dict) << "Entry 'particle' is " << particle_ << "; allowed: the id of one of the "
+                                         << returnReduce(label(particles.size()), sumOp<label>()) << " particles"
+                                         << exit(FatalIOError);
+        }
+    }
+    return true;
+}
+
+bool ParticleHeight::execute()
+{
+    sample();
+    return true;
+}
+
+void ParticleHeight::sample()
+{
+    // One rank has the particle, the others add nothing.
+    scalar height = 0;
+    scalar velocity = 0;
+    bool found = false;
+    const ParticlesView particles = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
+    for (Eigen::Index i = 0; i < particles.size(); ++i)
+    {
+        if (particles.id[i] == particle_)
+        {
+            height = axis_.dot(particles.position.col(i));
+            velocity = axis_.dot(particles.velocity.col(i));
+            found = true;
+        }
+    }
+    reduce(found, orOp<bool>());
+    if (!found)
+    {
+        if (!gone_)
+        {
+            Info << name() << ": particle " << particle_ << " is no longer there, no more rows" << endl;
+        }
+        gone_ = true;
+        return;
+    }
+    reduce(height, sumOp<scalar>());
+    reduce(velocity, sumOp<scalar>());
+
+    Ostream& os = file();
+    writeCurrentTime(os);
+    os << tab << setw(charWidth()) << height << tab << setw(charWidth()) << velocity << endl;
+    requireWritten(os);
+    setProperty(lastRowEntry, string(exactText(time_.value())));
+    setProperty(rowsEntry, ++rows_);
+
+    if (height < stopBelow_)
+    {
+        Info << name() << ": particle " << particle_ << " is below " << stopBelow_ << " m: the run ends" << endl;
+        time_.stopAt(Time::saWriteNow);
+    }
+}
+
+} // namespace clepsydra

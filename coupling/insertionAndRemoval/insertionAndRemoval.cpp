@@ -1,0 +1,156 @@
+#include "insertionAndRemoval/insertionAndRemoval.h"
+
+#include "runTimeSelection.h"
+#include "vectors.h"
+
+#include <algorithm>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+PatchFlux& PatchFlux::operator+=(const PatchFlux& other)
+{
+    particles += other.particles;
+    mass += other.mass;
+    momentum += other.momentum;
+    volume += other.volume;
+    return *this;
+}
+
+namespace
+{
+
+/// Coupling steps in which a particle comes in, unless said otherwise.
+constexpr double usualIntervals = 10;
+
+double readInsertionTime(const dictionary& couplingProperties, double couplingTimeStep)
+{
+    return couplingProperties.found("insertionTime") ? positiveEntry(couplingProperties, "insertionTime")
+                                                     : usualIntervals * couplingTimeStep;
+}
+
+/// \param insertionRamp  the part of the insertion's time that is over
+double shareAfterRamp(double insertionRamp)
+{
+    return insertionRamp * insertionRamp * (3 - 2 * insertionRamp);
+}
+
+/// Of all ranks.
+PatchFlux sumOfRanks(const PatchFlux& ofRank)
+{
+    return {returnReduce(ofRank.particles, sumOp<label>()), returnReduce(ofRank.mass, sumOp<scalar>()),
+        returnReduce(ofRank.momentum, sumOp<vector>()), returnReduce(ofRank.volume, sumOp<scalar>())};
+}
+
+void addParticle(PatchFlux& to, double mass, const Vector3d& velocity)
+{
+    ++to.particles;
+    to.mass += mass;
+    to.momentum += mass * toFoam(velocity);
+}
+
+} // namespace
+
+InsertionAndRemoval::InsertionAndRemoval(
+    const dictionary& couplingProperties, const fvMesh& mesh, double couplingTimeStep)
+    : regIOobject(IOobject(registryName, mesh.time().timeName(), mesh)),
+      outlets_(couplingProperties, mesh),
+      insertionTime_(readInsertionTime(couplingProperties, couplingTimeStep)),
+      interval_(couplingTimeStep),
+      lastLeft_(static_cast<std::size_t>(outlets_.names().size()))
+{}
+
+double InsertionAndRemoval::start(const ParticlesView& particles, bool fresh)
+{
+    double inFluid = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        if (fresh)
+        {
+            particles.insertionRamp[particle] = 1;
+        }
+        state.part = partOf(particles, particle, interval_);
+        state.fluid.submergedFraction = shareAfterRamp(particles.insertionRamp[particle]) * state.part.share;
+        inFluid += volumeInFluid(particles, particle);
+    }
+    return returnReduce(inFluid, sumOp<scalar>());
+}
+
+void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, double interval)
+{
+    interval_ = interval;
+    PatchFlux inserted;
+    std::vector<PatchFlux> left(lastLeft_.size());
+    gone_.clear();
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        double& insertionRamp = particles.insertionRamp[particle];
+        const double volume = sphereVolume(particles.radius[particle]);
+        if (particles.id[particle] > newFrom)
+        {
+            insertionRamp = 0;
+            addParticle(inserted, particles.mass[particle], particles.velocity.col(particle));
+        }
+        const double before = shareAfterRamp(insertionRamp);
+        insertionRamp = std::min(1.0, insertionRamp + interval / insertionTime_);
+        const double now = shareAfterRamp(insertionRamp);
+
+        const PartWithin part = partOf(particles, particle, interval);
+        // One that has turned back is recorded where it had begun to leave.
+        const auto outlet = static_cast<label>(part.outlet < 0 ? state.part.outlet : part.outlet);
+        inserted.volume += (now - before) * state.part.share * volume;
+        if (outlet >= 0)
+        {
+            left[outlet].volume += now * (state.part.share - part.share) * volume;
+        }
+        state.part = part;
+        state.fluid.submergedFraction = now * part.share;
+        if (!(part.share > 0))
+        {
+            gone_.push_back(
+                {particles.id[particle], outlet, particles.mass[particle], particles.velocity.col(particle)});
+        }
+    }
+    lastInserted_ = sumOfRanks(inserted);
+    netVolume_ += lastInserted_.volume;
+    for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
+    {
+        lastLeft_[outlet] = sumOfRanks(left[outlet]);
+        netVolume_ -= lastLeft_[outlet].volume;
+    }
+}
+
+label InsertionAndRemoval::removeGone(DemEngine& engine)
+{
+    const label count = returnReduce(static_cast<label>(gone_.size()), sumOp<label>());
+    if (count == 0)
+    {
+        return count;
+    }
+    std::vector<int> ids;
+    std::vector<PatchFlux> left(lastLeft_.size());
+    for (const Gone& particle : gone_)
+    {
+        ids.push_back(particle.id);
+        addParticle(left[particle.outlet], particle.mass, particle.velocity);
+    }
+    for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
+    {
+        lastLeft_[outlet] += sumOfRanks(left[outlet]);
+    }
+    gone_.clear();
+    engine.remove(ids);
+    return count;
+}
+
+PartWithin InsertionAndRemoval::partOf(const ParticlesView& particles, Eigen::Index particle, double interval) const
+{
+    return outlets_.partWithin(particles.position.col(particle), particles.radius[particle],
+        interval * particles.velocity.col(particle).norm());
+}
+
+} // namespace clepsydra

@@ -1,0 +1,152 @@
+#include "insertionAndRemoval/particleOutlets.h"
+
+#include "runTimeSelection.h"
+#include "vectors.h"
+
+#include "ListListOps.H"
+#include "triSurface.H"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+/// The part of a sphere on one side of a plane.
+struct Segment
+{
+    double share; // of the sphere's volume
+    double depth; // of its centroid below the plane, in radii
+};
+
+/// \param beyond  distance of the sphere's centre from the plane, positive on the other side, in radii, from -1 to 1
+Segment segmentWithin(double beyond)
+{
+    const double height = 1 - beyond;
+    const double share = height * height * (3 - height) / 4;
+    const double fromCentre = 3 * (2 - height) * (2 - height) / (4 * (3 - height));
+    return {share, fromCentre - beyond};
+}
+
+} // namespace
+
+ParticleOutlets::ParticleOutlets(const dictionary& couplingProperties, const fvMesh& mesh)
+{
+    readNames(couplingProperties, mesh);
+    if (!names_.empty())
+    {
+        gatherFaces(mesh);
+    }
+}
+
+void ParticleOutlets::readNames(const dictionary& couplingProperties, const fvMesh& mesh)
+{
+    const word entry = "particleOutlets";
+    couplingProperties.readIfPresent(entry, names_);
+    const wordList known = mesh.boundaryMesh().names();
+    for (const word& name : names_)
+    {
+        const label patch = mesh.boundaryMesh().findPatchID(name);
+        if (patch < 0)
+        {
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry '" << entry << "' lists '" << name << "', which is no patch of the mesh"
+                << didYouMean(name, known).c_str() << "; allowed: " << flatOutput(known) << exit(FatalIOError);
+        }
+        if (mesh.boundaryMesh()[patch].coupled())
+        {
+            FatalIOErrorInFunction(couplingProperties) << "Entry '" << entry << "' lists '" << name
+                                                       << "', which joins two parts of the mesh; allowed: patches "
+                                                       << "at which the mesh ends" << exit(FatalIOError);
+        }
+        if (returnReduce(mesh.boundaryMesh()[patch].size(), sumOp<label>()) == 0)
+        {
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry '" << entry << "' lists '" << name << "', which has no faces; allowed: patches with faces"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+void ParticleOutlets::gatherFaces(const fvMesh& mesh)
+{
+    // Three corners after each other, and the outlet of each triangle.
+    List<pointField> cornersOfRanks(Pstream::nProcs());
+    List<labelList> outletsOfRanks(Pstream::nProcs());
+    DynamicList<point> corners;
+    DynamicList<label> outlets;
+    forAll (names_, outlet)
+    {
+        const polyPatch& patch = mesh.boundaryMesh()[mesh.boundaryMesh().findPatchID(names_[outlet])];
+        for (const face& patchFace : patch)
+        {
+            for (label corner = 1; corner + 1 < patchFace.size(); ++corner)
+            {
+                for (const label at : {label(0), corner, label(corner + 1)})
+                {
+                    corners.append(mesh.points()[patchFace[at]]);
+                }
+                outlets.append(outlet);
+            }
+        }
+    }
+    cornersOfRanks[Pstream::myProcNo()].transfer(corners);
+    outletsOfRanks[Pstream::myProcNo()].transfer(outlets);
+    Pstream::gatherList(cornersOfRanks);
+    Pstream::scatterList(cornersOfRanks);
+    Pstream::gatherList(outletsOfRanks);
+    Pstream::scatterList(outletsOfRanks);
+
+    const pointField points = ListListOps::combine<pointField>(cornersOfRanks, accessOp<pointField>());
+    const labelList regions = ListListOps::combine<labelList>(outletsOfRanks, accessOp<labelList>());
+    List<labelledTri> triangles(regions.size());
+    forAll (triangles, triangle)
+    {
+        triangles[triangle] = labelledTri(3 * triangle, 3 * triangle + 1, 3 * triangle + 2, regions[triangle]);
+    }
+    bounds_ = boundBox(points, false);
+    surface_ = std::make_unique<triSurface>(triangles, points);
+    search_ = std::make_unique<triSurfaceSearch>(*surface_);
+}
+
+PartWithin ParticleOutlets::partWithin(const Vector3d& centre, double radius, double travel) const
+{
+    PartWithin part;
+    const point at = toFoam(centre);
+    // A particle that something behind the outlet has slowed down has come farther than it now goes.
+    const double reach = 3 * radius + travel;
+    if (!search_ || magSqr(bounds_.nearest(at) - at) > sqr(reach))
+    {
+        return part;
+    }
+    const pointIndexHit found = search_->tree().findNearest(at, sqr(reach));
+    if (!found.hit())
+    {
+        return part;
+    }
+    // Outwards, as all faces of the boundary are.
+    const vector normal = surface_->faceNormals()[found.index()];
+    const vector fromSurface = at - found.hitPoint();
+    const bool inside = (normal & fromSurface) <= 0;
+    // Beside an outlet's edge a particle on the inner side is as far from it as from the edge.
+    const double beyond = inside ? -mag(fromSurface) : normal & fromSurface;
+    if (beyond <= -radius)
+    {
+        return part;
+    }
+    const vector inwards = inside && beyond < 0 ? fromSurface / -beyond : -normal;
+    const Segment segment = segmentWithin(std::min(beyond / radius, 1.0));
+    // Where nothing is left, too, there is a place inside to hand over the last impulse.
+    constexpr double smallestDepth = 1e-2;
+    part.outlet = (*surface_)[found.index()].region();
+    part.share = segment.share;
+    part.shift = toEigen(found.hitPoint() + radius * std::max(segment.depth, smallestDepth) * inwards - at);
+    return part;
+}
+
+} // namespace clepsydra

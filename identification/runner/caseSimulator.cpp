@@ -1,0 +1,421 @@
+#include "runner/caseSimulator.h"
+
+#include "curves/table.h"
+#include "runner/runProgress.h"
+#include "runner/storeLock.h"
+#include "runner/storedFiles.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <regex>
+#include <utility>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+namespace fs = std::filesystem;
+
+constexpr const char* recordFile = "record.json";
+constexpr std::size_t keyDigits = 20;
+constexpr std::size_t linesOfLog = 12;
+
+std::string endOfLog(const fs::path& file)
+{
+    std::ifstream lines(file);
+    std::vector<std::string> last;
+    for (std::string line; std::getline(lines, line);)
+    {
+        last.push_back(line);
+        if (last.size() > linesOfLog)
+        {
+            last.erase(last.begin());
+        }
+    }
+    std::string text;
+    for (const auto& line : last)
+    {
+        text += "\n    " + line;
+    }
+    return text;
+}
+
+/// What git would not carry: results of earlier runs in the case are no part of it. Of OpenFOAM's, as folders of a time after
+/// the start: a run that found them would go on from there.
+bool isOutput(const std::string& name)
+{
+    static const std::regex outputs(R"(steps|results|postProcessing|VTK|checkpoints|log\..*|processor\d+|.*\.work)");
+    char* end = nullptr;
+    return std::regex_match(name, outputs) || (std::strtod(name.c_str(), &end) > 0.0 && *end == '\0');
+}
+
+std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
+{
+    std::string all = study.simulator.version + '\n';
+    std::vector<fs::path> names;
+    for (const auto& entry : fs::directory_iterator(caseFolder))
+    {
+        std::error_code dangles;
+        if (!isOutput(entry.path().filename().string()) && !fs::equivalent(entry.path(), study.file, dangles))
+        {
+            names.push_back(entry.path());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    for (const auto& path : names)
+    {
+        all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';
+    }
+    for (const auto& path : study.simulator.dependsOn)
+    {
+        all += sha256OfPath(path) + '\n';
+    }
+    return sha256(all);
+}
+
+/// A record says of itself whether it is whole: its checksum is over all else in it.
+std::string checksumOf(nlohmann::json record)
+{
+    record.erase("checksum");
+    return sha256(record.dump());
+}
+
+/// Empty where there is no record that is whole.
+nlohmann::json readRecord(const fs::path& stored)
+{
+    std::ifstream file(stored / recordFile);
+    auto record = nlohmann::json::parse(file, nullptr, false);
+    const bool whole = record.is_object() && record.value("checksum", nlohmann::json()) == checksumOf(record);
+    return whole ? record : nlohmann::json();
+}
+
+/// What is wrong with a stored run, or nothing.
+std::string damageOf(const fs::path& stored, const nlohmann::json& record)
+{
+    if (record.is_null() || record.at("key") != stored.filename().string())
+    {
+        return recordFile;
+    }
+    for (const auto& [name, checksum] : record.at("files").items())
+    {
+        const fs::path file = stored / name;
+        if (!fs::is_regular_file(file) || sha256OfPath(file) != checksum)
+        {
+            return name;
+        }
+    }
+    return "";
+}
+
+/// A link that points elsewhere is replaced: the store may have been made in another checkout.
+void link(const fs::path& target, const fs::path& place)
+{
+    std::error_code error;
+    if (fs::is_symlink(fs::symlink_status(place)) && fs::read_symlink(place, error) != target)
+    {
+        fs::remove(place, error);
+    }
+    if (!fs::exists(fs::symlink_status(place)))
+    {
+        fs::create_symlink(target, place, error);
+    }
+}
+
+/// A folder that ignores itself, wherever it is.
+void ignoreByGit(const fs::path& folder)
+{
+    const fs::path file = folder / ".gitignore";
+    try
+    {
+        if (!fs::exists(file))
+        {
+            writeWhole(file, "*\n");
+        }
+    }
+    catch (const FileError&)
+    {
+        // Another process may have been faster.
+        if (!fs::exists(file))
+        {
+            throw;
+        }
+    }
+}
+
+/// Links to all entries of a folder but one.
+void linkEntries(const fs::path& from, const fs::path& to, const fs::path& butNot)
+{
+    fs::create_directories(to);
+    for (const auto& entry : fs::directory_iterator(from, fs::directory_options::skip_permission_denied))
+    {
+        if (entry.path().filename() != butNot)
+        {
+            link(entry.path(), to / entry.path().filename());
+        }
+    }
+}
+
+} // namespace
+
+CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
+    : study_(study),
+      caseFolder_(fs::canonical(study.simulator.caseFolder)),
+      cache_(study.work / "cache"),
+      tree_(study.work / "tree"),
+      fingerprint_(fingerprintOf(study, caseFolder_)),
+      executor_(makeExecutor(study.executor, study.work, study.simulator.timeLimit)),
+      progress_(progress)
+{
+    fs::create_directories(cache_);
+    ignoreByGit(study.work);
+    mirrorSurroundings();
+}
+
+void CaseSimulator::mirrorSurroundings() const
+{
+    const fs::path above = caseFolder_.parent_path();
+    linkEntries(above.parent_path(), tree_, above.filename());
+    linkEntries(above, tree_ / above.filename(), caseFolder_.filename());
+}
+
+fs::path CaseSimulator::copyOf(const std::string& key) const
+{
+    return tree_ / caseFolder_.parent_path().filename() / (caseFolder_.filename().string() + '.' + key);
+}
+
+Entries CaseSimulator::defaults() const
+{
+    return readEntries(caseFolder_ / study_.simulator.entriesFile);
+}
+
+std::string CaseSimulator::keyOf(const RunOrder& order) const
+{
+    std::string all = fingerprint_ + '\n' + order.command + '\n';
+    for (const auto& [name, value] : order.entries)
+    {
+        all += name + ' ' + value + '\n';
+    }
+    return sha256(all).substr(0, keyDigits);
+}
+
+bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResult& result) const
+{
+    if (!fs::exists(stored))
+    {
+        return false;
+    }
+    const auto record = readRecord(stored);
+    if (const std::string damage = damageOf(stored, record); !damage.empty())
+    {
+        if (damaged_.insert(stored).second)
+        {
+            progress_ << (stored / damage).string() << ": damaged, or of an older version; the run is made again"
+                      << std::endl;
+        }
+        return false;
+    }
+    const auto failures = record.value("failures", nlohmann::json::object());
+    if (failures.contains(order.file))
+    {
+        // Tried again, but by who may run nothing: a report is made of what there was.
+        if (study_.settings.budget > 0)
+        {
+            return false;
+        }
+        result.failure = failures.at(order.file);
+    }
+    else if (filesMatching(stored / order.file).empty())
+    {
+        return false;
+    }
+    else
+    {
+        try
+        {
+            result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
+        }
+        catch (const std::exception& error)
+        {
+            result.failure = error.what();
+        }
+    }
+    result.seconds = record.at("seconds");
+    result.cached = true;
+    return true;
+}
+
+void CaseSimulator::prepare(const RunOrder& order, const fs::path& folder) const
+{
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    for (const auto& entry : fs::directory_iterator(caseFolder_))
+    {
+        if (!isOutput(entry.path().filename().string()))
+        {
+            fs::copy(entry.path(), folder / entry.path().filename(),
+                fs::copy_options::recursive | fs::copy_options::copy_symlinks);
+        }
+    }
+    replaceEntries(folder / study_.simulator.entriesFile, order.entries);
+}
+
+/// Into a folder of another name first: a record is there wholly or not at all. What other orders have had stored of an equal
+/// run stays.
+void CaseSimulator::store(const RunOrder& order, const std::map<std::string, std::string>& failures,
+    const fs::path& folder, const fs::path& stored, double seconds) const
+{
+    const fs::path unfinished = stored.string() + ".unfinished";
+    fs::remove_all(unfinished);
+    fs::create_directories(unfinished);
+    nlohmann::json checksums = nlohmann::json::object();
+    const auto add = [&](const fs::path& from, const fs::path& name) {
+        const std::string content = textOf(from / name);
+        fs::create_directories((unfinished / name).parent_path());
+        writeWhole(unfinished / name, content);
+        checksums[name.string()] = sha256(content);
+    };
+    if (const auto before = readRecord(stored); damageOf(stored, before).empty())
+    {
+        for (const auto& [name, checksum] : before.at("files").items())
+        {
+            add(stored, name);
+        }
+    }
+    nlohmann::json failed = nlohmann::json::object();
+    for (const auto& [pattern, failure] : failures)
+    {
+        if (!failure.empty())
+        {
+            failed[pattern] = failure;
+            continue;
+        }
+        for (const auto& file : filesMatching(folder / pattern))
+        {
+            add(folder, fs::relative(file, folder));
+        }
+    }
+    nlohmann::json record = {{"key", stored.filename().string()}, {"purpose", order.purpose},
+        {"command", order.command}, {"seed", order.seed}, {"entries", order.entries}, {"case", caseFolder_.string()},
+        {"fingerprint", fingerprint_}, {"seconds", seconds}, {"files", checksums}, {"failures", failed}};
+    record["checksum"] = checksumOf(record);
+    writeWhole(unfinished / recordFile, record.dump(1) + '\n');
+    renameWhole(unfinished, stored);
+}
+
+int CaseSimulator::missing(const std::vector<RunOrder>& orders)
+{
+    std::vector<std::string> keys;
+    for (const auto& order : orders)
+    {
+        RunResult result;
+        const std::string key = keyOf(order);
+        if (std::find(keys.begin(), keys.end(), key) == keys.end() && !load(order, cache_ / key, result))
+        {
+            keys.push_back(key);
+        }
+    }
+    return static_cast<int>(keys.size());
+}
+
+std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
+{
+    std::vector<RunResult> results(orders.size());
+    const auto notStored = [&]() {
+        std::map<std::string, std::vector<std::size_t>> missing;
+        for (std::size_t i = 0; i < orders.size(); ++i)
+        {
+            const std::string key = keyOf(orders[i]);
+            if (!results[i].cached && !load(orders[i], cache_ / key, results[i]))
+            {
+                missing[key].push_back(i);
+            }
+        }
+        return missing;
+    };
+    std::optional<StoreLock> lock;
+    auto toDo = notStored();
+    if (!toDo.empty())
+    {
+        // What another process was just making is there once the lock is ours.
+        lock.emplace(study_.work, progress_);
+        toDo = notStored();
+    }
+    std::vector<Job> jobs;
+    std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
+    // In the order in which they were asked for, for people who watch.
+    std::sort(
+        wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
+    for (const auto& [key, places] : wanted)
+    {
+        prepare(orders[places.front()], copyOf(key));
+        jobs.push_back({copyOf(key), orders[places.front()].command});
+    }
+    if (jobs.empty())
+    {
+        return results;
+    }
+    RunProgress progress(progress_, jobs.size(), executor_->atOnce(), secondsPerRun());
+    executor_->run(jobs, [&](const JobEnd& end) {
+        const auto& [key, places] = wanted[end.job];
+        const RunOrder& order = orders[places.front()];
+        const fs::path folder = copyOf(key);
+        // Programs seldom look whether what they wrote was written.
+        requireRoom(tree_, "the run of " + order.purpose + " does not count");
+        // By what orders look at: those that differ by it alone share a run.
+        std::map<std::string, std::string> failures;
+        for (const auto place : places)
+        {
+            const std::string& file = orders[place].file;
+            failures[file] = end.status != 0 ? "'" + order.command + "' ended with status " + std::to_string(end.status)
+                                                   + " in " + folder.string() + endOfLog(folder / jobLog)
+                             : filesMatching(folder / file).empty()
+                                 ? "the run has not written " + (folder / file).string()
+                                 : "";
+        }
+        store(order, failures, folder, cache_ / key, end.seconds);
+        std::string failure;
+        for (const auto place : places)
+        {
+            RunResult& result = results[place];
+            load(orders[place], cache_ / key, result);
+            if (const std::string& own = failures.at(orders[place].file); !own.empty())
+            {
+                result.failure = failure = own;
+            }
+            result.seconds = end.seconds;
+            result.cached = place != places.front();
+        }
+        if (failure.empty())
+        {
+            fs::remove_all(folder);
+        }
+        progress.ended(order.purpose, failure);
+    });
+    return results;
+}
+
+std::optional<double> CaseSimulator::measuredSecondsPerRun() const
+{
+    double sum = 0.0;
+    double count = 0.0;
+    for (const auto& entry : fs::directory_iterator(cache_))
+    {
+        const auto record = readRecord(entry.path());
+        if (!record.is_null() && record.at("fingerprint") == fingerprint_
+            && record.value("failures", nlohmann::json::object()).empty())
+        {
+            sum += record.at("seconds").get<double>();
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? std::optional(sum / count) : std::nullopt;
+}
+
+} // namespace clepsydra::identification

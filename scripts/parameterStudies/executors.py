@@ -1,0 +1,84 @@
+"""What queues the tasks: GNU make on this machine, or Slurm. Both run `scripts/parameterStudy task FILE NAME`."""
+
+import os
+import shlex
+import signal
+import subprocess
+import sys
+
+import wholeFiles
+from parameterStudies.plan import ParameterStudyError
+from parameterStudies.task import isDone, onStop
+
+COMMAND = os.path.abspath(sys.argv[0])
+
+
+def local(parameterStudy, cores):
+    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal that asked
+    it to stop, or None."""
+    slots = max(1, cores // max(task.ranks for task in parameterStudy.tasks.values()))
+    makefile = parameterStudy.work / "Makefile"
+    targets = {name: f"{name}/done" for name in parameterStudy.tasks}
+    # whatever marks there are: a run may have been lengthened since
+    left = [targets[name] for name, task in parameterStudy.tasks.items() if not isDone(parameterStudy, task)]
+    rules = [f"all: {' '.join(targets.values())}", f".PHONY: {' '.join(left)}"]
+    for name, task in parameterStudy.tasks.items():
+        rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
+                  # exec: the signals of make must reach the task, not a shell before it
+                  "\t@exec " + shlex.join([COMMAND, "task", str(parameterStudy.path), name]).replace("$", "$$") + " 2>&1"]
+    wholeFiles.write(makefile, "\n".join(rules) + "\n")
+    # without make's own words on what failed: the tasks say it themselves
+    make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
+                            cwd=parameterStudy.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    received = []
+
+    def stop(number, _):
+        received.append(number)
+        # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
+        if number != signal.SIGINT:
+            make.send_signal(signal.SIGTERM)
+
+    onStop(stop)
+    make.wait()
+    return received[0] if received else None
+
+
+def slurm(parameterStudy, options):
+    """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
+    levels = []
+    for name, task in parameterStudy.tasks.items():
+        if isDone(parameterStudy, task):
+            continue
+        level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
+        while len(levels) <= level:
+            levels.append([])
+        levels[level].append(name)
+    jobs, before = [], []
+    for names in filter(None, levels):
+        here = [submit(parameterStudy, [name for name in names if parameterStudy.tasks[name].ranks == ranks], ranks, before, options)
+                for ranks in sorted({parameterStudy.tasks[name].ranks for name in names})]
+        jobs += here
+        before = here
+    return jobs
+
+
+def submit(parameterStudy, names, ranks, before, options):
+    """One job array. Its tasks find their names by the line of a list."""
+    number = len(list(parameterStudy.work.glob("slurm.*.list")))
+    listed = parameterStudy.work / f"slurm.{number}.list"
+    wholeFiles.write(listed, "\n".join(names) + "\n")
+    name = f'"$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})"'
+    # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
+    script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(parameterStudy.path)])} {name}\n"
+    command = ["sbatch", "--parsable", f"--job-name={parameterStudy.path.stem}", f"--array=1-{len(names)}", "--nodes=1",
+               f"--ntasks={ranks}", "--signal=B:TERM@300", f"--output={parameterStudy.work}/slurm.%A_%a.log", *options]
+    if before:
+        # after any end of the others: a task whose needs are not done says so by itself
+        command.append("--dependency=afterany:" + ":".join(before))
+    try:
+        answer = subprocess.run(command, input=script, text=True, stdout=subprocess.PIPE, check=True)
+    except FileNotFoundError:
+        raise ParameterStudyError("there is no sbatch here: is Slurm installed?") from None
+    except subprocess.CalledProcessError:
+        raise ParameterStudyError("sbatch refused the job; see above") from None
+    return answer.stdout.strip().split(";")[0]

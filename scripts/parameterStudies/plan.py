@@ -1,0 +1,301 @@
+"""From a parameter study's file to its list of tasks.
+
+A task is one command `Allrun [-np RANKS] PART` in a folder of its own, a copy of the template case with some of its
+parameters replaced. What runs have in common (the mesh, the packing) is a task as well, on which they depend.
+"""
+
+import hashlib
+import importlib
+import itertools
+import re
+from dataclasses import dataclass
+from math import pi
+from pathlib import Path
+
+import yaml
+
+import arithmetic
+import parameterFile
+import rules
+
+PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
+                    "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
+                    "steps": "of each run", "packings": "values of the template's seed",
+                    "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
+TEMPLATE_ENTRIES = ("shared", "steps", "seed", "summary", "derived", "rules")
+RULES = ("hopper", "settlingParticle")        # modules of scripts/rules
+REPOSITORY = Path(__file__).resolve().parents[2]
+RUN_ENTRIES = ("sweep", "parameters", "filling", "steps", "packings", "ranks")
+
+
+class ParameterStudyError(Exception):
+    """What is wrong with a parameter study's file, in words for its author."""
+
+
+@dataclass(frozen=True)
+class Task:
+    name: str           # also its folder below the parameter study's work folder
+    part: str           # what Allrun is asked for
+    ranks: int
+    overrides: tuple    # (parameter, text) pairs
+    needs: tuple        # names of tasks
+    links: tuple        # (path in the case, task that makes it) pairs
+    publish: str        # stem of its result files; empty: none
+    entry: str          # the parameter study's entry that it belongs to
+
+
+class ParameterStudy:
+    """A parameter study file and its template, read and checked. ParameterStudyError where anything is wrong.
+
+    only: of its entries `runs` these; all unless given.
+    missing: only runs that have no results yet, and what they need.
+    """
+
+    def __init__(self, path, only=None, missing=False):
+        self.path = Path(path).resolve()
+        try:
+            self._read(only)
+            if missing:
+                self._dropPublished()
+        except parameterFile.ParameterError as problem:
+            raise ParameterStudyError(problem) from None
+
+    def _read(self, only):
+        self.settings = readYaml(self.path, PARAMETER_STUDY_ENTRIES, required=())
+        if "base" in self.settings:
+            base = readYaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
+            parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
+            # paths are relative to the file that has them
+            base |= {name: str(found(base[name], self._folder("base").parent))
+                     for name in ("case", "work", "results") if name in base}
+            self.settings = {**base, **self.settings, "parameters": parameters}
+        for name in ("case", "steps", "runs"):
+            if name not in self.settings:
+                raise ParameterStudyError(f"{self.path}: entry '{name}' is missing")
+        self.work = self._folder("work", "work")
+        # the template as it was when the parameter study began, once it has begun
+        self.frozenCase = self.work / "case"
+        self.case = self.frozenCase if self.frozenCase.exists() else self._folder("case")
+        self.results = self._folder("results", "results")
+        requirePlain(self.work, REPOSITORY)
+        self.template = readYaml(self.case / "template.yaml", TEMPLATE_ENTRIES,
+                                 required=("shared", "steps", "seed", "summary"))
+        self.derived = self.template.get("derived", {})
+        self.defaults = parameterFile.parameters(self.case / "parameters")
+        self.given = self._overrides(self.settings.get("parameters"), "parameters")
+        self.common = self._derive(self.given)
+        self.keepTimes = self._keepTimes()
+        self.tasks = self._plan(only)
+
+    def _keepTimes(self):
+        """How many times of a run stay on disk; None for all."""
+        kept = self.settings.get("keepTimes", "all")
+        if kept != "all" and not (isinstance(kept, int) and kept > 1):
+            raise self._error("keepTimes", kept, "all, or a whole number above 1")
+        return None if kept == "all" else kept
+
+    def _dropPublished(self):
+        left = [task for task in self.tasks.values() if task.publish and not (self.results / f"{task.publish}.json").exists()]
+        names = {task.name for task in left}
+        for task in left:
+            names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
+        self.tasks = {name: task for name, task in self.tasks.items() if name in names}
+
+    def parameterText(self, task):
+        """The task's file `parameters`."""
+        return self._text(dict(task.overrides))
+
+    def parameters(self, task):
+        return self._resolved(dict(task.overrides))
+
+    def check(self, executor):
+        """{name: what is known of it} of all tasks; ParameterStudyError where the template's rules refuse the parameters of any.
+
+        Slurm's tasks run on other machines than this one: what fits there, each finds when it starts."""
+        if "rules" not in self.template:
+            return {}
+        if self.template["rules"] not in RULES:
+            raise ParameterStudyError(f"{self.case}/template.yaml: entry 'rules' is {self.template['rules']!r}; allowed: {', '.join(RULES)}")
+        case = importlib.import_module(f"rules.{self.template['rules']}")
+        known, seen, problems = {}, {}, []
+        for name, task in self.tasks.items():
+            # runs of one set of parameters are checked once
+            key = task.overrides, task.ranks, task.part
+            if key not in seen:
+                seen[key] = rules.check(case, self.parameterText(task), self.case, task.ranks if executor == "local" else None,
+                                        task.part, f"{self.path}: {name}")
+            known[name] = seen[key]
+            problems += [problem for problem in known[name].problems if problem not in problems]
+        if problems:
+            raise ParameterStudyError("\n".join(problems))
+        return known
+
+    def folder(self, task):
+        return self.work / task.name
+
+    def endTime(self, task):
+        """Simulated seconds, at most; None for a part that simulates nothing."""
+        name = self.template["steps"].get(task.part)
+        return name and float(self.parameters(task)[name])
+
+    def _folder(self, entry, default=None):
+        return found(self.settings.get(entry, default), self.path.parent)
+
+    def _error(self, entry, value, allowed):
+        return ParameterStudyError(f"{self.path}: entry '{entry}' is {value!r}; allowed: {allowed}")
+
+    def _overrides(self, given, entry):
+        """The parameters given, as text, all of them known to the template."""
+        if not isinstance(given or {}, dict):
+            raise self._error(entry, given, "a list of `name: value`")
+        for name in given or {}:
+            if name not in self.defaults and name not in self.derived:
+                known = [*self.defaults, *self.derived]
+                raise self._error(entry, name, f"the template's parameters{parameterFile.meant(str(name), known)}, which are "
+                                  + ", ".join(known))
+        return {name: parameterValue(value) for name, value in (given or {}).items()}
+
+    def _derive(self, overrides):
+        """The parameters that follow from what the parameter study says in their place."""
+        plain = {name: value for name, value in overrides.items() if name not in self.derived}
+        known = self._resolved(plain) | {"pi": pi}
+        for name in overrides.keys() - plain.keys():
+            rule = self.derived[name]
+            try:
+                plain[rule["sets"]] = str(arithmetic.evaluate(rule["to"], known | {name: float(overrides[name])}))
+            except ValueError as problem:
+                raise ParameterStudyError(f"{self.path}: '{name}' is {overrides[name]!r}, and {rule['to']!r} {problem}") from None
+        return plain
+
+    def _plan(self, only):
+        tasks, runs = {}, self.settings["runs"]
+        if not (isinstance(runs, dict) and runs and all(isinstance(entry or {}, dict) for entry in runs.values())):
+            raise self._error("runs", runs, "a list of `name: { ... }`")
+        unknown = [name for name in only or [] if name not in runs]
+        if unknown:
+            raise ParameterStudyError(f"{self.path}: no run '{unknown[0]}'{parameterFile.meant(unknown[0], runs)}; there are: {', '.join(map(str, runs))}")
+        for name, entry in runs.items():
+            if only and name not in only:
+                continue
+            for task in self._tasksOf(str(name), entry or {}):
+                known = tasks.setdefault(task.name, task)
+                if known.overrides != task.overrides:
+                    raise ParameterStudyError(f"{self.path}: two different runs are both named {task.name}")
+        return tasks
+
+    def _tasksOf(self, name, entry):
+        unknown = set(entry) - set(RUN_ENTRIES)
+        if unknown:
+            raise self._error(f"runs/{name}", ", ".join(sorted(unknown)), ", ".join(RUN_ENTRIES))
+        if not re.fullmatch(r"[\w.+-]+", name):
+            raise self._error("runs", name, "names of letters, digits and . _ + -")
+        fixed = self._overrides(entry.get("parameters"), f"runs/{name}/parameters")
+        ofFilling = self._overrides(entry.get("filling"), f"runs/{name}/filling")
+        sweep = entry.get("sweep") or {}
+        self._overrides(sweep, f"runs/{name}/sweep")
+        for values in itertools.product(*(asList(values) for values in sweep.values())):
+            swept = dict(zip(sweep, map(parameterValue, values)))
+            case = "-".join([name, *swept.values()])
+            for seed in asList(entry.get("packings", self.settings.get("packings", [None]))):
+                overrides = self._derive({**self.given, **fixed, **swept})
+                if seed is not None:
+                    overrides[self.template["seed"]] = parameterValue(seed)
+                yield from self._tasksOfRun(name, safeName(case), entry, overrides, ofFilling)
+
+    def _tasksOfRun(self, entryName, case, entry, overrides, ofFilling):
+        ranks = entry.get("ranks", self.settings.get("ranks", 1))
+        if not (isinstance(ranks, int) and ranks > 0):
+            raise self._error("ranks", ranks, "a whole number above 0")
+        filling = self._shared("filling", {**overrides, **ofFilling}, keep=ofFilling)
+        # the packing's own mesh serves no more than to tell where the hopper is: it need not be the run's
+        fillingMesh, mesh = self._shared("mesh", dict(filling.overrides)), self._shared("mesh", overrides)
+        yield fillingMesh
+        yield mesh
+        yield withNeeds(filling, self._links(fillingMesh))
+        seed = self._resolved(overrides)[self.template["seed"]]
+        for step in asList(entry.get("steps", self.settings["steps"])):
+            if step not in self.template["steps"] or step in self.template["shared"]:
+                allowed = [name for name in self.template["steps"] if name not in self.template["shared"]]
+                raise self._error("steps", step, ", ".join(allowed))
+            name = f"{case}.{seed:.10g}.{step}"
+            run = Task(f"runs/{name}", step, ranks, tuple(sorted(overrides.items())), (), (), name, entryName)
+            yield withNeeds(run, self._links(mesh) + self._links(filling))
+
+    def _shared(self, part, overrides, keep=()):
+        """The task of a shared part, named by the values of the parameters on which it depends."""
+        about = self.template["shared"][part]
+        own = {name: value for name, value in overrides.items() if name in about["dependsOn"] and
+               (name not in about.get("fixed", ()) or name in keep)}
+        overrides = {**self.common, **own}
+        values = self._resolved(overrides)
+        code = hashlib.sha256(repr([(name, values[name]) for name in about["dependsOn"]]).encode()).hexdigest()[:8]
+        return Task(f"shared/{part}-{code}", part, 1, tuple(sorted(overrides.items())), (), (), "", part)
+
+    def _links(self, task):
+        return tuple((made, task.name) for made in self.template["shared"][task.part]["makes"])
+
+    def _resolved(self, overrides):
+        return parameterFile.parametersIn(self._text(overrides), self.case / "parameters")
+
+    def _text(self, overrides):
+        path = self.case / "parameters"
+        return parameterFile.withParameters(parameterFile.read(path), overrides, path)
+
+
+def found(path, folder):
+    """Where a path of a parameter study's file leads. It is relative to the file's folder, and may begin with $CLEPSYDRA."""
+    return (folder / str(path).replace("$CLEPSYDRA", str(REPOSITORY))).resolve()
+
+
+def requirePlain(*folders):
+    for folder in folders:
+        if re.search(r"[\s\"']", str(folder)):
+            raise ParameterStudyError(f"'{folder}' has a space or a quote in it, which OpenFOAM cannot bear; move it")
+
+
+class OnceEach(yaml.SafeLoader):
+    """YAML in which no key may be there twice: the first would be ignored in silence."""
+
+    def construct_mapping(self, node, deep=False):
+        keys = [key.value for key, _ in node.value]
+        for key, _ in node.value:
+            if keys.count(key.value) > 1:
+                raise yaml.constructor.ConstructorError(None, None, f"entry '{key.value}' is there twice", key.start_mark)
+        return super().construct_mapping(node, deep)
+
+
+def readYaml(path, allowed, required):
+    try:
+        found = yaml.load(path.read_text(), OnceEach)
+    except OSError as problem:
+        raise ParameterStudyError(f"{path}: {problem.strerror}") from None
+    except (yaml.YAMLError, UnicodeDecodeError) as problem:
+        raise ParameterStudyError(f"{path} is not YAML: {' '.join(str(problem).split())}") from None
+    if not isinstance(found, dict):
+        raise ParameterStudyError(f"{path}: must be a list of `entry: value`; allowed entries: {', '.join(allowed)}")
+    for name in found:
+        if name not in allowed:
+            raise ParameterStudyError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}"
+                                + parameterFile.meant(str(name), allowed))
+    for name in required:
+        if name not in found:
+            raise ParameterStudyError(f"{path}: entry '{name}' is missing")
+    return found
+
+
+def asList(values):
+    return values if isinstance(values, list) else [values]
+
+
+def parameterValue(value):
+    """As an OpenFOAM dictionary has it; YAML reads on and off as booleans."""
+    return {True: "on", False: "off"}[value] if isinstance(value, bool) else str(value)
+
+
+def safeName(text):
+    return re.sub(r"[^\w.+-]+", "_", text)
+
+
+def withNeeds(task, links):
+    needs = tuple(dict.fromkeys(maker for _, maker in links))
+    return Task(**{**task.__dict__, "needs": needs, "links": links})

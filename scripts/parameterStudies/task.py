@@ -1,0 +1,281 @@
+"""Runs one task of a parameterStudy: makes its folder, runs or resumes it, publishes its results.
+
+The folder of a task holds, beside the copy of the case: `log` (what Allrun said), `attempts` (start and end of each, one
+JSON object per line), and then `done` or `failed`. Whoever runs it holds a lock on `attempts`.
+"""
+
+import contextlib
+import csv
+import fcntl
+import json
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+import caseFiles
+import parameterFile
+import wholeFiles
+from parameterStudies.plan import ParameterStudyError
+
+# What a template's outputs are called, which must not be copied with it.
+OUTPUTS = ("steps", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
+STOPPED = 143           # exit status of Allrun, and of a task, that SIGTERM ended with a checkpoint
+BETWEEN_LOOKS = 1       # s
+BETWEEN_PRUNINGS = 60   # s
+MOST_ROWS = 5000        # of a published m(t), beside the last
+NICENESS = "10"
+
+
+def execute(parameterStudy, task):
+    """Returns the exit status: 0 done, 1 failed, 143 stopped with a checkpoint."""
+    folder = parameterStudy.folder(task)
+    if isDone(parameterStudy, task):
+        return 0
+    makeFolder(parameterStudy, task)
+    with locked(folder / "attempts") as attempts:
+        dropHalfLine(attempts)
+        for mark in ("done", "failed"):
+            (folder / mark).unlink(missing_ok=True)
+        status = 0 if hasEnded(parameterStudy, task) else attempt(parameterStudy, task, attempts)
+        if status == STOPPED:
+            return status
+        try:
+            if status != 0:
+                raise RuntimeError(tail(folder / "log"))
+            if task.publish:
+                publish(parameterStudy, task)
+        except (Exception, SystemExit) as problem:  # whatever it is, the other runs go on, and status shows it
+            wholeFiles.write(folder / "failed", f"{problem}\n")
+            return 1
+        wholeFiles.write(folder / "done", "")
+    return 0
+
+
+def isDone(parameterStudy, task):
+    """A run is not done once it is to last longer than it did."""
+    folder, endTime = parameterStudy.folder(task), parameterStudy.template["steps"].get(task.part)
+    return (folder / "done").exists() and (
+        endTime is None or parameterFile.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task))
+
+
+def hasEnded(parameterStudy, task):
+    """True where the last attempt came to its end, and only its results may be missing."""
+    folder = parameterStudy.folder(task)
+    return (events(folder)[-1:] != [] and events(folder)[-1].get("status") == 0
+            and (folder / "parameters").read_text() == parameterStudy.parameterText(task))
+
+
+def attempt(parameterStudy, task, attempts):
+    note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
+    wholeFiles.write(parameterStudy.folder(task) / "parameters", parameterStudy.parameterText(task))
+    status = runAllrun(parameterStudy, task)
+    note(attempts, {"end": time.time(), "status": status})
+    return status
+
+
+def makeFolder(parameterStudy, task):
+    """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how long
+    the steps last."""
+    folder = parameterStudy.folder(task)
+    if folder.exists():
+        changed = [name for name in parameterFile.changedNames(parameterFile.parameters(folder / "parameters"), parameterStudy.parameters(task))
+                   if name not in parameterStudy.template["steps"].values()]
+        if changed:
+            raise SystemExit(f"parameterStudy: {folder} was begun with other parameters than the parameter study's file has now "
+                             f"({', '.join(changed)}); remove that folder to begin again, or give the run another name")
+        return
+    unfinished = folder.with_name(folder.name + ".unfinished")
+    copyCase(parameterStudy.case, unfinished)
+    (unfinished / "parameters").write_text(parameterStudy.parameterText(task))
+    for made, maker in task.links:
+        (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
+        (unfinished / made).symlink_to(parameterStudy.work / maker / made)
+    wholeFiles.settleTree(unfinished)
+    unfinished.rename(folder)
+
+
+def copyCase(case, folder):
+    """A case without what runs have left in it. Its programs become links: they find the repository's scripts from where
+    they really are."""
+    shutil.rmtree(folder, ignore_errors=True)
+    shutil.copytree(case, folder, ignore=shutil.ignore_patterns(*OUTPUTS))
+    for program in case.iterdir():
+        if program.is_file() and os.access(program, os.X_OK):
+            (folder / program.name).unlink()
+            (folder / program.name).symlink_to(program.resolve())
+
+
+@contextlib.contextmanager
+def locked(path):
+    with open(path, "a+") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            raise SystemExit(f"parameterStudy: {path.parent} is being run already") from None
+        yield file
+
+
+def note(attempts, event):
+    attempts.write(json.dumps(event) + "\n")
+    attempts.flush()
+    os.fsync(attempts.fileno())
+
+
+def dropHalfLine(attempts):
+    """What a kill, or a full disk, has left at the end."""
+    attempts.seek(0)
+    text = attempts.read()
+    whole = text.rfind("\n") + 1
+    if whole < len(text):
+        print(f"parameterStudy: {attempts.name}: dropped half a line at its end, which a kill has left", flush=True)
+        attempts.truncate(len(text[:whole].encode()))
+    attempts.seek(0, os.SEEK_END)
+
+
+def runAllrun(parameterStudy, task):
+    folder = parameterStudy.folder(task)
+    program = parameterStudy.work / "program"
+    libraries = [str(program / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
+    environment = os.environ | {"CLEPSYDRA_BUILD": str(program), "LD_LIBRARY_PATH": ":".join(libraries)}
+    with open(folder / "log", "a") as log:
+        # a session of its own: an interrupt from the terminal reaches this program only, which asks for a checkpoint
+        process = subprocess.Popen(["nice", "-n", NICENESS, "./Allrun", "-np", str(task.ranks), task.part], cwd=folder,
+                                   env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
+    onStop(lambda *_: process.send_signal(signal.SIGTERM))
+    nextPruning = time.time() + BETWEEN_PRUNINGS
+    while process.poll() is None:
+        time.sleep(BETWEEN_LOOKS)
+        if time.time() > nextPruning:
+            prune(parameterStudy, task)
+            nextPruning = time.time() + BETWEEN_PRUNINGS
+    prune(parameterStudy, task)
+    return process.returncode
+
+
+def onStop(handler):
+    """Calls it on SIGTERM, Ctrl-C and the end of a terminal; what nohup has switched off stays so."""
+    for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:
+            signal.signal(number, handler)
+
+
+def prune(parameterStudy, task):
+    """Removes the older fields and checkpoints, where the parameter study says so."""
+    step = stepFolder(parameterStudy, task)
+    if parameterStudy.keepTimes is None or not (step / "checkpoints").is_dir():
+        return
+    complete = sorted((marker.parent for marker in (step / "checkpoints").glob("*/complete")),
+                      key=lambda checkpoint: float(checkpoint.name))
+    for checkpoint in complete[:-parameterStudy.keepTimes]:
+        for part in [step, *step.glob("processor*")]:
+            shutil.rmtree(part / checkpoint.name, ignore_errors=True)
+        shutil.rmtree(checkpoint)
+
+
+def stepFolder(parameterStudy, task):
+    return parameterStudy.folder(task) / "steps" / task.part
+
+
+def tail(path, lines=25):
+    return "\n".join(path.read_text(errors="replace").splitlines()[-lines:]) + "\n"
+
+
+# --- results -------------------------------------------------------------------------------------
+
+def publish(parameterStudy, task):
+    """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
+    parameterStudy.results.mkdir(parents=True, exist_ok=True)
+    step = stepFolder(parameterStudy, task)
+    columns = caseFiles.columns(step, "massInHopper")
+    last = columns.shape[1] - 1
+    rows = columns.T[[*range(0, last, last // MOST_ROWS + 1), last]]
+    with wholeFiles.replacing(parameterStudy.results / f"{task.publish}.csv") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["time [s]", "mass [kg]", "particles [-]"])
+        table.writerows((f"{t:.6g}", f"{m:.7g}", int(particles)) for t, m, particles, *_ in rows)
+
+    parameters = parameterStudy.parameters(task)
+    text = subprocess.run([*parameterStudy.template["summary"], task.part],
+                          cwd=parameterStudy.folder(task), stdout=subprocess.PIPE, check=True).stdout
+    record = {"parameterStudy": parameterStudy.path.stem, "run": task.publish, "entry": task.entry, "step": task.part,
+              "seed": parameters[parameterStudy.template["seed"]], "parameters": parameters,
+              "packing": packing(parameterStudy, task), "code": codeVersions(step / "log.pimpleDemFoam"),
+              "cost": cost(parameterStudy, task), "summary": json.loads(text)}
+    wholeFiles.write(parameterStudy.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
+
+
+def packing(parameterStudy, task):
+    """Which filling a run began from, and where its parameters differ from the run's."""
+    filling = next(parameterStudy.tasks[name] for name in task.needs if parameterStudy.tasks[name].part == "filling")
+    own, filled = parameterStudy.parameters(task), parameterStudy.parameters(filling)
+    return {"name": filling.name, "otherParameters": {name: filled[name] for name in own if own[name] != filled[name]}}
+
+
+def codeVersions(log):
+    """What the solver says of itself, once for each version that took part."""
+    with open(log, errors="replace") as lines:
+        return list(dict.fromkeys(line.strip() for line in lines if line.startswith("    Clepsydra ")))
+
+
+def events(folder):
+    """Starts and ends of attempts; half a line at the end, which a kill leaves, is not counted."""
+    path = folder / "attempts"
+    if not path.exists():
+        return []
+    found = []
+    for number, line in enumerate(path.read_text(errors="replace").split("\n")[:-1], 1):
+        try:
+            event = json.loads(line)
+            # a start has a time and a number of ranks; an end, a time and a status, and comes after a start
+            numbers = (event["start"], event["ranks"]) if "start" in event else (event["end"], event["status"], found[-1]["start"])
+            if not all(isinstance(one, (int, float)) for one in numbers):
+                raise ValueError
+        except (ValueError, KeyError, TypeError, IndexError, AttributeError):
+            raise ParameterStudyError(f"{path}:{number}: {line[:60]!r} is no start or end of an attempt, as JSON; remove that line: "
+                                "only the time that was spent gets lost") from None
+        found.append(event)
+    return found
+
+
+def attemptsOf(folder):
+    """[start, end, ranks] of each; an attempt that was killed ended when its log was last written."""
+    found = []
+    for event in events(folder):
+        if "start" in event:
+            found.append([event["start"], None, event["ranks"]])
+        else:
+            found[-1][1] = event["end"]
+    for number, (_, end, _) in enumerate(found):
+        if end is None:
+            following = found[number + 1][0] if number + 1 < len(found) else time.time()
+            found[number][1] = min(lastWritten(folder), following)
+    return found
+
+
+def lastWritten(folder):
+    return max(path.stat().st_mtime for path in [folder / "attempts", *folder.glob("steps/*/log.pimpleDemFoam")])
+
+
+def wallSeconds(folder):
+    return sum(max(0, end - start) for start, end, _ in attemptsOf(folder))
+
+
+def cost(parameterStudy, task):
+    attempts = attemptsOf(parameterStudy.folder(task))
+    return {"wallSeconds": round(wallSeconds(parameterStudy.folder(task)), 1), "attempts": len(attempts),
+            "coreHours": round(sum((end - start) * ranks for start, end, ranks in attempts) / 3600, 4),
+            "ranks": task.ranks, "host": socket.gethostname(), "processor": processorName(),
+            "loadAverage": round(os.getloadavg()[2], 2), "finished": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+
+
+def processorName():
+    with contextlib.suppress(OSError):
+        for line in Path("/proc/cpuinfo").read_text().splitlines():
+            if line.startswith("model name"):
+                return line.split(":", 1)[1].strip()
+    return "unknown"

@@ -1,0 +1,403 @@
+/// The statistics of the whole procedure, on the surrogate: libraries, and many data sets for each, with a truth that the
+/// procedure does not see. Prints and writes what came out.
+#include "surrogate/surrogate.h"
+
+#include "procedure/trace.h"
+#include "study/readStudy.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <random>
+
+namespace clepsydra::identification::tests
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+struct Options
+{
+    std::string study;
+    std::string output;
+    int libraries = 10;
+    int nulls = 20;   // of each library, as all that follow
+    int effects = 14; // data sets with one effect, each effect in turn
+    int decoys = 0;   // the same, with that effect not in the library
+    int unknowns = 0; // with an effect that no library has, for each of three sizes
+    int pairs = 0;
+    int again = 0; // of the data sets with one effect: the same once more, with other seeds of the program's runs
+    unsigned seed = 1;
+    int draws = 1000;
+    bool check = false;
+};
+
+/// Share with its 95 % Wilson interval.
+Json share(double count, double of)
+{
+    const double z = 1.96;
+    if (of == 0.0)
+    {
+        return {{"of", 0}};
+    }
+    const double p = count / of;
+    const double middle = (p + z * z / (2 * of)) / (1 + z * z / of);
+    const double half = z * std::sqrt(p * (1 - p) / of + z * z / (4 * of * of)) / (1 + z * z / of);
+    return {{"share", p}, {"wilson95", {middle - half, middle + half}}, {"count", count}, {"of", of}};
+}
+
+/// Effects that exist in the world of the surrogate but in no library.
+std::vector<Effect> outsideLibrary()
+{
+    std::vector<Effect> effects;
+    for (const auto& [name, formula] :
+        std::map<std::string, std::string>{{"pumping", "0.5*a"}, {"heightLaw", "0.25*a"}, {"airDrag", "0.08*a"}})
+    {
+        Effect effect;
+        effect.name = name;
+        effect.entries.emplace(name, Expression(formula));
+        effects.push_back(effect);
+    }
+    return effects;
+}
+
+struct Truth
+{
+    std::vector<std::size_t> effects; // of the world
+    std::vector<double> amplitudes;
+};
+
+struct Outcome
+{
+    Decision decision = Decision::noResidual;
+    double pValue = 1.0;
+    bool topOne = false;
+    bool inSet = false;
+    std::size_t setSize = 0;
+    bool somethingElse = false;
+    bool covered = false;
+    double rank = 0.0; // in which the truth lies: 0 below the interval's middle half, ...
+    std::vector<std::vector<std::size_t>> set;
+};
+
+struct Tally
+{
+    double trials = 0;
+    double detected = 0;
+    double topOne = 0;
+    double inSet = 0;
+    double setSize = 0;
+    double named = 0;
+    double namedRight = 0;
+    double unknown = 0;
+    double open = 0; // unknown, or a set with something else
+    double covered = 0;
+
+    void add(const Outcome& outcome)
+    {
+        trials += 1;
+        if (outcome.decision == Decision::noResidual)
+        {
+            return;
+        }
+        detected += 1;
+        topOne += outcome.topOne ? 1 : 0;
+        inSet += outcome.inSet ? 1 : 0;
+        setSize += static_cast<double>(outcome.setSize);
+        const bool isName = outcome.decision == Decision::named;
+        named += isName ? 1 : 0;
+        namedRight += isName && outcome.inSet ? 1 : 0;
+        unknown += outcome.decision == Decision::unknown ? 1 : 0;
+        open += outcome.decision == Decision::unknown || outcome.somethingElse ? 1 : 0;
+        covered += outcome.covered ? 1 : 0;
+    }
+
+    Json json() const
+    {
+        return {{"detected", share(detected, trials)}, {"topOneWhenDetected", share(topOne, detected)},
+            {"truthInSetWhenDetected", share(inSet, detected)},
+            {"meanSetSize", detected > 0 ? Json(setSize / detected) : Json(nullptr)},
+            {"namedWhenDetected", share(named, detected)}, {"namedRightly", share(namedRight, named)},
+            {"wrongNameWhenDetected", share(named - namedRight, detected)},
+            {"unknownWhenDetected", share(unknown, detected)}, {"somethingElseWhenDetected", share(open, detected)},
+            {"intervalCoversWhenDetected", share(covered, detected)}};
+    }
+};
+
+/// One library, and data sets made for it.
+class Rigged
+{
+public:
+    Rigged(const Study& study, const Study& world, const Entries& defaults, unsigned seed)
+        : study_(study),
+          world_(world),
+          simulator_(defaults),
+          seed_(seed)
+    {
+        study_.settings.seed = seed;
+        StudySimulator studySimulator(study_, simulator_);
+        library_ = makeLibrary(studySimulator);
+    }
+
+    std::vector<MeasuredCondition> measure(const Truth& truth, unsigned number)
+    {
+        world_.settings.seed = seed_ * 4099U + number;
+        StudySimulator world(world_, simulator_);
+        std::mt19937_64 random(world_.settings.seed);
+        std::normal_distribution<double> normal;
+        Setting setting = world.plainSetting();
+        setting.parameters(0) += study_.parameters.front().sd * normal(random);
+        for (std::size_t k = 0; k < truth.effects.size(); ++k)
+        {
+            setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
+        }
+        std::vector<MeasuredCondition> all(world_.conditions.size());
+        for (std::size_t c = 0; c < all.size(); ++c)
+        {
+            const auto simulations = world.repeats({c}, setting, "measured", repeats);
+            all[c].features.resize(repeats, world_.featureCount());
+            for (Eigen::Index row = 0; row < repeats; ++row)
+            {
+                all[c].features.row(row) = simulations[static_cast<std::size_t>(row)].features.transpose();
+            }
+            all[c].declaredError = Eigen::VectorXd::Zero(world_.featureCount());
+        }
+        return all;
+    }
+
+    /// \param without  effect that the library is to lack, or none
+    Outcome answer(const std::vector<MeasuredCondition>& data, const Truth& truth, unsigned runSeed,
+        std::size_t without = static_cast<std::size_t>(-1))
+    {
+        Study study = study_;
+        study.settings.seed = seed_ * 4099U + runSeed;
+        Library library = library_;
+        if (without < study.effects.size())
+        {
+            // The library that would have been made without it: its runs with the effect on are of no use.
+            study.effects[without].prior = 1e-300;
+        }
+        StudySimulator studySimulator(study, simulator_);
+        std::mt19937_64 random(study.settings.seed);
+        const Answer answer = trace(studySimulator, library, data, random);
+        Outcome outcome;
+        outcome.decision = answer.decision;
+        outcome.pValue = answer.pValue;
+        outcome.setSize = answer.set.size();
+        outcome.somethingElse = answer.somethingElseInSet;
+        for (std::size_t member = 0; member < answer.set.size(); ++member)
+        {
+            outcome.set.push_back(answer.set[member].effects);
+            if (answer.set[member].effects == truth.effects)
+            {
+                outcome.inSet = true;
+                outcome.topOne = member == 0;
+            }
+        }
+        if (truth.effects.size() == 1 && truth.effects.front() < answer.effects.size())
+        {
+            const EffectFinding& finding = answer.effects[truth.effects.front()];
+            outcome.covered =
+                finding.fit.lower <= truth.amplitudes.front() && truth.amplitudes.front() <= finding.fit.upper;
+            // The best one, whatever the set holds.
+            outcome.topOne = std::all_of(answer.effects.begin(), answer.effects.end(),
+                [&](const EffectFinding& other) { return other.probability <= finding.probability; });
+        }
+        return outcome;
+    }
+
+private:
+    static constexpr int repeats = 3;
+
+    Study study_;
+    Study world_;
+    SurrogateSimulator simulator_;
+    unsigned seed_;
+    Library library_;
+};
+
+Json check(const Options& options)
+{
+    Study study = readStudy(options.study);
+    study.settings.draws = options.draws;
+    Study world = study;
+    for (const auto& effect : outsideLibrary())
+    {
+        world.effects.push_back(effect);
+    }
+    const Entries defaults = readEntries(study.simulator.caseFolder / study.simulator.entriesFile);
+    std::mt19937_64 random(options.seed);
+    const auto anyOf = [&](std::size_t count) {
+        return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
+    };
+    const auto signedAmplitude = [&](std::size_t e, double size) {
+        return world.effects[e].bounds.lower < 0.0 && anyOf(2) == 0 ? -size : size;
+    };
+    const auto size = [&] { return std::uniform_real_distribution<double>(0.25, 1.0)(random); };
+    constexpr unsigned perKind = 500; // more than data sets of one kind for one library
+
+    Tally nulls;
+    Tally effects;
+    Tally decoys;
+    Tally pairs;
+    std::map<std::string, Tally> byEffect;
+    std::map<std::string, Tally> bySize;
+    std::map<std::string, Tally> outside;
+    std::map<std::string, int> wrongNames; // "truth at its size: name"
+    double oneOfTwo = 0;                   // pairs of which one is named by itself
+    double sameAnswer = 0;
+    double askedAgain = 0;
+    double below = 0;
+    std::size_t turn = 0;
+    for (int l = 0; l < options.libraries; ++l)
+    {
+        Rigged rigged(study, world, defaults, options.seed * 1000U + static_cast<unsigned>(l));
+        unsigned number = 1;
+        for (int i = 0; i < options.nulls; ++i, ++number)
+        {
+            const Outcome outcome = rigged.answer(rigged.measure({}, number), {}, number);
+            nulls.add(outcome);
+            below += outcome.pValue < 0.5 ? 1 : 0;
+        }
+        number = perKind;
+        for (int i = 0; i < options.effects; ++i, ++number)
+        {
+            const std::size_t e = turn++ % study.effects.size();
+            const double large = size();
+            const Truth truth{{e}, {signedAmplitude(e, large)}};
+            const auto data = rigged.measure(truth, number);
+            const Outcome outcome = rigged.answer(data, truth, number);
+            effects.add(outcome);
+            byEffect[study.effects[e].name].add(outcome);
+            bySize[large < 0.5 ? "0.25-0.5" : large < 0.75 ? "0.5-0.75" : "0.75-1"].add(outcome);
+            if (i < options.again)
+            {
+                const Outcome second = rigged.answer(data, truth, number + 3 * perKind);
+                askedAgain += 1;
+                sameAnswer += second.decision == outcome.decision
+                                      && (outcome.decision != Decision::named || second.set == outcome.set)
+                                  ? 1
+                                  : 0;
+            }
+            if (i < options.decoys)
+            {
+                decoys.add(rigged.answer(data, truth, number, e));
+            }
+        }
+        number = 2 * perKind;
+        for (const double part : {0.25, 0.5, 1.0})
+        {
+            for (int i = 0; i < options.unknowns; ++i, ++number)
+            {
+                const std::size_t e = study.effects.size() + number % (world.effects.size() - study.effects.size());
+                const Truth truth{{e}, {part}};
+                const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+                const std::string label = std::to_string(part).substr(0, 4);
+                outside[label].add(outcome);
+                if (outcome.decision == Decision::named)
+                {
+                    ++wrongNames[world.effects[e].name + ' ' + label + ": "
+                                 + study.effects[outcome.set.front().front()].name];
+                }
+            }
+        }
+        for (int i = 0; i < options.pairs; ++i, ++number)
+        {
+            const auto a = anyOf(study.effects.size() - 1);
+            const auto b = a + 1 + anyOf(study.effects.size() - a - 1);
+            const Truth truth{{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}};
+            const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+            pairs.add(outcome);
+            const bool isOne = outcome.decision == Decision::named && outcome.set.front().size() == 1
+                               && (outcome.set.front().front() == a || outcome.set.front().front() == b);
+            oneOfTwo += isOne ? 1 : 0;
+        }
+        std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials
+                  << ", detected " << effects.detected << " of " << effects.trials << ", best is the truth "
+                  << effects.topOne << ", in the set " << effects.inSet << ", named " << effects.named << ", rightly "
+                  << effects.namedRight << ", sizes " << effects.setSize << ", amplitude covered " << effects.covered
+                  << ", same " << sameAnswer << " of " << askedAgain << std::endl;
+    }
+    const auto all = [](const std::map<std::string, Tally>& tallies) {
+        Json json = Json::object();
+        for (const auto& [name, tally] : tallies)
+        {
+            json[name] = tally.json();
+        }
+        return json;
+    };
+    return {{"study", study.name}, {"seed", options.seed}, {"libraries", options.libraries}, {"draws", options.draws},
+        {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
+        {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
+        {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", decoys.json()},
+        {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()},
+        {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}};
+}
+
+/// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
+/// full study measured (identification/results), and far above what an answer drawn by chance would give.
+bool asSpecified(const Json& result, double level)
+{
+    bool good = true;
+    const auto require = [&](bool held, const std::string& what) {
+        if (!held)
+        {
+            std::cerr << "not as promised: " << what << '\n';
+            good = false;
+        }
+    };
+    const Json& alarms = result["falseAlarms"]["wilson95"];
+    require(alarms[0].get<double>() <= level && level <= alarms[1].get<double>(), "false alarms at the nominal level");
+    const Json& effects = result["effects"];
+    require(effects["detected"]["share"].get<double>() > 0.7, "more than 70 % of the effects are detected");
+    require(effects["truthInSetWhenDetected"]["share"].get<double>() > 0.8, "the truth is in the set in 80 %");
+    require(effects["meanSetSize"].get<double>() < 2.0, "sets have fewer than 2 members");
+    return good;
+}
+
+} // namespace
+
+} // namespace clepsydra::identification::tests
+
+int main(int argc, char** argv)
+{
+    clepsydra::identification::tests::Options options;
+    CLI::App app("Checks the statistics of traceResidual from end to end on a surrogate for the solver");
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    app.add_option("study", options.study, "study file of the surrogate")->required();
+    app.add_option("--libraries", options.libraries, "libraries; all other numbers are for each of them");
+    app.add_option("--nulls", options.nulls, "data sets without any effect");
+    app.add_option("--effects", options.effects, "data sets with one effect of the library");
+    app.add_option("--decoys", options.decoys, "of these, answered with that effect not in the library, too");
+    app.add_option("--again", options.again, "of these, answered with other seeds of the program's runs, too");
+    app.add_option(
+        "--unknowns", options.unknowns, "data sets with an effect that no library has, for each of three sizes");
+    app.add_option("--pairs", options.pairs, "data sets with two effects");
+    app.add_option("--seed", options.seed, "of everything");
+    app.add_option("--draws", options.draws, "of the test's null distribution");
+    app.add_option("--output", options.output, "JSON file to write");
+    app.add_flag("--check", options.check, "fail where the result is worse than the procedure promises");
+    CLI11_PARSE(app, argc, argv);
+    try
+    {
+        const auto result = clepsydra::identification::tests::check(options);
+        std::cout << result.dump(1) << '\n';
+        if (!options.output.empty())
+        {
+            std::ofstream(options.output) << result.dump(1) << '\n';
+        }
+        return !options.check || clepsydra::identification::tests::asSpecified(result, 0.05) ? 0 : 1;
+    }
+    catch (const std::exception& error)
+    {
+        std::cerr << "checkIdentification: " << error.what() << '\n';
+        return 1;
+    }
+}
