@@ -13,7 +13,7 @@ set(_shared share/clepsydra)
 
 set_target_properties(pimpleDemFoam traceResidual closuresProgram PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 install(TARGETS pimpleDemFoam traceResidual closuresProgram RUNTIME DESTINATION ${_programs}/bin)
-install(TARGETS coupling LIBRARY DESTINATION ${_programs}/lib)
+install(TARGETS coupling EXPORT ClepsydraTargets LIBRARY DESTINATION ${_programs}/lib INCLUDES DESTINATION include/clepsydra)
 install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
 # Manual pages, of what the programs say of themselves; what bash completes.
 set(_manual_of_pimpleDemFoam "grains in water: PIMPLE with LIGGGHTS particles" -help)
@@ -61,16 +61,15 @@ install(CODE "
 install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-1912)
 
 include(CMakePackageConfigHelpers)
-set(library ${_programs}/lib/libcoupling.so)
-set(headers include/clepsydra)
 set(modules ${_shared}/cmake)
 get_filename_component(OpenFOAM_dependencies "${OpenFOAM_ROOT}" DIRECTORY)
 set(_config "${PROJECT_BINARY_DIR}/generated/ClepsydraConfig")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/ClepsydraConfig.cmake.in" ${_config}.cmake
-    INSTALL_DESTINATION lib/cmake/Clepsydra PATH_VARS library headers modules)
-write_basic_package_version_file(${_config}Version.cmake COMPATIBILITY SameMinorVersion)
+    INSTALL_DESTINATION lib/cmake/Clepsydra PATH_VARS modules)
+write_basic_package_version_file(${_config}Version.cmake COMPATIBILITY SameMajorVersion)
 install(FILES ${_config}.cmake ${_config}Version.cmake DESTINATION lib/cmake/Clepsydra)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/coupling/" DESTINATION ${headers} FILES_MATCHING PATTERN "*.h" PATTERN liggghts EXCLUDE)
+install(EXPORT ClepsydraTargets NAMESPACE Clepsydra:: DESTINATION lib/cmake/Clepsydra)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/coupling/" DESTINATION include/clepsydra FILES_MATCHING PATTERN "*.h" PATTERN liggghts EXCLUDE)
 
 set(CPACK_PACKAGE_NAME clepsydra)
 set(CPACK_PACKAGE_CONTACT "The Clepsydra authors <clepsydra@localhost>")
