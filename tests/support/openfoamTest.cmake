@@ -11,6 +11,9 @@ target_include_directories(openfoamTestMain PUBLIC ${CMAKE_CURRENT_LIST_DIR}/..)
 target_link_libraries(openfoamTestMain
     PUBLIC clepsydra::coupling GTest::gtest GTest::gmock OpenFOAM::finiteVolume MPI::MPI_CXX
     PRIVATE clepsydra_warnings)
+# Compiled as executables are, which take its precompiled headers.
+set_target_properties(openfoamTestMain PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+target_compile_options(openfoamTestMain PRIVATE -fPIE)
 clepsydra_precompile(openfoamTestMain OPENFOAM EIGEN GTEST)
 
 function(clepsydra_openfoam_test target)
