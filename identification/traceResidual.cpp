@@ -1,6 +1,7 @@
 /// From a measured residual to a named effect. See README.md beside this file.
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
+#include "report/html.h"
 #include "report/text.h"
 #include "study/draft/draftStudy.h"
 
@@ -11,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <optional>
+#include <stdexcept>
 #include <vector>
 
 namespace
@@ -34,6 +37,26 @@ fs::path reportFolder(const Arguments& arguments)
     return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
 }
 
+/// The page of a report whose runs are not stored. A page that is there already may have curves, and stays.
+void makeMissingPage(const nlohmann::ordered_json& report, const fs::path& page)
+{
+    if (fs::exists(page))
+    {
+        return;
+    }
+    try
+    {
+        clepsydra::writeWhole(page, htmlOf(report, std::nullopt));
+    }
+    catch (const nlohmann::json::exception& error)
+    {
+        throw std::runtime_error((page.parent_path() / "report.json").string()
+                                 + ": another version of traceResidual has written this report, and this one makes no "
+                                   "page of it ("
+                                 + error.what() + ")");
+    }
+}
+
 /// What report.json says, for people.
 void showReport(const fs::path& folder)
 {
@@ -45,6 +68,7 @@ void showReport(const fs::path& folder)
                                  + "; 'traceResidual run' makes it");
     }
     writeText(report, std::cout);
+    makeMissingPage(report, folder / "report.html");
     std::cout << "Curves and tables: " << (folder / "report.html").string() << '\n';
 }
 
@@ -61,8 +85,10 @@ void renewReport(const fs::path& study, const fs::path& folder)
     }
     catch (const std::exception& error)
     {
-        std::cerr << "report.json and report.html stay as they are, for they cannot be made from stored runs: "
-                  << error.what() << "\n\n";
+        std::cerr
+            << "report.json stays as it is, and report.html, where it is missing, is made of it without curves: the "
+               "report cannot be made again from stored runs: "
+            << error.what() << "\n\n";
     }
 }
 

@@ -186,7 +186,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     findings.heldOutData = &heldOutData;
     const auto report = jsonOf(findings);
     writeWhole(folder / "report.json", report.dump(1) + '\n');
-    writeWhole(folder / "report.html", htmlOf(findings, report));
+    writeWhole(folder / "report.html", htmlOf(report, curvePlotsOf(findings)));
 }
 
 } // namespace

@@ -174,14 +174,14 @@ std::string residualTable(const Json& report)
             "effect</th><th "
             "class=\"n\">standard "
             "error</th><th class=\"n\">in standard errors</th></tr>\n";
-    for (const auto& condition : report["residual"])
+    for (const auto& condition : report.at("residual"))
     {
-        for (const auto& [name, value] : condition["measuredMinusSimulated"].items())
+        for (const auto& [name, value] : condition.at("measuredMinusSimulated").items())
         {
-            const double residual = value["value"].get<double>();
-            const double error = value["standardError"].get<double>();
+            const double residual = value.at("value").get<double>();
+            const double error = value.at("standardError").get<double>();
             html << (std::abs(residual) > 2.0 * error ? "<tr class=\"in\">" : "<tr>")
-                 << cell(shown(condition["condition"])) << cell(escaped(name)) << cell(shown(residual), true)
+                 << cell(shown(condition.at("condition"))) << cell(escaped(name)) << cell(shown(residual), true)
                  << cell(shown(error), true) << cell(shown(residual / error, 2), true) << "</tr>\n";
         }
     }
@@ -191,16 +191,16 @@ std::string residualTable(const Json& report)
 
 std::string inRange(const Json& effect, const char* key)
 {
-    const Json& smallest = effect[key];
-    const Bounds range{effect["range"][0].get<double>(), effect["range"][1].get<double>()};
+    const Json& smallest = effect.at(key);
+    const Bounds range{effect.at("range").at(0).get<double>(), effect.at("range").at(1).get<double>()};
     return smallest.is_null() || smallest > range.reach() ? "not in range" : shown(smallest, 2);
 }
 
 std::string meaningOf(const Json& effect)
 {
-    const std::string meaning = shown(effect["meaning"]);
-    return (meaning.empty() ? shown(effect["name"])
-                            : meaning + " <span class=\"small\">" + shown(effect["name"]) + "</span>");
+    const std::string meaning = shown(effect.at("meaning"));
+    return (meaning.empty() ? shown(effect.at("name"))
+                            : meaning + " <span class=\"small\">" + shown(effect.at("name")) + "</span>");
 }
 
 std::string effectTable(const Json& report)
@@ -209,23 +209,23 @@ std::string effectTable(const Json& report)
     html << "<table><tr><th>effect</th><th class=\"n\">size (95 %)</th><th class=\"n\">probability</th><th "
             "class=\"n\">needed for the set</th><th class=\"n\">seen from size</th><th class=\"n\">named from "
             "size</th></tr>\n";
-    for (const auto& effect : report["effects"])
+    for (const auto& effect : report.at("effects"))
     {
-        const bool judged = effect["judged"].get<bool>();
-        html << (effect["inSet"].get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(meaningOf(effect))
-             << cell(judged ? shown(effect["amplitude"], 2) + " (" + shown(effect["interval95"][0], 2) + " to "
-                                  + shown(effect["interval95"][1], 2) + ")"
+        const bool judged = effect.at("judged").get<bool>();
+        html << (effect.at("inSet").get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(meaningOf(effect))
+             << cell(judged ? shown(effect.at("amplitude"), 2) + " (" + shown(effect.at("interval95").at(0), 2) + " to "
+                                  + shown(effect.at("interval95").at(1), 2) + ")"
                             : "its runs have failed",
                     true)
-             << cell(judged ? share(effect["probability"]) : "-", true)
-             << cell(share(effect["probabilityNeeded"]), true) << cell(inRange(effect, "smallestDetectable"), true)
+             << cell(judged ? share(effect.at("probability")) : "-", true)
+             << cell(share(effect.at("probabilityNeeded")), true) << cell(inRange(effect, "smallestDetectable"), true)
              << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
     html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Highlighted: what the data "
             "cannot distinguish. Probability, given that anything is missing, of something that the library does not "
             "hold: "
-         << share(report["somethingElse"]["probability"])
-         << " (needed: " << share(report["somethingElse"]["probabilityNeeded"]) << ").</p>\n";
+         << share(report.at("somethingElse").at("probability"))
+         << " (needed: " << share(report.at("somethingElse").at("probabilityNeeded")) << ").</p>\n";
     return html.str();
 }
 
@@ -239,11 +239,11 @@ std::string heldOutBars(const Json& heldOut)
     std::vector<Bar> bars;
     for (const auto& [key, words, colour] : predictions)
     {
-        const Json& score = heldOut[key];
-        if (score.is_object() && score["rmsLogError"].is_number())
+        const Json& score = heldOut.at(key);
+        if (score.is_object() && score.at("rmsLogError").is_number())
         {
-            bars.push_back({words, 100.0 * score["rmsLogError"].get<double>(),
-                196.0 * score["standardError"].get<double>(), std::string("fill:") + colour});
+            bars.push_back({words, 100.0 * score.at("rmsLogError").get<double>(),
+                196.0 * score.at("standardError").get<double>(), std::string("fill:") + colour});
         }
     }
     return barChart("Error (root mean square) on held-out conditions, 95 % intervals", bars, "%");
@@ -260,10 +260,10 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
     for (const auto& column : columns)
     {
         const auto& key = column.first;
-        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(row[key]); }))
+        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(row.at(key)); }))
         {
             kept.push_back(key);
-            html += (rows.front()[key].is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
+            html += (rows.front().at(key).is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
         }
     }
     html += "</tr>\n";
@@ -272,7 +272,7 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
         html += "<tr>";
         for (const auto& key : kept)
         {
-            html += row[key].is_string() ? cell(shown(row[key])) : cell(estimateText(row[key]), true);
+            html += row.at(key).is_string() ? cell(shown(row.at(key))) : cell(estimateText(row.at(key)), true);
         }
         html += "</tr>\n";
     }
@@ -283,31 +283,31 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
 std::string heldOutTable(const Json& heldOut)
 {
     return numberTable(
-               heldOut["numbers"], {{"condition", "condition"}, {"feature", "feature"}, {"measured", "measured"},
-                                       {"before", "without any effect"}, {"after", "with the effect"}})
+               heldOut.at("numbers"), {{"condition", "condition"}, {"feature", "feature"}, {"measured", "measured"},
+                                          {"before", "without any effect"}, {"after", "with the effect"}})
            + "<p class=\"small\">Logarithms are shown as what they are the logarithms of; SI units. Noise "
              "alone would give an error of "
-           + rounded(100.0 * heldOut["noiseFloor"].get<double>()) + " %, and rarely more than "
-           + rounded(100.0 * heldOut["noiseLimit"].get<double>()) + " %.</p>\n";
+           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %, and rarely more than "
+           + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n";
 }
 
-std::string heldOutSection(const Findings& findings, const Json& report)
+std::string heldOutSection(const std::string& curves, const Json& report)
 {
-    const Json& heldOut = report["heldOut"];
-    return heldOut["before"].is_object()
-               ? heldOutCurves(findings) + heldOutBars(heldOut) + heldOutTable(heldOut)
+    const Json& heldOut = report.at("heldOut");
+    return heldOut.at("before").is_object()
+               ? curves + heldOutBars(heldOut) + heldOutTable(heldOut)
                : "<p>No condition was held out: nothing shows that the answer predicts.</p>\n";
 }
 
 std::string fittedTable(const Json& report)
 {
-    if (report["fitted"].empty())
+    if (report.at("fitted").empty())
     {
         return "<p>Nothing was fitted.</p>\n";
     }
     return numberTable(
-               report["fitted"], {{"name", "number"}, {"unit", "unit"}, {"withEffect", "with the effect"},
-                                     {"withoutEffect", "without any effect"}, {"independent", "measured by itself"}})
+               report.at("fitted"), {{"name", "number"}, {"unit", "unit"}, {"withEffect", "with the effect"},
+                                        {"withoutEffect", "without any effect"}, {"independent", "measured by itself"}})
            + "<p class=\"small\">Where no unit is given: that of the case's own entries.</p>\n";
 }
 
@@ -323,25 +323,26 @@ std::string listOf(const Json& sentences)
 
 std::string nextSection(const Json& report)
 {
-    std::string html = report["measureNext"].empty()
+    std::string html = report.at("measureNext").empty()
                            ? "<p>Nothing is left to be distinguished, or the study names no candidate conditions.</p>\n"
-                           : listOf(report["measureNext"]);
-    for (const auto& next : report["nextExperiment"])
+                           : listOf(report.at("measureNext"));
+    for (const auto& next : report.at("nextExperiment"))
     {
         html +=
-            "<h3>" + shown(next["condition"]) + "</h3><p class=\"small\">One measurement decides by "
-            + rounded(next["separation"].get<double>()) + ", for its cost " + rounded(next["perCost"].get<double>())
+            "<h3>" + shown(next.at("condition")) + "</h3><p class=\"small\">One measurement decides by "
+            + rounded(next.at("separation").get<double>()) + ", for its cost "
+            + rounded(next.at("perCost").get<double>())
             + " (expected divergence).</p><table><tr><th>if</th><th class=\"n\">probability</th><th>then</th></tr>\n";
-        for (const auto& outcome : next["predicted"])
+        for (const auto& outcome : next.at("predicted"))
         {
             std::string features;
-            for (const auto& [name, value] : outcome["features"].items())
+            for (const auto& [name, value] : outcome.at("features").items())
             {
                 features +=
-                    escaped(name) + " " + shown(value["value"], 4) + " &plusmn; " + shown(value["sd"], 2) + "; ";
+                    escaped(name) + " " + shown(value.at("value"), 4) + " &plusmn; " + shown(value.at("sd"), 2) + "; ";
             }
-            html += "<tr>" + cell(shown(outcome["if"])) + cell(share(outcome["probability"]), true) + cell(features)
-                    + "</tr>\n";
+            html += "<tr>" + cell(shown(outcome.at("if"))) + cell(share(outcome.at("probability")), true)
+                    + cell(features) + "</tr>\n";
         }
         html += "</table>\n";
     }
@@ -350,24 +351,25 @@ std::string nextSection(const Json& report)
 
 std::string runsSection(const Json& report)
 {
-    const Json& runs = report["runs"];
-    std::string html = "<p>" + shown(runs["used"]) + " runs, " + shown(runs["executed"]) + " of them executed now ("
-                       + shown(runs["seconds"]) + " s of computing time), the others from the store ("
-                       + shown(runs["secondsOfStored"]) + " s when they were made).</p>\n<table>";
-    for (const auto& [purpose, count] : runs["byPurpose"].items())
+    const Json& runs = report.at("runs");
+    std::string html = "<p>" + shown(runs.at("used")) + " runs, " + shown(runs.at("executed"))
+                       + " of them executed now (" + shown(runs.at("seconds"))
+                       + " s of computing time), the others from the store (" + shown(runs.at("secondsOfStored"))
+                       + " s when they were made).</p>\n<table>";
+    for (const auto& [purpose, count] : runs.at("byPurpose").items())
     {
         html += "<tr>" + cell(escaped(purpose)) + cell(shown(count), true) + "</tr>\n";
     }
     html += "</table>\n";
-    if (!runs["failures"].empty())
+    if (!runs.at("failures").empty())
     {
         html += "<p>Failed runs:</p><ul>";
-        for (const auto& failure : runs["failures"])
+        for (const auto& failure : runs.at("failures"))
         {
-            html += "<li>" + shown(failure["purpose"]) + ", " + shown(failure["condition"]) + ", seed "
-                    + std::to_string(failure["seed"].get<long>()) + ": "
-                    + (failure["repeatedWithAnotherSeed"].get<bool>() ? "repeated with another seed" : "excluded")
-                    + "<pre>" + shown(failure["reason"]) + "</pre></li>";
+            html += "<li>" + shown(failure.at("purpose")) + ", " + shown(failure.at("condition")) + ", seed "
+                    + std::to_string(failure.at("seed").get<long>()) + ": "
+                    + (failure.at("repeatedWithAnotherSeed").get<bool>() ? "repeated with another seed" : "excluded")
+                    + "<pre>" + shown(failure.at("reason")) + "</pre></li>";
         }
         html += "</ul>\n";
     }
@@ -376,7 +378,7 @@ std::string runsSection(const Json& report)
 
 std::string lookAlikesOf(const Json& report)
 {
-    const Json& pairs = report["calibration"]["lookAlikes"];
+    const Json& pairs = report.at("calibration").at("lookAlikes");
     if (pairs.empty())
     {
         return "<p>All effects that show in these conditions could be distinguished at full size.</p>\n";
@@ -384,33 +386,42 @@ std::string lookAlikesOf(const Json& report)
     std::string html = "<p>Even at full size, sets for the first mostly hold the second:</p><ul>";
     for (const auto& pair : pairs)
     {
-        html += "<li>" + shown(pair[0]) + " and " + shown(pair[1]) + "</li>\n";
+        html += "<li>" + shown(pair.at(0)) + " and " + shown(pair.at(1)) + "</li>\n";
     }
     return html + "</ul>\n";
 }
 
+constexpr const char* withoutCurves =
+    "<p class=\"small\">The curves are not drawn: the runs that they come from are not "
+    "stored here. <code>traceResidual run</code> makes them.</p>\n";
+
 } // namespace
 
-std::string htmlOf(const Findings& findings, const Json& report)
+CurvePlots curvePlotsOf(const Findings& findings)
 {
-    const std::string title = escaped(findings.study->name);
+    return {trainingCurves(findings), findings.heldOut->conditions.empty() ? "" : heldOutCurves(findings)};
+}
+
+std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
+{
+    const CurvePlots plots = curves.value_or(CurvePlots{withoutCurves, withoutCurves});
+    const std::string title = shown(report.at("study"));
     std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title>\n"
                        + style + "</head><body>\n<h1>" + title + "</h1>\n<p class=\"answer\">"
-                       + shown(report["summary"]) + "</p>\n" + listOf(report["details"]);
+                       + shown(report.at("summary")) + "</p>\n" + listOf(report.at("details"));
     html += "<h2>Fitted</h2>\n" + fittedTable(report);
-    html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(findings, report);
+    html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(plots.heldOut, report);
     html += "<h2>What to measure next</h2>\n" + nextSection(report);
     html += "<h2>Evidence</h2>\n" + effectTable(report);
     html += "<h2>What could not be distinguished</h2>\n" + lookAlikesOf(report);
-    html += "<h2>Measured and simulated, on conditions that were fitted</h2>\n" + trainingCurves(findings)
-            + residualTable(report);
+    html += "<h2>Measured and simulated, on conditions that were fitted</h2>\n" + plots.fitted + residualTable(report);
     html += "<h2>Runs</h2>\n" + runsSection(report);
-    html += "<h2>Assumed</h2>\n" + listOf(report["assumptions"]);
-    if (!report["remarks"].empty())
+    html += "<h2>Assumed</h2>\n" + listOf(report.at("assumptions"));
+    if (!report.at("remarks").empty())
     {
-        html += "<h2>Remarks</h2>\n" + listOf(report["remarks"]);
+        html += "<h2>Remarks</h2>\n" + listOf(report.at("remarks"));
     }
-    html += "<p class=\"small\">" + shown(report["program"]) + "</p>\n</body></html>\n";
+    html += "<p class=\"small\">" + shown(report.at("program")) + "</p>\n</body></html>\n";
     for (auto at = html.find("+-"); at != std::string::npos; at = html.find("+-", at))
     {
         html.replace(at, 2, "&plusmn;");

@@ -24,9 +24,9 @@ void writeList(const Json& report, const std::string& key, std::ostream& out)
 
 std::string estimateText(const Json& estimate)
 {
-    return estimate.is_object() && estimate["value"].is_number() ? withError({estimate["value"].get<double>(),
-               estimate["standardError"].is_number() ? estimate["standardError"].get<double>() : 0.0})
-                                                                 : "-";
+    return estimate.is_object() && estimate.at("value").is_number() ? withError({estimate.at("value").get<double>(),
+               estimate.at("standardError").is_number() ? estimate.at("standardError").get<double>() : 0.0})
+                                                                    : "-";
 }
 
 void writeText(const Json& report, std::ostream& out)

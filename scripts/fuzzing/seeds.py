@@ -22,8 +22,9 @@ def formulas(_):
 
 
 def tables(_):
-    lines = (CASES / "blindHopper/data/set1/dryLarge_1.csv").read_text().splitlines(keepends=True)
-    return ["".join(lines[:30]), CURVE.read_text()[:1500],
+    rows = (CASES / "studies/blindHopper/data/set1.csv").read_text().splitlines()
+    discharge = [row.split(",", 2)[2] + "\n" for row in rows[:30]]     # behind condition and repeat
+    return ["".join(discharge), CURVE.read_text()[:1500],
             "# Time\tmass [g]\n0\t(1)\n1\t(.5)\n2\t(.1)\n", "time;mass\n0,0;1,5\n1,0;\n2,0;.5\n3,0;NA\n"]
 
 

@@ -39,6 +39,16 @@ std::string replaced(std::string text, const std::string& old, const std::string
     return text.replace(text.find(old), old.size(), by);
 }
 
+/// The text without all parts that begin and end so.
+std::string without(std::string text, const std::string& begin, const std::string& end)
+{
+    for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at))
+    {
+        text.erase(at, text.find(end, at) + end.size() - at);
+    }
+    return text;
+}
+
 /// A copy of the surrogate's case and study, with measurements made by the surrogate itself.
 class Workshop
 {
@@ -190,6 +200,28 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     ASSERT_EQ(workshop.run("report", "exec 2>&-;"), 0);
     EXPECT_EQ(workshop.output.substr(0, workshop.output.find('\n')), summary) << "the first line of what it prints";
     EXPECT_THAT(workshop.output, HasSubstr("Fitted: friction"));
+
+    // In a checkout there is neither a page nor a stored run: report.json gives the page again, all but its curves.
+    std::string drawn = contentOf(workshop.path() / "results/report.html");
+    const std::string plots = "<div class=\"plots\">";
+    const std::string note = "<p class=\"small\">The curves are not drawn";
+    ASSERT_THAT(drawn, HasSubstr(plots));
+    fs::remove_all(workshop.path() / "surrogate.work");
+    fs::remove(workshop.path() / "results/report.html");
+    ASSERT_EQ(workshop.run("report"), 0) << workshop.output;
+    std::string made = contentOf(workshop.path() / "results/report.html");
+    EXPECT_THAT(made, HasSubstr(note));
+    EXPECT_THAT(made, HasSubstr(summary));
+    EXPECT_EQ(without(made, note, "</p>\n"), without(drawn, plots, "</div>\n"));
+
+    // A report that another version has written, which lacks what the page shows.
+    auto old = workshop.json("report.json");
+    old.erase("fitted");
+    std::ofstream(workshop.path() / "results/report.json") << old;
+    fs::remove(workshop.path() / "results/report.html");
+    EXPECT_NE(workshop.run("report"), 0);
+    EXPECT_THAT(workshop.output, HasSubstr("another version of traceResidual"));
+    EXPECT_FALSE(fs::exists(workshop.path() / "results/report.html"));
 }
 
 /// Particles so light that the wet flow is half as fast drive the null's friction far from where the library was made, and

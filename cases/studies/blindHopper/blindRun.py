@@ -9,13 +9,13 @@ import numpy as np
 import yaml
 
 HERE = Path(__file__).resolve().parent
-ROOT = HERE.parents[1]
+ROOT = next(folder for folder in HERE.parents if (folder / "scripts/environment").exists())
 sys.path.insert(0, str(ROOT / "scripts"))
 import caseFiles
 from undeclared import BY_NAME
 
-CASE = ROOT / "cases/hopperQuick"
-NUMERICS = {"demStep": 2.5e-5, "smoothingLength": 5e-3}     # not those of the study
+CASE = (HERE / yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]["case"]).resolve()
+NUMERICS = {"demStep": 2.5e-5, "smoothingBandwidth": 5e-3}     # not those of the study
 SCALE_NOISE = 1e-5                                          # [kg], standard deviation of every reading
 SAMPLING = 5e-3                                             # [s] between readings
 ATTEMPTS = 3                                                # of each measurement, with seeds of their own
@@ -27,7 +27,7 @@ class RunFailed(Exception):
 
 
 def conditions(*roles):
-    """The declared experiment, from study.yaml: {condition: (stage, entries, repeats)}; of these roles or all."""
+    """The declared experiment, from study.yaml: {condition: (step, entries, repeats)}; of these roles or all."""
     return experiments("study.yaml", lambda one: len(one["measured"]["files"]), roles)
 
 
@@ -37,13 +37,13 @@ def candidates():
 
 
 def experiments(file, repeatsOf, roles=()):
-    rig = yaml.safe_load((HERE / "study.yaml").read_text())["rig"]
-    return {one["name"]: (one.get("command", rig["command"]).split()[-1], {**rig["set"], **one["set"]}, repeatsOf(one))
+    simulator = yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]
+    return {one["name"]: (one.get("command", simulator["command"]).split()[-1], {**simulator["set"], **one["set"]}, repeatsOf(one))
             for one in yaml.safe_load((HERE / file).read_text())["conditions"] if not roles or one["role"] in roles}
 
 
-def acts(effect, stage):
-    return effect.medium == "both" or effect.medium == {"dry": "air", "submerged": "water"}[stage]
+def acts(effect, step):
+    return effect.medium == "both" or effect.medium == {"dry": "air", "submerged": "water"}[step]
 
 
 def measureTo(target, folder, truth, label, run):
@@ -87,17 +87,17 @@ def prime(random):
 
 def measure(folder, condition, friction, effects, seed, random, numerics=NUMERICS):
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
-    stage, entries, _ = (conditions() | candidates())[condition]
-    acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], stage)]
+    step, entries, _ = (conditions() | candidates())[condition]
+    acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], step)]
     makeCase(folder, {**entries, **numerics, "friction": friction, "seed": seed}, acting)
     allrun(folder, "mesh")
     for effect, a in acting:
         if effect.mesh:
             effect.mesh(folder, a)
-    allrun(folder, "pour", stage)
-    time, mass = caseFiles.columns(folder / "stages" / stage, "massInHopper")[:2]
+    allrun(folder, "filling", step)
+    time, mass = caseFiles.columns(folder / "steps" / step, "massInHopper")[:2]
     # a run ends early where the flow has stopped
-    end = float(entries[{"dry": "dryTime", "submerged": "submergedTime"}[stage]])
+    end = float(entries[{"dry": "dryTime", "submerged": "submergedTime"}[step]])
     if time[-1] < end:
         time, mass = np.append(time, end), np.append(mass, mass[-1])
     for effect, a in acting:
@@ -110,7 +110,7 @@ def measure(folder, condition, friction, effects, seed, random, numerics=NUMERIC
 def makeCase(folder, entries, acting):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for part in ("0", "constant", "system", "DEM", "parameters", *(path.name for path in CASE.glob("stage.*"))):
+    for part in ("0", "constant", "system", "DEM", "parameters", *(path.name for path in CASE.glob("step.*"))):
         copy = shutil.copytree if (CASE / part).is_dir() else shutil.copy
         copy(CASE / part, folder / part)
     for rest in (folder / "constant/polyMesh", folder / "DEM/meshes"):

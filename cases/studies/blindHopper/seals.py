@@ -1,10 +1,13 @@
-"""The sealed truth, its committed hashes, and what of it has been opened."""
+"""The sealed truth, its committed hashes, and what of it has been opened: as files, or in the record (record.py)."""
 
 import hashlib
 import json
 import os
 import subprocess
 from pathlib import Path
+
+import oldNames
+import record
 
 HERE = Path(__file__).resolve().parent
 SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "sealed"))     # SET.json.enc of what has not been opened
@@ -35,13 +38,26 @@ def cipher(name, data, *direction):
 
 def unsealed(name):
     """What a set holds, for the generator that measures it, and for who opens it."""
-    return cipher(name, (SEALED / f"{name}.json.enc").read_bytes(), "-d")
+    path = SEALED / f"{name}.json.enc"
+    sealed = path.read_bytes() if path.exists() else record.archived().get(f"sealed/{name}.json.enc")
+    if sealed is None:
+        raise SystemExit(f"{path}: there is no such file, and none of that name in {record.ARCHIVE.name}")
+    return cipher(name, sealed, "-d")
+
+
+def isSealedFileKept(name):
+    """The sealed files of the first two draws were never committed."""
+    return (SEALED / f"{name}.json.enc").exists() or f"sealed/{name}.json.enc" in record.archived()
+
+
+def truthOf(part):
+    """What is in a set, with today's names."""
+    return oldNames.today(json.loads(part))
 
 
 def committed():
     """{name: hash}"""
-    lines = HASHES.read_text().splitlines() if HASHES.exists() else []
-    return {name: digest for digest, name in (line.split() for line in lines)}
+    return record.hashes(HASHES)
 
 
 def setNames():
@@ -49,16 +65,16 @@ def setNames():
 
 
 def isOpen(name):
-    return (OPENED / f"{name}.json").exists()
+    return record.read(f"truth/{name}.json") is not None
 
 
 def open(name):
     """What is in a set, from truth/SET.json or else from its sealed file, which it is then copied from."""
     path = OPENED / f"{name}.json"
-    part = path.read_bytes() if isOpen(name) else unsealed(name)
+    part = record.read(f"truth/{name}.json") or unsealed(name)
     if hashlib.sha256(part).hexdigest() != committed()[f"truth/{name}.json"]:
         raise SystemExit(f"{path}: this is not what was sealed: its hash is not that of {HASHES}")
     if not isOpen(name):
         OPENED.mkdir(exist_ok=True)
         path.write_bytes(part)
-    return json.loads(part)
+    return truthOf(part)

@@ -7,6 +7,10 @@ from pathlib import Path
 
 import yaml
 
+import measurements
+import oldNames
+import record
+
 HERE = Path(__file__).resolve().parent
 
 
@@ -24,10 +28,16 @@ def study(replaced, further="", heldOut=True):
 
 def report(traceResidual, results, file, text):
     """What traceResidual says of a study; from the report, where there is one. file: a name for the study."""
-    if not (results / "report.json").exists():
+    path = str((results / "report.json").relative_to(HERE))
+    if record.read(path) is None:
         (HERE / file).write_text(text)
         subprocess.run([traceResidual, "run", "--output", results, HERE / file], check=True)
-    return json.loads((results / "report.json").read_text())
+    return oldNames.today(json.loads(record.answer(path)))
+
+
+def measuredBy(name):
+    """What makes the study that of a set: {text: by what}, with a file for each of its discharges."""
+    return {"work/data/SET/": f"{measurements.unpack(name).relative_to(HERE)}/"}
 
 
 def conditions(file):

@@ -41,7 +41,7 @@ def lag(time, mass, a, random):
 
 
 def trigger(time, mass, a, random):
-    """The record's zero is .03 a seconds after the opening; before the opening nothing moves."""
+    """The record's zero is 0.03 a seconds after the opening; before the opening nothing moves."""
     return time, np.interp(time + 0.03 * a, time, mass)
 
 
@@ -60,7 +60,7 @@ def bentScale(time, mass, a, random):
 
 
 def pause(time, mass, a, random):
-    """Something blocks the orifice for up to .1 s, at a random time between 90 and 50 % of the fill."""
+    """Something blocks the orifice for up to 0.1 s, at a random time between 90 and 50 % of the fill."""
     level = random.uniform(0.5, 0.9) * mass[0]
     begin = time[np.argmax(mass <= level)]
     later = np.where(time <= begin, time, np.maximum(begin, time - 0.1 * a))
@@ -113,16 +113,16 @@ EFFECTS = [
                entries=lambda p, a: {"frictionWall": p["frictionWall"] + 0.35 * a}),
     Undeclared("bottomFriction", True, "the bottom rubs more",
                entries=lambda p, a: {"frictionBottom": p["frictionBottom"] + 0.35 * a}),
-    Undeclared("rollingFriction", True, "beads resist rolling", entries=lambda p, a: {"rollingFriction": 0.05 * a}),
-    Undeclared("beadDiameter", True, "beads of another size", signed=True,
-               entries=lambda p, a: {"beadDiameter": p["beadDiameter"] * (1 + 0.05 * a)}),
+    Undeclared("rollingFriction", True, "particles resist rolling", entries=lambda p, a: {"rollingFriction": 0.05 * a}),
+    Undeclared("particleDiameter", True, "particles of another size", signed=True,
+               entries=lambda p, a: {"particleDiameter": p["particleDiameter"] * (1 + 0.05 * a)}),
     Undeclared("orificeDiameter", True, "orifice of another width", signed=True,
                entries=lambda p, a: {"orificeDiameter": p["orificeDiameter"] * (1 + 0.02 * a)}),
     Undeclared("dragFactor", True, "larger or smaller drag", signed=True, medium="water",
                entries=lambda p, a: {"dragFactor": 1 + 0.25 * a}),
     Undeclared("dragLaw", True, "the drag law of Koch and Hill", switch=True, medium="water",
                entries=lambda p, a: {"dragLaw": "KochHillDrag"}),
-    Undeclared("lubrication", True, "lubrication between beads", switch=True, medium="water",
+    Undeclared("lubrication", True, "lubrication between particles", switch=True, medium="water",
                entries=lambda p, a: {"lubrication": "on"}),
     Undeclared("addedMass", True, "added mass", medium="water", entries=lambda p, a: {"addedMassCoefficient": 0.5 * a}),
     Undeclared("pumpingByDilation", True, "no pumping by dilation", switch=True, medium="water",
@@ -132,7 +132,7 @@ EFFECTS = [
     Undeclared("weightUnderWater", True, "the weight under water is recorded", switch=True, medium="water",
                record=underWater),
     Undeclared("triggerOffset", True, "the record begins early or late", signed=True, record=trigger),
-    Undeclared("momentumOfLeavingBeads", True, "the scale feels the beads that leave", signed=True, record=momentum),
+    Undeclared("momentumOfLeavingParticles", True, "the scale feels the particles that leave", signed=True, record=momentum),
 
     Undeclared("tilt", False, "the hopper leans by up to 15 degrees", files=tilt),
     Undeclared("saltWater", False, "water up to 20 % denser", medium="water",
@@ -140,6 +140,6 @@ EFFECTS = [
     Undeclared("rod", False, "a rod of up to 6 mm across the hopper above the orifice", files=rod),
     Undeclared("funnel", False, "a bottom that rises by up to 30 degrees to the wall", mesh=funnel),
     Undeclared("bentScale", False, "a scale up to 5 % of the fill off half-way", signed=True, record=bentScale),
-    Undeclared("pause", False, "the orifice is blocked for up to .1 s", record=pause),
+    Undeclared("pause", False, "the orifice is blocked for up to 0.1 s", record=pause),
 ]
 BY_NAME = {effect.name: effect for effect in EFFECTS}
