@@ -8,6 +8,7 @@ import yaml
 from .builds import REPOSITORY
 
 CASES = REPOSITORY / "cases"
+TUTORIALS = CASES / "tutorials"
 EFFECTS = REPOSITORY / "identification/effects"
 SURROGATE = REPOSITORY / "tests/identification/surrogate"
 CURVE = CASES / "validation/surge/results/runs/dry.100003.dry.csv"
@@ -34,7 +35,7 @@ def studies(folder):
     shutil.copy(SURROGATE / "case/parameters", folder / "case")
     (folder / "curve.csv").write_text(CURVE.read_text()[:1500])
     (folder / "library.yaml").write_text('effects: [ { name: lag, chain: { lag: "0.3*a" } } ]\n')
-    files = [SURROGATE / "study.yaml", *sorted(CASES.glob("*/study.yaml"))]
+    files = [SURROGATE / "study.yaml", *sorted(CASES.glob("studies/*/study.yaml"))]
     return [besideSurrogate(file.read_text()) for file in files] + [besideSurrogate(STUDY_OF_CURVES)]
 
 
@@ -75,11 +76,11 @@ def couplingProperties(folder):
     """The cases' own, with all that they include. What a step's script would write stands in `step`."""
     for part in ("constant", "system", "DEM"):
         (folder / part).mkdir()
-    (folder / "parameters").write_text("".join((CASES / case / "parameters").read_text()
+    (folder / "parameters").write_text("".join((TUTORIALS / case / "parameters").read_text()
                                                for case in ("hopperQuick", "settlingParticle")))
-    (folder / "step").write_text('#include "$FOAM_CASE/parameters"\nstageFluid incompressible;\nstageScript "DEM/in.particle";\n'
+    (folder / "step").write_text('#include "$FOAM_CASE/parameters"\nstepFluid incompressible;\nstepScript "DEM/in.particle";\n'
                                   "stepRestart end.restart;\n")
-    for file in (CASES / "settlingParticle/system").glob("vessel.*"):
+    for file in (TUTORIALS / "settlingParticle/system").glob("vessel.*"):
         shutil.copy(file, folder / "system")
     (folder / "DEM/in.particle").write_text("")
-    return [(CASES / case / "constant/couplingProperties").read_text() for case in ("settlingParticle", "hopperQuick")]
+    return [(TUTORIALS / case / "constant/couplingProperties").read_text() for case in ("settlingParticle", "hopperQuick")]
