@@ -111,7 +111,7 @@ class Import:
         self.files[where] = script.text()
         steps = self.settings.intervalInSteps
         if script.coupleEvery not in (None, steps):
-            self.report.error(where, f"couple_every {script.coupleEvery}", f"couplingTimeStep of couplingProperties is {steps:g}")
+            self.report.error(where, f"couple_every {script.coupleEvery}", f"couplingInterval of couplingProperties is {steps:g}")
         self.files |= {folder: None for folder in outputFolders(script.text())}
         self.beforeIt = self.scriptThatWrites(script.restart)
         return script
@@ -138,7 +138,7 @@ class Import:
         """[s]. There the fluid's step and the coupling step are two things, here one."""
         step, deltaT = self.script.timeStep, self.control.number("deltaT")
         there = self.settings.intervalInSteps * (step or 1)
-        where, what = self.settings.where, f"couplingTimeStep {self.settings.intervalInSteps:g}"
+        where, what = self.settings.where, f"couplingInterval {self.settings.intervalInSteps:g}"
         fits = step and abs(deltaT / step - round(deltaT / step)) < 1e-6 * deltaT / step
         chosen = deltaT if deltaT < there * (1 - 1e-6) and fits else there
         self.report.change(where, what, f"is in seconds here, {chosen:g} s: {there:g} s there, the fluid's step deltaT {deltaT:g} s; "

@@ -13,7 +13,7 @@ SAME_FORCES = ("Archimedes", "gradPForce", "viscForce", "virtualMassForce", "DiF
                "BeetstraDrag", "RongDrag", "SchillerNaumannDrag")
 OTHER_NAMES = {"MeiLift": "SaffmanLiftForce"}
 DIAGNOSTICS = ("volWeightedAverage", "totalMomentumExchange", "particleCellVolume", "particleVolume", "fieldTimeAverage",
-               "fieldStore", "checkCouplingStep")
+               "fieldStore", "checkCouplingInterval")
 # Words of a model's Props
 NAMES_OF_FIELDS = ("velFieldName", "velocityFieldName", "granVelFieldName", "voidfractionFieldName", "densityFieldName",
                    "gravityFieldName", "pFieldName", "pressureFieldName", "minAlphaP")
@@ -28,7 +28,7 @@ class Settings:
 
     def __init__(self, old, report):
         self.old, self.report, self.where = old, report, old.where
-        self.intervalInSteps = old.number("couplingTimeStep")
+        self.intervalInSteps = old.number("couplingInterval")
         self.script = self.scriptOf("twoWayMPI")
         self.withoutCounterpart()
         self.entries = {"fluid": "incompressible", "modelType": self.oneOf("modelType", ("A", "B")),
@@ -74,9 +74,9 @@ class Settings:
             return
         props = self.old.sub("constDiffSmoothingProps")
         self.plainWords(props)
-        length = props.number("smoothingBandwidth")
-        self.entries["constDiffSmoothingProps"] = {"smoothingBandwidth": f"{2 * length:.10g}"}
-        self.report.change(self.where, f"smoothingBandwidth {length:g}", f"is {2 * length:g} here: a length L spreads there by a "
+        length = props.number("smoothingLength")
+        self.entries["constDiffSmoothingProps"] = {"bandwidth": f"{2 * length:.10g}"}
+        self.report.change(self.where, f"smoothingLength {length:g}", f"is a bandwidth of {2 * length:g} here: a length L spreads there by a "
                            "standard deviation of sqrt(2) L, one implicit step of diffusion, and here of L/sqrt(2)")
 
     def forces(self):

@@ -55,12 +55,12 @@ class Runs(Folder):
     """Of the new cases: within 5 % of the law."""
 
     def testSettlingParticle(self):
-        self.imported(HERE / "settlingParticleCase")
+        self.imported(HERE / "settlingParticle")
         self.run_()
         speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
         law = closures.value("terminalVelocity", dragLaw="DiFeliceDrag", particleDiameter=1e-4, particleDensity=3000, fluidDensity=10,
                              fluidViscosity=1e-5)
-        print(f"settlingParticleCase: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
+        print(f"settlingParticle: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
         self.assertLess(abs(speed / law - 1), 0.05)
 
     def testPackedColumn(self):
@@ -88,14 +88,14 @@ class Meanings(Folder):
     """What is written, where a word means something else."""
 
     def testIntervalIsInSeconds(self):
-        said = self.imported(HERE / "settlingParticleCase")
+        said = self.imported(HERE / "settlingParticle")
         self.assertIn("couplingTimeStep        0.001;", (self.target / "constant/couplingProperties").read_text())
         self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
-        self.assertIn("couplingTimeStep 100: is in seconds here", said)
+        self.assertIn("couplingInterval 100: is in seconds here", said)
 
-    def testSmoothingBandwidthSpreadsAlike(self):
-        self.imported(HERE / "settlingParticleCase")
-        self.assertIn("smoothingBandwidth         0.0006;", (self.target / "constant/couplingProperties").read_text())
+    def testSmoothingLengthSpreadsAlike(self):
+        self.imported(HERE / "settlingParticle")
+        self.assertIn("bandwidth               0.0006;", (self.target / "constant/couplingProperties").read_text())
 
     def testConstantInletIsSuperficial(self):
         text = (HERE / "packedColumn/CFD/0/U").read_text()
@@ -131,7 +131,7 @@ class Meanings(Folder):
 
     def testFilesAreNotCompressed(self):
         """Taken over as `on`, the program would refuse the case."""
-        said = self.imported(self.case("settlingParticleCase", "CFD/system/controlDict", "writeCompression uncompressed", "writeCompression compressed"))
+        said = self.imported(self.case("settlingParticle", "CFD/system/controlDict", "writeCompression uncompressed", "writeCompression compressed"))
         self.assertIn("writeCompression        off;", (self.target / "system/controlDict").read_text())
         self.assertIn("writeCompression: is off here", said)
 
@@ -190,7 +190,7 @@ class Errors(Folder):
                 ("CFD/0/T", "", "internalField uniform 300;", "CFD/0/T"),
                 ("CFD/constant/liggghtsCommands", "runLiggghts", "runLiggghts execute", "execute")):
             with self.subTest(named):
-                case = self.case("settlingParticleCase", file, old, new)
+                case = self.case("settlingParticle", file, old, new)
                 done = self.importing(case)
                 shutil.rmtree(case)
                 self.assertEqual(done.returncode, 1, done.stdout)
@@ -204,21 +204,21 @@ class Errors(Folder):
         self.assertIn("inlet", done.stderr)
 
     def testWithoutIsWhatTheUserSays(self):
-        case = self.case("settlingParticleCase", "CFD/constant/couplingProperties", "modelType B;", "modelType B; useImplicitWhatever on;")
+        case = self.case("settlingParticle", "CFD/constant/couplingProperties", "modelType B;", "modelType B; useImplicitWhatever on;")
         self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
 
     def testWithoutThatNamesNothing(self):
-        done = self.importing(HERE / "settlingParticleCase", "--without", "misspelt")
+        done = self.importing(HERE / "settlingParticle", "--without", "misspelt")
         self.assertEqual(done.returncode, 1)
         self.assertIn("misspelt: names no error", done.stderr)
 
     def testTargetThatIsThere(self):
         self.target.mkdir()
-        done = self.importing(HERE / "settlingParticleCase")
+        done = self.importing(HERE / "settlingParticle")
         self.assertIn("is there already", done.stderr)
 
     def testBrokenFile(self):
-        done = self.importing(self.case("settlingParticleCase", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
+        done = self.importing(self.case("settlingParticle", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("CFD/0/p", done.stderr)
 
