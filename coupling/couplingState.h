@@ -40,7 +40,7 @@ struct FluidAtParticle
 };
 
 /// What the fluid must receive from one particle, summed over the DEM steps of one interval.
-struct GivenToFluid
+struct ReceivedImpulse
 {
     /// Impulse of the forces whose reaction is a source of the fluid (drag ...), as received by the particle [N s].
     Vector3d impulse = Vector3d::Zero();
@@ -67,7 +67,7 @@ struct PartWithin
 /// forces is that of fetching, at every DEM step, everything down to selfMobility.
 struct CouplingState
 {
-    GivenToFluid given;
+    ReceivedImpulse received;
     FluidAtParticle fluid;
     /// Of the last DEM step [N]. Kept only where selfMobility is not zero, and by FluidCoupling over checkpoints.
     Vector3d drag = Vector3d::Zero();

@@ -38,11 +38,11 @@ using DragLaws = std::tuple<
 >;
 // clang-format on
 
-/// Calls visit(law) with each drag law.
-template<class Ghost>
-void forEachDragLaw(Ghost visit)
+/// Calls function(law) with each drag law.
+template<class Function>
+void forEachDragLaw(Function function)
 {
-    std::apply([&](const auto&... law) { (visit(law), ...); }, DragLaws{});
+    std::apply([&](const auto&... law) { (function(law), ...); }, DragLaws{});
 }
 
 inline std::vector<std::string> dragLawNames()

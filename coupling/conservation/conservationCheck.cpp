@@ -79,7 +79,7 @@ void ConservationCheck::recordSolidVolume(double particles, double cells, double
     }
 }
 
-void ConservationCheck::openMomentum(const vector& semiImplicitMomentum)
+void ConservationCheck::setInitialMomentum(const vector& semiImplicitMomentum)
 {
     semiImplicitMomentumAtStart_ = semiImplicitMomentum;
     semiImplicitMomentum_ = semiImplicitMomentum;

@@ -57,7 +57,7 @@ public:
     }
 
     /// The solid volume that is in the fluid at the beginning [m3]; over all ranks.
-    void openSolidVolume(double volume)
+    void setInitialSolidVolume(double volume)
     {
         solidVolumeAtStart_ = volume;
     }
@@ -74,7 +74,7 @@ public:
     void recordSolidVolume(double particles, double cells, double clipped, const Foam::string& worstCell);
 
     /// What the fluid has given semi-implicitly when the balances open [N s]; sum over the ranks.
-    void openMomentum(const Foam::vector& semiImplicitMomentum);
+    void setInitialMomentum(const Foam::vector& semiImplicitMomentum);
 
     /// One interval's momentum [N s], over all ranks: what the particles received from the fluid, as they themselves have
     /// it; what the particles' source took from the fluid, as it stood in the equation that was solved; and what of that the

@@ -49,7 +49,7 @@ int ParticleCensus::count(const ParticlesView& particles)
 
     const bool first = atStart_ < 0;
     const label highestBefore = highestId_;
-    remember(particles);
+    record(particles);
     if (first)
     {
         atStart_ = now_;
@@ -64,7 +64,7 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     using namespace Foam;
 
     const label expected = now_ - removed;
-    remember(particles);
+    record(particles);
     removed_ += removed;
     if (now_ != expected)
     {
@@ -73,7 +73,7 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     }
 }
 
-void ParticleCensus::remember(const ParticlesView& particles)
+void ParticleCensus::record(const ParticlesView& particles)
 {
     using namespace Foam;
 
@@ -92,7 +92,7 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
 
     // What a rank no longer has is new on another, or nowhere: only these are reported, not all particles.
     labelHashSet before;
-    for (const Sighting& seen : last_)
+    for (const LastPosition& seen : last_)
     {
         before.insert(seen.id);
     }
@@ -106,26 +106,26 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
             arrived.append(id);
         }
     }
-    DynamicList<label> gone;
+    DynamicList<label> departed;
     DynamicList<point> places;
-    for (const Sighting& seen : last_)
+    for (const LastPosition& seen : last_)
     {
         if (!here.found(seen.id))
         {
-            gone.append(seen.id);
+            departed.append(seen.id);
             places.append(toFoam(seen.position));
         }
     }
-    const labelHashSet arrivedAnywhere(onMaster<label>(arrived));
-    const labelList goneAnywhere = onMaster<label>(gone);
-    const pointField placesOfGone(onMaster<point>(places));
+    const labelHashSet arrivedAtAnyRank(onMaster<label>(arrived));
+    const labelList leftAnyRank = onMaster<label>(departed);
+    const pointField lastPositions(onMaster<point>(places));
     string names;
-    forAll (goneAnywhere, i)
+    forAll (leftAnyRank, i)
     {
-        if (!arrivedAnywhere.found(goneAnywhere[i]))
+        if (!arrivedAtAnyRank.found(leftAnyRank[i]))
         {
-            const point& at = placesOfGone[i];
-            names += "\n    particle " + Foam::name(goneAnywhere[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
+            const point& at = lastPositions[i];
+            names += "\n    particle " + Foam::name(leftAnyRank[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
                      + Foam::name(at.y()) + ' ' + Foam::name(at.z()) + ") m";
         }
     }

@@ -50,16 +50,16 @@ public:
     }
 
 private:
-    struct Sighting
+    struct LastPosition
     {
         int id;
         Vector3d position;
     };
 
-    void remember(const ParticlesView& particles);
+    void record(const ParticlesView& particles);
     [[noreturn]] void reportMissing(const ParticlesView& particles, Foam::label missing) const;
 
-    std::vector<Sighting> last_;
+    std::vector<LastPosition> last_;
     Foam::label atStart_ = -1;
     Foam::label inserted_ = 0;
     Foam::label removed_ = 0;

@@ -25,7 +25,7 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
 
 /// A field that is made again in every interval: neither read nor written, uniform at first.
 template<class Field>
-Field fieldOfInterval(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
+Field temporaryField(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
     const typename Field::value_type& value = Foam::pTraits<typename Field::value_type>::zero,
     const Foam::word& patchType = Field::Patch::calculatedType())
 {

@@ -65,7 +65,7 @@ public:
     /// \param outflow  of fluid through the boundary of this rank [m3/s]
     void spreadImbalance(double outflow)
     {
-        conservation_.recordImbalance(interval_ * fluid_->spreadImbalance(outflow));
+        conservation_.recordImbalance(couplingTimeStep_ * fluid_->spreadImbalance(outflow));
     }
 
     /// When the fluid's equations have been solved: see VoidFractionRate::close().
@@ -91,7 +91,7 @@ private:
     /// \return true if there were any, and the engine is prepared again.
     bool removeParticlesThatLeft();
     /// \return what the particles of all ranks had received, taken from the particles themselves.
-    ReceivedMomentum forgetGiven();
+    ReceivedMomentum resetReceivedImpulse();
     /// What keeps the next interval short: every such reason is a line of this. Collective.
     std::vector<CouplingStepLimit> limits(const Foam::surfaceScalarField& phi) const;
 
@@ -100,7 +100,7 @@ private:
     /// Of the coming interval; from the moment on that the particles have been advanced, of the one after.
     CouplingStepLength length_;
     /// Of the interval that the fluid is solved for [s].
-    double interval_;
+    double couplingTimeStep_;
     /// By the smallest cell [m].
     double lengthOfChange_ = 0;
     const bool resumed_;

@@ -52,9 +52,9 @@ public:
 
 private:
     void checkTimes() const;
-    void keep(int steps);
+    void setSteps(int steps);
     /// Shortens it so that intervals of about this length end at that time.
-    void shareOut(double timeLeft);
+    void divideTimeLeft(double timeLeft);
 
     const CouplingSettings& settings_;
     const Foam::Time& time_;

@@ -166,7 +166,7 @@ private:
         }
         else if (word.find("include") != std::string::npos)
         {
-            refuseItself(end);
+            refuseSelfInclusion(end);
         }
         else if (word == "#else" || word == "#elif" || word == "#endif")
         {
@@ -183,7 +183,7 @@ private:
     }
 
     /// \param end  of the word #include
-    void refuseItself(std::size_t end) const
+    void refuseSelfInclusion(std::size_t end) const
     {
         const std::string blanks = " \t\r\n";
         auto begin = std::min(text_.find_first_not_of(blanks, end), text_.size());

@@ -38,12 +38,12 @@ public:
 
     /// For the first interval: takes from U the drag that the particles will receive in it. Collective.
     /// \pre  the particles hold what one DEM step gives.
-    void takeFirstDragFrom(Foam::volVectorField& U, double interval);
+    void subtractFirstDrag(Foam::volVectorField& U, double couplingTimeStep);
 
     /// Void fraction and sources from the particles as they are now and from what they were given. Collective.
-    /// \param interval  time over which they were given, and over which the fluid is solved now [s]
+    /// \param couplingTimeStep  time over which they were given, and over which the fluid is solved now [s]
     /// \param next  length of the interval after that [s], whose drag the fluid gives semi-implicitly
-    void particlesToFluid(double interval, double next);
+    void particlesToFluid(double couplingTimeStep, double next);
 
     /// When the fluid's equations have been solved. \param anticipatedFlux  see VoidFractionRate::close()
     void closeContinuity(const Foam::surfaceScalarField& anticipatedFlux)
@@ -63,7 +63,7 @@ public:
 
     /// DU/Dt over the interval that has just been solved, where a force needs it. It is kept as a field, so that a
     /// resumed run has it too.
-    void updateAcceleration(const Foam::volVectorField& U, double interval);
+    void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
 
     /// The fluid at the particles, for the next interval. Collective.
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
@@ -74,7 +74,7 @@ public:
     }
 
     /// What the fluid's equation multiplies grad p with: in model A eps, and what of the particles' pressure force the drag
-    /// will take from them in the next interval; 1 in model B.
+    /// will take from them in the next couplingTimeStep; 1 in model B.
     const Foam::volScalarField& pressureFactor() const
     {
         return pressureFactor_;
@@ -108,20 +108,20 @@ public:
 private:
     void findCells();
     /// Of every particle of this rank, from what it was given in the last interval.
-    void anticipate(double lastInterval, double nextInterval);
+    void anticipate(double lastTimeStep, double nextTimeStep);
     Reactions reactions() const;
-    /// What the particles put into the cells, smoothed: rows as in GivenRow.
+    /// What the particles put into the cells, smoothed: rows as in DensityRow.
     /// \param rowCount  the first of these rows
     Eigen::MatrixXd densitiesOfParticles(Eigen::Index rowCount);
     /// Before fluidToParticles(), and in a resumed run: what each particle's own disturbance is worked out from.
-    void keepDisturbance();
-    void recallDisturbance();
-    /// What of the coupling's state of each particle is part of checkpoints: rows as in KeptRow, writable.
-    static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> kept(
+    void storeSelfInducedVelocity();
+    void restoreSelfInducedVelocity();
+    /// What of the coupling's state of each particle is part of checkpoints: rows as in CheckpointRow, writable.
+    static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> checkpointedState(
         const ParticlesView& particles);
     void updateVoidFraction(const Eigen::MatrixXd& densities);
     /// \param following  of the particles' volume, what the drag makes follow the pressure, per volume of each cell
-    void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following);
+    void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse);
     void smooth(Eigen::MatrixXd& densities);
     void recordPressureForce(const Foam::vector& inFluid);
     [[noreturn]] void reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const;

@@ -15,12 +15,12 @@ class SampledFields
 {
 public:
     /// \param values  1 x cells or 3 x cells
-    /// \param keep  called for every particle with its index and its 1 or 3 values
+    /// \param store  called for every particle with its index and its 1 or 3 values
     template<class Values>
-    void add(const Values& values, std::function<void(Eigen::Index, const double*)> keep)
+    void add(const Values& values, std::function<void(Eigen::Index, const double*)> store)
     {
         values_.emplace_back(values);
-        keep_.push_back(std::move(keep));
+        store_.push_back(std::move(store));
     }
 
     /// All of them, one under the other.
@@ -42,14 +42,14 @@ public:
     }
 
     /// \param atParticles  rows as inCells(), a column per particle
-    void keep(const Eigen::MatrixXd& atParticles) const
+    void store(const Eigen::MatrixXd& atParticles) const
     {
         for (Eigen::Index particle = 0; particle < atParticles.cols(); ++particle)
         {
             const double* value = atParticles.col(particle).data();
             for (std::size_t i = 0; i < values_.size(); ++i)
             {
-                keep_[i](particle, value);
+                store_[i](particle, value);
                 value += values_[i].rows();
             }
         }
@@ -57,7 +57,7 @@ public:
 
 private:
     std::vector<Eigen::MatrixXd> values_;
-    std::vector<std::function<void(Eigen::Index, const double*)>> keep_;
+    std::vector<std::function<void(Eigen::Index, const double*)>> store_;
 };
 
 } // namespace clepsydra

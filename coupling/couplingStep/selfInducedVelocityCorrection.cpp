@@ -59,11 +59,11 @@ SelfInducedVelocityCorrection::SelfInducedVelocityCorrection(
     const CouplingSettings& settings, const FluidProperties& fluid, const SmoothingModel& smoothing)
     : dict_(settings.dict()),
       fluid_(fluid),
-      removed_(readSelfInducedVelocityCorrection(settings)),
+      active_(readSelfInducedVelocityCorrection(settings)),
       smoothingBandwidth_(smoothing.bandwidth())
 {}
 
-double SelfInducedVelocityCorrection::pressureResponse(const CouplingState& state, const Vector3d& position,
+double SelfInducedVelocityCorrection::selfMobility(const CouplingState& state, const Vector3d& position,
     double radius, const Vector3d& particleVelocity, double resistance, double cellSize) const
 {
     // The force is spread by the particle's sphere and the smoothing, the velocity is sampled through the sphere. Variances

@@ -16,21 +16,21 @@ public:
     SelfInducedVelocityCorrection(
         const CouplingSettings& settings, const FluidProperties& fluid, const SmoothingModel& smoothing);
 
-    bool isRemoved() const
+    bool isActive() const
     {
-        return removed_;
+        return active_;
     }
 
     /// See FluidAtParticle::selfMobility.
     /// \param resistance  of all particles, this one included [kg/(m3 s)]
     /// \param cellSize  [m]
-    double pressureResponse(const CouplingState& state, const Vector3d& position, double radius,
+    double selfMobility(const CouplingState& state, const Vector3d& position, double radius,
         const Vector3d& particleVelocity, double resistance, double cellSize) const;
 
 private:
     const Foam::dictionary& dict_;
     const FluidProperties fluid_;
-    const bool removed_;
+    const bool active_;
     const double smoothingBandwidth_;
 };
 

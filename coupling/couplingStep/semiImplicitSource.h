@@ -30,7 +30,7 @@ namespace clepsydra
 ///     particles free, seen as held s by (1 - q + mu (x - q))/(1 + mu x)          (r = 1)
 ///
 /// All lie between 0 and 1: nothing rings, for any interval and mass ratio. It is a splitting of first order in the
-/// interval. Where the interval's length changes, dt is that of the next one, for which the drag is given: what is given
+/// couplingTimeStep. Where the interval's length changes, dt is that of the next one, for which the drag is given: what is given
 /// are impulses, which the equation divides by the length of the step that is solved.
 class SemiImplicitSource
 {
@@ -41,27 +41,27 @@ public:
     /// Rows of what update() is given.
     static constexpr Eigen::Index rowCount = 4;
 
-    /// Adds what carry() was given, so that one smoothing does for both.
+    /// Adds what defer() was given, so that one smoothing does for both.
     /// \param densities  of update(), not smoothed
     void addDeferred(Eigen::Ref<Eigen::MatrixXd> densities) const;
 
     /// \param densities  rowCount x cells, per volume, smoothed: of all particles, the sum of A - P - c v [N s/m3], of c [kg/m3]
-    /// \param interval  of the coming step, not of the one for whose drag c stands [s]
-    void update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
+    /// \param couplingTimeStep  of the coming step, not of the one for whose drag c stands [s]
+    void update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double couplingTimeStep);
 
     /// The particles' source in the momentum equation of the coming step [m/s2 times volume].
     Foam::tmp<Foam::fvVectorMatrix> source(Foam::volVectorField& U) const;
 
     /// When U has been solved for. \param sourceOfPressure  see FluidCoupling [m/s2]
     /// \param densities  3 x cells, per volume, not smoothed: the sum of c U_b + n V dt grad p [N s/m3]
-    void carry(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
+    void defer(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
         const Eigen::Ref<const Eigen::MatrixXd>& densities);
 
     /// For the first interval: takes what is given semi-implicitly from the fluid's velocity itself.
-    void takeFrom(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
+    void subtractFirstDrag(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 
     /// What the fluid has given and no particle has been promised, in each cell [m/s, as impulse per mass and volume].
-    Foam::tmp<Foam::vectorField> unassigned() const
+    Foam::tmp<Foam::vectorField> pendingMomentum() const
     {
         return given_.primitiveField() - deferred_.primitiveField();
     }
@@ -69,8 +69,8 @@ public:
 private:
     const double fluidDensity_;
     /// Of the coming step [s].
-    double interval_ = 0;
-    /// C [1/s], per mass of fluid and over the interval; so are the others.
+    double couplingTimeStep_ = 0;
+    /// C [1/s], per mass of fluid and over the couplingTimeStep; so are the others.
     Foam::volScalarField coefficient_;
     /// Of A - P - c v, with the sign that it has for the fluid [m/s2].
     Foam::volVectorField particleSource_;

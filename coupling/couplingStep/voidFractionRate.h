@@ -12,10 +12,10 @@ namespace clepsydra
 
 /// d(eps)/dt as it enters the fluid's continuity equation, with the particles' answer to the pressure that is solved for.
 ///
-/// The pressure moves the particles in the next interval, and their motion asks for another pressure. Given afterwards, from
+/// The pressure moves the particles in the next couplingTimeStep, and their motion asks for another pressure. Given afterwards, from
 /// how eps did change, that answer comes too late: in a closed column the error grows where particles are light, or where
 /// the interval is longer than their relaxation (tests/conservation/pressureFeedback.cpp). So the continuity equation
-/// anticipates eps at the end of the next interval, implicitly in the velocity and the pressure that are solved for:
+/// anticipates eps at the end of the next couplingTimeStep, implicitly in the velocity and the pressure that are solved for:
 ///
 ///     eps + dt div(flux of the particles),    flux = particleFlux + following U - pressureResponse grad p
 ///
@@ -44,7 +44,7 @@ public:
     ///                   pressureResponse for the force of a kinematic pressure gradient [s]; the velocity now times what is not
     ///                   following [m/s]
     void update(
-        const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
+        const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double couplingTimeStep);
 
     /// In a closed tank the rate's integral and the outflow must add up to zero: takes what they do add up to evenly
     /// from all cells, where a linear solver would dump it in the reference cell. Collective.
@@ -82,7 +82,7 @@ public:
 private:
     const bool used_;
     const double smoothingTime_;
-    double interval_ = 0;
+    double couplingTimeStep_ = 0;
     /// What spreadImbalance() took in this interval [1/s].
     double spread_ = 0;
     /// The integral of the rate.

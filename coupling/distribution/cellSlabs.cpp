@@ -24,7 +24,7 @@ constexpr double sameSideCosine = 0.9;
 /// Sides whose normals are within about 60 degrees of opposite bound the same slab.
 constexpr double oppositeCosine = -0.5;
 /// Exponent: of two cells behind whose walls a particle is, the one behind whose wall it is half as far gets nearly all.
-constexpr double leastBehindCounts = 8;
+constexpr double behindWallExponent = 8;
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
 {
@@ -146,7 +146,7 @@ double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double par
     }
     return nearestPlane == 0
                ? 1
-               : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / particleRadius), leastBehindCounts);
+               : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / particleRadius), behindWallExponent);
 }
 
 template<class Cut>

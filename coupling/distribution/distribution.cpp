@@ -12,7 +12,7 @@ namespace
 {
 
 /// In units of a particle's reach. Larger: fewer searches, more cells to look at in between.
-constexpr double marginOfNeighbourhood = 0.3;
+constexpr double neighbourhoodMargin = 0.3;
 
 /// A particle at a cyclic patch would have to be at two places, in the fluid and among its neighbours.
 const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
@@ -53,7 +53,7 @@ Eigen::MatrixXd Distribution::findCells(const std::vector<GhostParticle>& ghosts
     for (std::size_t ghost = 0; ghost < ghosts.size(); ++ghost)
     {
         const GhostParticle& particle = ghosts[ghost];
-        Neighbourhood& near = known_[std::lround(particle.id)];
+        Neighbourhood& near = cache_[std::lround(particle.id)];
         addShares(particle, near);
         near.call = call_;
         near.position = particle.position;
@@ -78,7 +78,7 @@ void Distribution::addShares(const GhostParticle& particle, Neighbourhood& near)
             lastShares_.begin() + lastFirstShare_[near.ghost + 1]);
         return;
     }
-    const double margin = marginOfNeighbourhood * reach;
+    const double margin = neighbourhoodMargin * reach;
     if (!alike || (particle.position - near.centre).cwiseAbs().maxCoeff() > margin)
     {
         near.centre = particle.position;
@@ -107,9 +107,9 @@ void Distribution::addShares(const GhostParticle& particle, Neighbourhood& near)
 void Distribution::pruneCache(std::size_t ghostCount)
 {
     // Particles come back to a rank that they have just left, so not each at once.
-    if (known_.size() > 2 * ghostCount + 1000)
+    if (cache_.size() > 2 * ghostCount + 1000)
     {
-        known_.clear();
+        cache_.clear();
     }
 }
 

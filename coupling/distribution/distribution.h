@@ -94,7 +94,7 @@ private:
 
     /// By particle. Spares the search for cells to particles that hardly move, the cutting of spheres to those at rest; the
     /// shares are the same to the last bit as without.
-    std::unordered_map<long, Neighbourhood> known_;
+    std::unordered_map<long, Neighbourhood> cache_;
     long call_ = 0;
     std::vector<Share> lastShares_;
     std::vector<std::size_t> lastFirstShare_;

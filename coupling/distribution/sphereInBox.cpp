@@ -48,7 +48,7 @@ double SphereInBox::beyondEdgeOfPositive(double a, double b)
     {
         return 0;
     }
-    for (const Remembered<2>& edge : edges_)
+    for (const CachedPart<2>& edge : edges_)
     {
         if (edge.part > 0 && edge.distances[0] == a && edge.distances[1] == b)
         {

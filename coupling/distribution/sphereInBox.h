@@ -32,13 +32,13 @@ private:
     double beyondCornerOfPositive(double a, double b, double c);
 
     template<int Planes>
-    struct Remembered
+    struct CachedPart
     {
         std::array<double, Planes> distances{};
         double part = 0;
     };
-    std::array<Remembered<2>, 4> edges_{};
-    Remembered<3> corner_{};
+    std::array<CachedPart<2>, 4> edges_{};
+    CachedPart<3> corner_{};
     std::size_t nextEdge_ = 0;
 };
 

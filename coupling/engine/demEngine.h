@@ -56,11 +56,11 @@ public:
 
     /// Asks for ParticlesView::state. \pre not yet initialised.
     /// \param ofNewParticle  the numbers of the state of particles that are read, made or inserted
-    virtual void keepState(const std::vector<double>& ofNewParticle) = 0;
+    virtual void requestState(const std::vector<double>& ofNewParticle) = 0;
 
     /// Asks for ParticlesView::memory: so many numbers per particle, zero for a new particle, that travel with it and are part of
     /// checkpoints. \pre not yet initialised, numbers > 0.
-    virtual void keepMemory(int numbers) = 0;
+    virtual void requestMemory(int numbers) = 0;
 
     /// Makes the engine ready to advance.
     /// \pre  not yet initialised. \post particles() is valid; each particle has the state of a new one and, until evaluateFluidForces(), no

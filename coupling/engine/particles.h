@@ -56,20 +56,20 @@ struct ParticlesView
     ConstVectors angularVelocity;
     ConstView<double> radius;
     ConstView<double> mass;
-    /// `size()` entries, writable. None unless DemEngine::keepState() was called.
+    /// `size()` entries, writable. None unless DemEngine::requestState() was called.
     CouplingState* state = nullptr;
     /// Sum of the forces of all else: contacts, walls, gravity [N]. Meaningful while FluidForces::evaluate() runs.
     ConstVectors otherForce{nullptr, 3, 0};
     /// For FluidForces::evaluate() only, as is otherForce.
     ParticlePairs pairs{};
     /// What forces and coupling keep from step to step: `memorySize` numbers per particle, writable. None unless
-    /// DemEngine::keepMemory() was called.
+    /// DemEngine::requestMemory() was called.
     double* memory = nullptr;
     Eigen::Index memorySize = 0;
     /// False where forces are evaluated without a step: DemEngine::evaluateFluidForces().
-    bool memoryAges = true;
+    bool advancesMemory = true;
     /// For FluidForces::evaluate() only: true where no force moves the particle, for the engine holds it fast.
-    ConstView<bool> held{nullptr, 0};
+    ConstView<bool> fixed{nullptr, 0};
     /// How far a particle that has come in during the run has been introduced to the fluid, from 0 to 1; 1 of all others.
     /// Writable, part of checkpoints.
     double* insertionRamp = nullptr;

@@ -52,7 +52,7 @@ public:
 
     /// Adds up at each particle's home what its visits found. Collective.
     /// \param perGhost  one column per ghost. \return one column per particle, zero where it visited no rank.
-    Eigen::MatrixXd sumAtHome(const Eigen::MatrixXd& perGhost) const;
+    Eigen::MatrixXd sumAtOwners(const Eigen::MatrixXd& perGhost) const;
 
     /// Hands a value of each particle to all its visits. Collective.
     /// \param perParticle  one column per particle. \return one column per ghost.

@@ -30,29 +30,29 @@ struct AnticipatedMotion
 /// one that contacts hold. What share was held is read from the last interval: the part of the impulse that the
 /// particle's own momentum did not take up. A particle whose velocity is the same to the last bit is held fast by the engine.
 ///
-/// \param given  of the last interval
+/// \param received  of the last interval
 /// \param changeOfVelocity  of the particle over the last interval [m/s]
-/// \param lastInterval  that length [s]
-/// \param nextInterval  dt [s]
+/// \param lastTimeStep  that length [s]
+/// \param nextTimeStep  dt [s]
 inline AnticipatedMotion anticipatedMotion(
-    const GivenToFluid& given, const Vector3d& changeOfVelocity, double mass, double lastInterval, double nextInterval)
+    const ReceivedImpulse& received, const Vector3d& changeOfVelocity, double mass, double lastTimeStep, double nextTimeStep)
 {
-    const double fixedDrag = nextInterval / lastInterval * given.implicitCoefficientTime;
+    const double fixedDrag = nextTimeStep / lastTimeStep * received.implicitCoefficientTime;
     if (changeOfVelocity.isZero(0))
     {
         return {fixedDrag, 0, 0};
     }
-    const double inertia = mass + given.addedMassTime / lastInterval;
+    const double inertia = mass + received.addedMassTime / lastTimeStep;
     const double freeDrag = -mass * std::expm1(-fixedDrag / mass);
-    const double impulseSqr = given.impulse.squaredNorm();
+    const double impulseSqr = received.impulse.squaredNorm();
     const double takenUp =
-        impulseSqr > 0 ? std::clamp(mass * changeOfVelocity.dot(given.impulse) / impulseSqr, 0.0, 1.0) : 0;
+        impulseSqr > 0 ? std::clamp(mass * changeOfVelocity.dot(received.impulse) / impulseSqr, 0.0, 1.0) : 0;
 
     const double x = fixedDrag / inertia;
     // The series where the difference loses its digits.
     const double velocityResponsePerTime = x < 1e-4 ? 0.5 - x / 6 : (1 + std::expm1(-x) / x) / x;
     return {fixedDrag + takenUp * (freeDrag - fixedDrag), x * velocityResponsePerTime,
-        nextInterval * velocityResponsePerTime / inertia};
+        nextTimeStep * velocityResponsePerTime / inertia};
 }
 
 } // namespace clepsydra

@@ -61,7 +61,7 @@ public:
         {
             auto& history = *reinterpret_cast<MotionHistory*>(particles.memory + particle * particles.memorySize);
             const Vector3d velocity = particles.velocity.col(particle) - particles.state[particle].fluid.velocity;
-            if (particles.memoryAges)
+            if (particles.advancesMemory)
             {
                 const Vector3d change = history.begun * (velocity - history.velocity);
                 history.modes = history.modes * fades.matrix().asDiagonal();

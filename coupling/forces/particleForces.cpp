@@ -38,7 +38,7 @@ ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eige
     return {values(particles.id), vectors(particles.position), vectors(particles.velocity),
         vectors(particles.angularVelocity), values(particles.radius), values(particles.mass), particles.state + first,
         vectors(particles.otherForce), particles.pairs, particles.memory + first * particles.memorySize,
-        particles.memorySize, particles.memoryAges, values(particles.held)};
+        particles.memorySize, particles.advancesMemory, values(particles.fixed)};
 }
 
 } // namespace
@@ -119,26 +119,26 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
             modelType_ == ModelType::B ? submergedFraction / state.fluid.voidFraction : submergedFraction;
         const double coefficient = ofModel * sum_.implicitCoefficient[particle];
         const double addedMass = ofModel * sum_.addedMass[particle];
-        Vector3d handedOver = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
+        Vector3d withReaction = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
                               + ofModel * sum_.source.col(particle);
-        const Vector3d notHandedOver = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
+        const Vector3d withoutReaction = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
         if (addedMass > 0)
         {
-            state.given.addedMassTime += timeStep * addedMass;
+            state.received.addedMassTime += timeStep * addedMass;
             // The particle's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
-            const Vector3d others = particles.otherForce.col(particle) + handedOver + notHandedOver;
+            const Vector3d others = particles.otherForce.col(particle) + withReaction + withoutReaction;
             const Vector3d free =
                 (others + addedMass * state.fluid.acceleration) / (particles.mass[particle] + addedMass);
-            const Vector3d acceleration = particles.held[particle] ? Vector3d(Vector3d::Zero()) : free;
-            handedOver += addedMass * (state.fluid.acceleration - acceleration);
+            const Vector3d acceleration = particles.fixed[particle] ? Vector3d(Vector3d::Zero()) : free;
+            withReaction += addedMass * (state.fluid.acceleration - acceleration);
         }
-        force.col(particle) = handedOver + notHandedOver;
+        force.col(particle) = withReaction + withoutReaction;
         if (state.fluid.selfMobility > 0)
         {
             state.drag = coefficient * (state.fluid.velocity - particles.velocity.col(particle));
         }
-        state.given.impulse += timeStep * handedOver;
-        state.given.implicitCoefficientTime += timeStep * coefficient;
+        state.received.impulse += timeStep * withReaction;
+        state.received.implicitCoefficientTime += timeStep * coefficient;
     }
 }
 

@@ -24,7 +24,7 @@ constexpr scalar sameTime = 1e-9;
 label dropRowsFrom(scalar time, const fileName& table)
 {
     std::ifstream lines(table);
-    std::uintmax_t kept = 0;
+    std::uintmax_t bytesKept = 0;
     label rows = 0;
     // FatalIOError: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
     const auto requireReadable = [&] {
@@ -48,12 +48,12 @@ label dropRowsFrom(scalar time, const fileName& table)
             }
             ++rows;
         }
-        kept += line.size() + 1;
+        bytesKept += line.size() + 1;
     }
     requireReadable();
     lines.close();
     std::error_code problem;
-    std::filesystem::resize_file(table.c_str(), kept, problem);
+    std::filesystem::resize_file(table.c_str(), bytesKept, problem);
     if (problem)
     {
         FatalIOErrorInFunction(IFstream(table)) << "Cannot cut: " << problem.message() << exit(FatalIOError);

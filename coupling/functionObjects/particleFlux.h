@@ -55,13 +55,13 @@ private:
     /// Takes up what the checkpoint holds, if there is one.
     /// \param rowsThatStay  in tables of earlier start times
     void resume(Foam::label rowsThatStay);
-    void keepState();
+    void storeState();
     void sample();
     void writeRow();
 
     Foam::scalar sampleInterval_ = 0;
     /// Inserted first, then outlet by outlet.
-    std::vector<PatchFlux> patchFluxes_;
+    std::vector<ParticleTransfer> transfers_;
     Foam::scalar lastCount_ = -Foam::GREAT;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::string lastRow_;

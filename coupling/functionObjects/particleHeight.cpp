@@ -58,8 +58,8 @@ bool ParticleHeight::resume(label rowsThatStay)
         return true;
     }
     getProperty(rowsEntry, rows_);
-    const bool again = isRowOfNow(time_, std::stod(lastRow));
-    rows_ -= again ? 1 : 0;
+    const bool rewritesRow = isRowOfNow(time_, std::stod(lastRow));
+    rows_ -= rewritesRow ? 1 : 0;
     warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
     return again;
 }
@@ -80,7 +80,7 @@ bool ParticleHeight::read(const dictionary& dict)
 
     stopBelow_ = dict.getOrDefault<scalar>("stopBelow", -GREAT);
     particle_ = dict.getOrDefault<label>("particle", 1);
-    gone_ = false;
+    hasLeft_ = false;
     // Later, and in a resumed run, it may have left.
     if (time_.timeIndex() == 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
@@ -121,11 +121,11 @@ void ParticleHeight::sample()
     reduce(found, orOp<bool>());
     if (!found)
     {
-        if (!gone_)
+        if (!hasLeft_)
         {
             Info << name() << ": particle " << particle_ << " is no longer there, no more rows" << endl;
         }
-        gone_ = true;
+        hasLeft_ = true;
         return;
     }
     reduce(height, sumOp<scalar>());

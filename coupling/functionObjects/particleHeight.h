@@ -53,7 +53,7 @@ private:
     Foam::label particle_ = 1;
     Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
     Foam::scalar stopBelow_ = -Foam::GREAT;
-    bool gone_ = false;
+    bool hasLeft_ = false;
     /// In all tables, since the fresh start.
     Foam::label rows_ = 0;
 };

@@ -11,7 +11,7 @@ namespace clepsydra
 {
 
 /// What has come or gone in this process, over all ranks.
-struct PatchFlux
+struct ParticleTransfer
 {
     Foam::label particles = 0;
     double mass = 0;                            // [kg]
@@ -19,7 +19,7 @@ struct PatchFlux
     /// [m3]; of particles on their way the part that has come or gone, so that it does not wait for them to be counted.
     double volume = 0;
 
-    PatchFlux& operator+=(const PatchFlux& other);
+    ParticleTransfer& operator+=(const ParticleTransfer& other);
 };
 
 /// Particles that come and go: how much of each is in the fluid, which are gone, and the balances of both.
@@ -42,17 +42,17 @@ public:
     InsertionAndRemoval(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh, double couplingTimeStep);
 
     /// Of particles that have been here all along: how they lie to the outlets. Nothing is recorded.
-    /// \param fresh  no particle is on its way in; otherwise the engine's checkpoint says how far it is
+    /// \param freshStart  no particle is on its way in; otherwise the engine's checkpoint says how far it is
     /// \return the volume of what of them is in the fluid, over all ranks [m3]. Collective.
-    double start(const ParticlesView& particles, bool fresh);
+    double start(const ParticlesView& particles, bool freshStart);
 
     /// After the engine has advanced by `interval`. Collective.
     /// \param newFrom  particles with a higher id have come in
-    void advance(const ParticlesView& particles, int newFrom, double interval);
+    void advance(const ParticlesView& particles, int newFrom, double couplingTimeStep);
 
     /// Takes those particles out of the engine that are wholly outside, and balances them. Collective.
     /// \return how many, on all ranks. If any, views are invalid and DemEngine::prepare() must follow.
-    Foam::label removeGone(DemEngine& engine);
+    Foam::label removeDeparted(DemEngine& engine);
 
     const Foam::wordList& outlets() const
     {
@@ -60,15 +60,15 @@ public:
     }
 
     /// In the last interval.
-    const PatchFlux& lastInserted() const
+    const ParticleTransfer& lastInserted() const
     {
         return lastInserted_;
     }
 
-    /// In the last interval, in the order of outlets().
-    const std::vector<PatchFlux>& lastLeft() const
+    /// In the last couplingTimeStep, in the order of outlets().
+    const std::vector<ParticleTransfer>& lastDeparted() const
     {
-        return lastLeft_;
+        return lastDeparted_;
     }
 
     /// Solid volume that came in less that which left, since start() [m3].
@@ -84,7 +84,7 @@ public:
 
 private:
     /// A particle of this rank that is wholly outside.
-    struct Gone
+    struct DepartedParticle
     {
         int id;
         Foam::label outlet;
@@ -92,15 +92,15 @@ private:
         Vector3d velocity;
     };
 
-    PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double interval) const;
+    PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const;
 
     const ParticleOutlets outlets_;
     const double insertionTime_;
-    double interval_;
-    PatchFlux lastInserted_;
-    std::vector<PatchFlux> lastLeft_;
+    double couplingTimeStep_;
+    ParticleTransfer lastInserted_;
+    std::vector<ParticleTransfer> lastDeparted_;
     double netVolume_ = 0;
-    std::vector<Gone> gone_;
+    std::vector<DepartedParticle> departed_;
 };
 
 } // namespace clepsydra

@@ -44,7 +44,7 @@ Eigen::RowVectorXd voidFractions(const ParticlesView& particles)
     return values;
 }
 
-vtkNew<vtkPolyData> drawingOf(const ParticlesView& particles)
+vtkNew<vtkPolyData> polyDataOf(const ParticlesView& particles)
 {
     std::vector<Eigen::Index> byId(static_cast<std::size_t>(particles.size()));
     std::iota(byId.begin(), byId.end(), 0);
@@ -80,7 +80,7 @@ std::string partOfVtp(const ParticlesView& particles, bool first, bool last)
     vtkNew<vtkXMLPolyDataWriter> writer;
     // VTK does not see every write that fails.
     writer->WriteToOutputStringOn();
-    writer->SetInputData(drawingOf(particles));
+    writer->SetInputData(polyDataOf(particles));
     // Not appended, a third smaller: Debian 12's ParaView 5.11 cannot read that with Debian's expat 2.5.0-1+deb12u2.
     writer->SetDataModeToBinary();
     if (writer->Write() != 1)

@@ -21,7 +21,7 @@ constexpr scalar longestSmoothing = 10;
 
 bool isParticleDiameter(const std::string& name)
 {
-    return name.find("ead") != std::string::npos && name.find("iameter") != std::string::npos;
+    return name.find("article") != std::string::npos && name.find("iameter") != std::string::npos;
 }
 
 void warn(const std::string& message)

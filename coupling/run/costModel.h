@@ -8,7 +8,7 @@ namespace clepsydra
 
 /// How long the rest of a run will take, from what the run itself has taken so far:
 ///
-///     seconds = perParticleStep n_particles n_steps + (perParticle n_particles + perInterval) n_intervals
+///     seconds = perParticleStep n_particles n_steps + (perParticle n_particles + perCouplingStep) n_couplingSteps
 ///
 /// Its speeds are measured on the spot, each from the time of its own phases: DEM and forces; finding cells and the
 /// exchange; all the rest, which goes with the cells of the mesh. So the estimate holds on any machine and on any number of
@@ -23,20 +23,20 @@ public:
     /// One more interval has been done.
     void add(double particles, double demSteps);
 
-    double intervals() const
+    double couplingSteps() const
     {
-        return intervals_;
+        return couplingSteps_;
     }
 
     /// \param seconds  of each phase so far
-    /// \param particles  in all that is left, as DEM steps and intervals are. \pre intervals() > 0
+    /// \param particles  in all that is left, as DEM steps and intervals are. \pre couplingSteps() > 0
     double secondsLeft(
-        const std::map<std::string, double>& seconds, double particles, double demSteps, double intervals) const;
+        const std::map<std::string, double>& seconds, double particles, double demSteps, double couplingSteps) const;
 
 private:
     std::map<std::string, double> before_;
-    double intervals_ = 0;
-    double particleIntervals_ = 0;
+    double couplingSteps_ = 0;
+    double particleCouplingSteps_ = 0;
     double particleSteps_ = 0;
 };
 

@@ -19,7 +19,7 @@ namespace clepsydra
 namespace
 {
 
-constexpr std::chrono::milliseconds betweenBars{200};
+constexpr std::chrono::milliseconds barInterval{200};
 constexpr std::size_t barLength = 24;
 
 /// A longer line would wrap, and could not be rewritten in place.
@@ -125,7 +125,7 @@ void Progress::update(double time, double endTime, long particlesInHopper, doubl
         clear();
         out_ << describe(state) << std::endl;
     }
-    if (isTerminal_ && (lastBar_ == Clock::time_point{} || now - lastBar_ >= betweenBars))
+    if (isTerminal_ && (lastBar_ == Clock::time_point{} || now - lastBar_ >= barInterval))
     {
         // The cursor waits at the start of the line: whatever is printed next replaces the bar.
         out_ << '\r' << (bar(shareDone(state)) + describe(state)).substr(0, terminalWidth() - 1) << "\x1b[K\r"

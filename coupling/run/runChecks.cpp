@@ -28,9 +28,9 @@ RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
       lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
-void RunChecks::afterInterval(const ParticlesView& particles)
+void RunChecks::afterCouplingStep(const ParticlesView& particles)
 {
-    ++intervals_;
+    ++couplingSteps_;
     checkConvergence();
     checkTravel(particles);
 }
@@ -69,15 +69,15 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     Eigen::Index fastest = 0;
     const double here = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff(&fastest) : 0;
     const double speed = returnReduce(here, maxOp<scalar>());
-    const double interval = mesh_.time().deltaTValue();
-    const double travel = speed * interval / lengthOfChange_;
+    const double timeStep = mesh_.time().deltaTValue();
+    const double travel = speed * timeStep / lengthOfChange_;
     if (travel <= 1)
     {
         return;
     }
     ++fast_;
     std::ostringstream text;
-    text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling step of " << interval
+    text << "moves " << speed << " m/s, hence " << speed * timeStep << " m in a coupling step of " << timeStep
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing bandwidth or cell), "
          << lengthOfChange_ << " m, and the fluid at a particle is frozen for an interval";
     if (travel > farthestTravel && here == speed)
@@ -98,12 +98,12 @@ void RunChecks::report() const
     if (unconverged_ > 0)
     {
         Info << "WARNING: the pressure was not solved to its tolerance in " << label(unconverged_) << " of "
-             << label(intervals_) << " intervals" << nl;
+             << label(couplingSteps_) << " intervals" << nl;
     }
     if (fast_ > 0)
     {
         Info << "WARNING: particles moved farther than the fluid's length of change in " << label(fast_) << " of "
-             << label(intervals_) << " intervals: couplingTimeStep is long" << nl;
+             << label(couplingSteps_) << " intervals: couplingTimeStep is long" << nl;
     }
 }
 

@@ -18,7 +18,7 @@ public:
     RunChecks(const Foam::fvMesh& mesh, double smoothingBandwidth);
 
     /// Collective; when the fluid is solved.
-    void afterInterval(const ParticlesView& particles);
+    void afterCouplingStep(const ParticlesView& particles);
 
     /// How often there was reason to warn, where there was.
     void report() const;
@@ -30,7 +30,7 @@ private:
     const Foam::fvMesh& mesh_;
     /// By the cells' mean width [m]: refined cells somewhere are no reason to warn.
     const double lengthOfChange_;
-    long intervals_ = 0;
+    long couplingSteps_ = 0;
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;

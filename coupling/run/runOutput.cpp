@@ -40,12 +40,12 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints, bool dryRun)
+    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints, bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
       engine_(engine),
-      interval_(interval),
+      couplingStep_(couplingStep),
       checkpoints_(checkpoints),
       observedParticles_(mesh, engine),
       stopRequest_(time)
@@ -55,7 +55,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
         scratch_ = std::make_unique<ScratchFolder>();
     }
     startTime_ = time_.value();
-    intervals_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
+    couplingStepCount_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
     printReport(fluid, models);
     if (models)
     {
@@ -93,34 +93,34 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
 
 double RunOutput::estimate()
 {
-    const PhaseTimers& timers = interval_.timers();
-    const auto particles = static_cast<double>(interval_.conservation().particles());
-    const double interval = time_.deltaTValue();
+    const PhaseTimers& timers = couplingStep_.timers();
+    const auto particles = static_cast<double>(couplingStep_.conservation().particles());
+    const double couplingTimeStep = time_.deltaTValue();
     const double timeLeft = std::max(0.0, time_.endTime().value() - time_.value());
     const auto left = [&](CostModel& cost, const std::map<std::string, double>& seconds) {
-        cost.add(particles, interval / engine_.timeStep());
-        return cost.secondsLeft(seconds, particles, timeLeft / engine_.timeStep(), timeLeft / interval);
+        cost.add(particles, couplingTimeStep / engine_.timeStep());
+        return cost.secondsLeft(seconds, particles, timeLeft / engine_.timeStep(), timeLeft / couplingTimeStep);
     };
     const double wall = left(wallCost_, timers.wallSeconds());
     const double processor = left(processorCost_, timers.processorSeconds());
     constexpr double firstPart = 0.01;
     constexpr double fewest = 5;
-    if (!firstIntervalSeconds_)
+    if (!firstStepSeconds_)
     {
-        firstIntervalSeconds_ =
-            wallCost_.secondsLeft(timers.wallSeconds(), particles, interval / engine_.timeStep(), 1);
+        firstStepSeconds_ =
+            wallCost_.secondsLeft(timers.wallSeconds(), particles, couplingTimeStep / engine_.timeStep(), 1);
         // It also fetches all memory.
         wallCost_ = CostModel(timers.wallSeconds());
         processorCost_ = CostModel(timers.processorSeconds());
         return -1;
     }
     const double done = time_.value() - startTime_;
-    if (!estimateOfRun_ && wallCost_.intervals() >= fewest && done >= firstPart * (done + timeLeft))
+    if (!estimateOfRun_ && wallCost_.couplingSteps() >= fewest && done >= firstPart * (done + timeLeft))
     {
         estimateOfRun_ = EstimatedSeconds{sum(timers.wallSeconds()) + wall, sum(timers.processorSeconds()) + processor};
         progress_.clear();
         Info << "Estimated wall time: " << round(wall) << " s more to " << time_.endTime().value() << " s, as the last "
-             << wallCost_.intervals() << " intervals" << nl << endl;
+             << wallCost_.couplingSteps() << " intervals" << nl << endl;
     }
     return wall;
 }
@@ -137,7 +137,7 @@ void RunOutput::start()
         functionObject::outputPrefix =
             word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
     }
-    const PhaseTimers& timers = interval_.timers();
+    const PhaseTimers& timers = couplingStep_.timers();
     wallCost_ = CostModel(timers.wallSeconds());
     processorCost_ = CostModel(timers.processorSeconds());
     // They check their entries now, before anything of an earlier run is replaced.
@@ -159,7 +159,7 @@ void RunOutput::start()
 
 void RunOutput::checkDemStepOnce()
 {
-    if (!demStepChecked_ && interval_.conservation().particles() > 0)
+    if (!demStepChecked_ && couplingStep_.conservation().particles() > 0)
     {
         const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), nullptr, mesh_);
         checkDemStep(scales, settings_.demDict());
@@ -167,13 +167,13 @@ void RunOutput::checkDemStepOnce()
     }
 }
 
-bool RunOutput::afterInterval()
+bool RunOutput::afterCouplingStep()
 {
-    const PhaseTimers::Scope timing = interval_.timers().time("output");
+    const PhaseTimers::Scope timing = couplingStep_.timers().time("output");
     checkDemStepOnce();
     if (runChecks_)
     {
-        runChecks_->afterInterval(engine_.particles());
+        runChecks_->afterCouplingStep(engine_.particles());
     }
     const double wallLeft = estimate();
     if (scratch_)
@@ -206,7 +206,7 @@ bool RunOutput::afterInterval()
         {
             particleWriter_->write(engine_.particles(), time_.value());
         }
-        interval_.conservation().report();
+        couplingStep_.conservation().report();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), wallLeft, atWriteTime);
     return atWriteTime;
@@ -230,13 +230,13 @@ void RunOutput::finish()
     {
         time_.functionObjects().end();
     }
-    interval_.conservation().report();
+    couplingStep_.conservation().report();
     if (runChecks_)
     {
         runChecks_->report();
     }
 
-    const PhaseTimers& timers = interval_.timers();
+    const PhaseTimers& timers = couplingStep_.timers();
     double total = 0;
     for (const auto& [phase, time] : timers.wallSeconds())
     {
@@ -250,7 +250,7 @@ void RunOutput::finish()
              << nl;
     }
     Info << endl;
-    if (scratch_ && !firstIntervalSeconds_)
+    if (scratch_ && !firstStepSeconds_)
     {
         Info << "Dry run: the case is at its end, " << time_.value() << " s: there is no interval to try. Nothing was "
              << "written" << nl << endl;
@@ -260,14 +260,14 @@ void RunOutput::finish()
     {
         const memInfo memory;
         const scalar mebibytes = returnReduce(scalar(memory.peak()), sumOp<scalar>()) / 1024;
-        Info << "Dry run: one interval took " << *firstIntervalSeconds_ << " s, so the " << round(intervals_) << " to "
-             << "endTime take about " << round(intervals_ * *firstIntervalSeconds_)
+        Info << "Dry run: one interval took " << *firstStepSeconds_ << " s, so the " << round(couplingStepCount_) << " to "
+             << "endTime take about " << round(couplingStepCount_ * *firstStepSeconds_)
              << " s as long as they are like it; memory " << round(mebibytes)
              << " MiB in all. The case would start; nothing was written" << nl << endl;
         return;
     }
-    const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
-    interval_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
+    const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().exchange().bytesSent()) : 0;
+    couplingStep_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
 }
 
 } // namespace clepsydra

@@ -26,7 +26,7 @@ public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     /// \param models  null in a dry run
     RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints,
+        DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
         bool dryRun = false);
 
     /// Starts the function objects and writes the first particles. Collective; once all fields exist.
@@ -40,7 +40,7 @@ public:
 
     /// Collective; after each interval, when the fluid is solved. The state at the end of the run is a checkpoint, too.
     /// \return true if a checkpoint was written: the run must restart in place.
-    bool afterInterval();
+    bool afterCouplingStep();
 
     /// True where the run was asked to stop before its end.
     bool stopped() const
@@ -55,14 +55,14 @@ private:
     void checkDemStepOnce();
     void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
-    /// After each interval. \return wall time that is left [s], negative while it is not known
+    /// After each couplingStep. \return wall time that is left [s], negative while it is not known
     double estimate();
 
     RunTime& time_;
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
-    CouplingStep& interval_;
+    CouplingStep& couplingStep_;
     const Checkpoints& checkpoints_;
     /// For function objects.
     ObservedParticles observedParticles_;
@@ -75,10 +75,10 @@ private:
     /// By wall and by processor time.
     CostModel wallCost_;
     CostModel processorCost_;
-    std::optional<double> firstIntervalSeconds_;
+    std::optional<double> firstStepSeconds_;
     std::optional<EstimatedSeconds> estimateOfRun_;
     double startTime_ = 0;
-    double intervals_ = 0;
+    double couplingStepCount_ = 0;
     /// False while there are no particles yet: filling starts without.
     bool demStepChecked_ = false;
     bool stopped_ = false;

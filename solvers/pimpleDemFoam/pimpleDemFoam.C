@@ -135,35 +135,35 @@ private:
 };
 
 void runWithFluid(
-    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& interval, RunOutput& output)
+    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& couplingStep, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid);
-    interval.start(flow.U(), flow.p());
+    couplingStep.start(flow.U(), flow.p());
     output.start();
 
-    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
+    while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        interval.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
+        couplingStep.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
-            return flow.solve(interval);
+            return flow.solve(couplingStep);
         });
-        if (output.afterInterval())
+        if (output.afterCouplingStep())
         {
-            interval.restartInPlace(flow.U(), flow.p());
+            couplingStep.restartInPlace(flow.U(), flow.p());
         }
     }
 }
 
-void runDry(RunTime& runTime, CouplingStep& interval, RunOutput& output)
+void runDemOnly(RunTime& runTime, CouplingStep& couplingStep, RunOutput& output)
 {
     output.start();
-    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
+    while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        interval.advance();
-        if (output.afterInterval())
+        couplingStep.advance();
+        if (output.afterCouplingStep())
         {
-            interval.restartInPlace();
+            couplingStep.restartInPlace();
         }
     }
 }
@@ -219,16 +219,16 @@ int main(int argc, char* argv[])
         {
             requireSameGravity(fluid, engine);
         }
-        CouplingStep interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints, dryRun);
+        CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, interval, output);
+            runWithFluid(runTime, mesh, fluid, couplingStep, output);
         }
         else
         {
-            runDry(runTime, interval, output);
+            runDemOnly(runTime, couplingStep, output);
         }
 
         output.finish();

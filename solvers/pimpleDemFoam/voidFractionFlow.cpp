@@ -61,24 +61,24 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
     mesh_.setFluxRequired(p_.name());
 }
 
-SolvedFluid VoidFractionFlow::solve(CouplingStep& interval)
+SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
 {
-    const FluidCoupling& particles = interval.fluid();
+    const FluidCoupling& particles = couplingStep.fluid();
     const surfaceScalarField voidFractionf(fvc::interpolate(particles.voidFraction()));
     vector sourceOfParticles = vector::zero;
     tmp<surfaceScalarField> anticipatedFlux;
     while (pimple_.loop())
     {
         const fvVectorMatrix particleSource(particles.momentumSource(U_));
-        const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, particleSource));
+        const fvVectorMatrix UEqn(momentumEquation(couplingStep, voidFractionf, particleSource));
         while (pimple_.correct())
         {
-            anticipatedFlux = correctPressure(interval, voidFractionf, UEqn);
+            anticipatedFlux = correctPressure(couplingStep, voidFractionf, UEqn);
         }
         sourceOfParticles =
             sum(mesh_.V().field() * ((particleSource & U_) + particles.sourceOfPressure(p_))().primitiveField());
     }
-    interval.closeContinuity(anticipatedFlux);
+    couplingStep.closeContinuity(anticipatedFlux);
     return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
 }
 
@@ -86,10 +86,10 @@ SolvedFluid VoidFractionFlow::solve(CouplingStep& interval)
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
-    const CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
+    const CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
 {
-    const PhaseTimers::Scope timing = interval.timers().time("momentum");
-    const volScalarField& voidFraction = interval.fluid().voidFraction();
+    const PhaseTimers::Scope timing = couplingStep.timers().time("momentum");
+    const volScalarField& voidFraction = couplingStep.fluid().voidFraction();
     const surfaceScalarField alphaPhi("alphaPhi", voidFractionf*phi_);
 
     fvVectorMatrix UEqn
@@ -106,16 +106,16 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
 
     if (pimple_.momentumPredictor())
     {
-        Foam::solve(UEqn == -interval.fluid().pressureFactor()*fvc::grad(p_));
+        Foam::solve(UEqn == -couplingStep.fluid().pressureFactor()*fvc::grad(p_));
     }
     return UEqn;
 }
 
 tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
-    CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
+    CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
 {
-    const PhaseTimers::Scope timing = interval.timers().time("pressure");
-    const volScalarField& pressureFactor = interval.fluid().pressureFactor();
+    const PhaseTimers::Scope timing = couplingStep.timers().time("pressure");
+    const volScalarField& pressureFactor = couplingStep.fluid().pressureFactor();
 
     const volScalarField rAU("rAU", 1.0/UEqn.A());
     // U = HbyA - (pressureFactor/A) grad(p)
@@ -128,11 +128,11 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
     constrainPressure(p_, U_, phiHbyA, rAUf);
     if (p_.needReference())
     {
-        interval.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
+        couplingStep.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
     // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - pressureResponse grad(p))
-    const VoidFractionRate& rate = interval.fluid().ddtVoidFraction();
+    const VoidFractionRate& rate = couplingStep.fluid().ddtVoidFraction();
     const surfaceScalarField moving("moving", voidFractionf + rate.velocityResponse());
     const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.pressureResponse());
     auto anticipatedFlux = tmp<surfaceScalarField>::New("anticipatedFlux", phi_);

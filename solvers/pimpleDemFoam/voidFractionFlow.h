@@ -36,14 +36,14 @@ public:
     }
 
     /// Solves over one coupling step.
-    SolvedFluid solve(CouplingStep& interval);
+    SolvedFluid solve(CouplingStep& couplingStep);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(const CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf,
+    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf,
         const Foam::fvVectorMatrix& particleSource);
     /// \return the part of d(eps)/dt that is implicit, as a flux [m3/s]
     Foam::tmp<Foam::surfaceScalarField> correctPressure(
-        CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
+        CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;
     Foam::pimpleControl pimple_;

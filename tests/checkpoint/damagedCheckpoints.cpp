@@ -61,7 +61,7 @@ std::vector<Damage> damages()
         all.push_back({"cp checkpoints/0.01" + particles + ' ' + file, file});
         all.push_back({"rm " + file, file});
     }
-    for (const char* field : {"U", "p", "phi", "voidFraction", "unassignedMomentum", "deferredMomentum",
+    for (const char* field : {"U", "p", "phi", "voidFraction", "semiImplicitMomentum", "deferredMomentum",
              "voidFractionInContinuity", "fluidAcceleration"})
     {
         const std::string file = "0.02/" + std::string(field);

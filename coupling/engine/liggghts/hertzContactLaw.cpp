@@ -79,13 +79,13 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double fy = slides ? frictionY : springY - tangentialDamping * ty;
         const double fz = slides ? frictionZ : springZ - tangentialDamping * tz;
         const double divisor = std::max(tangentialStiffness, smallest);
-        const double heldX = -frictionX / divisor;
-        const double heldY = -frictionY / divisor;
-        const double heldZ = -frictionZ / divisor;
-        const bool holds = slides && shears;
-        c.shear[0][k] = holds ? heldX : sx;
-        c.shear[1][k] = holds ? heldY : sy;
-        c.shear[2][k] = holds ? heldZ : sz;
+        const double limitedX = -frictionX / divisor;
+        const double limitedY = -frictionY / divisor;
+        const double limitedZ = -frictionZ / divisor;
+        const bool limitsShear = slides && shears;
+        c.shear[0][k] = limitsShear ? limitedX : sx;
+        c.shear[1][k] = limitsShear ? limitedY : sy;
+        c.shear[2][k] = limitsShear ? limitedZ : sz;
 
         c.force[0][k] = normalForce * nx + fx;
         c.force[1][k] = normalForce * ny + fy;

@@ -76,10 +76,10 @@ public:
           program_(program)
     {}
 
-    void settings(int count, char** words, LIGGGHTS::IContactHistorySetup* history) override
+    void settings(int count, char** tokens, LIGGGHTS::IContactHistorySetup* history) override
     {
-        std::vector<char*> rest(words, words + count);
-        readForgetting(rest);
+        std::vector<char*> rest(tokens, tokens + count);
+        readForgetParted(rest);
         plain_ = rest.empty();
         HertzOfLiggghts::settings(static_cast<int>(rest.size()), rest.data(), history);
     }
@@ -155,22 +155,22 @@ private:
         }
     };
 
-    /// Takes `forget_parted on|off` out of the words.
-    void readForgetting(std::vector<char*>& words)
+    /// Takes `forget_parted on|off` out of the tokens.
+    void readForgetParted(std::vector<char*>& tokens)
     {
         const auto keyword = std::find_if(
-            words.begin(), words.end(), [](const char* word) { return word == std::string(forgetKeyword); });
-        if (keyword == words.end())
+            tokens.begin(), tokens.end(), [](const char* word) { return word == std::string(forgetKeyword); });
+        if (keyword == tokens.end())
         {
             return;
         }
-        const std::string value = keyword + 1 == words.end() ? "" : *(keyword + 1);
+        const std::string value = keyword + 1 == tokens.end() ? "" : *(keyword + 1);
         if (value != "on" && value != "off")
         {
             throw LiggghtsStopped(std::string("'") + forgetKeyword + ' ' + value + "'; allowed: on, off", false);
         }
         forgetsParted_ = value == "on";
-        words.erase(keyword, keyword + 2);
+        tokens.erase(keyword, keyword + 2);
     }
 
     /// Without what LIGGGHTS' loop does beside the forces of contacts.
@@ -311,7 +311,7 @@ private:
     }
 
     lmp::LAMMPS& program_;
-    /// No further words in the script's line, such as limitForce.
+    /// No further tokens in the script's line, such as limitForce.
     bool plain_ = false;
     bool forgetsParted_ = true;
     double** youngsModulus_ = nullptr;

@@ -87,7 +87,7 @@ public:
             program_.execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
         runScript(setup);
-        fresh_ = setup.resumeFrom.empty();
+        freshStart_ = setup.resumeFrom.empty();
         for (const GroupChange& change : setup.groupChanges)
         {
             groupChangers_.emplace_back(*program_, change);
@@ -108,7 +108,7 @@ public:
 
     void checkStart()
     {
-        if (fresh_)
+        if (freshStart_)
         {
             requireNoDeepOverlap(*program_, pairs());
         }
@@ -136,7 +136,7 @@ public:
         }
     }
 
-    void keepState(const std::vector<double>& ofNewParticle)
+    void requestState(const std::vector<double>& ofNewParticle)
     {
         stateOfNewParticle_ = ofNewParticle;
     }
@@ -210,7 +210,7 @@ public:
             "forces of the last step");
         lastForceFix_ =
             program_->modify->find_fix_property(lastForceFixId, "property/atom", "vector", 6, 0, "coupling");
-        lastForcesKnown_ = !fresh_;
+        lastForcesKnown_ = !freshStart_;
     }
 
     /// Forces and torques on particles, rows 0 to 3 and 3 to 6.
@@ -221,7 +221,7 @@ public:
 
     /// With which the next step begins. LIGGGHTS makes others at a `run` that begins again, and in a resumed process: from
     /// the velocities at the end of a step, where damping and drag had those in its middle.
-    void keepForces()
+    void storeForces()
     {
         const lmp::Atom& atom = *program_->atom;
         lastForces().topRows<3>() = ConstVectors(firstElement(atom.f), 3, atom.nlocal);
@@ -247,15 +247,15 @@ public:
         reevaluatesFluidForces_ = true;
         prepare();
         reevaluatesFluidForces_ = false;
-        keepForces();
+        storeForces();
     }
 
     /// Those at rest by `groupChanges` are in no group that moves.
     void findFixedParticles()
     {
         const lmp::Atom& atom = *program_->atom;
-        held_.resize(atom.nlocal);
-        std::transform(atom.mask, atom.mask + atom.nlocal, held_.begin(),
+        fixed_.resize(atom.nlocal);
+        std::transform(atom.mask, atom.mask + atom.nlocal, fixed_.begin(),
             [this](int groups) { return (groups & movingGroups_) == 0 || (groups & frozenGroups_) != 0; });
     }
 
@@ -264,7 +264,7 @@ public:
     {
         for (Eigen::Index particle = 0; frozenGroups_ != 0 && particle < force.cols(); ++particle)
         {
-            if (held_[particle])
+            if (fixed_[particle])
             {
                 force.col(particle).setZero();
             }
@@ -273,7 +273,7 @@ public:
 
     void requestPairs(double reach)
     {
-        seesPairs_ = true;
+        needsPairs_ = true;
         // Widens the lists beyond the skin, so that what the skin allows the particles to move costs none of it.
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
@@ -327,7 +327,7 @@ public:
         allowNoParticles();
     }
 
-    void keepMemory(int numbers)
+    void requestMemory(int numbers)
     {
         memorySize_ = numbers;
     }
@@ -432,9 +432,9 @@ private:
         }
         engine.findFixedParticles();
         const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
-            own.state, own.otherForce, engine.seesPairs_ ? engine.pairs() : ParticlePairs{},
+            own.state, own.otherForce, engine.needsPairs_ ? engine.pairs() : ParticlePairs{},
             engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_, !preparing,
-            ConstView<bool>(engine.held_.data(), own.size())};
+            ConstView<bool>(engine.fixed_.data(), own.size())};
         engine.forces_->evaluate(particles, engine.program_->update->dt, ofFluid);
         engine.clearForceOnFixedParticles(ofFluid);
     }
@@ -449,14 +449,14 @@ private:
     /// Of which groups forces move the particles, and of which a fix forbids it.
     int movingGroups_ = 0;
     int frozenGroups_ = 0;
-    Eigen::Array<bool, Eigen::Dynamic, 1> held_;
-    bool seesPairs_ = false;
+    Eigen::Array<bool, Eigen::Dynamic, 1> fixed_;
+    bool needsPairs_ = false;
     lmp::Fix* memoryFix_ = nullptr;
     int memorySize_ = 0;
     lmp::Fix* insertionRampFix_ = nullptr;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
-    bool fresh_ = true;
+    bool freshStart_ = true;
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
@@ -470,14 +470,14 @@ void LiggghtsEngine::requestPairs(double reach)
     implementation_->requestPairs(reach);
 }
 
-void LiggghtsEngine::keepState(const std::vector<double>& ofNewParticle)
+void LiggghtsEngine::requestState(const std::vector<double>& ofNewParticle)
 {
-    implementation_->keepState(ofNewParticle);
+    implementation_->requestState(ofNewParticle);
 }
 
-void LiggghtsEngine::keepMemory(int numbers)
+void LiggghtsEngine::requestMemory(int numbers)
 {
-    implementation_->keepMemory(numbers);
+    implementation_->requestMemory(numbers);
 }
 
 void LiggghtsEngine::initialise(FluidForces* forces)
@@ -513,7 +513,7 @@ void LiggghtsEngine::evaluateFluidForces()
 void LiggghtsEngine::advance(int steps)
 {
     implementation_->run(steps);
-    implementation_->keepForces();
+    implementation_->storeForces();
     implementation_->changeGroups(steps * timeStep());
 }
 

@@ -40,8 +40,8 @@ public:
     ~LiggghtsEngine() override;
 
     void requestPairs(double reach) override;
-    void keepState(const std::vector<double>& ofNewParticle) override;
-    void keepMemory(int numbers) override;
+    void requestState(const std::vector<double>& ofNewParticle) override;
+    void requestMemory(int numbers) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;

@@ -146,10 +146,10 @@ void requireUndamagedInput(const LiggghtsProgram& program, const ScriptCommand& 
     {
         return;
     }
-    std::istringstream words(program.withVariables(command.text));
+    std::istringstream tokens(program.withVariables(command.text));
     std::string name;
     std::string file;
-    if (!(words >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
+    if (!(tokens >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
     {
         return;
     }
