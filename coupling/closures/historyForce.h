@@ -12,8 +12,8 @@
 ///
 /// The memory per particle is constant, as in M. A. T. van Hinsberg, J. H. M. ten Thije Boonkkamp & H. J. H. Clercx, J.
 /// Comput. Phys. 230, 1465 (2011): the kernel is a sum of exponentials, each of which needs only its own last value.
-/// Theirs are fitted. Here tau^-1/2 = 1/sqrt(pi) int exp(-tau r) r^1/2 d(ln r) is summed by the trapezoidal rule in ln
-/// r with steps of 1, whose relative error is 2.8 exp(-pi^2) = 1.5e-4 (G. Beylkin & L. Monzon, Appl. Comput. Harmon.
+/// Theirs are fitted. Here tau^-1/2 = 1/sqrt(pi) int exp(-tau r) r^1/2 d(ln r) is summed by the trapezoidal rule in
+/// ln r with steps of 1, whose relative error is 2.8 exp(-pi^2) = 1.5e-4 (G. Beylkin & L. Monzon, Appl. Comput. Harmon.
 /// Anal. 28, 131 (2010)). Mei & Adrian's kernel is the same sum, with each weight multiplied by a factor that depends
 /// on its rate times tau_M. The contribution of the last step, where the kernel is singular, is exact and is implicit
 /// in the particle's inertia, like an added mass.

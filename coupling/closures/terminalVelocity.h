@@ -1,6 +1,6 @@
 /// \file
-/// The slip velocity at which drag balances the buoyant weight: the terminal velocity of an isolated particle (eps =
-/// 1), and the slip in a settling or fluidised homogeneous suspension (eps < 1).
+/// The slip velocity at which drag balances the buoyant weight: the terminal velocity of an isolated particle
+/// (eps = 1), and the slip in a settling or fluidised homogeneous suspension (eps < 1).
 ///
 /// Force balance of one particle in model A, without acceleration. In a homogeneous suspension grad p carries the
 /// weight of the mixture, -dp/dz = [eps rho_f + (1 - eps) rho_p] g, so the remaining force on the particle is

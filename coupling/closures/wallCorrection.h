@@ -7,8 +7,8 @@
 ///     v/v_t = k = ((1 - lambda)/(1 - 0.33 lambda))^n,     (3.3 - n)/(n - 0.85) = 0.1 Re_t
 ///
 /// The same force moves the particle k times as fast as a free one, so at a given speed v the drag is that of a free
-/// particle at v/k. Range: lambda < 0.9. At Re -> 0 it is within 1 % of Faxen's series for a tube's axis for lambda <=
-/// 0.2, 3 % faster at 0.3 and 9 % faster at 0.5.
+/// particle at v/k. Range: lambda < 0.9. At Re -> 0 it is within 1 % of Faxen's series for a tube's axis for
+/// lambda <= 0.2, 3 % faster at 0.3 and 9 % faster at 0.5.
 ///
 /// Plane, creeping flow, motion parallel to it: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), a series in lambda = R/h
 /// with the distance h from centre to wall; in Happel & Brenner, Low Reynolds Number Hydrodynamics (1965), ch. 7:
@@ -67,8 +67,8 @@ inline double faxenParallelFactor(double lambda) noexcept
            / (1.0 - 9.0 / 16.0 * lambda + cubed / 8.0 - 45.0 / 256.0 * cubed * lambda - cubed * lambda * lambda / 16.0);
 }
 
-/// Drag divided by the free drag for motion towards or away from the wall [-]; unbounded at contact. \param gap
-/// divided by the radius, > 0
+/// Drag divided by the free drag for motion towards or away from the wall [-]; unbounded at contact.
+/// \param gap  divided by the radius, > 0
 inline double brennerPerpendicularFactor(double gap) noexcept
 {
     return ((6.0 * gap + 9.0) * gap + 2.0) / ((6.0 * gap + 2.0) * gap);
