@@ -15,10 +15,10 @@ using namespace Foam;
 namespace
 {
 
-/// Quotients of times that are whole numbers but for rounding.
+/// Rounding error of a quotient of times that is a whole number.
 constexpr double rounding = 1e-6;
 
-/// So many parts of an interval may be added to the next.
+/// The coupling step may grow by a part of 1/partsToGrowBy from one step to the next.
 constexpr int partsToGrowBy = 5;
 
 const word stepsEntry = "steps";
@@ -94,8 +94,9 @@ void CouplingStepLength::choose(const std::vector<CouplingStepLimit>& limits, do
     {
         warned_ = true;
         WarningInFunction << "The " << strictest->reason.c_str() << " asks for a coupling step of "
-                          << strictest->longest << " s, and minCouplingTimeStep is "
-                          << settings_.adjustableCouplingTimeStep()->shortest << " s. This is said once" << endl;
+                          << strictest->longest << " s, but minCouplingTimeStep is "
+                          << settings_.adjustableCouplingTimeStep()->shortest << " s. This warning is printed once"
+                          << endl;
     }
     const int fastestGrowth = steps_ + std::max(1, steps_ / partsToGrowBy);
     setSteps(std::min(std::clamp(allowed, fewestSteps_, mostSteps_), fastestGrowth));
@@ -119,8 +120,8 @@ void CouplingStepLength::divideTimeLeft(double timeLeft)
     {
         return;
     }
-    // The last interval but one is no longer than the last: OpenFOAM takes a time that is closer than half an interval
-    // for hit.
+    // The last coupling step but one is not longer than the last, because OpenFOAM treats a time that is closer than
+    // half a time step as reached.
     const double share = left / stepCount;
     setSteps(std::max(1, static_cast<int>(stepCount == 2 ? std::floor(share) : std::ceil(share))));
 }

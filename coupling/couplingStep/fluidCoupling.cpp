@@ -21,8 +21,8 @@ using namespace Foam;
 namespace
 {
 
-/// Rows of what particles put into cells: their volume, their reaction (first what SemiImplicitSource, then what
-/// VoidFractionRate needs), and the resistance only where a particle's own disturbance is removed.
+/// Rows of what the particles add to the cells: their volume, their reaction (first for SemiImplicitSource, then for
+/// VoidFractionRate) and, where the self-induced velocity is removed, their resistance.
 enum DensityRow : Eigen::Index
 {
     solidVolume = 0,
@@ -31,8 +31,8 @@ enum DensityRow : Eigen::Index
     resistanceTime = motion + VoidFractionRate::rowCount
 };
 
-/// Rows of what is kept of each particle from interval to interval: P, see SemiImplicitSource [N s], and what its own disturbance
-/// is worked out from.
+/// Rows of the state that is stored for each particle from coupling step to coupling step: the impulse P of
+/// SemiImplicitSource [N s], and the quantities from which the self-induced velocity is computed.
 enum CheckpointRow : Eigen::Index
 {
     semiImplicitImpulse = 0,
@@ -65,8 +65,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       exchange_(duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
       selfInducedVelocityCorrection_(settings, fluid, distribution.smoothingModel()),
       voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
-      pressureFactor_(temporaryField<volScalarField>(
-          "pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
+      pressureFactor_(
+          temporaryField<volScalarField>("pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
       voidFractionRate_(mesh, settings),
       semiImplicitSource_(mesh, fluid.density),
       viscousStress_(mesh, fluid),
@@ -85,8 +85,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     voidFraction_.oldTime();
 }
 
-Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> FluidCoupling::checkpointedState(
-    const ParticlesView& particles)
+Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>>
+FluidCoupling::checkpointedState(const ParticlesView& particles)
 {
     return {particles.memory ? particles.memory + particles.memorySize - memory : nullptr, memory, particles.size(),
         Eigen::OuterStride<>(particles.memorySize)};
@@ -94,7 +94,8 @@ Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eige
 
 vector FluidCoupling::semiImplicitMomentum() const
 {
-    const Vector3d ofParticles = checkpointedState(engine_.particles()).middleRows<3>(semiImplicitImpulse).rowwise().sum();
+    const Vector3d ofParticles =
+        checkpointedState(engine_.particles()).middleRows<3>(semiImplicitImpulse).rowwise().sum();
     return returnReduce(toFoam(ofParticles), sumOp<vector>())
            + gSum(vectorField(fluid_.density * mesh_.V().field() * semiImplicitSource_.pendingMomentum()));
 }
@@ -106,13 +107,13 @@ void FluidCoupling::start(bool resumed)
     const Eigen::MatrixXd densities = densitiesOfParticles(solidVolume + 1);
     if (resumed)
     {
-        // Before clipping, which the void fraction that was read is not.
+        // The solid fraction is that before clipping, whereas the void fraction that was read is clipped.
         columns(solidFraction_) = densities.row(solidVolume);
         restoreSelfInducedVelocity();
         return;
     }
     updateVoidFraction(densities);
-    // No equation has been solved yet in which the drag took a part of the pressure from the particles.
+    // No equation has been solved yet in which drag transferred part of the pressure's impulse from the particles.
     updatePressureFactor(Eigen::RowVectorXd::Zero(mesh_.nCells()));
     voidFractionRate_.start(voidFraction_);
 }
@@ -157,7 +158,7 @@ void FluidCoupling::particlesToFluid(double couplingTimeStep, double next)
     anticipate(couplingTimeStep, next);
     findCells();
     Eigen::MatrixXd densities = densitiesOfParticles(resistance_ ? resistanceTime + 1 : resistanceTime);
-    // Their motion over the coming couplingTimeStep, per time of the one that is solved.
+    // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
     densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / couplingTimeStep;
     updateVoidFraction(densities);
     updatePressureFactor(densities.row(motion));
@@ -181,7 +182,7 @@ void FluidCoupling::anticipate(double lastTimeStep, double nextTimeStep)
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const CouplingState& state = particles.state[particle];
-        // One that has left is given nothing in advance, for it is taken out before it could receive it.
+        // A particle that has left gets no semi-implicit drag, because it is removed before it could receive it.
         if (state.fluid.submergedFraction > 0)
         {
             anticipated_[static_cast<std::size_t>(particle)] =
@@ -200,11 +201,11 @@ Reactions FluidCoupling::reactions() const
     {
         const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(particle)];
         const Vector3d velocity = particles.velocity.col(particle);
-        // Explicit coupling anticipates nothing: a motion without its answer to the pressure would be worse than none.
+        // Explicit coupling anticipates no motion: without the response to the pressure it would be worse than none.
         const double volume = settings_.implicitCoupling() ? volumeInFluid(particles, particle) : 0;
         const double pressureForce = settings_.modelType() == ModelType::A ? fluid_.density * volume : 0;
-        all.col(particle) << particles.state[particle].received.impulse - ofParticle.col(particle).segment<3>(semiImplicitImpulse)
-                                 - motion.drag * velocity,
+        all.col(particle) << particles.state[particle].received.impulse
+                                 - ofParticle.col(particle).segment<3>(semiImplicitImpulse) - motion.drag * velocity,
             motion.drag, volume * motion.velocityResponse, volume * motion.pressureResponse * pressureForce,
             volume * (1 - motion.velocityResponse) * velocity;
     }
@@ -399,14 +400,14 @@ void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarFie
         surroundings << columns(resistance_->primitiveField()),
             columns(mesh_.V().field()).array().pow(1.0 / 3.0).matrix();
         sampled.add(surroundings, [&, particles](Eigen::Index particle, const double* value) {
-            particles.state[particle].fluid.selfMobility = selfInducedVelocityCorrection_.selfMobility(
-                particles.state[particle], particles.position.col(particle), particles.radius[particle],
-                particles.velocity.col(particle), value[0], value[1]);
+            particles.state[particle].fluid.selfMobility =
+                selfInducedVelocityCorrection_.selfMobility(particles.state[particle], particles.position.col(particle),
+                    particles.radius[particle], particles.velocity.col(particle), value[0], value[1]);
         });
     }
     sampled.store(exchange_.sumAtOwners(distribution_.sample(sampled.inCells())));
 
-    // In model B no particle feels it, and the fluid's equation holds no reaction to it.
+    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
     if (settings_.modelType() == ModelType::A)
     {
         recordPressureForce(pressureForceInFluid);
@@ -453,9 +454,10 @@ void FluidCoupling::reportParticleOutsideMesh(const ParticlesView& particles, Ei
     const vector position = toFoam(particles.position.col(particle));
     const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
     FatalErrorInFunction << "Particle " << particles.id[particle] << " at " << position
-                         << " m lies in no cell of the mesh; the nearest, cell " << nearest << " of rank "
+                         << " m is in no cell of the mesh; the nearest one, cell " << nearest << " of rank "
                          << Pstream::myProcNo() << ", is at " << (nearest < 0 ? vector::zero : mesh_.C()[nearest])
-                         << " m, the mesh of this rank spans " << mesh_.bounds() << exit(FatalError);
+                         << " m; allowed: particles within the mesh, which on this rank spans " << mesh_.bounds()
+                         << exit(FatalError);
     std::abort();
 }
 

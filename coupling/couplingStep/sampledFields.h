@@ -10,7 +10,7 @@
 namespace clepsydra
 {
 
-/// What of the fluid is sampled at the particles: values in the cells, each with the place where a particle keeps them.
+/// Fields of the fluid that are sampled at the particles, each with a function that stores the sampled values.
 class SampledFields
 {
 public:
@@ -23,7 +23,7 @@ public:
         store_.push_back(std::move(store));
     }
 
-    /// All of them, one under the other.
+    /// Values of all fields, stacked by rows: rows x cells.
     Eigen::MatrixXd inCells() const
     {
         Eigen::Index rows = 0;
@@ -41,7 +41,8 @@ public:
         return all;
     }
 
-    /// \param atParticles  rows as inCells(), a column per particle
+    /// Passes the sampled values to the functions that store them. \param atParticles  rows x particles, rows as in
+    /// inCells()
     void store(const Eigen::MatrixXd& atParticles) const
     {
         for (Eigen::Index particle = 0; particle < atParticles.cols(); ++particle)

@@ -34,8 +34,8 @@ void SemiImplicitSource::update(const Eigen::Ref<const Eigen::MatrixXd>& densiti
 
 tmp<fvVectorMatrix> SemiImplicitSource::source(volVectorField& U) const
 {
-    const dimensionedScalar interval("interval", dimTime, couplingTimeStep_);
-    return particleSource_ + given_ / couplingTimeStep - fvm::Sp(coefficient_, U);
+    const dimensionedScalar timeStep("couplingTimeStep", dimTime, couplingTimeStep_);
+    return particleSource_ + given_ / timeStep - fvm::Sp(coefficient_, U);
 }
 
 void SemiImplicitSource::defer(

@@ -16,7 +16,7 @@ using namespace Foam;
 namespace
 {
 
-/// No particle is anticipated to leave or to come in.
+/// The anticipated motion takes no particle through the boundary of the mesh.
 template<class Type>
 void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
 {
@@ -90,7 +90,7 @@ double VoidFractionRate::spreadImbalance(double outflow)
 void VoidFractionRate::close(const surfaceScalarField& flux)
 {
     rate_ = explicitRate_ + fvc::div(flux);
-    // What was spread has been dealt with.
+    // The imbalance that was distributed does not remain as an error to be corrected.
     integral_.primitiveFieldRef() += couplingTimeStep_ * (rate_.primitiveField() + spread_);
 }
 
