@@ -18,7 +18,7 @@ namespace clepsydra
 namespace
 {
 
-/// The lists of all ranks after each other; nothing on any rank but the first. Collective.
+/// Concatenates the lists of all ranks on the master; empty on the other ranks. Collective.
 template<class Type>
 Foam::List<Type> onMaster(const Foam::UList<Type>& own)
 {
@@ -69,7 +69,8 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     if (now_ != expected)
     {
         FatalErrorInFunction << "The DEM engine has " << now_ << " particles after " << removed << " of "
-                             << expected + removed << " have left and were taken out" << exit(FatalError);
+                             << expected + removed << " have left and were removed; allowed: " << expected
+                             << exit(FatalError);
     }
 }
 
@@ -90,7 +91,8 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
 {
     using namespace Foam;
 
-    // What a rank no longer has is new on another, or nowhere: only these are reported, not all particles.
+    // A particle that a rank no longer has is either new on another rank or lost. Only such particles are communicated,
+    // not all of them.
     labelHashSet before;
     for (const LastPosition& seen : last_)
     {
@@ -129,13 +131,13 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
                      + Foam::name(at.y()) + ' ' + Foam::name(at.z()) + ") m";
         }
     }
-    // Nobody ends the run before all know why.
+    // No rank may end the run before all ranks have the message.
     Pstream::scatter(names);
     FatalErrorInFunction
-        << missing << " of " << now_ << " particles were lost in the last interval:" << names.c_str()
-        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Particles may leave "
-        << "through particleOutlets; the DEM box must go on behind these for a particle's diameter and its "
-        << "travel of one interval." << exit(FatalError);
+        << missing << " of " << now_ << " particles were lost in the last coupling step:" << names.c_str()
+        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Particles may only leave "
+        << "through particleOutlets; the DEM box must extend beyond these by a particle's diameter and its "
+        << "travel in one coupling step" << exit(FatalError);
     std::abort();
 }
 

@@ -12,11 +12,11 @@ namespace
 
 constexpr int messageTag = 51;
 
-/// On each side, in parts of the box around a rank's particles: what spreads is published ever less often, and no rank hears
-/// of many more particles than touch it.
+/// Margin on each side as a fraction of the box around a rank's particles. With it, a growing region is published ever
+/// less often, and a rank does not receive many more particles than overlap its cells.
 constexpr double roomAroundParticles = 0.25;
 
-/// Collective.
+/// Box of each rank. Collective.
 std::vector<Box> subdomainBounds(MPI_Comm communicator, const Box& own)
 {
     int rankCount = 1;
@@ -28,7 +28,7 @@ std::vector<Box> subdomainBounds(MPI_Comm communicator, const Box& own)
     std::vector<Box> boxes;
     for (const auto& of : all.colwise())
     {
-        // An empty one stays empty.
+        // An empty box remains empty.
         boxes.emplace_back(Vector3d(of.head<3>()), Vector3d(of.tail<3>()));
     }
     return boxes;
@@ -149,7 +149,7 @@ std::vector<std::vector<double>> ParticleExchange::swap(const std::vector<int>& 
     {
         if (fromRanks[i] == rank_)
         {
-            // There is one: both plans compare this rank's own two boxes.
+            // Such a message exists, because both lists of ranks compare the same two boxes of this rank.
             in[i] = toSelf ? *toSelf : std::vector<double>();
             continue;
         }

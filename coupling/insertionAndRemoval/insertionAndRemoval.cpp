@@ -22,7 +22,7 @@ ParticleTransfer& ParticleTransfer::operator+=(const ParticleTransfer& other)
 namespace
 {
 
-/// Coupling steps in which a particle comes in, unless said otherwise.
+/// Default duration of the insertion ramp in coupling steps.
 constexpr double defaultInsertionSteps = 10;
 
 double readInsertionTime(const dictionary& couplingProperties, double couplingTimeStep)
@@ -31,13 +31,14 @@ double readInsertionTime(const dictionary& couplingProperties, double couplingTi
                                                      : defaultInsertionSteps * couplingTimeStep;
 }
 
-/// \param insertionRamp  the part of the insertion's time that is over
+/// Submerged fraction of a particle during insertion. \param insertionRamp  fraction of the insertion time that has
+/// passed
 double shareAfterRamp(double insertionRamp)
 {
     return insertionRamp * insertionRamp * (3 - 2 * insertionRamp);
 }
 
-/// Of all ranks.
+/// Sum over all ranks.
 ParticleTransfer sumOfRanks(const ParticleTransfer& ofRank)
 {
     return {returnReduce(ofRank.particles, sumOp<label>()), returnReduce(ofRank.mass, sumOp<scalar>()),
@@ -100,7 +101,7 @@ void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, d
         const double now = shareAfterRamp(insertionRamp);
 
         const PartWithin part = partOf(particles, particle, couplingTimeStep);
-        // One that has turned back is recorded where it had begun to leave.
+        // A particle that has turned back is recorded at the outlet where it had begun to leave.
         const auto outlet = static_cast<label>(part.outlet < 0 ? state.part.outlet : part.outlet);
         inserted.volume += (now - before) * state.part.share * volume;
         if (outlet >= 0)
@@ -147,7 +148,8 @@ label InsertionAndRemoval::removeDeparted(DemEngine& engine)
     return count;
 }
 
-PartWithin InsertionAndRemoval::partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const
+PartWithin InsertionAndRemoval::partOf(
+    const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const
 {
     return outlets_.partWithin(particles.position.col(particle), particles.radius[particle],
         couplingTimeStep * particles.velocity.col(particle).norm());
