@@ -454,7 +454,7 @@ void FluidCoupling::reportParticleOutsideMesh(const ParticlesView& particles, Ei
     const vector position = toFoam(particles.position.col(particle));
     const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
     FatalErrorInFunction << "Particle " << particles.id[particle] << " at " << position
-                         << " m is in no cell of the mesh; the nearest one, cell " << nearest << " of rank "
+                         << " m lies in no cell of the mesh; the nearest one, cell " << nearest << " of rank "
                          << Pstream::myProcNo() << ", is at " << (nearest < 0 ? vector::zero : mesh_.C()[nearest])
                          << " m; allowed: particles within the mesh, which on this rank spans " << mesh_.bounds()
                          << exit(FatalError);
