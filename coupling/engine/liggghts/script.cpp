@@ -31,7 +31,7 @@ bool isQuote(char c)
     return c == '"' || c == '\'';
 }
 
-/// What stands in quotes is one word, with its quotes.
+/// Tokens of a command; a text in quotes is one token, with its quotes.
 std::vector<std::string> tokensOf(const std::string& command)
 {
     const auto isSpace = [](unsigned char c) { return std::isspace(c) != 0; };
@@ -50,7 +50,8 @@ std::vector<std::string> tokensOf(const std::string& command)
     return tokens;
 }
 
-/// What `if` makes LIGGGHTS do is not seen line by line: it must be nothing that this program has to know of.
+/// Commands within `if` are executed by LIGGGHTS and not seen line by line here, so commands that this program must
+/// know of are refused.
 void requireHarmless(const std::string& ifCommand, const std::string& where)
 {
     static const std::set<std::string> others = {"run", "rerun", "minimize", "jump", "label", "next", "include"};
@@ -65,13 +66,14 @@ void requireHarmless(const std::string& ifCommand, const std::string& where)
         }
         else if (others.count(name) > 0 || makesParticles(name))
         {
-            throw DemEngineError(where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
-                                 + "', for it would be done unseen, and again in a resumed run");
+            throw DemEngineError(
+                where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
+                + "', because the coupling cannot see when it is executed, and a resumed run would repeat it");
         }
     }
 }
 
-/// A file's name with the values of its variables.
+/// The name of a file with the values of its variables.
 std::string withValues(std::string name, const ScriptVariables& variables, const std::string& where)
 {
     for (const auto& [variable, value] : variables)
@@ -91,7 +93,7 @@ std::string withValues(std::string name, const ScriptVariables& variables, const
     return name;
 }
 
-/// By whatever path.
+/// Whether a file is among others, by whatever path.
 bool isAmong(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files)
 {
     std::error_code notThere;
@@ -99,7 +101,7 @@ bool isAmong(const std::filesystem::path& file, const std::vector<std::filesyste
         [&](const auto& other) { return std::filesystem::equivalent(file, other, notThere); });
 }
 
-/// \param open  the files that are being read, each of which includes the next
+/// \param open  files that are being read, each of which includes the next
 std::vector<ScriptCommand> readFile(
     const std::filesystem::path& script, const ScriptVariables& variables, std::vector<std::filesystem::path> open)
 {
@@ -107,7 +109,7 @@ std::vector<ScriptCommand> readFile(
     std::ifstream lines(script);
     if (!lines)
     {
-        throw DemEngineError("cannot read the DEM script " + script.string());
+        throw DemEngineError("cannot read the DEM script " + script.string() + "; allowed: a file that can be read");
     }
     std::vector<ScriptCommand> commands;
     std::string text;
@@ -124,12 +126,13 @@ std::vector<ScriptCommand> readFile(
         const std::string name = token(text, 0);
         if (name == "jump" || name == "label" || name == "next")
         {
-            throw DemEngineError(where + ": '" + name + "' is not supported, the script is run line by line");
+            throw DemEngineError(
+                where + ": '" + name + "' is not supported; allowed: commands that can be executed line by line");
         }
         if (name == "run" || name == "rerun" || name == "minimize")
         {
             throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
-                                 + "', for the coupling runs LIGGGHTS, from interval to interval");
+                                 + "', because the coupling runs LIGGGHTS in every coupling step");
         }
         if (name == "if")
         {
@@ -141,7 +144,7 @@ std::vector<ScriptCommand> readFile(
             if (isAmong(file, open))
             {
                 throw DemEngineError(where + ": include '" + file + "'; allowed: a file that does not include "
-                                     + script.string() + " itself, for that would never end");
+                                     + script.string() + " itself, because reading would never end");
             }
             const std::vector<ScriptCommand> included = readFile(file, variables, open);
             commands.insert(commands.end(), included.begin(), included.end());
@@ -154,8 +157,8 @@ std::vector<ScriptCommand> readFile(
     }
     if (!text.empty())
     {
-        throw DemEngineError(
-            script.string() + ": the last line, '" + text + "', ends in '&'; allowed: a line after it");
+        throw DemEngineError(script.string() + ": the last line, '" + text
+                             + "', ends in '&'; allowed: '&' only where another line follows");
     }
     return commands;
 }
