@@ -37,12 +37,11 @@ std::string causeOf(const lmp::Atom& atom, int particle)
         if (other != particle && std::equal(atom.x[particle], atom.x[particle] + 3, atom.x[other]))
         {
             return ": particle " + std::to_string(atom.tag[other])
-                   + " is at the same position; allowed: particles at different positions";
+                   + " is at the same place; allowed: particles at different positions";
         }
     }
     return ". This happens where a particle's centre lies exactly on a wall, on an edge or a corner of one, or where "
-           "the "
-           "DEM step is too long; allowed: particles beside walls that at most touch them";
+           "the DEM step is too long; allowed: particles beside walls that at most touch them";
 }
 
 } // namespace
