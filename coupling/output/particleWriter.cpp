@@ -25,7 +25,7 @@ void exitOnProblem(const std::string& problem)
     }
 }
 
-/// Where a part of so many bytes begins in the file of all ranks. Collective.
+/// Position in the common file at which this rank's part of the given size begins. Collective.
 std::uint64_t placeOf(std::uint64_t bytes)
 {
     std::uint64_t end = bytes;

@@ -9,7 +9,7 @@ namespace clepsydra
 namespace
 {
 
-/// Where there are no particles yet, steps take their time all the same.
+/// Without particles, steps still take some time.
 double atLeastOne(double particles)
 {
     return std::max(particles, 1.0);

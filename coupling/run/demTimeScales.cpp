@@ -14,7 +14,7 @@ namespace clepsydra
 namespace
 {
 
-/// The smallest value seen on any rank; empty where none was.
+/// The smallest time on any rank; empty where none was added.
 class Shortest
 {
 public:
@@ -41,8 +41,8 @@ double relaxationTime(const ParticlesView& particles, Eigen::Index particle, con
     return closures::relaxationTime(particles.mass[particle], closures::SchillerNaumannDrag{}(inFluid));
 }
 
-/// Through the faces' projected areas, as OpenFOAM's Courant number has it: right for flat cells and for cells with
-/// divided faces, where the cube root of the volume is not.
+/// Uses the projected areas of the faces, as OpenFOAM's Courant number does. This is correct for flat cells and for
+/// cells with divided faces, where the cube root of the volume is not.
 void addCells(const Foam::fvMesh& mesh, Shortest& courant)
 {
     using namespace Foam;

@@ -25,9 +25,9 @@ namespace
 std::string describe(const closures::Stratification& liquid)
 {
     std::ostringstream line;
-    line << "viscosity      of layers: ln(nu) less by " << liquid.step << " above " << liquid.height << " m, the edge "
-         << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; particles feel what is "
-         << liquid.lag << " d above them";
+    line << "viscosity      stratified: ln(nu) decreases by " << liquid.step << " at " << liquid.height
+         << " m over an edge of standard deviation " << liquid.width << " m, gradient " << liquid.gradient
+         << " 1/m; a particle has the viscosity " << liquid.lag << " d above it";
     return line.str();
 }
 
@@ -40,7 +40,8 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints, bool dryRun)
+    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
+    bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
@@ -109,7 +110,7 @@ double RunOutput::estimate()
     {
         firstStepSeconds_ =
             wallCost_.secondsLeft(timers.wallSeconds(), particles, couplingTimeStep / engine_.timeStep(), 1);
-        // It also fetches all memory.
+        // Its time is not counted from here on, because it also contains that of first access to memory.
         wallCost_ = CostModel(timers.wallSeconds());
         processorCost_ = CostModel(timers.processorSeconds());
         return -1;
@@ -119,8 +120,8 @@ double RunOutput::estimate()
     {
         estimateOfRun_ = EstimatedSeconds{sum(timers.wallSeconds()) + wall, sum(timers.processorSeconds()) + processor};
         progress_.clear();
-        Info << "Estimated wall time: " << round(wall) << " s more to " << time_.endTime().value() << " s, as the last "
-             << wallCost_.couplingSteps() << " intervals" << nl << endl;
+        Info << "Estimated wall time: " << round(wall) << " s until " << time_.endTime().value() << " s, from the last "
+             << wallCost_.couplingSteps() << " coupling steps" << nl << endl;
     }
     return wall;
 }
@@ -133,18 +134,19 @@ void RunOutput::start()
     }
     if (scratch_)
     {
-        // Without a check for letters that no word should have: this one leads out of the case.
+        // Without the check for characters that a word should not have, because this path leads out of the case.
         functionObject::outputPrefix =
             word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
     }
     const PhaseTimers& timers = couplingStep_.timers();
     wallCost_ = CostModel(timers.wallSeconds());
     processorCost_ = CostModel(timers.processorSeconds());
-    // They check their entries now, before anything of an earlier run is replaced.
+    // Function objects check their entries at this point, before any output of an earlier run is replaced.
     if (!time_.functionObjects().start())
     {
-        // OpenFOAM itself would only warn, and the run would end without that table.
-        FatalErrorInFunction << "A function object could not be started: see the warning above" << exit(FatalError);
+        // OpenFOAM itself would only warn, and the run would end without the table.
+        FatalErrorInFunction << "A function object could not be started; the warning above gives the cause"
+                             << exit(FatalError);
     }
     if (scratch_)
     {
@@ -196,7 +198,7 @@ bool RunOutput::afterCouplingStep()
     {
         checkpoints_.begin();
     }
-    // Their state is part of the checkpoint.
+    // The state of function objects is part of the checkpoint.
     time_.functionObjects().execute();
     if (atWriteTime)
     {
@@ -217,8 +219,8 @@ void RunOutput::writeCheckpoint()
     if (!time_.write())
     {
         FatalErrorInFunction << "The fields of time " << time_.timeName() << " could not be written to "
-                             << time_.timePath() << ": is the disk full? The same command goes on from the checkpoint "
-                             << "before" << exit(FatalError);
+                             << time_.timePath() << ": is the disk full? The same command resumes from the previous "
+                             << "checkpoint" << exit(FatalError);
     }
     checkpoints_.complete(engine_);
 }
@@ -252,18 +254,18 @@ void RunOutput::finish()
     Info << endl;
     if (scratch_ && !firstStepSeconds_)
     {
-        Info << "Dry run: the case is at its end, " << time_.value() << " s: there is no interval to try. Nothing was "
-             << "written" << nl << endl;
+        Info << "Case check: the case has reached its end, " << time_.value()
+             << " s, so there is no coupling step to try. Nothing was written" << nl << endl;
         return;
     }
     if (scratch_)
     {
         const memInfo memory;
         const scalar mebibytes = returnReduce(scalar(memory.peak()), sumOp<scalar>()) / 1024;
-        Info << "Dry run: one interval took " << *firstStepSeconds_ << " s, so the " << round(couplingStepCount_) << " to "
-             << "endTime take about " << round(couplingStepCount_ * *firstStepSeconds_)
-             << " s as long as they are like it; memory " << round(mebibytes)
-             << " MiB in all. The case would start; nothing was written" << nl << endl;
+        Info << "Case check: one coupling step took " << *firstStepSeconds_ << " s, so the "
+             << round(couplingStepCount_) << " coupling steps to endTime take about "
+             << round(couplingStepCount_ * *firstStepSeconds_) << " s if each takes as long; all ranks together use "
+             << round(mebibytes) << " MiB of memory. The case would start; nothing was written" << nl << endl;
         return;
     }
     const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().exchange().bytesSent()) : 0;

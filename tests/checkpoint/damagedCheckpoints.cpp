@@ -152,7 +152,7 @@ TEST(DamagedCheckpoint, IsPassedOverByADryRun)
                         "$SOLVER -dryRun && [ \"$before\" = \"$(all)\" ]");
         EXPECT_TRUE(outcome.succeeded()) << damage << '\n' << outcome.output;
         EXPECT_TRUE(outcome.says(start)) << damage << '\n' << outcome.output;
-        EXPECT_TRUE(outcome.says("Dry run: one interval took")) << damage << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says("Case check: one coupling step took")) << damage << '\n' << outcome.output;
     }
 }
 
