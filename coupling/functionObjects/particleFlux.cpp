@@ -17,14 +17,15 @@ namespace clepsydra
 
 defineTypeNameAndDebug(ParticleFlux, 0);
 addToRunTimeSelectionTable(functionObject, ParticleFlux, dictionary);
-static const ModelLines lines(
-    "functions { type }", {{ParticleFlux::typeName_(), "particles that come in and that leave through outlets"}});
+static const ModelLines lines("functions { type }",
+    {{ParticleFlux::typeName_(),
+        "number, mass, momentum and rate of inserted particles and of those that leave through outlets"}});
 
 namespace
 {
 
-/// The outlets' names; one text per transfer; the time of the last row with the masses then, and the row. As text: OpenFOAM
-/// would write numbers with the fields' digits.
+/// The state in checkpoints: names of the outlets; one text per transfer; time of the last row with the masses at that
+/// time, and the row itself. They are text because OpenFOAM would write numbers with the precision of the fields.
 const word outletsEntry = "outlets";
 const word transfersEntry = "transfers";
 const word lastSampleEntry = "lastSample";
@@ -43,7 +44,8 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     : fvMeshFunctionObject(name, time, dict),
       writeFile(mesh_, name, name)
 {
-    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    // The file is created after all checks, because one that is left by a wrong entry would make OpenFOAM write the
+    // next run's file under another name.
     ParticleFlux::read(dict);
     requireSameOutlets();
     const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
@@ -53,7 +55,7 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     columns.append(insertionAndRemoval().outlets());
     Ostream& os = file();
     writeHeader(
-        os, "Particles inserted, and those that left through " + std::to_string(columns.size() - 1) + " outlets");
+        os, "Inserted particles, and particles that left through " + std::to_string(columns.size() - 1) + " outlets");
     writeCommented(os, "time [s]");
     for (const word& column : columns)
     {
@@ -68,7 +70,7 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     transfers_.resize(static_cast<std::size_t>(columns.size()));
     lastMasses_.resize(transfers_.size());
     resume(rowsThatStay);
-    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
     if (lastSample_ < 0)
     {
         sample();
@@ -87,10 +89,10 @@ void ParticleFlux::requireSameOutlets() const
     if (getProperty(outletsEntry, before) && before != insertionAndRemoval().outlets())
     {
         FatalIOError(FUNCTION_NAME, __FILE__, __LINE__, time_.globalPath() / time_.constant() / "couplingProperties")
-            << "Entry 'particleOutlets' is " << flatOutput(insertionAndRemoval().outlets()) << " and was "
+            << "Entry 'particleOutlets' is " << flatOutput(insertionAndRemoval().outlets()) << ", but it was "
             << flatOutput(before) << " when " << name()
-            << " counted what left; allowed: as it was, for its totals are those since the fresh "
-            << "start, or another name for " << name() << " in system/controlDict, by which it begins at 0"
+            << " began to count; allowed: the same as before, because its totals are those since the fresh "
+            << "start, or another name for " << name() << " in system/controlDict, under which it begins at 0"
             << exit(FatalIOError);
     }
 }
@@ -99,7 +101,7 @@ void ParticleFlux::resume(label rowsThatStay)
 {
     stringList transfers;
     string lastSample;
-    // Checkpoints of earlier versions have no outlets' names: their number is all that can be compared.
+    // Checkpoints of earlier versions do not contain the names of the outlets, so only their number can be compared.
     if (!getProperty(transfersEntry, transfers) || !getProperty(lastSampleEntry, lastSample)
         || !getProperty(lastRowEntry, lastRow_) || transfers.size() != static_cast<label>(transfers_.size()))
     {

@@ -10,7 +10,7 @@ namespace clepsydra
 namespace
 {
 
-/// Not OpenFOAM's createPhi.H, which takes a file that cannot be opened for one that is not there.
+/// Not OpenFOAM's createPhi.H, which treats a file that cannot be opened as missing.
 surfaceScalarField readFlux(const volVectorField& U)
 {
     const fvMesh& mesh = U.mesh();
@@ -28,8 +28,8 @@ IOobject readAndWritten(const word& name, const fvMesh& mesh)
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
 }
 
-/// Of fluid through the boundary of this rank [m3/s], where p has its gradient given everywhere. A patch that extrapolates
-/// p has a flux without pressure, too, which its gradient takes back.
+/// Outflow of fluid through the boundary of this rank [m3/s], where p has a prescribed gradient everywhere. A patch
+/// that extrapolates p contributes a flux without pressure, from which that of its gradient is subtracted.
 scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField& phiHbyA,
     const surfaceScalarField& rAUf, const volScalarField& p)
 {
@@ -82,7 +82,7 @@ SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
     return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
 }
 
-// The layout shows the equations.
+// The layout shows the terms of the equations.
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
@@ -96,7 +96,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
     (
         fvm::ddt(voidFraction, U_)
       + fvm::div(alphaPhi, U_, "div(phi,U)")
-      // alphaPhi is the last interval's: what it lacks in continuity must not act as a source of momentum.
+      // alphaPhi is that of the last coupling step. Its continuity error must not act as a source of momentum.
       - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
       - viscousStress_.implicitDivergence(U_)
      ==
@@ -131,7 +131,7 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
         couplingStep.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
-    // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - pressureResponse grad(p))
+    // d(eps)/dt + div(eps U) = 0 with d(eps)/dt = ... + div(velocityResponse U - pressureResponse grad(p))
     const VoidFractionRate& rate = couplingStep.fluid().ddtVoidFraction();
     const surfaceScalarField moving("moving", voidFractionf + rate.velocityResponse());
     const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.pressureResponse());
