@@ -1,5 +1,6 @@
 // Prints values of the formulas of this folder, one number per line, so that scripts need no second implementation of a
-// formula. Options have the names of the entries of a case's `parameters`, in SI units. See `closures <formula> --help`.
+// formula. Options have the names of the entries of a case's `parameters` and SI units. `closures <formula> --help`
+// lists them.
 
 #include "closures/beverloo.h"
 #include "closures/dragLaws.h"
