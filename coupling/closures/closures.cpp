@@ -33,7 +33,7 @@ struct Input
     double particleDensity = 0;
     double fluidDensity = 0;
     double fluidViscosity = 0; // kinematic, as in `parameters`
-    double gravity = usualGravity;
+    double gravity = defaultGravity;
     std::vector<double> voidFraction;
     std::string dragLaw;
     std::vector<double> speed;

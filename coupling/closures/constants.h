@@ -9,6 +9,6 @@ inline constexpr double pi = 3.14159265358979323846;
 
 /// Default of the formulas that start-up messages and tests use; a case sets its own value. Standard gravity is
 /// 9.80665.
-inline constexpr double usualGravity = 9.81; // m/s2
+inline constexpr double defaultGravity = 9.81; // m/s2
 
 } // namespace clepsydra::closures

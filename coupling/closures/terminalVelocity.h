@@ -24,7 +24,7 @@ struct SettlingParticle
     double particleDensity;        // kg/m3
     double fluidDensity;           // kg/m3
     double dynamicViscosity;       // Pa s
-    double gravity = usualGravity; // m/s2
+    double gravity = defaultGravity; // m/s2
     double voidFraction = 1.0;     // 1: an isolated particle
 };
 

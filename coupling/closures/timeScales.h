@@ -34,7 +34,7 @@ inline double hertzCollisionTime(
 }
 
 /// The same for two equal particles of one material: m* = m/2, R* = R/2, E* = E/(2 (1 - nu^2)).
-inline double hertzCollisionTimeOfTwins(
+inline double hertzCollisionTimeOfEqualParticles(
     double radius, double density, double youngsModulus, double poissonRatio, double approachSpeed) noexcept
 {
     const double mass = 4.0 / 3.0 * pi * radius * radius * radius * density;

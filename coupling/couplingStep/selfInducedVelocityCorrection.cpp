@@ -1,6 +1,6 @@
 #include "couplingStep/selfInducedVelocityCorrection.h"
 
-#include "closures/gaussianDisturbance.h"
+#include "closures/selfInducedVelocity.h"
 
 #include "mathematicalConstants.H"
 

@@ -81,7 +81,8 @@ DemTimeScales demTimeScales(
         for (const auto& [young, poisson] : materials)
         {
             rayleigh.add(closures::rayleighTime(radius, density, closures::shearModulus(young, poisson), poisson));
-            collision.add(closures::hertzCollisionTimeOfTwins(radius, density, young, poisson, DemTimeScales::speed));
+            collision.add(
+                closures::hertzCollisionTimeOfEqualParticles(radius, density, young, poisson, DemTimeScales::speed));
         }
         if (fluid != nullptr)
         {

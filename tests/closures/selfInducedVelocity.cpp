@@ -1,7 +1,7 @@
 /// \file
 /// The velocity at a smeared force in its closed-form limits.
 
-#include "closures/gaussianDisturbance.h"
+#include "closures/selfInducedVelocity.h"
 
 #include <gtest/gtest.h>
 
