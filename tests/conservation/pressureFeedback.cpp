@@ -33,10 +33,10 @@ struct Column
 AnticipatedMotion anticipated(const Column& column, bool seenAsHeld)
 {
     ReceivedImpulse received;
-    given.implicitCoefficientTime = column.relaxationTimes;
-    given.impulse = Vector3d(0, 0, 1);
+    received.implicitCoefficientTime = column.relaxationTimes;
+    received.impulse = Vector3d(0, 0, 1);
     // A change of velocity across the impulse: the particle is not held fast, and all of the drag was.
-    return anticipatedMotion(given, seenAsHeld ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
+    return anticipatedMotion(received, seenAsHeld ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
 }
 
 /// What an interval makes of particles' velocity, fluid's velocity, -grad p over the fluid's density, impulse given in

@@ -99,7 +99,8 @@ public:
         const FluidProperties fluid{density, setup.viscosity, Vector3d::Zero()};
         settings_ = std::make_unique<CouplingSettings>(case_.time());
         models_ = std::make_unique<FluidModels>(*mesh_, *settings_, fluid, timers_);
-        couplingStep_ = std::make_unique<CouplingStep>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
+        couplingStep_ =
+            std::make_unique<CouplingStep>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
         U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedVector("U", dimVelocity, vector(0, 0, 0.1)), "zeroGradient");
         if (setup.wave)

@@ -559,7 +559,8 @@ TEST(BadInput, UnconvergedPressure)
     const Outcome few = test.run();
     EXPECT_TRUE(few.succeeded()) << few.output;
     EXPECT_TRUE(few.says("DICPCG stopped after 1 iterations")) << few.output;
-    EXPECT_TRUE(few.says("WARNING: the pressure was not solved to its tolerance in 4 of 4 coupling steps")) << few.output;
+    EXPECT_TRUE(few.says("WARNING: the pressure was not solved to its tolerance in 4 of 4 coupling steps"))
+        << few.output;
 
     test.control().set("endTime", "0.2").set("startFrom", "latestTime");
     test.write();
