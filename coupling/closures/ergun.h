@@ -48,8 +48,8 @@ inline double buoyantWeightGradient(const PackedBed& bed, double particleDensity
     return (1.0 - bed.voidFraction) * (particleDensity - bed.density) * gravity;
 }
 
-/// Superficial velocity at which Ergun's pressure drop balances the bed's buoyant weight [m/s]. \pre particleDensity >=
-/// density. This form of the root avoids cancellation for fine particles.
+/// Superficial velocity at which Ergun's pressure drop balances the bed's buoyant weight [m/s]. This form of the
+/// root avoids cancellation for fine particles. \pre particleDensity >= density
 inline double minimumFluidisationVelocity(const PackedBed& bed, double particleDensity, double gravity) noexcept
 {
     const ErgunCoefficients c = ergunCoefficients(bed);

@@ -14,8 +14,8 @@
 namespace clepsydra
 {
 
-/// Limits of an adjustable coupling step: `adjustableCouplingTimeStep yes; maxCo; minCouplingTimeStep;
-/// maxCouplingTimeStep`.
+/// Limits of an adjustable coupling step (`adjustableCouplingTimeStep yes;`), from the entries `maxCo`,
+/// `minCouplingTimeStep` and `maxCouplingTimeStep`.
 struct AdjustableCouplingTimeStep
 {
     double largestCourantNumber;

@@ -8,9 +8,9 @@
 namespace clepsydra
 {
 
-/// Subtracts the particle's self-induced velocity from the sampled fluid velocity: `selfInducedVelocityCorrection
-/// Oseen;`. The self-induced velocity is the one that the particle's own force gives to the fluid in the cells from
-/// which it is sampled; see closures/selfInducedVelocity.h.
+/// Subtracts the particle's self-induced velocity from the sampled fluid velocity, with the entry
+/// `selfInducedVelocityCorrection Oseen;`. The self-induced velocity is the one that the particle's own force gives to
+/// the fluid in the cells from which it is sampled; see closures/selfInducedVelocity.h.
 class SelfInducedVelocityCorrection
 {
 public:

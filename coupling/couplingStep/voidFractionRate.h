@@ -28,8 +28,8 @@ namespace clepsydra
 /// eps is that of the particles' present positions. Collisions change the particles' velocities by jumps, and the
 /// pressure responds to d2(eps)/dt2, so its noise would grow without bound as the step falls; with the filter it
 /// converges. In a dense bed (solid fraction above 0.5) that falls or rises at its terminal velocity, with coupling
-/// steps of three relaxation times or more, a filter over many coupling steps makes errors grow again, by up to 1.15
-/// per coupling step. Do not use the filter with coupling steps of that length.
+/// steps of three relaxation times or more, a filter over many coupling steps makes errors grow again, by a factor of
+/// up to 1.15 per coupling step. Do not use the filter with coupling steps of that length.
 class VoidFractionRate
 {
 public:

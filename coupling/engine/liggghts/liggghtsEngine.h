@@ -31,8 +31,8 @@ struct LiggghtsSetup
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 
-/// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity. It must not define `fix
-/// external`: the coupling adds that as the last fix, so that it has access to all other forces.
+/// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity. It must not define
+/// `fix external`, which the coupling adds as the last fix, so that it has access to all other forces.
 class LiggghtsEngine final : public DemEngine
 {
 public:
