@@ -62,7 +62,7 @@ bool ParticleHeight::resume(label rowsThatStay)
     const bool rewritesRow = isRowOfNow(time_, std::stod(lastRow));
     rows_ -= rewritesRow ? 1 : 0;
     warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
-    return again;
+    return rewritesRow;
 }
 
 bool ParticleHeight::read(const dictionary& dict)
