@@ -8,7 +8,8 @@
 #include <vector>
 
 /// \file
-/// What the coupling keeps of each particle, and what of the particle is in the fluid. SI units throughout.
+/// The state that the coupling stores with each particle, and the part of a particle that is in the fluid. SI units
+/// throughout.
 
 namespace clepsydra
 {
@@ -17,32 +18,34 @@ namespace clepsydra
 struct FluidAtParticle
 {
     double voidFraction = 1;
-    /// Of the particle's volume, what is in the fluid: the rest is beyond an open boundary, or has not come in yet. All forces
-    /// between fluid and particle are in proportion to it.
+    /// Fraction of the particle's volume that is in the fluid; the rest is beyond an outlet or has not been inserted
+    /// yet. All forces between fluid and particle are proportional to it.
     double submergedFraction = 1;
-    /// Natural logarithm of the void fraction, so that a drag law needs exp() instead of pow() at every DEM step.
+    /// Natural logarithm of the void fraction. A drag law then needs exp() instead of pow() at every DEM step.
     double logVoidFraction = 0;
-    /// Interstitial velocity, as the forces see it [m/s].
+    /// Interstitial velocity that the forces use [m/s]; without the particle's self-induced velocity where that is
+    /// removed.
     Vector3d velocity = Vector3d::Zero();
     /// Gradient of the pressure without its hydrostatic part [Pa/m].
     Vector3d pressureGradient = Vector3d::Zero();
-    /// Divergence of the viscous stress [Pa/m]; zero unless a force asks for it.
+    /// Divergence of the viscous stress [Pa/m]; zero unless a force needs it.
     Vector3d viscousStressDivergence = Vector3d::Zero();
-    /// What a force on the fluid at the particle's place adds to velocityInCells there [m/(N s)]; 0: not to be taken away.
+    /// Velocity that a unit force on the fluid at the particle's position adds to velocityInCells there [m/(N s)]; 0
+    /// where the self-induced velocity is not removed.
     double selfMobility = 0;
 
-    /// As `velocity`, but as the cells have it, with what the particle itself stirs up.
+    /// Interstitial velocity as sampled from the cells [m/s], with the particle's self-induced velocity.
     Vector3d velocityInCells = Vector3d::Zero();
-    /// DU/Dt = dU/dt + U.grad U, U interstitial [m/s2]; zero unless a force asks for it.
+    /// DU/Dt = dU/dt + U.grad U with the interstitial velocity U [m/s2]; zero unless a force needs it.
     Vector3d acceleration = Vector3d::Zero();
-    /// curl U [1/s]; zero unless a force asks for it.
+    /// curl U [1/s]; zero unless a force needs it.
     Vector3d vorticity = Vector3d::Zero();
 };
 
-/// What the fluid must receive from one particle, summed over the DEM steps of one interval.
-struct GivenToFluid
+/// What one particle has received from the fluid, summed over the DEM steps of one coupling step.
+struct ReceivedImpulse
 {
-    /// Impulse of the forces whose reaction is a source of the fluid (drag ...), as received by the particle [N s].
+    /// Impulse of the forces whose reaction is a source in the fluid's momentum equation, such as drag [N s].
     Vector3d impulse = Vector3d::Zero();
     /// Time integral of the implicit coefficient Sp of the forces in `impulse` [kg].
     double implicitCoefficientTime = 0;
@@ -50,32 +53,33 @@ struct GivenToFluid
     double addedMassTime = 0;
 };
 
-/// The part of a particle on the fluid's side of the open boundaries.
+/// The part of a particle on the fluid's side of the outlets.
 struct PartWithin
 {
-    /// Of the particle's volume.
+    /// Fraction of the particle's volume [-].
     double share = 1;
-    /// From the particle's centre to that of the part [m].
+    /// Vector from the particle's centre to the centroid of this part [m].
     Vector3d shift = Vector3d::Zero();
-    /// Number of the open boundary that the rest is beyond; -1: none.
+    /// Index of the outlet that the rest of the particle has crossed; -1 where there is none.
     double outlet = -1;
 };
 
-/// The part of a particle's state that belongs to the coupling; see the engine's ParticlesView.
+/// The part of a particle's state that belongs to the coupling; see ParticlesView in engine/particles.h.
 ///
-/// In the order of how often it is used: the states of all particles do not fit into the near caches, and the time of the
-/// forces is that of fetching, at every DEM step, everything down to selfMobility.
+/// Members are ordered by frequency of use. The states of all particles do not fit into the processor's caches, so the
+/// time of the force evaluation is that of fetching everything down to selfMobility at every DEM step.
 struct CouplingState
 {
-    GivenToFluid given;
+    ReceivedImpulse received;
     FluidAtParticle fluid;
-    /// Of the last DEM step [N]. Kept only where selfMobility is not zero, and by FluidCoupling over checkpoints.
+    /// Drag of the last DEM step [N]. Stored only where selfMobility is not zero, and by FluidCoupling in checkpoints.
     Vector3d drag = Vector3d::Zero();
-    /// The particle's own, when the interval began [m/s].
+    /// Velocity of the particle at the start of the coupling step [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
     PartWithin part;
 
-    /// Of a particle that has come in since the particles were put on the mesh: it feels no fluid yet.
+    /// State of a particle that has been inserted since the void fraction was last computed: no fluid force acts on it
+    /// yet.
     static CouplingState ofNewParticle()
     {
         CouplingState state;
@@ -87,21 +91,21 @@ struct CouplingState
 static_assert(std::is_standard_layout_v<CouplingState> && sizeof(CouplingState) % sizeof(double) == 0,
     "an engine stores CouplingState as plain doubles beside the particle");
 
-/// As an engine keeps it: DemEngine::keepState().
+/// The state as plain numbers, for DemEngine::requestState().
 inline std::vector<double> numbersOf(const CouplingState& state)
 {
     const auto* const first = reinterpret_cast<const double*>(&state);
     return {first, first + sizeof(CouplingState) / sizeof(double)};
 }
 
-/// What of a particle's volume is in the fluid [m3].
+/// Volume of the particle that is in the fluid [m3].
 inline double volumeInFluid(const ParticlesView& particles, Eigen::Index particle)
 {
     return particles.state[particle].fluid.submergedFraction * sphereVolume(particles.radius[particle]);
 }
 
-/// The sphere that stands for a particle in the fluid: of the volume and with the centre of the part that is there. Not
-/// smaller than a hundredth of the particle, for a particle that is leaving hands over its last impulse.
+/// Sphere with the volume and the centroid of the part of a particle that is in the fluid. Its volume is at least 1e-6
+/// of the particle's, because a particle that is leaving still transfers its last impulse to the fluid.
 struct SphereInFluid
 {
     Vector3d centre;

@@ -24,7 +24,7 @@ using namespace Foam;
 namespace
 {
 
-/// The file that a dictionary, or the dictionary that it is a part of, was read from; empty where it is none.
+/// File that a dictionary, or the dictionary that contains it, was read from; empty where there is none.
 fileName fileOf(const dictionary& dict)
 {
     std::string name = dict.name();
@@ -42,14 +42,14 @@ std::string textOf(const fileName& file)
     return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// By hand and not by std::regex, which dies of lines of some 100 kB.
+// Written by hand because std::regex overflows the stack on lines of some 100 kB.
 
 bool isOfWord(char c)
 {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-/// All words of a text's `$word`, `${word}`, `$scope.word`.
+/// Names that a text refers to as `$name`, `${name}` or `$scope.name`.
 std::set<std::string> macrosIn(const std::string& text)
 {
     std::set<std::string> words;
@@ -69,7 +69,7 @@ std::set<std::string> macrosIn(const std::string& text)
     return words;
 }
 
-/// Whether a line is an #include, #ifeq and the like, and no entry.
+/// Whether a line is a directive such as #include or #ifeq, and not an entry.
 bool isDirective(const std::string& line)
 {
     const auto at = line.find_first_not_of(" \t");
@@ -80,7 +80,7 @@ bool isDirective(const std::string& line)
                [&](const std::string& directive) { return line.compare(at, directive.size(), directive) == 0; });
 }
 
-/// The keywords that stand in a file itself, not in those that it includes.
+/// Keywords in the file itself, without those of files that it includes.
 wordHashSet keywordsIn(const std::string& text)
 {
     std::istringstream lines(text);
@@ -97,7 +97,8 @@ wordHashSet keywordsIn(const std::string& text)
     return wordHashSet(raw.toc());
 }
 
-/// Also for a pattern such as ".*DragProps".
+/// Whether a name is among the known ones; also true where the name is a pattern, such as ".*DragProps", that matches
+/// one.
 bool isAmong(const keyType& name, const wordList& names)
 {
     return std::any_of(names.begin(), names.end(), [&](const word& known) { return name.match(known); });

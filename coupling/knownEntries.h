@@ -6,23 +6,25 @@
 namespace clepsydra
 {
 
-/// What a reader of a dictionary says first: which entries it reads. An entry that is unknown is a misspelt one, or
-/// one whose effect the user waits for in vain.
+/// Checks that a dictionary has known entries only. An unknown entry is a misspelling, or its effect would be missing
+/// without a message.
 ///
-/// FatalIOError naming file, entry, the nearest known word and what is allowed for every other entry, and for a value
-/// where a dictionary belongs or the reverse. Left alone is what helps to write the file: an entry that the file refers
-/// to as `$name`, and at the top level of a file what stands in a file that it `#include`s.
+/// Any other entry is a FatalIOError that names the file, the entry, the nearest known entry and all that are allowed.
+/// So is a value in place of a dictionary and a dictionary in place of a value. Two kinds of entries are accepted
+/// because they only help to write the file: those that the file refers to as `$name` and, at the top level of a file,
+/// those that come from a file that it `#include`s.
 ///
-/// In a parallel run the master, which has read the file, looks.
+/// In a parallel run the master rank checks, since it has read the file.
 ///
-/// \param values  names of the entries that are no dictionaries
+/// \param values  names of the entries that are values
+/// \param dictionaries  names of the entries that are dictionaries
 void requireKnownEntries(
     const Foam::dictionary& dict, const Foam::wordList& values, const Foam::wordList& dictionaries = {});
 
-/// The names, and those that every function object of OpenFOAM with a mesh and a file reads.
+/// The given entries, and those that every function object of OpenFOAM with a mesh and a file reads.
 Foam::wordList functionObjectEntries(const Foam::wordList& own);
 
-/// " (did you mean 'divided'?)" where a known word is near, else nothing.
+/// " (did you mean 'divided'?)" where a known word is near, otherwise an empty string.
 std::string didYouMean(const std::string& word, const Foam::wordList& known);
 
 } // namespace clepsydra

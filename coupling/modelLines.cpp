@@ -10,7 +10,7 @@ namespace clepsydra
 namespace
 {
 
-/// Filled before main(), so made when it is first wanted.
+/// Created at first use, because it is filled before main() starts.
 std::map<std::string, std::map<std::string, std::string>>& table()
 {
     static std::map<std::string, std::map<std::string, std::string>> lines;

@@ -10,28 +10,28 @@
 namespace clepsydra
 {
 
-/// Names that an entry of a case may have, with a line each on what they mean, for those who ask the program for them
-/// (`pimpleDemFoam -listModels`). Stated where the models are, also by libraries of users.
+/// Names that an entry of a case may have, each with one line on its meaning, as `pimpleDemFoam -listModels` prints
+/// them. They are declared beside the models, also in users' own libraries.
 class ModelLines
 {
 public:
-    /// \param entry  as users write it; several objects may add to one
+    /// \param entry  the entry as users write it; several objects may add names to one entry
     ModelLines(const std::string& entry, std::initializer_list<std::pair<const char*, const char*>> lines);
 
-    /// Of this object's models, in the order given.
+    /// Names of this object's models, in the order given.
     const Foam::wordList& names() const
     {
         return names_;
     }
 
-    /// entry -> name -> line, of all objects there are.
+    /// Entry -> name -> line, of all objects in the program.
     static const std::map<std::string, std::map<std::string, std::string>>& all();
 
 private:
     Foam::wordList names_;
 };
 
-/// Prints all of them to standard output.
+/// Prints the lines of all models to standard output.
 void listModels();
 
 } // namespace clepsydra

@@ -9,9 +9,10 @@
 namespace clepsydra
 {
 
-/// Wall and processor time of the phases of a run by name. A phase inside another (forces inside DEM) is not counted
-/// twice: time goes to the innermost. Where other programs keep the processor busy, only processor time says what a
-/// phase costs; on several ranks it contains the waiting for messages. A library that profiles MPI is reported, too.
+/// Wall time and processor time of a run by named phase. Time of a nested phase (forces inside DEM) is counted for the
+/// innermost phase only. Where other programs share the processor, only processor time measures what a phase costs; on
+/// several ranks it contains the time of waiting for messages. The phase is also passed to MPI_Pcontrol, so that
+/// profilers of MPI can attribute messages to it.
 class PhaseTimers
 {
 public:
@@ -42,13 +43,13 @@ public:
         return Scope(*this, phase);
     }
 
-    /// Seconds of each phase so far; everything outside named phases is "other".
+    /// Wall time of each phase so far [s]; everything outside named phases is "other".
     const std::map<std::string, double>& wallSeconds() const
     {
         return wallSeconds_;
     }
 
-    /// The same in processor time of this thread.
+    /// Processor time of this thread for each phase so far [s].
     const std::map<std::string, double>& processorSeconds() const
     {
         return processorSeconds_;
@@ -62,7 +63,7 @@ private:
         return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
     }
 
-    /// \return the phase that was running.
+    /// \return the phase that was running before
     const char* switchTo(const char* phase)
     {
         const double wall = now(CLOCK_MONOTONIC);
@@ -73,7 +74,7 @@ private:
         sinceProcessor_ = processor;
         const char* before = current_;
         current_ = phase;
-        // MPI itself does nothing with it.
+        // MPI itself ignores this call; a profiler does not.
         constexpr int detailOfPhase = 2;
         MPI_Pcontrol(detailOfPhase, phase);
         return before;

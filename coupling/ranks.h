@@ -7,27 +7,28 @@
 #include <string>
 
 /// \file
-/// What ranks say to each other where one has a problem. All is collective.
+/// How ranks report a problem to each other. All functions are collective.
 
 namespace clepsydra
 {
 
-/// No rank goes on before the others have come here: OpenFOAM has no barrier but a reduction.
+/// Returns when all ranks have called it. OpenFOAM has no barrier, so this is a reduction.
 inline void waitForAllRanks()
 {
     Foam::label nothing = 0;
     Foam::reduce(nothing, Foam::sumOp<Foam::label>());
 }
 
-/// Of what the ranks found, the first that is not empty.
+/// The first non-empty text among those of the ranks; the same on all ranks.
 inline std::string firstOfRanks(const std::string& here)
 {
     return Foam::returnReduce(Foam::string(here),
         [](const Foam::string& own, const Foam::string& others) { return own.empty() ? others : own; });
 }
 
-/// Does something on each rank. \return the message of the std::runtime_error that it ended with on one of them (the
-/// first): the same on all, so that none waits for one that has failed. Empty where all went well.
+/// Runs an action on each rank.
+/// \return the message of the std::runtime_error that the action threw on the first rank where it did, the same on all
+/// ranks, so that no rank waits for one that has failed; empty where the action succeeded everywhere
 template<class Action>
 std::string problemOfRanks(const Action& action)
 {
@@ -36,7 +37,7 @@ std::string problemOfRanks(const Action& action)
     {
         action();
     }
-    catch (const std::runtime_error& error) // FileError, or of std::filesystem
+    catch (const std::runtime_error& error) // FileError or an error of std::filesystem
     {
         problem = error.what();
     }

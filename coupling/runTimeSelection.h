@@ -13,20 +13,21 @@
 namespace clepsydra
 {
 
-// OpenFOAM's macros for run-time selection are written for code inside its namespace.
+// OpenFOAM's macros for run-time selection only work inside its namespace.
 using namespace Foam;
 
-/// FatalIOError with the file, the entry and the known names for the name of a model that is none of them.
+/// FatalIOError that names the file, the entry and the known names where `name` is none of the known names.
 inline void requireKnownName(const dictionary& dict, const word& entry, const word& name, const wordList& known)
 {
     if (!known.found(name))
     {
-        FatalIOErrorInFunction(dict) << "Unknown " << entry << " '" << name << "'" << didYouMean(name, known).c_str()
-                                     << "; allowed: " << flatOutput(known) << exit(FatalIOError);
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' names the unknown model '" << name << "'"
+                                     << didYouMean(name, known).c_str() << "; allowed: " << flatOutput(known)
+                                     << exit(FatalIOError);
     }
 }
 
-/// The model that an entry of a dictionary names, one of those known.
+/// Name of the model that an entry of a dictionary selects. FatalIOError where it is none of the known names.
 inline word selectedModel(const dictionary& dict, const word& entry, const wordList& known)
 {
     word name = dict.get<word>(entry);
@@ -34,16 +35,16 @@ inline word selectedModel(const dictionary& dict, const word& entry, const wordL
     return name;
 }
 
-/// Whether a quantity in SI units may have this size: with one that is larger, or smaller and not zero, products of a
-/// few leave the range of numbers. Not so NaN and infinity.
+/// Whether a quantity in SI units has a magnitude that the program can compute with. Products of a few larger or
+/// smaller values would leave the range of floating-point numbers. False for NaN and infinity.
 inline bool isOfUsableSize(double value)
 {
     constexpr double largest = 1e60;
     return value == 0 || (std::abs(value) <= largest && std::abs(value) >= 1 / largest);
 }
 
-/// FatalIOError with file and entry for a number that is not positive (or negative, with `zeroAllowed`), or of no
-/// usable size.
+/// FatalIOError that names file and entry where a number is not positive (not negative, with `zeroAllowed`) or
+/// isOfUsableSize() is false.
 inline void requirePositive(const dictionary& dict, const word& entry, double value, bool zeroAllowed = false)
 {
     if (!(value > 0 || (zeroAllowed && value == 0)) || !isOfUsableSize(value))
@@ -54,7 +55,7 @@ inline void requirePositive(const dictionary& dict, const word& entry, double va
     }
 }
 
-/// A number that requirePositive() lets pass.
+/// Value of an entry that has passed requirePositive().
 inline double positiveEntry(const dictionary& dict, const word& entry, bool zeroAllowed = false)
 {
     const double value = dict.get<double>(entry);

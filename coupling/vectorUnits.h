@@ -1,6 +1,7 @@
 /// \file
-/// A function so marked is compiled several times, for processors with and without wide vector units; the program takes
-/// the best one that the machine has when it starts. For the few loops over all particles or cells that cost the time.
+/// Functions with this attribute are compiled several times, for processors with and without wide vector units. The
+/// program selects the best version for its machine at start. It is meant for the few loops over all particles or cells
+/// that dominate the run time.
 #pragma once
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__gnu_linux__)

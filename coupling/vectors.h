@@ -7,7 +7,7 @@
 namespace clepsydra
 {
 
-// The one place where a vector changes between the engine's side of the coupling and OpenFOAM's.
+// The only place where vectors are converted between the engine's side of the coupling (Eigen) and OpenFOAM.
 
 inline Vector3d toEigen(const Foam::vector& v)
 {
@@ -19,7 +19,7 @@ inline Foam::vector toFoam(const Vector3d& v)
     return {v.x(), v.y(), v.z()};
 }
 
-/// A field's values as columns, without a copy.
+/// The values of a field as columns, without a copy.
 inline Eigen::Map<const Eigen::Matrix3Xd> columns(const Foam::vectorField& field)
 {
     return {field.empty() ? nullptr : field.cdata()->v_, 3, field.size()};

@@ -31,10 +31,10 @@ std::string contents(int file)
     return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string("unknown process");
 }
 
-/// \return why the lock could not be had, empty where it could. `file` is open in that case only.
+/// \return why the lock could not be taken; empty where it was taken. `file` is open only in that case.
 std::string takeLock(const std::string& path, int& file)
 {
-    // Close on exec: a program started by this one must not hold the lock on.
+    // Close on exec, because a program that is started by this one must not keep the lock.
     file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
     if (file < 0)
     {
@@ -51,7 +51,7 @@ std::string takeLock(const std::string& path, int& file)
         return cause;
     }
 
-    // Only a message for others, so a full disk here is no reason not to run.
+    // The text is only information for others, so a full disk is no reason to stop here.
     const std::string holder = thisProcess();
     if (ftruncate(file, 0) == 0)
     {
@@ -80,7 +80,7 @@ CaseLock::CaseLock(const Foam::fileName& caseDirectory)
 
 CaseLock::~CaseLock()
 {
-    // The file stays: removing it would let two others lock two files of one name.
+    // The file remains, because removing it would allow two other processes to lock two files of the same name.
     if (file_ >= 0)
     {
         close(file_);

@@ -5,17 +5,17 @@
 namespace clepsydra
 {
 
-/// Keeps a second program out of a case directory, for as long as this lives.
+/// Keeps a second program out of a case directory while the object exists.
 ///
-/// The lock is flock(2) on <case>/.pimpleDemFoam.lock, which says who holds it. The system drops the lock when the
-/// process ends, however it ends, so a file left behind locks nothing. Take it before anything is written.
+/// The lock is flock(2) on <case>/.pimpleDemFoam.lock, which contains the name of the holder. The system releases the
+/// lock when the process ends in any way, so a remaining file locks nothing. Take the lock before anything is written.
 class CaseLock
 {
 public:
-    /// Collective; the master takes the lock.
-    /// FatalError on all ranks naming the case and the holder's host and process where another program holds it, or
-    /// the cause where the file cannot be opened.
-    /// \param caseDirectory  the case as a whole (Time::globalPath(), argList::globalPath()), not one rank's part.
+    /// Takes the lock on the master rank. Collective. FatalError on all ranks where another program holds it, which
+    /// names the case and the holder's host and process, or where the file cannot be opened.
+    /// \param caseDirectory  directory of the whole case (Time::globalPath(), argList::globalPath()), not that of one
+    /// rank
     explicit CaseLock(const Foam::fileName& caseDirectory);
     ~CaseLock();
 
@@ -23,7 +23,7 @@ public:
     CaseLock& operator=(const CaseLock&) = delete;
 
 private:
-    /// Open file on the master, -1 elsewhere.
+    /// The open file on the master; -1 on other ranks.
     int file_ = -1;
 };
 

@@ -30,11 +30,11 @@ const std::string folderName("checkpoints");
 const std::string completeName("complete");
 /// A file for each rank, see DemEngine::writeCheckpoint().
 const std::string particlesName("particles.%.restart");
-/// What held the particles of all ranks before.
+/// File with the particles of all ranks in checkpoints of earlier versions.
 const std::string oldParticlesName("particles.restart");
 /// Holds the time of the fresh start, whose fields are the user's own.
 const std::string beginningName("beginning");
-/// In each time folder that this program has written: it is half of a checkpoint.
+/// Marks each time folder that this program has written as half of a checkpoint.
 const std::string halfName("uniform/checkpoint");
 
 /// The case's own folder and those of the ranks.
@@ -51,7 +51,7 @@ fileNameList partsOf(const fileName& caseDirectory)
     return parts;
 }
 
-/// The time of the fresh start; without a name before there was one. Collective.
+/// Time of the fresh start; its name is empty where there was none. Collective.
 instant beginningOf(const fileName& folder)
 {
     const fileName file = folder / beginningName;
@@ -70,7 +70,7 @@ instant beginningOf(const fileName& folder)
     return {value, line};
 }
 
-/// This rank's part of the case, as names in a manifest begin: "" or "processor1/".
+/// This rank's part of the case, which begins the names in a manifest: "" or "processor1/".
 std::string partPrefix()
 {
     return Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
@@ -86,14 +86,15 @@ bool isParticlesFile(const Manifest::File& file)
     return startsWith(file.name, folderName + '/');
 }
 
-/// The folder of the particles, relative to the case, in which the program runs: LIGGGHTS would take a `%` of the case's own
-/// path for the rank.
+/// Folder of the particles, relative to the case directory in which the program runs. In an absolute path LIGGGHTS
+/// would replace a `%` by the rank.
 fs::path particlesOf(const std::string& timeName)
 {
     return fs::path(folderName) / timeName;
 }
 
-/// What this rank finds wrong with the particles' files, which are shared out evenly, whichever ranks have written them.
+/// Error that this rank finds in the particles' files. They are divided evenly between the ranks, whichever ranks have
+/// written them.
 std::string mismatchOfParticles(const fs::path& caseDirectory, const Manifest& manifest)
 {
     int turn = 0;
@@ -110,7 +111,7 @@ std::string mismatchOfParticles(const fs::path& caseDirectory, const Manifest& m
     return {};
 }
 
-/// What this rank finds wrong with the fields of a checkpoint that was written on as many ranks as now.
+/// Error that this rank finds in the fields of a checkpoint that was written on the same number of ranks.
 std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest)
 {
     for (const Manifest::File& file : manifest.files)
@@ -126,8 +127,9 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
     return {};
 }
 
-/// On another number of ranks the fields are those that reconstructPar or decomposePar has made: all must be there, and
-/// what is left of those that they were made from must be as it was written.
+/// Error in the fields of a checkpoint that was written on another number of ranks. The fields are those that
+/// reconstructPar or decomposePar has created: all must exist, and those that remain of the original ones must be as
+/// they were written.
 std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Manifest& manifest)
 {
     for (const Manifest::File& file : manifest.files)
@@ -137,7 +139,7 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
             continue;
         }
         const bool ofRank = startsWith(file.name, "processor");
-        // From several ranks to several: decomposePar has put another file in its place.
+        // From several ranks to several others, decomposePar has replaced the file.
         const bool replaced = ofRank && Pstream::parRun();
         if (Pstream::master() && !replaced && fs::exists(caseDirectory / file.name))
         {
@@ -157,7 +159,7 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
 }
 
 /// Why a checkpoint cannot be resumed from; empty where it can. Collective.
-/// \param manifest  takes up the checkpoint's, where that can be read
+/// \param manifest  set to the checkpoint's manifest, where that can be read
 std::string damageOf(const fileName& caseDirectory, const std::string& timeName, Manifest& manifest)
 {
     const fs::path folder(caseDirectory.c_str());
@@ -180,7 +182,7 @@ std::string damageOf(const fileName& caseDirectory, const std::string& timeName,
     return firstOfRanks(found);
 }
 
-/// Times that a run has written, those after its fresh start, the latest first. Collective: the same on all ranks.
+/// Times after the fresh start that a run has written, the latest first. Collective; the same on all ranks.
 wordList writtenTimes(const fileName& caseDirectory, scalar beginning)
 {
     wordList names;
@@ -226,7 +228,7 @@ bool startsFromLatestTime(const fileName& caseDirectory)
     return dictionary(file).getOrDefault<word>("startFrom", "latestTime") == "latestTime";
 }
 
-/// OpenFOAM's purgeWrite has removed the other half of these checkpoints.
+/// Removes the particles of checkpoints whose fields OpenFOAM's purgeWrite has removed.
 void removeParticlesWithoutFields(const fileName& caseDirectory)
 {
     const fileNameList parts = partsOf(caseDirectory);
@@ -239,7 +241,7 @@ void removeParticlesWithoutFields(const fileName& caseDirectory)
     }
 }
 
-/// A FoamFile ends with a line that nothing is written after: where it is missing, the disk was full.
+/// A FoamFile ends with a line after which nothing is written. Where it is missing, the disk was full.
 void requireWholeFoamFile(const fs::path& file)
 {
     constexpr std::streamoff headerSize = 2000;
@@ -259,7 +261,7 @@ void requireWholeFoamFile(const fs::path& file)
     }
 }
 
-/// Time::write does not say whether that file could be made.
+/// Time::write() does not report whether this file could be created.
 void requireFunctionState(const Time& time)
 {
     const fileName file = time.timePath() / "uniform/functionObjects/functionObjectProperties";
@@ -269,7 +271,7 @@ void requireFunctionState(const Time& time)
     }
 }
 
-/// The lines of a manifest for what this rank has written. \throws FileError
+/// Lines of the manifest for the files that this rank has written. \throws FileError
 /// \param particles  files of the particles, relative to the case
 std::string linesOfThisRank(
     const fs::path& caseDirectory, const std::string& timeName, const std::vector<fs::path>& particles)
@@ -279,7 +281,7 @@ std::string linesOfThisRank(
     {
         if (entry.is_regular_file())
         {
-            // Not fs::relative, which would resolve a processor folder that is a link to elsewhere.
+            // Not fs::relative(), which would resolve a processor folder that is a symbolic link.
             names.push_back(entry.path().lexically_relative(caseDirectory));
         }
     }
@@ -295,14 +297,14 @@ std::string linesOfThisRank(
     return lines;
 }
 
-/// Times that a start must not take for the latest, the latest first.
+/// Times that a start must not use as the latest time, the latest first.
 struct UnusableTimes
 {
     wordList unfinished;
-    /// With `startFrom latestTime`, and what is wrong with each.
+    /// Only with `startFrom latestTime`.
     wordList damaged;
     std::string damages;
-    /// The one that is then the latest; empty without `startFrom latestTime`.
+    /// The latest time without these; empty without `startFrom latestTime`.
     word latestUsable;
 
     bool areThere() const
@@ -348,7 +350,7 @@ UnusableTimes unusableTimes(const fileName& caseDirectory)
     if (!finished.empty())
     {
         FatalErrorInFunction << "No checkpoint of this case can be resumed from:" << found.damages.c_str()
-                             << "\nTo start afresh remove the folder " << folder << " and the times "
+                             << "\nTo start afresh, remove the folder " << folder << " and the times "
                              << flatOutput(finished) << exit(FatalError);
     }
     return found;
@@ -362,7 +364,7 @@ void Checkpoints::setAsideUnusable(const argList& args)
     const UnusableTimes found = unusableTimes(caseDirectory);
     for (const word& time : found.unfinished)
     {
-        Info << "Setting aside time " << time << ": the run was ended while it wrote it" << endl;
+        Info << "Setting aside time " << time << ": the run ended while it was being written" << endl;
         setAside(caseDirectory, time, "unfinished.");
     }
     for (const word& time : found.damaged)
@@ -372,7 +374,7 @@ void Checkpoints::setAsideUnusable(const argList& args)
     if (!found.damaged.empty())
     {
         Info << "WARNING: damaged checkpoints, set aside as damaged.<time>:" << found.damages.c_str()
-             << "\n    going on from the last that is whole, time " << found.latestUsable << nl << endl;
+             << "\n    resuming from the last complete one, time " << found.latestUsable << nl << endl;
     }
 }
 
@@ -384,7 +386,7 @@ word Checkpoints::startInPlaceOfUnusable(const argList& args)
         return word();
     }
     Info << "WARNING: a start sets aside unfinished times, " << flatOutput(found.unfinished) << ", and damaged ones, "
-         << flatOutput(found.damaged) << found.damages.c_str() << "\n    and goes on from time " << found.latestUsable
+         << flatOutput(found.damaged) << found.damages.c_str() << "\n    and resumes from time " << found.latestUsable
          << nl << endl;
     return found.latestUsable;
 }
@@ -395,16 +397,16 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
     if (time.controlDict().getOrDefault<label>("purgeWrite", 0) == 1)
     {
         FatalIOErrorInFunction(time.controlDict()) << "Entry 'purgeWrite' is 1; allowed: 0 for all times, or at least "
-                                                      "2, for the last one is removed before the "
-                                                   << "next is whole" << exit(FatalIOError);
+                                                      "2, because the last one is removed before the "
+                                                   << "next is complete" << exit(FatalIOError);
     }
-    // OpenFOAM's stream does not tell that a compressed file had no room, and requireWholeFoamFile() cannot see its end.
-    // With `writeFormat binary` OpenFOAM compresses nothing.
+    // OpenFOAM's stream does not report that the disk was full for a compressed file, and requireWholeFoamFile() cannot
+    // read its end. With `writeFormat binary` OpenFOAM compresses nothing.
     if (time.writeCompression() == IOstream::COMPRESSED)
     {
         FatalIOErrorInFunction(time.controlDict())
             << "Entry 'writeCompression' is " << time.controlDict().get<word>("writeCompression")
-            << "; allowed: off, for a compressed file that a full disk cuts would be taken for a whole checkpoint's"
+            << "; allowed: off, because a compressed file that a full disk has truncated could not be detected"
             << exit(FatalIOError);
     }
 
@@ -421,11 +423,12 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
     const std::string damage = damageOf(time.globalPath(), start, manifest);
     if (!damage.empty())
     {
-        FatalErrorInFunction << "There is no whole checkpoint of time " << start << ": " << damage.c_str()
-                             << "\nThere are those of the times " << flatOutput(readDir(folder, fileName::DIRECTORY))
-                             << ": choose one by startTime in system/controlDict, or startFrom latestTime. To start "
-                             << "afresh remove the folder " << folder << " and all times after " << beginning.name()
-                             << exit(FatalError);
+        FatalErrorInFunction
+            << "There is no complete checkpoint of time " << start << ": " << damage.c_str()
+            << "\nThere are checkpoints of the times " << flatOutput(readDir(folder, fileName::DIRECTORY))
+            << ": choose one by startTime in system/controlDict, or use startFrom latestTime. To start "
+            << "afresh, remove the folder " << folder << " and all times after " << beginning.name()
+            << exit(FatalError);
     }
     const fs::path oldParticles = particlesOf(start) / oldParticlesName;
     const bool old = std::any_of(manifest.files.begin(), manifest.files.end(),
@@ -441,9 +444,9 @@ void Checkpoints::startAfresh(bool writes)
     {
         FatalErrorInFunction
             << "The fields of time " << time_.timeName() << " are half of a checkpoint whose other half, "
-            << "the particles, is gone from " << time_.globalPath() / folderName
-            << ". To start afresh remove that time and all others that were written, or copy what is to "
-            << "be kept of it into a new case" << exit(FatalError);
+            << "the particles, is missing in " << time_.globalPath() / folderName
+            << ". To start afresh, remove that time and all others that were written, or copy the files that "
+            << "you want to keep into a new case" << exit(FatalError);
     }
     beginning_ = time_.value();
     if (writes && Pstream::master())
@@ -465,15 +468,16 @@ void Checkpoints::begin() const
 {
     if (Pstream::master())
     {
-        // OpenFOAM would make the folders again, and the run would end where nobody looks for it.
+        // OpenFOAM would create the folders again, and the run would end in an unexpected place.
         if (!isFile(time_.globalPath() / folderName / beginningName))
         {
             FatalErrorInFunction << "There is no " << time_.globalPath() / folderName / beginningName
-                                 << " any more: was the case moved or removed while it runs?" << exit(FatalError);
+                                 << " any more: was the case moved or removed while the run was in progress?"
+                                 << exit(FatalError);
         }
         const fileName earlier = time_.globalPath() / folderName / time_.timeName();
         rm(earlier / completeName);
-        // It may have been of more ranks.
+        // It may be from a run on more ranks.
         rmDir(earlier, true);
     }
 }
@@ -493,8 +497,8 @@ void Checkpoints::complete(DemEngine& engine) const
         [&] {
             const fileName half = time_.path() / timeName / halfName;
             mkDir(half.path());
-            writeWhole(
-                half.c_str(), "The particles of this time are in " + folderName + '/' + timeName + " of the case.\n");
+            writeWhole(half.c_str(),
+                "The particles of this time are in the case's folder " + folderName + '/' + timeName + ".\n");
         },
         [&] { particles = engine.writeCheckpoint(particlesOf(timeName) / particlesName); },
         [&] {
@@ -511,7 +515,8 @@ void Checkpoints::complete(DemEngine& engine) const
             }
         },
     };
-    // No rank leaves the others alone in a step, nor goes on to the next before all have come to its end.
+    // No rank starts a step before all ranks have completed the previous one, and none continues after an error on
+    // another.
     std::string problem;
     for (const std::function<void()>& step : steps)
     {
@@ -523,7 +528,7 @@ void Checkpoints::complete(DemEngine& engine) const
     if (!problem.empty())
     {
         FatalErrorInFunction << "The checkpoint of time " << timeName << " could not be written: " << problem.c_str()
-                             << "\nThe same command goes on from the checkpoint before" << exit(FatalError);
+                             << "\nThe same command resumes from the previous checkpoint" << exit(FatalError);
     }
     if (Pstream::master() && time_.controlDict().getOrDefault<label>("purgeWrite", 0) > 0)
     {

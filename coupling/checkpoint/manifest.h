@@ -9,10 +9,11 @@
 namespace clepsydra
 {
 
-/// What a checkpoint consists of: every file that a resumed run reads, with its size and SHA-256. Written after all of
-/// them, so a checkpoint with a manifest was whole once; whether it still is, the manifest tells.
+/// The list of a checkpoint's files: every file that a resumed run reads, with its size and SHA-256. It is written
+/// after all of them, so a checkpoint with a manifest was complete once, and its checksums show whether it still is.
 ///
-/// As text, a line each: `time`, `ranks`, `commit`, then `<sha256> <size> <name>`, and last `end <sha256 of all before>`.
+/// The text has one line each for `time`, `ranks` and `commit`, then one line `<sha256> <size> <name>` per file, and
+/// last `end <sha256 of all before>`.
 struct Manifest
 {
     struct File
@@ -26,15 +27,15 @@ struct Manifest
     std::string commit;
     std::vector<File> files;
 
-    /// \param fileLines  those of its files, which the ranks have made
+    /// \param fileLines  the lines of its files, which the ranks have created
     std::string text(const std::string& fileLines) const;
 
     static std::string line(const File& file);
 
-    /// \throws FileError where the file is not there, or is not as text() made it.
+    /// \throws FileError where the file is missing or is not as text() wrote it
     static Manifest read(const std::filesystem::path& file);
 
-    /// What of `file` is not as it was written, as a phrase that names it; empty where all is.
+    /// Difference of `file` from what was written, as a phrase that names the file; empty where there is none.
     static std::string mismatch(const std::filesystem::path& caseDirectory, const File& file);
 };
 

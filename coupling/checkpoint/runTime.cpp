@@ -41,13 +41,14 @@ void RunTime::resume(double beginning)
         IOobject("time", timeName(), "uniform", *this, IOobject::MUST_READ, IOobject::NO_WRITE, false));
     if (timeIndex() != written.get<label>("index"))
     {
-        // Time itself does without, where it could not read the file.
-        FatalIOErrorInFunction(written) << "The number of the time step was not read" << exit(FatalIOError);
+        // Time itself continues without the index where it could not read the file.
+        FatalIOErrorInFunction(written) << "The index of the time step could not be read" << exit(FatalIOError);
     }
     requireWholeState();
     value() = written.get<scalar>("value");
     beginning_ = beginning;
-    // With adjustableCouplingTimeStep that of controlDict is only the first, and may reach beyond the next write time or the end.
+    // With adjustableCouplingTimeStep, the deltaT of controlDict is only that of the first step and may reach beyond
+    // the next write time or the end.
     setDeltaT(written.get<scalar>("deltaT"), false);
     if (writesByTime())
     {
@@ -62,8 +63,9 @@ void RunTime::requireWholeState() const
     state.remove("FoamFile");
     if (state.digest() != functionObjects().stateDict().digest())
     {
-        // OpenFOAM takes a file that it could not read to its end for one that ends there.
-        FatalIOErrorInFunction(file) << "The state of the function objects was not read" << exit(FatalIOError);
+        // OpenFOAM takes a file that it could not read completely for one that ends there.
+        FatalIOErrorInFunction(file) << "The state of the function objects could not be read completely"
+                                     << exit(FatalIOError);
     }
 }
 
@@ -101,7 +103,7 @@ double RunTime::timeLeft() const
 
 Time& RunTime::operator++()
 {
-    // Time counts write times from startTime_, and names folders of observables by it.
+    // Time counts write times from startTime_; elsewhere startTime_ gives the names of the folders of observables.
     const scalar resumedAt = startTime_;
     startTime_ = beginning_;
     Time::operator++();

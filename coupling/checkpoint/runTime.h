@@ -8,40 +8,41 @@ namespace clepsydra
 
 /// OpenFOAM's Time for a run that may be stopped and resumed at any step.
 ///
-/// Write times are counted from the fresh start, wherever the run was resumed: a run that was stopped between two of them
-/// writes the same ones as if it had not been. Function objects are not executed by loop(), which would be after the
-/// checkpoint that holds their state, but where the program calls them.
+/// Write times are counted from the fresh start, also in a resumed run: a run that was stopped between two write times
+/// writes at the same times as an uninterrupted one. loop() does not execute function objects, because that would be
+/// after the checkpoint that holds their state; the program calls them.
 class RunTime : public Foam::Time
 {
 public:
     explicit RunTime(const Foam::argList& args);
 
-    /// From this time, whatever system/controlDict says of the start. Not even the names of others are looked at.
+    /// Starts from the given time, whatever system/controlDict says. The names of other time folders are not examined.
     RunTime(const Foam::argList& args, const Foam::word& start);
 
-    /// Goes on from the time that a run has written, to the last digit: the sum of the steps, not its name.
+    /// Restores the time of a checkpoint to the last digit: the value that the run has written, not the name of the
+    /// folder.
     /// \param beginning  time of the fresh start [s]
     void resume(double beginning);
 
-    /// The next step, until the end time.
+    /// Advances to the next step. \return false at the end time
     bool loop() override;
 
-    /// The same, with a step of this length [s].
+    /// Advances by a step of the given length [s]. \return false at the end time
     bool loop(double step);
 
-    /// To the next write time, where that is not counted in steps or wall time, or to the end [s]: whichever comes first.
-    /// VGREAT where there is neither. At the end the time to the next write time, as if the run went on.
+    /// Time to the next write time, where that is not counted in steps or wall time, or to the end [s], whichever is
+    /// first. VGREAT where there is neither. At the end it is the time to the next write time of a run that continues.
     double timeLeft() const;
 
     Foam::Time& operator++() override;
     using Foam::Time::operator++;
 
-    /// As Time's, which moves the end away and brings it back with the next step; in the last step there is none, so
-    /// that a function object that asks again there is not heard.
+    /// As Time::stopAt(), except in the last step. Time::stopAt() moves the end time and restores it in the next step,
+    /// which the last step does not have, so a second request of a function object there is ignored.
     bool stopAt(const stopAtControls control) const override;
     using Foam::Time::stopAt;
 
-    /// Makes this step a write time and the last.
+    /// Makes this step a write time and the last step.
     void endHere();
 
     /// Makes this step a write time.
@@ -52,7 +53,7 @@ public:
 
 private:
     void requireWholeState() const;
-    /// Not by steps or wall time.
+    /// Whether write times are given as times, and not as steps or wall time.
     bool writesByTime() const;
 
     double beginning_;

@@ -14,14 +14,14 @@ namespace clepsydra
 namespace
 {
 
-// A signal handler can reach nothing else.
+// A signal handler can access nothing but such a variable.
 volatile std::sig_atomic_t signalCame = 0;
 
 void noteSignal(int signal)
 {
     signalCame = 1;
     constexpr std::string_view answer =
-        "\nStopping: a checkpoint is written at the end of this coupling step. Once more ends the run at once.\n";
+        "\nStopping: a checkpoint is written at the end of this coupling step. A second signal ends the run at once.\n";
     static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
     std::signal(signal, SIG_DFL);
 }

@@ -1,14 +1,15 @@
 /// \file
-/// R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53, 489 (2007), eq. 16: lattice-Boltzmann flow past
-/// arrays of equal spheres. With phi = 1 - eps:
+/// R. Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53, 489 (2007), eq. 16: drag in arrays of equal
+/// spheres, from lattice-Boltzmann simulations. With phi = 1 - eps:
 ///
 ///     F = 10 phi/eps^2 + eps^2 (1 + 1.5 sqrt(phi))
 ///         + 0.413 Re/(24 eps^2) [1/eps + 3 phi eps + 8.4 Re^-0.343]/[1 + 10^(3 phi) Re^-(1 + 4 phi)/2]
 ///     drag = 3 pi mu d eps U_r F,     Re = rho eps |U_r| d/mu
 ///
-/// F counts the drag without the pressure gradient's share: model A's (at Re = 0 and large phi it gives Carman's
-/// pressure drop). Range: Re up to 1000, phi 0.1..0.6, from the lattice-Boltzmann runs; at eps = 1 and
-/// Re = 100 it is 16 % above Schiller & Naumann's drag of an isolated particle. Monodisperse form; the paper's polydisperse correction is not here.
+/// F is the drag without the pressure gradient's share, which is the drag of model A: at Re = 0 and large phi it gives
+/// Carman's pressure drop. Range of the simulations: Re up to 1000, phi from 0.1 to 0.6. At eps = 1 and Re = 100 the
+/// drag is 16 % above Schiller & Naumann's drag of an isolated particle. This is the monodisperse form, without the
+/// paper's polydisperse correction.
 #pragma once
 
 #include "closures/particleInFluid.h"

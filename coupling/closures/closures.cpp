@@ -1,5 +1,6 @@
-// Prints values of the formulas of this folder, one number per line, for scripts: a formula has one home, and Python
-// asks it. Options are named as the entries of a case's `parameters`, in SI units. `closures <formula> --help`.
+// Prints values of the formulas of this folder, one number per line, so that scripts need no second implementation of a
+// formula. Options have the names of the entries of a case's `parameters` and SI units. `closures <formula> --help`
+// lists them.
 
 #include "closures/beverloo.h"
 #include "closures/dragLaws.h"
@@ -25,14 +26,14 @@ namespace
 
 using namespace clepsydra::closures;
 
-/// What the formulas ask for; each formula reads its own part of it.
+/// Values of the options; each formula uses its own subset of them.
 struct Input
 {
     double particleDiameter = 0;
     double particleDensity = 0;
     double fluidDensity = 0;
     double fluidViscosity = 0; // kinematic, as in `parameters`
-    double gravity = usualGravity;
+    double gravity = defaultGravity;
     std::vector<double> voidFraction;
     std::string dragLaw;
     std::vector<double> speed;
@@ -101,7 +102,7 @@ public:
 
     Formula& dragLaw()
     {
-        command_->add_option("--dragLaw", input_->dragLaw, "its name, see `closures dragLaws`")
+        command_->add_option("--dragLaw", input_->dragLaw, "its name; `closures dragLaws` lists them")
             ->required()
             ->check(CLI::IsMember(dragLawNames()));
         return *this;
@@ -117,7 +118,7 @@ public:
 
     Formula& oneVoidFraction()
     {
-        command_->add_option("--voidFraction", input_->voidFraction, "[-]; 1 unless given")
+        command_->add_option("--voidFraction", input_->voidFraction, "[-]; default 1")
             ->expected(1)
             ->check(CLI::Range(1e-6, 1.0));
         return *this;
@@ -146,7 +147,7 @@ public:
         return *input_;
     }
 
-    /// Prints what the function makes of the input.
+    /// Prints the values that the function computes from the input.
     void prints(const std::function<std::vector<double>(const Input&)>& values)
     {
         command_->callback([input = input_, values] {
@@ -177,7 +178,7 @@ void addDrag(CLI::App& program)
             std::cout << name << '\n';
         }
     });
-    Formula(program, "drag", "Sp [kg/s] of model A's drag Sp (U_f - u_p), at each interstitial slip speed")
+    Formula(program, "drag", "Sp [kg/s] of model A's drag Sp (U_f - u_p) at each interstitial slip speed")
         .dragLaw()
         .particle()
         .fluid()
@@ -201,13 +202,14 @@ void addDrag(CLI::App& program)
 
 void addSettling(CLI::App& program)
 {
-    Formula(program, "terminalVelocity", "[m/s] of an isolated particle in still fluid")
+    Formula(program, "terminalVelocity", "Terminal velocity [m/s] of an isolated particle in fluid at rest")
         .dragLaw()
         .settlingParticle()
         .prints([](const Input& in) {
             return std::vector<double>{terminalVelocity(dragLaw(in.dragLaw), in.settlingParticle())};
         });
-    Formula(program, "hinderedSettlingVelocity", "[m/s] against the vessel; superficial one that fluidises to it, too")
+    Formula(program, "hinderedSettlingVelocity",
+        "Settling velocity [m/s] relative to the vessel, which is also the superficial velocity that fluidises to it")
         .dragLaw()
         .settlingParticle()
         .voidFractions()
@@ -218,7 +220,7 @@ void addSettling(CLI::App& program)
 
     Formula richardsonZaki(program, "richardsonZakiExponent", "n [-] of v/v_t = eps^n, Richardson & Zaki 1954");
     richardsonZaki.positive("--reynolds", richardsonZaki.input().reynolds, "of the isolated particle at v_t")
-        .fraction("--diameterRatio", "particle over column")
+        .fraction("--diameterRatio", "particle diameter divided by column diameter")
         .prints([](const Input& in) { return std::vector<double>{richardsonZakiExponent(in.reynolds, in.ratio)}; });
     Formula rowe(program, "roweExponent", "n [-], smooth form of Rowe 1987");
     rowe.positive("--reynolds", rowe.input().reynolds, "of the isolated particle at v_t").prints([](const Input& in) {
@@ -229,14 +231,14 @@ void addSettling(CLI::App& program)
 void addWalls(CLI::App& program)
 {
     Formula tube(program, "tubeVelocityRatio", "v/v_t [-] of a particle on the axis of a tube, Di Felice 1996");
-    tube.fraction("--diameterRatio", "particle over tube")
+    tube.fraction("--diameterRatio", "particle diameter divided by tube diameter")
         .positive("--reynolds", tube.input().reynolds, "of the free particle at v_t")
         .prints([](const Input& in) { return std::vector<double>{diFeliceWallVelocityRatio(in.ratio, in.reynolds)}; });
-    Formula(program, "faxenParallelFactor", "drag over free drag [-], creeping motion along a plane wall")
-        .fraction("--lambda", "radius over distance of the centre")
+    Formula(program, "faxenParallelFactor", "drag divided by free drag [-], creeping motion parallel to a plane wall")
+        .fraction("--lambda", "radius divided by the distance of the centre")
         .prints([](const Input& in) { return std::vector<double>{faxenParallelFactor(in.ratio)}; });
     Formula gap(program, "brennerPerpendicularFactor",
-        "drag over free drag [-], creeping motion towards a plane wall, any gap");
+        "drag divided by free drag [-], creeping motion towards a plane wall, any gap");
     gap.positive("--gap", gap.input().gap, "between surface and wall, in radii").prints([](const Input& in) {
         return std::vector<double>{brennerPerpendicularFactor(in.gap)};
     });
@@ -244,7 +246,7 @@ void addWalls(CLI::App& program)
 
 void addBeds(CLI::App& program)
 {
-    Formula(program, "ergunPressureGradient", "[Pa/m] at each void fraction and superficial velocity")
+    Formula(program, "ergunPressureGradient", "Pressure drop [Pa/m] at each void fraction and superficial velocity")
         .particle()
         .fluid()
         .voidFractions()
@@ -260,7 +262,8 @@ void addBeds(CLI::App& program)
             }
             return values;
         });
-    Formula(program, "minimumFluidisationVelocity", "[m/s], superficial, by Ergun, at each void fraction")
+    Formula(
+        program, "minimumFluidisationVelocity", "Superficial velocity [m/s] by Ergun's equation at each void fraction")
         .settlingParticle()
         .voidFractions()
         .prints([](const Input& in) {
@@ -271,7 +274,7 @@ void addBeds(CLI::App& program)
 
 void addHoppers(CLI::App& program)
 {
-    Formula dry(program, "beverlooRate", "[kg/s], dry, C = .58, k = 1.4");
+    Formula dry(program, "beverlooRate", "Mass flow rate [kg/s] of a dry hopper, C = 0.58, k = 1.4");
     dry.particle()
         .positive("--bulkDensity", dry.input().bulkDensity, "of the flowing bed [kg/m3]")
         .positive("--orificeDiameter", dry.input().orificeDiameter, "[m]")
@@ -280,7 +283,8 @@ void addHoppers(CLI::App& program)
             return std::vector<double>{
                 beverlooRate(in.bulkDensity, in.gravity, in.orificeDiameter, in.particleDiameter)};
         });
-    Formula submerged(program, "modifiedBeverlooRate", "[kg/s], submerged, v_t by the drag law, C = .4, k = 2.4");
+    Formula submerged(program, "modifiedBeverlooRate",
+        "Mass flow rate [kg/s] of a submerged hopper, v_t by the drag law, C = 0.4, k = 2.4");
     submerged.dragLaw()
         .settlingParticle()
         .positive("--orificeDiameter", submerged.input().orificeDiameter, "[m]")
@@ -297,7 +301,8 @@ int main(int argc, char* argv[])
 {
     try
     {
-        CLI::App program("Prints values of closed formulas, one number per line. Options in SI units.", "closures");
+        CLI::App program(
+            "Prints values of closure formulas, one number per line. All options have SI units.", "closures");
         program.require_subcommand(1);
         addDrag(program);
         addSettling(program);

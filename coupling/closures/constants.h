@@ -1,5 +1,5 @@
 /// \file
-/// Constants that C++17 does not have yet.
+/// Constants that C++17 does not define.
 #pragma once
 
 namespace clepsydra::closures
@@ -7,7 +7,8 @@ namespace clepsydra::closures
 
 inline constexpr double pi = 3.14159265358979323846;
 
-/// Default of the formulas for start-up messages and tests; a case sets its own (standard gravity is 9.80665).
-inline constexpr double usualGravity = 9.81; // m/s2
+/// Default of the formulas that start-up messages and tests use; a case sets its own value. Standard gravity is
+/// 9.80665.
+inline constexpr double defaultGravity = 9.81; // m/s2
 
 } // namespace clepsydra::closures

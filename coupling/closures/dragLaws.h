@@ -1,5 +1,5 @@
 /// \file
-/// All drag laws, by name. What stands in DragLaws can be chosen in a case's forceModels and by the program `closures`.
+/// All drag laws by name. A case's forceModels and the program `closures` can select every law in DragLaws.
 #pragma once
 
 #include "closures/beetstraDrag.h"
@@ -21,7 +21,7 @@
 namespace clepsydra::closures
 {
 
-// Adding a drag law to the programs is one line here.
+// A drag law is added to the programs by one line here.
 // clang-format off
 using DragLaws = std::tuple<
     BeetstraDrag,
@@ -38,11 +38,11 @@ using DragLaws = std::tuple<
 >;
 // clang-format on
 
-/// Calls visit(law) with each drag law.
-template<class Ghost>
-void forEachDragLaw(Ghost visit)
+/// Calls function(law) for each drag law.
+template<class Function>
+void forEachDragLaw(Function function)
 {
-    std::apply([&](const auto&... law) { (visit(law), ...); }, DragLaws{});
+    std::apply([&](const auto&... law) { (function(law), ...); }, DragLaws{});
 }
 
 inline std::vector<std::string> dragLawNames()
@@ -52,10 +52,10 @@ inline std::vector<std::string> dragLawNames()
     return names;
 }
 
-/// A law whose name is known at run time only: too slow for the time loop.
+/// A law whose name is known only at run time. The indirect call makes it too slow for the time loop.
 using AnyDragLaw = std::function<double(const ParticleInFluid&)>;
 
-/// Throws std::invalid_argument where there is no law of that name.
+/// \throws std::invalid_argument where there is no law of that name
 inline AnyDragLaw dragLaw(const std::string& name)
 {
     AnyDragLaw found;

@@ -1,17 +1,19 @@
 /// \file
 /// D. Gidaspow, Multiphase Flow and Fluidization, Academic Press (1994): S. Ergun, Chem. Eng. Prog. 48, 89 (1952) in
-/// dense regions, C. Y. Wen & Y. H. Yu, Chem. Eng. Prog. Symp. Ser. 62, 100 (1966) in dilute ones.
+/// dense regions and C. Y. Wen & Y. H. Yu, Chem. Eng. Prog. Symp. Ser. 62, 100 (1966) in dilute ones.
 ///
 ///     eps <= 0.8:  beta = 150 (1 - eps)^2 mu/(eps d^2) + 1.75 (1 - eps) rho |U_r|/d
 ///     eps >  0.8:  beta = 3/4 C_d eps (1 - eps) rho |U_r|/d eps^-2.65
 ///                  C_d of Schiller & Naumann (see there for Re > 1000), Re = rho eps |U_r| d/mu
 ///     Sp = beta V_p/(1 - eps)
 ///
-/// beta is model A's: with eps grad p = -beta U_r the first line is Ergun's equation for the pressure drop.
+/// beta is the exchange coefficient of model A: with eps grad p = -beta U_r the first line is Ergun's equation for the
+/// pressure drop.
 ///
-/// THE LAW JUMPS at eps = 0.8, and it is left so (the tests hold the size): seen from Ergun's side the drag drops to
-/// 0.87 at rest, 0.95 at Re = 10, 0.58 at Re = 100, 0.35 at Re = 465, 0.27 at Re = 1000. For 2 mm particles in water that
-/// is a factor of three. ErgunDrag and WenYuDrag are here by themselves too.
+/// THE LAW IS DISCONTINUOUS at eps = 0.8, and it is implemented as published; the tests check the size of the jump.
+/// From Ergun's branch to Wen & Yu's the drag drops to 0.87 at zero slip, 0.95 at Re = 10, 0.58 at Re = 100, 0.35 at Re
+/// = 465 and 0.27 at Re = 1000. For 2 mm particles in water that is a factor of three. The two branches can also be
+/// selected alone, as ErgunDrag and WenYuDrag.
 #pragma once
 
 #include "closures/schillerNaumannDrag.h"
@@ -19,7 +21,7 @@
 namespace clepsydra::closures
 {
 
-/// The dense half, at any eps. Packed beds, eps < 0.8.
+/// The branch for dense regions, at any eps. Range: packed beds, eps < 0.8.
 struct ErgunDrag
 {
     static constexpr const char* name = "ErgunDrag";
@@ -34,7 +36,7 @@ struct ErgunDrag
     }
 };
 
-/// The dilute half, at any eps; at eps = 1 Schiller & Naumann's law.
+/// The branch for dilute regions, at any eps. At eps = 1 it is Schiller & Naumann's law.
 struct WenYuDrag
 {
     static constexpr const char* name = "WenYuDrag";

@@ -1,22 +1,25 @@
 /// \file
-/// History force: the boundary layer and wake that a particle's earlier accelerations have left in the fluid.
+/// History force: the effect of the boundary layer and wake that earlier accelerations of the particle have left in the
+/// fluid.
 ///
 ///     F = -C int_-inf^t K(t - s) d(v - U)/ds ds,     C = 3/2 d2 sqrt(pi rho mu)
 ///
-/// Basset (1888), creeping flow, and any flow at short lags: K = tau^-1/2. Finite Re, forgets faster: R. Mei & R. J.
-/// Adrian, J. Fluid Mech. 237, 323 (1992), with the speed V of now:
+/// Basset (1888), for creeping flow and for any flow at short times: K = tau^-1/2. R. Mei & R. J. Adrian, J. Fluid
+/// Mech. 237, 323 (1992), for finite Re, where K decays faster, with the present speed V:
 ///
-///     K = tau^-1/2 (1 + (tau/tau_M)^3/4)^-2,     tau_M^3/4 = (pi nu/R2)^1/4/(pi/2 V3/(R nu f3))^1/2,  f = .75 + .105 Re
+///     K = tau^-1/2 (1 + (tau/tau_M)^3/4)^-2
+///     tau_M^3/4 = (pi nu/R2)^1/4/(pi/2 V3/(R nu f3))^1/2,  f = 0.75 + 0.105 Re
 ///
-/// Constant memory per particle, as M. A. T. van Hinsberg, J. H. M. ten Thije Boonkkamp & H. J. H. Clercx, J. Comput. Phys.
-/// 230, 1465 (2011) do it: the kernel is a sum of exponentials, each of which needs its own last value only. Theirs are
-/// fitted; here tau^-1/2 = 1/sqrt(pi) int exp(-tau r) r^1/2 d(ln r) is summed by the trapezoidal rule in ln r at steps of
-/// 1, which is off by 2.8 exp(-pi^2) = 1.5e-4 (G. Beylkin & L. Monzon, Appl. Comput. Harmon. Anal. 28, 131 (2010)). Mei
-/// & Adrian's kernel is the same sum with each weight times a share of its rate and tau_M. The last step's part, where the
-/// kernel is singular, is exact and implicit in the particle's inertia, as an added mass is.
+/// The memory per particle is constant, as in M. A. T. van Hinsberg, J. H. M. ten Thije Boonkkamp & H. J. H. Clercx, J.
+/// Comput. Phys. 230, 1465 (2011): the kernel is a sum of exponentials, each of which needs only its own last value.
+/// Theirs are fitted. Here tau^-1/2 = 1/sqrt(pi) int exp(-tau r) r^1/2 d(ln r) is summed by the trapezoidal rule in
+/// ln r with steps of 1, whose relative error is 2.8 exp(-pi^2) = 1.5e-4 (G. Beylkin & L. Monzon, Appl. Comput. Harmon.
+/// Anal. 28, 131 (2010)). Mei & Adrian's kernel is the same sum, with each weight multiplied by a factor that depends
+/// on its rate times tau_M. The contribution of the last step, where the kernel is singular, is exact and is implicit
+/// in the particle's inertia, like an added mass.
 ///
-/// Range: steps from 1e-7 s, motion of up to 100 s. Mei & Adrian: Re to 100, small changes of speed; after a reversal,
-/// when the particle meets its own wake, neither is known to hold.
+/// Range: time steps from 1e-7 s, motion of up to 100 s. Mei & Adrian: Re up to 100 and small changes of speed. After a
+/// reversal the particle meets its own wake, and neither kernel is known to hold.
 #pragma once
 
 #include "closures/constants.h"
@@ -30,33 +33,34 @@ namespace clepsydra::closures
 inline constexpr int historyModes = 28;
 inline constexpr int slowestLogRate = -7;
 
-/// ln of the rate [1/s] of a mode, from the slowest on.
+/// ln of the rate of a mode [1/s]; mode 0 is the slowest.
 constexpr double historyLogRate(int mode) noexcept
 {
     return slowestLogRate + mode;
 }
 
-/// Of a mode in tau^-1/2 [s^-1/2]. The slowest one has the weights of all that are slower still.
+/// Weight of a mode in tau^-1/2 [s^-1/2]. The weight of the slowest mode includes those of all modes that are slower
+/// still.
 inline double historyWeight(int mode) noexcept
 {
     const double own = std::sqrt(std::exp(historyLogRate(mode)) / pi);
     return mode > 0 ? own : own / (1.0 - std::exp(-0.5));
 }
 
-/// C [kg s^-1/2]
+/// C [kg s^-1/2].
 inline double historyCoefficient(double diameter, double density, double dynamicViscosity) noexcept
 {
     return 1.5 * diameter * diameter * std::sqrt(pi * density * dynamicViscosity);
 }
 
-/// What one step of constant acceleration does to the modes, and they to the force.
+/// Effect of one step of constant acceleration on the modes, and of the modes on the force.
 struct HistoryStep
 {
-    /// Of the step itself, C times this is an added mass: mean over the step of 2 tau^1/2 [s^1/2].
+    /// The step's own contribution, an added mass after multiplication by C: mean over the step of 2 tau^1/2 [s^1/2].
     double ownPart;
-    /// A mode after the step: before times `fades`, plus the change of velocity times `mean`.
+    /// A mode after the step equals the mode before times `fades` plus the change of velocity times `mean`.
     std::array<double, historyModes> fades{};
-    /// Mean over the step of a mode that begins at 1.
+    /// Mean over the step of a mode that is 1 at its start.
     std::array<double, historyModes> mean{};
 
     explicit HistoryStep(double timeStep) noexcept
@@ -72,7 +76,9 @@ struct HistoryStep
     }
 };
 
-/// ln of tau_M [s]; very large at rest. \param speed  of the particle past the fluid \param viscosity  kinematic
+/// ln of tau_M [s]; very large at zero slip.
+/// \param speed  of the particle relative to the fluid [m/s]
+/// \param viscosity  kinematic [m2/s]
 inline double meiAdrianLogTime(double diameter, double speed, double viscosity) noexcept
 {
     const double radius = 0.5 * diameter;
@@ -84,10 +90,10 @@ inline double meiAdrianLogTime(double diameter, double speed, double viscosity) 
                - 0.5 * std::log(0.5 * pi * speedCubed / (radius * viscosity * f * f * f)));
 }
 
-/// What is left of a mode's weight in Mei & Adrian's kernel: 1 for fast modes, 0 for slow ones.
+/// Factor of a mode's weight in Mei & Adrian's kernel: 1 for fast modes, 0 for slow ones.
 ///
-/// With s = tau/tau_M and phi(s) = s^-1/2 (1 + s^3/4)^-2 = int exp(-s x) m(x) dx, m from phi's jump across the negative
-/// axis, q = u^3/4:
+/// With s = tau/tau_M, phi(s) = s^-1/2 (1 + s^3/4)^-2 is written as int exp(-s x) m(x) dx. m follows from phi's jump
+/// across the negative axis; q = u^3/4:
 ///
 ///     share(x) = m(x) sqrt(pi x),   m(x) = 1/pi int_0^inf exp(-x u) u^-1/2 (1 - 2^1/2 q)/(1 - 2^1/2 q + q2)^2 du
 class MeiAdrianShare
@@ -124,7 +130,7 @@ private:
 
     static double computed(double x) noexcept
     {
-        // trapezoidal rule in ln u
+        // Trapezoidal rule in ln u.
         constexpr double step = 0.05;
         double sum = 0.0;
         for (double logU = -40.0; logU < 40.0; logU += step)

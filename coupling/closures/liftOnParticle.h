@@ -1,7 +1,7 @@
 /// \file
-/// What every lift law is given.
+/// What every lift law receives, and the interface of a lift law.
 ///
-/// Contract of a lift law: a stateless functor
+/// A lift law is a stateless functor:
 ///
 ///     struct MyLift
 ///     {
@@ -11,8 +11,8 @@
 ///         double operator()(const ParticleInRotation&) const noexcept;   // C >= 0 [kg]
 ///     };
 ///
-/// with the force F = C (U_f - u_p) x w, w being the rotation that the law speaks of. At rest, or where nothing
-/// rotates, C is finite.
+/// The force is F = C (U_f - u_p) x w, where w is the rotation that the law refers to. C is finite at zero slip and at
+/// zero rotation.
 #pragma once
 
 #include "closures/constants.h"
@@ -29,7 +29,7 @@ enum class Rotation
     ofParticleAgainstFluid // w = omega_p - curl U/2
 };
 
-/// SI units. Expected: all > 0, but slipSpeed and rotation >= 0.
+/// State of a particle and its fluid for a lift law. SI units; all values > 0 except slipSpeed and rotation >= 0.
 struct ParticleInRotation
 {
     double diameter;         // m
@@ -39,13 +39,13 @@ struct ParticleInRotation
     double dynamicViscosity; // Pa s
 };
 
-/// rho |U_r| d/mu
+/// Reynolds number of the slip, rho |U_r| d/mu.
 inline double slipReynolds(const ParticleInRotation& particle) noexcept
 {
     return particle.density * particle.slipSpeed * particle.diameter / particle.dynamicViscosity;
 }
 
-/// rho |w| d^2/mu
+/// Reynolds number of the rotation, rho |w| d^2/mu.
 inline double rotationReynolds(const ParticleInRotation& particle) noexcept
 {
     return particle.density * particle.rotation * particle.diameter * particle.diameter / particle.dynamicViscosity;

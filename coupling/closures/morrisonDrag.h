@@ -1,13 +1,13 @@
 /// \file
-/// F. A. Morrison, "Data correlation for drag coefficient for sphere", Michigan Technological University (2013);
-/// the correlation that the hopper paper cites for its Table I.
+/// F. A. Morrison, "Data correlation for drag coefficient for sphere", Michigan Technological University (2013): the
+/// correlation that the hopper paper cites for its Table I.
 ///
 ///     C_d = 24/Re + 2.6 (Re/5)/(1 + (Re/5)^1.52) + 0.411 x^-7.94/(1 + x^-8) + 0.25 y/(1 + y)
 ///     x = Re/2.63e5, y = Re/1e6, Re = rho |U_r| d/mu < 1e6 (through the drag crisis)
 ///     F = pi/8 C_d rho d^2 |U_r| U_r
 ///
-/// The third term is written x^0.06/(1 + x^8) here: the same, and regular at rest. An isolated particle: the void fraction
-/// plays no part.
+/// The third term is written as x^0.06/(1 + x^8) here, which is the same and regular at zero slip. The law is for an
+/// isolated particle and does not depend on the void fraction.
 #pragma once
 
 #include "closures/particleInFluid.h"

@@ -1,7 +1,8 @@
 /// \file
-/// Hindered settling, v/v_t = eps^n: J. F. Richardson & W. N. Zaki, Trans. Inst. Chem. Eng. 32, 35 (1954), and a
-/// smooth exponent by P. N. Rowe, Chem. Eng. Sci. 42, 2795 (1987). v is against the vessel (closed, no net flux), or
-/// the superficial velocity of a liquid-fluidised bed; v_t and Re = rho v_t d/mu are the isolated particle's.
+/// Hindered settling, v/v_t = eps^n: J. F. Richardson & W. N. Zaki, Trans. Inst. Chem. Eng. 32, 35 (1954), and a smooth
+/// exponent by P. N. Rowe, Chem. Eng. Sci. 42, 2795 (1987). v is the velocity relative to the vessel (closed, without
+/// net flux), or the superficial velocity of a liquid-fluidised bed; v_t and Re = rho v_t d/mu are those of the
+/// isolated particle.
 #pragma once
 
 #include <cmath>
@@ -9,8 +10,8 @@
 namespace clepsydra::closures
 {
 
-/// Richardson & Zaki's exponent, d/D_column correcting for the wall. Their pieces do not meet exactly (for
-/// d/D = 0: n by 1.8 % at Re = 0.2, 2.3 % at 1, 0.02 % at 500).
+/// Richardson & Zaki's exponent; d/D_column corrects for the wall. Its branches do not meet exactly (for d/D = 0, n
+/// jumps by 1.8 % at Re = 0.2, 2.3 % at 1 and 0.02 % at 500).
 inline double richardsonZakiExponent(double terminalReynolds, double diameterRatio = 0.0) noexcept
 {
     if (terminalReynolds < 0.2)
@@ -32,7 +33,7 @@ inline double richardsonZakiExponent(double terminalReynolds, double diameterRat
     return 2.39;
 }
 
-/// Rowe: (4.7 - n)/(n - 2.35) = 0.175 Re^0.75. Smooth, no wall correction.
+/// Rowe's exponent: (4.7 - n)/(n - 2.35) = 0.175 Re^0.75. It is smooth and has no wall correction.
 inline double roweExponent(double terminalReynolds) noexcept
 {
     const double weight = 0.175 * std::pow(terminalReynolds, 0.75);

@@ -1,13 +1,13 @@
 /// \file
-/// Lift by shear: P. G. Saffman, J. Fluid Mech. 22, 385 (1965) and 31, 624 (1968); R. Mei, Int. J. Multiphase Flow 18,
-/// 145 (1992) beyond creeping flow.
+/// Lift by shear: P. G. Saffman, J. Fluid Mech. 22, 385 (1965) and 31, 624 (1968); beyond creeping flow R. Mei, Int. J.
+/// Multiphase Flow 18, 145 (1992).
 ///
 ///     F = 1.615 rho d^3 Re_s^-1/2 f U_r x curl U,     Re_s = rho |curl U| d^2/mu,     Re = rho |U_r| d/mu
-///     f = (1 - a) exp(-Re/10) + a,  a = .3314 sqrt(Re_s/(2 Re))     Re <= 40
-///     f = .0524 sqrt(Re_s/2)                                        Re >  40
+///     f = (1 - a) exp(-Re/10) + a,  a = 0.3314 sqrt(Re_s/(2 Re))    Re <= 40
+///     f = 0.0524 sqrt(Re_s/2)                                       Re >  40
 ///
-/// Range: isolated particle, .005 < Re_s/(2 Re) < .4, Re up to 100, linear shear. As published, f jumps
-/// down by .018 at Re = 40 (17 % of it at Re_s/(2 Re) = .1). Not valid near a wall or in a bed.
+/// Range: isolated particle in linear shear, 0.005 < Re_s/(2 Re) < 0.4, Re up to 100. As published, f drops by 0.018 at
+/// Re = 40 (17 % of it at Re_s/(2 Re) = 0.1). Not valid near a wall or in a bed.
 #pragma once
 
 #include "closures/liftOnParticle.h"
@@ -23,14 +23,14 @@ struct SaffmanMeiLift
 
     double operator()(const ParticleInRotation& particle) const noexcept
     {
-        // So low that the force is below rounding there.
+        // The lower bound is so small that the force is below rounding there.
         constexpr double smallest = 1e-30;
         const double shear = std::max(rotationReynolds(particle), smallest);
         return 1.615 * particle.density * particle.diameter * particle.diameter * particle.diameter / std::sqrt(shear)
                * meiFactor(slipReynolds(particle), shear);
     }
 
-    /// f
+    /// f of the equations above.
     static double meiFactor(double reynolds, double shearReynolds) noexcept
     {
         if (reynolds > 40.0)

@@ -1,6 +1,6 @@
 /// \file
-/// G. G. Stokes, Trans. Camb. Phil. Soc. 9, 8 (1851): F = 3 pi mu d U_r.
-/// An isolated particle in creeping flow, Re << 1. The void fraction plays no part, so models A and B agree only at eps = 1.
+/// G. G. Stokes, Trans. Camb. Phil. Soc. 9, 8 (1851): F = 3 pi mu d U_r, an isolated particle in creeping flow,
+/// Re << 1. The law does not depend on the void fraction, so models A and B agree only at eps = 1.
 #pragma once
 
 #include "closures/particleInFluid.h"

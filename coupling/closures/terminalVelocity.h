@@ -1,13 +1,14 @@
 /// \file
-/// The slip at which drag carries the buoyant weight: terminal velocity of an isolated particle (eps = 1), slip in a settling
-/// or fluidised homogeneous suspension (eps < 1).
+/// The slip velocity at which drag balances the buoyant weight: the terminal velocity of an isolated particle
+/// (eps = 1), and the slip in a settling or fluidised homogeneous suspension (eps < 1).
 ///
-/// Balance of one particle, model A, no acceleration. In a homogeneous suspension grad p carries the weight of the
-/// mixture, -dp/dz = [eps rho_f + (1 - eps) rho_p] g, so what is left for the drag is
+/// Force balance of one particle in model A, without acceleration. In a homogeneous suspension grad p carries the
+/// weight of the mixture, -dp/dz = [eps rho_f + (1 - eps) rho_p] g, so the remaining force on the particle is
 ///
 ///     Sp(u) u = eps V_p |rho_p - rho_f| g
 ///
-/// and at eps = 1 the familiar isolated particle. With ErgunDrag, eps u at the bed's void fraction is exactly Ergun's U_mf.
+/// which at eps = 1 is the balance of an isolated particle. With ErgunDrag, eps u at the bed's void fraction equals
+/// Ergun's U_mf.
 #pragma once
 
 #include "closures/particleInFluid.h"
@@ -23,15 +24,16 @@ struct SettlingParticle
     double particleDensity;        // kg/m3
     double fluidDensity;           // kg/m3
     double dynamicViscosity;       // Pa s
-    double gravity = usualGravity; // m/s2
+    double gravity = defaultGravity; // m/s2
     double voidFraction = 1.0;     // 1: an isolated particle
 };
 
-/// Speed >= 0 of the particle relative to the fluid between the particles (interstitial): it sinks where it is the denser
-/// one, rises where it is the lighter. Bisection, which needs only that the drag force rises with the slip: safe for
-/// every law here. The result is exact to a relative 1e-12 (40-50 evaluations).
-/// Throws std::invalid_argument on a value that is not positive, and std::domain_error if the law's force never
-/// reaches the weight.
+/// Speed of the particle relative to the fluid between the particles (interstitial) [m/s], >= 0. The particle sinks
+/// where it is denser than the fluid and rises where it is lighter. The root is found by bisection, which only needs a
+/// drag force that increases with the slip, as that of every law here does; the relative error is below 1e-12 (40-50
+/// evaluations).
+/// \throws std::invalid_argument for a value that is not positive, std::domain_error where the law's force never
+/// reaches the weight
 template<class DragLaw>
 double terminalSlip(const DragLaw& drag, const SettlingParticle& s)
 {
@@ -55,7 +57,7 @@ double terminalSlip(const DragLaw& drag, const SettlingParticle& s)
         return drag(particle) * slip >= load;
     };
 
-    // Start from Stokes' velocity; inertia and neighbours only lower it, but let the law decide.
+    // The search starts from Stokes' velocity. Inertia and neighbours usually lower the slip, but the law decides.
     double high = load / stokesCoefficient(particle);
     for (int i = 0; !carries(high); ++i)
     {
@@ -74,7 +76,7 @@ double terminalSlip(const DragLaw& drag, const SettlingParticle& s)
     return 0.5 * (low + high);
 }
 
-/// Terminal velocity of an isolated particle in still fluid, whatever the void fraction given.
+/// Terminal velocity of an isolated particle in fluid at rest, whatever void fraction is given [m/s].
 template<class DragLaw>
 double terminalVelocity(const DragLaw& drag, SettlingParticle particle)
 {
@@ -82,8 +84,9 @@ double terminalVelocity(const DragLaw& drag, SettlingParticle particle)
     return terminalSlip(drag, particle);
 }
 
-/// Velocity against the vessel of a suspension that settles in a closed one (no net flux: the fluid displaced flows
-/// back between the particles), which is also the superficial velocity that fluidises it to this void fraction: eps u.
+/// Settling velocity of a suspension relative to a closed vessel, where the displaced fluid flows back between the
+/// particles and the net flux is zero [m/s]. It is also the superficial velocity that fluidises a bed to this void
+/// fraction: eps u.
 template<class DragLaw>
 double hinderedSettlingVelocity(const DragLaw& drag, const SettlingParticle& particle)
 {

@@ -1,28 +1,29 @@
 /// \file
-/// What walls do to the drag of a particle beside them.
+/// Corrections of a particle's drag for walls beside it.
 ///
 /// Tube, any Re: R. Di Felice, Int. J. Multiphase Flow 22, 527 (1996), fitted to measured settling velocities on the
-/// axis of a tube, lambda = d/D, Re_t of the particle in unbounded fluid:
+/// axis of a tube; lambda = d/D, and Re_t is that of the particle in unbounded fluid:
 ///
-///     v/v_t = k = ((1 - lambda)/(1 - .33 lambda))^n,     (3.3 - n)/(n - .85) = .1 Re_t
+///     v/v_t = k = ((1 - lambda)/(1 - 0.33 lambda))^n,     (3.3 - n)/(n - 0.85) = 0.1 Re_t
 ///
-/// The same force moves the particle k times as fast; so at a given speed v the drag is that of a free particle at v/k. Range:
-/// lambda < .9; at Re -> 0 within 1 % of Faxen's series for a tube's axis for lambda <= .2, 3 % faster at .3, 9 % at .5.
+/// The same force moves the particle k times as fast as a free one, so at a given speed v the drag is that of a free
+/// particle at v/k. Range: lambda < 0.9. At Re -> 0 it is within 1 % of Faxen's series for a tube's axis for
+/// lambda <= 0.2, 3 % faster at 0.3 and 9 % faster at 0.5.
 ///
-/// Plane, creeping flow, motion along it: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), series in lambda = R/h, h from
-/// centre to wall; in Happel & Brenner, Low Reynolds Number Hydrodynamics (1965), ch. 7:
+/// Plane, creeping flow, motion parallel to it: H. Faxen, Ark. Mat. Astron. Fys. 17 (1923), a series in lambda = R/h
+/// with the distance h from centre to wall; in Happel & Brenner, Low Reynolds Number Hydrodynamics (1965), ch. 7:
 ///
 ///     1/(1 - 9/16 lambda + 1/8 lambda^3 - 45/256 lambda^4 - 1/16 lambda^5)
 ///
-/// Range: Re h/d << 1. At contact it is finite (3.08), where the true one grows as ln(1/gap).
+/// Range: Re h/d << 1. At contact it is finite (3.08), whereas the exact factor grows as ln(1/gap).
 ///
-/// The same, motion towards it, any gap: H. Brenner, Chem. Eng. Sci. 16, 242 (1961), an exact series in bipolar
-/// coordinates, in the closed form of M. A. Bevan & D. C. Prieve, J. Chem. Phys. 113, 1228 (2000); s = gap/R:
+/// Plane, creeping flow, motion towards it, any gap: H. Brenner, Chem. Eng. Sci. 16, 242 (1961), an exact series in
+/// bipolar coordinates, in the closed form of M. A. Bevan & D. C. Prieve, J. Chem. Phys. 113, 1228 (2000); s = gap/R:
 ///
 ///     (6 s^2 + 9 s + 2)/(6 s^2 + 2 s)
 ///
-/// It is .7 % low at most (s = .05), .3 % high at most (s = 5) against the series, and has the 1/s of lubrication. Range:
-/// Re << 1 for the whole of it; near the wall, for s below some 1/Re, at any Re.
+/// Compared with the series it is at most 0.7 % low (s = 0.05) and at most 0.3 % high (s = 5), and it has the 1/s of
+/// lubrication theory. Range: Re << 1 for any gap; any Re near the wall, for s below about 1/Re.
 #pragma once
 
 #include <cmath>
@@ -30,7 +31,7 @@
 namespace clepsydra::closures
 {
 
-/// n of Di Felice's factor [-]: 3.3 creeping, .85 for large Re.
+/// n of Di Felice's factor [-]: 3.3 in creeping flow, 0.85 for large Re.
 inline double diFeliceWallExponent(double freeReynolds) noexcept
 {
     return (3.3 + 0.085 * freeReynolds) / (1.0 + 0.1 * freeReynolds);
@@ -42,7 +43,7 @@ inline double diFeliceWallVelocityRatio(double lambda, double freeReynolds) noex
     return std::pow((1.0 - lambda) / (1.0 - 0.33 * lambda), diFeliceWallExponent(freeReynolds));
 }
 
-/// k for a particle of a given speed in the tube, Re = rho v d/mu; the free particle's is Re_t = Re/k(Re_t), which is solved by
+/// k for a particle of a given speed v in the tube, Re = rho v d/mu. The free particle's Re_t = Re/k(Re_t) is found by
 /// Newton's iteration for ln k.
 inline double diFeliceWallVelocityRatioAtSpeed(double lambda, double reynolds) noexcept
 {
@@ -58,7 +59,7 @@ inline double diFeliceWallVelocityRatioAtSpeed(double lambda, double reynolds) n
     return std::exp(logRatio);
 }
 
-/// Drag over free drag, motion along the wall [-]. \param lambda  R/h in [0, 1]
+/// Drag divided by the free drag for motion parallel to the wall [-]. \param lambda  R/h in [0, 1]
 inline double faxenParallelFactor(double lambda) noexcept
 {
     const double cubed = lambda * lambda * lambda;
@@ -66,7 +67,8 @@ inline double faxenParallelFactor(double lambda) noexcept
            / (1.0 - 9.0 / 16.0 * lambda + cubed / 8.0 - 45.0 / 256.0 * cubed * lambda - cubed * lambda * lambda / 16.0);
 }
 
-/// Drag over free drag, motion towards or from the wall [-]; unbounded at contact. \param gap  over the radius, > 0
+/// Drag divided by the free drag for motion towards or away from the wall [-]; unbounded at contact.
+/// \param gap  divided by the radius, > 0
 inline double brennerPerpendicularFactor(double gap) noexcept
 {
     return ((6.0 * gap + 9.0) * gap + 2.0) / ((6.0 * gap + 2.0) * gap);

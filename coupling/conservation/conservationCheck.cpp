@@ -56,30 +56,34 @@ void ConservationCheck::recordSolidVolume(double particles, double cells, double
     largestClippedVolume_ = max(largestClippedVolume_, clipped);
     if (solidVolumeError_ > solidVolumeTolerance_)
     {
-        FatalErrorInFunction << "The cells hold " << cells << " m3 of particles, the particles are " << particles
-                             << " m3: relative error " << solidVolumeError_ << ", solidVolumeTolerance is "
-                             << solidVolumeTolerance_ << exit(FatalError);
+        FatalErrorInFunction << "The cells hold " << cells << " m3 of particles, but the particles have a volume of "
+                             << particles << " m3: the relative error is " << solidVolumeError_
+                             << "; allowed: at most solidVolumeTolerance, which is " << solidVolumeTolerance_
+                             << exit(FatalError);
     }
     mostSolidVolume_ = max(mostSolidVolume_, cells);
     insertionError_ = mag(solidVolumeAtStart_ + netInsertedVolume_ - cells) / max(mostSolidVolume_, VSMALL);
     largestInsertionError_ = max(largestInsertionError_, insertionError_);
     if (insertionError_ > solidVolumeTolerance_)
     {
-        FatalErrorInFunction << "The cells hold " << cells << " m3 of particles; at the start these had "
+        FatalErrorInFunction << "The cells hold " << cells << " m3 of particles. At the start they held "
                              << solidVolumeAtStart_ << " m3, and " << netInsertedVolume_
-                             << " m3 more have come in than left: relative error " << insertionError_
-                             << ", solidVolumeTolerance is " << solidVolumeTolerance_ << exit(FatalError);
+                             << " m3 more have been inserted than have left: the relative error is " << insertionError_
+                             << "; allowed: at most solidVolumeTolerance, which is " << solidVolumeTolerance_
+                             << exit(FatalError);
     }
     if (clipped > clippedVolumeTolerance_ * particles)
     {
         FatalErrorInFunction << "The void fraction was clipped at alphaMin: " << clipped << " m3 of " << particles
-                             << " m3 of particles cut off, clippedVolumeTolerance is " << clippedVolumeTolerance_
-                             << " of the particles. Worst: " << worstCell.c_str()
-                             << ". Smooth more (bandwidth of constDiffSmoothingProps) or lower alphaMin." << exit(FatalError);
+                             << " m3 of particles were cut off; allowed: at most clippedVolumeTolerance, which is "
+                             << clippedVolumeTolerance_ << " of the particles' volume. The worst cell is "
+                             << worstCell.c_str()
+                             << ". Increase bandwidth in constDiffSmoothingProps, or lower alphaMin"
+                             << exit(FatalError);
     }
 }
 
-void ConservationCheck::openMomentum(const vector& semiImplicitMomentum)
+void ConservationCheck::setInitialMomentum(const vector& semiImplicitMomentum)
 {
     semiImplicitMomentumAtStart_ = semiImplicitMomentum;
     semiImplicitMomentum_ = semiImplicitMomentum;
@@ -94,10 +98,11 @@ void ConservationCheck::recordMomentum(
     momentumMagnitudes_ += received.sumOfMagnitudes;
     if (momentumError() > momentumTolerance_)
     {
-        FatalErrorInFunction << "Particles received " << particlesReceived_ << " N s from the fluid, which lost "
-                             << fluidLost_ << " N s, " << semiImplicitMomentum_
-                             << " N s of it in advance: relative error " << momentumError() << ", momentumTolerance is "
-                             << momentumTolerance_ << exit(FatalError);
+        FatalErrorInFunction << "The particles received " << particlesReceived_ << " N s from the fluid, and the fluid "
+                             << "lost " << fluidLost_ << " N s, of which " << semiImplicitMomentum_
+                             << " N s have been given semi-implicitly: the relative error is " << momentumError()
+                             << "; allowed: at most momentumTolerance, which is " << momentumTolerance_
+                             << exit(FatalError);
     }
 }
 
@@ -107,10 +112,11 @@ void ConservationCheck::recordPressureForce(const vector& onParticles, const vec
     largestPressureForceError_ = max(largestPressureForceError_, pressureForceError_);
     if (pressureForceError_ > pressureForceTolerance_)
     {
-        FatalErrorInFunction << "The pressure gradient gives the particles " << onParticles
-                             << " N, and the fluid's equation "
-                             << "holds the reaction to " << inFluid << " N: relative error " << pressureForceError_
-                             << ", pressureForceTolerance is " << pressureForceTolerance_ << exit(FatalError);
+        FatalErrorInFunction << "The pressure gradient exerts a force of " << onParticles
+                             << " N on the particles, but the fluid's equation holds the reaction to " << inFluid
+                             << " N: the relative error is " << pressureForceError_
+                             << "; allowed: at most pressureForceTolerance, which is " << pressureForceTolerance_
+                             << exit(FatalError);
     }
 }
 
@@ -122,11 +128,12 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
     largestContinuityError_ = max(largestContinuityError_, localContinuityError_);
     if (localContinuityError_ > continuityTolerance_)
     {
-        FatalErrorInFunction << "Fluid of " << localContinuityError_
-                             << " of the volume was made of nothing or lost in one "
-                             << "interval (mean of |d(eps)/dt + div(eps U)|), continuityTolerance is "
-                             << continuityTolerance_ << ". Solve p to a smaller tolerance (system/fvSolution), or "
-                             << "couple more often." << exit(FatalError);
+        FatalErrorInFunction
+            << "The continuity error of one coupling step is " << localContinuityError_
+            << " of the volume (mean of |d(eps)/dt + div(eps U)| times the coupling step); allowed: at "
+            << "most continuityTolerance, which is " << continuityTolerance_
+            << ". Solve p to a smaller tolerance in system/fvSolution, or use a shorter "
+            << "couplingTimeStep" << exit(FatalError);
     }
 }
 
@@ -135,9 +142,10 @@ void ConservationCheck::recordImbalance(double imbalance)
     imbalance_ += imbalance;
     if (mag(imbalance_) > imbalanceTolerance_)
     {
-        FatalErrorInFunction << "The particles' volume in a tank that no fluid can leave or enter changed by "
-                             << imbalance_ << " of the tank's, imbalanceTolerance is " << imbalanceTolerance_
-                             << ". Give p a fixed value on a patch that fluid can pass." << exit(FatalError);
+        FatalErrorInFunction << "The volume of the particles in a tank that no fluid can leave or enter has changed by "
+                             << imbalance_ << " of the tank's volume; allowed: at most imbalanceTolerance, which is "
+                             << imbalanceTolerance_ << ". Give p a fixed value on a patch that fluid can pass"
+                             << exit(FatalError);
     }
 }
 
@@ -154,10 +162,11 @@ void ConservationCheck::report() const
     Info << "conservation check: time " << time_.timeName() << " s, particles " << census_.now() << " (inserted "
          << census_.inserted() << ", left " << census_.removed() << ", lost " << census_.lost() << "), solid volume "
          << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
-         << " m3, momentum to particles " << particlesReceived_ << " N s, from fluid " << fluidLost_ << ", in advance "
-         << semiImplicitMomentum_ << " (error " << momentumError() << "), pressure force error " << pressureForceError_
-         << ", continuity error local " << localContinuityError_ << ", global " << globalContinuityError_
-         << ", cumulative " << cumulativeContinuityError_ << ", spread over the closed tank " << imbalance_ << endl;
+         << " m3, momentum to particles " << particlesReceived_ << " N s, from fluid " << fluidLost_
+         << " N s, of which semi-implicit " << semiImplicitMomentum_ << " N s (error " << momentumError()
+         << "), pressure force error " << pressureForceError_ << ", continuity error local " << localContinuityError_
+         << ", global " << globalContinuityError_ << ", cumulative " << cumulativeContinuityError_
+         << ", imbalance of a closed tank " << imbalance_ << endl;
 }
 
 void ConservationCheck::writeSummary(

@@ -14,91 +14,104 @@
 namespace clepsydra
 {
 
-/// What the particles received from the fluid in an interval, over all ranks [N s].
+/// Momentum that the particles received from the fluid in one coupling step, over all ranks [N s].
 struct ReceivedMomentum
 {
     Foam::vector sum;
-    /// Of the magnitudes: in a tank at rest the sum may vanish.
+    /// Sum of the magnitudes of the particles' impulses: in a tank at rest their sum may vanish.
     double sumOfMagnitudes;
 };
 
-/// What a whole run was expected to take, once a hundredth of it was done.
+/// Estimated duration of the whole run [s], made after a hundredth of it.
 struct EstimatedSeconds
 {
     double wall;
     double processor;
 };
 
-/// Balances what must balance between particles and fluid: solid volume, momentum, the number of particles; and what was
-/// clipped. Stops the run above the tolerances of the `conservationCheck` sub-dictionary of couplingProperties:
+/// Checks conservation of solid volume and momentum between particles and fluid, the number of particles, the clipped
+/// volume and the continuity error. The run stops with a FatalError where a tolerance of the `conservationCheck`
+/// sub-dictionary of couplingProperties is exceeded:
 ///
-///     solidVolumeTolerance    1e-9;   // |cells - particles| / particles; |start + inserted - left - cells| / most
-///     clippedVolumeTolerance  1e-3;   // solid volume cut off at alphaMin / particles, at any one time
-///     momentumTolerance       1e-9;   // |fluid lost - given semi-implicitly - particles received| / sum of |a particle received|
-///     pressureForceTolerance  1e-9;   // |on particles - in fluid| / sum of |on a particle|
-///     continuityTolerance     1e-4;   // mean |d(eps)/dt + div(eps U)| times the interval
-///     imbalanceTolerance      1e-3;   // fluid that a closed tank had to take up or give away / the tank, all in all
+///     solidVolumeTolerance    1e-9;   // |cells - particles| / particles
+///                                     // and |initial + inserted - left - cells| / largest solid volume so far
+///     clippedVolumeTolerance  1e-3;   // solid volume clipped at alphaMin / solid volume, in any coupling step
+///     momentumTolerance       1e-9;   // |lost by fluid - semi-implicit - received by particles|
+///                                     // / sum over the particles of |impulse received|
+///     pressureForceTolerance  1e-9;   // |force on particles - reaction in fluid| / sum of |force on a particle|
+///     continuityTolerance     1e-4;   // mean of |d(eps)/dt + div(eps U)| times the coupling step
+///     imbalanceTolerance      1e-3;   // net volume of fluid that a closed tank had to take up / volume of the tank
 class ConservationCheck
 {
 public:
     ConservationCheck(const Foam::dictionary& couplingProperties, const Foam::Time& time);
 
-    /// Counts the particles; see ParticleCensus.
-    /// \return the highest number of a particle that has not come in since the last count
+    /// Counts the particles; see ParticleCensus::count(). Collective.
+    /// \return the highest id among the particles that were there at the last count
     int countParticles(const ParticlesView& particles);
 
-    /// The same after particles have been taken out.
+    /// Counts the particles after some have been removed; see ParticleCensus::countAfterRemoval(). Collective.
     void countAfterRemoval(const ParticlesView& particles, Foam::label removed);
 
-    /// Over all ranks, when they were counted last.
+    /// Number of particles at the last count, over all ranks.
     long particles() const
     {
         return census_.now();
     }
 
-    /// The solid volume that is in the fluid at the beginning [m3]; over all ranks.
-    void openSolidVolume(double volume)
+    /// Sets the solid volume in the fluid at the start [m3], over all ranks.
+    void setInitialSolidVolume(double volume)
     {
         solidVolumeAtStart_ = volume;
     }
 
-    /// What of the solid volume has come in since then less what has left [m3]; over all ranks.
+    /// Sets the solid volume that has been inserted less that which has left since then [m3], over all ranks.
     void recordNetInsertion(double netVolume)
     {
         netInsertedVolume_ = netVolume;
     }
 
-    /// The solid volume of all particles, what the cells hold of it before clipping, and what clipping cut off [m3].
-    /// All are sums over the ranks. What the cells hold must be the particles' and follow from what has come and gone.
-    /// \param worstCell  words for the error.
+    /// Records the solid volume of one coupling step [m3], each a sum over all ranks. The volume in the cells must
+    /// equal that of the particles, and the initial volume plus what was inserted less what has left.
+    /// \param particles  volume of the particles that is in the fluid
+    /// \param cells  solid volume in the cells before clipping
+    /// \param clipped  solid volume that clipping has cut off
+    /// \param worstCell  description of the cell with the lowest void fraction, for the error message
     void recordSolidVolume(double particles, double cells, double clipped, const Foam::string& worstCell);
 
-    /// What the fluid has given semi-implicitly when the balances open [N s]; sum over the ranks.
-    void openMomentum(const Foam::vector& semiImplicitMomentum);
+    /// Sets the momentum that the fluid has given semi-implicitly at the start [N s]; sum over all ranks.
+    void setInitialMomentum(const Foam::vector& semiImplicitMomentum);
 
-    /// One interval's momentum [N s], over all ranks: what the particles received from the fluid, as they themselves have
-    /// it; what the particles' source took from the fluid, as it stood in the equation that was solved; and what of that the
-    /// particles will receive in the next interval only. Each from a place of its own, so that what is lost between is found.
+    /// Records the momentum of one coupling step [N s], over all ranks. Each value is computed in a different place, so
+    /// that momentum which is lost between them is detected.
+    /// \param received  what the particles received from the fluid, from the particles' own state
+    /// \param fluidLost  what the particles' source took from the fluid, from the equation that was solved
+    /// \param semiImplicitMomentum  the part of fluidLost, in sum, that the particles will receive in the next coupling
+    /// step only
     void recordMomentum(
         const ReceivedMomentum& received, const Foam::vector& fluidLost, const Foam::vector& semiImplicitMomentum);
 
-    /// The force of the fluid's pressure gradient on all particles, and the reaction that the fluid's equation holds [N].
-    /// \param sumOfMagnitudes  sum of the forces' magnitudes
+    /// Records the pressure force of one coupling step, over all ranks [N].
+    /// \param onParticles  force of the fluid's pressure gradient on all particles
+    /// \param inFluid  force whose reaction is in the fluid's equation
+    /// \param sumOfMagnitudes  sum of the magnitudes of the forces on the particles
     void recordPressureForce(const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes);
 
-    /// One interval's error of the continuity equation times the interval [-], which OpenFOAM's solvers print: fluid made
-    /// of nothing, per volume.
+    /// Records the continuity error of one coupling step, d(eps)/dt + div(eps U) times the coupling step [-]: the
+    /// volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it.
     void recordContinuity(const Foam::volScalarField& error);
 
-    /// Fluid that a closed tank had to take up or give away in one interval since the particles' volume in it changed, over
-    /// the tank's volume: see VoidFractionRate::spreadImbalance().
+    /// Records the volume of fluid that a closed tank had to take up or give away in one coupling step because the
+    /// volume of the particles in it changed, divided by the tank's volume; see VoidFractionRate::spreadImbalance().
     void recordImbalance(double imbalance);
 
-    /// One line to the log.
+    /// Prints one line to the log.
     void report() const;
 
-    /// Writes postProcessing/conservation/<startTime>/summary.json, with it the time of each phase and what the exchange of
-    /// particles has sent between ranks, all of them together. Master rank only.
+    /// Writes postProcessing/conservation/<startTime>/summary.json, with the time of each phase. Only the master rank
+    /// writes.
+    /// \param exchangedBytes  size of all messages in which ParticleExchange has sent particles between ranks
+    /// \param estimate  empty where the run was too short for one
     void writeSummary(
         const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const;
 
@@ -133,7 +146,7 @@ private:
     double momentumMagnitudes_ = 0;
     double pressureForceError_ = 0;
     double largestPressureForceError_ = 0;
-    /// Mean magnitude, mean, and sum of the means over the intervals.
+    /// Mean magnitude and mean of the continuity error, and the sum of the means over the coupling steps [-].
     double localContinuityError_ = 0;
     double globalContinuityError_ = 0;
     double cumulativeContinuityError_ = 0;

@@ -18,7 +18,7 @@ namespace clepsydra
 namespace
 {
 
-/// The lists of all ranks after each other; nothing on any rank but the first. Collective.
+/// Concatenates the lists of all ranks on the master; empty on the other ranks. Collective.
 template<class Type>
 Foam::List<Type> onMaster(const Foam::UList<Type>& own)
 {
@@ -49,7 +49,7 @@ int ParticleCensus::count(const ParticlesView& particles)
 
     const bool first = atStart_ < 0;
     const label highestBefore = highestId_;
-    remember(particles);
+    record(particles);
     if (first)
     {
         atStart_ = now_;
@@ -64,16 +64,17 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     using namespace Foam;
 
     const label expected = now_ - removed;
-    remember(particles);
+    record(particles);
     removed_ += removed;
     if (now_ != expected)
     {
         FatalErrorInFunction << "The DEM engine has " << now_ << " particles after " << removed << " of "
-                             << expected + removed << " have left and were taken out" << exit(FatalError);
+                             << expected + removed << " have left and were removed; allowed: " << expected
+                             << exit(FatalError);
     }
 }
 
-void ParticleCensus::remember(const ParticlesView& particles)
+void ParticleCensus::record(const ParticlesView& particles)
 {
     using namespace Foam;
 
@@ -90,9 +91,10 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
 {
     using namespace Foam;
 
-    // What a rank no longer has is new on another, or nowhere: only these are reported, not all particles.
+    // A particle that a rank no longer has is either new on another rank or lost. Only such particles are communicated,
+    // not all of them.
     labelHashSet before;
-    for (const Sighting& seen : last_)
+    for (const LastPosition& seen : last_)
     {
         before.insert(seen.id);
     }
@@ -106,36 +108,36 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
             arrived.append(id);
         }
     }
-    DynamicList<label> gone;
+    DynamicList<label> departed;
     DynamicList<point> places;
-    for (const Sighting& seen : last_)
+    for (const LastPosition& seen : last_)
     {
         if (!here.found(seen.id))
         {
-            gone.append(seen.id);
+            departed.append(seen.id);
             places.append(toFoam(seen.position));
         }
     }
-    const labelHashSet arrivedAnywhere(onMaster<label>(arrived));
-    const labelList goneAnywhere = onMaster<label>(gone);
-    const pointField placesOfGone(onMaster<point>(places));
+    const labelHashSet arrivedAtAnyRank(onMaster<label>(arrived));
+    const labelList leftAnyRank = onMaster<label>(departed);
+    const pointField lastPositions(onMaster<point>(places));
     string names;
-    forAll (goneAnywhere, i)
+    forAll (leftAnyRank, i)
     {
-        if (!arrivedAnywhere.found(goneAnywhere[i]))
+        if (!arrivedAtAnyRank.found(leftAnyRank[i]))
         {
-            const point& at = placesOfGone[i];
-            names += "\n    particle " + Foam::name(goneAnywhere[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
+            const point& at = lastPositions[i];
+            names += "\n    particle " + Foam::name(leftAnyRank[i]) + ", last seen at (" + Foam::name(at.x()) + ' '
                      + Foam::name(at.y()) + ' ' + Foam::name(at.z()) + ") m";
         }
     }
-    // Nobody ends the run before all know why.
+    // No rank may end the run before all ranks have the message.
     Pstream::scatter(names);
     FatalErrorInFunction
-        << missing << " of " << now_ << " particles were lost in the last interval:" << names.c_str()
-        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Particles may leave "
-        << "through particleOutlets; the DEM box must go on behind these for a particle's diameter and its "
-        << "travel of one interval." << exit(FatalError);
+        << missing << " of " << now_ << " particles were lost in the last coupling step:" << names.c_str()
+        << "\nThe DEM box is too small, a wall has a gap, or the DEM step is too long. Particles may only leave "
+        << "through particleOutlets; the DEM box must extend beyond these by a particle's diameter and its "
+        << "travel in one coupling step" << exit(FatalError);
     std::abort();
 }
 

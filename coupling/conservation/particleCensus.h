@@ -9,19 +9,21 @@
 namespace clepsydra
 {
 
-/// Counts the particles of all ranks by their numbers, so that none is lost without an error.
+/// Counts the particles of all ranks by their ids, so that the loss of a particle is an error.
 class ParticleCensus
 {
 public:
-    /// Compares with the last count. New particles have numbers above all that were there then. Collective.
-    /// FatalError naming the missing particles with their last position otherwise.
-    /// \return the highest number of a particle that is not new
+    /// Counts the particles and compares them with the last count. New particles must have higher ids than all that
+    /// were there at the last count. Collective. FatalError that names the missing particles and their last positions
+    /// where some are missing.
+    /// \return the highest id among the particles that are not new
     int count(const ParticlesView& particles);
 
-    /// Counts again after particles have been taken out. Collective. FatalError where other than `removed` are missing.
+    /// Counts the particles after some have been removed. Collective. FatalError where a number other than `removed` is
+    /// missing.
     void countAfterRemoval(const ParticlesView& particles, Foam::label removed);
 
-    /// Particles at the first count and now, over all ranks.
+    /// Number of particles at the first count and at the last one, over all ranks.
     Foam::label atStart() const
     {
         return atStart_;
@@ -32,7 +34,7 @@ public:
         return now_;
     }
 
-    /// Particles that have come in or were taken out since the first count.
+    /// Numbers of particles that have been inserted and removed since the first count.
     Foam::label inserted() const
     {
         return inserted_;
@@ -43,23 +45,23 @@ public:
         return removed_;
     }
 
-    /// Particles that came in less those that were taken out or are here.
+    /// Number of particles that are missing: those at the start and inserted ones less removed and present ones.
     Foam::label lost() const
     {
         return atStart_ + inserted_ - removed_ - now_;
     }
 
 private:
-    struct Sighting
+    struct LastPosition
     {
         int id;
         Vector3d position;
     };
 
-    void remember(const ParticlesView& particles);
+    void record(const ParticlesView& particles);
     [[noreturn]] void reportMissing(const ParticlesView& particles, Foam::label missing) const;
 
-    std::vector<Sighting> last_;
+    std::vector<LastPosition> last_;
     Foam::label atStart_ = -1;
     Foam::label inserted_ = 0;
     Foam::label removed_ = 0;

@@ -6,8 +6,8 @@
 namespace clepsydra
 {
 
-/// A field of the coupling: read where the run was stopped, otherwise uniform. READ_IF_PRESENT alone takes a file
-/// that cannot be opened for one that is not there.
+/// A field of the coupling. It is read from the time folder where the run was stopped; otherwise it is uniform.
+/// IOobject::READ_IF_PRESENT alone would treat a file that cannot be opened as missing.
 template<class Type>
 Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
     const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions, const Type& value)
@@ -23,9 +23,9 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
     return Field(file, mesh, dimensioned<Type>(name, dimensions, value), zeroGradientFvPatchField<Type>::typeName);
 }
 
-/// A field that is made again in every interval: neither read nor written, uniform at first.
+/// A field that is recomputed in every coupling step. It is neither read nor written, and uniform at first.
 template<class Field>
-Field fieldOfInterval(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
+Field temporaryField(const Foam::word& name, const Foam::fvMesh& mesh, const Foam::dimensionSet& dimensions,
     const typename Field::value_type& value = Foam::pTraits<typename Field::value_type>::zero,
     const Foam::word& patchType = Field::Patch::calculatedType())
 {

@@ -16,15 +16,15 @@ namespace
 {
 
 const ModelLines fluids(
-    "fluid", {{"incompressible", "solved by PIMPLE"}, {"none", "a dry run: the particles move alone"}});
+    "fluid", {{"incompressible", "solved by PIMPLE"}, {"none", "DEM only: the particles move without fluid"}});
 const ModelLines momentumCouplings("momCoupleModels",
-    {{"implicitCouple", "the fluid's equation holds the particles' drag of the next interval"},
-        {"explicitCouple", "the fluid is given the drag afterwards: stable at short intervals only"}});
+    {{"implicitCouple", "the drag of the next coupling step is implicit in the fluid's equation"},
+        {"explicitCouple", "the fluid receives the drag afterwards; stable with short coupling steps only"}});
 
-/// Times that should be equal or whole multiples may differ by rounding of their decimal fractions.
+/// Relative tolerance in comparisons of times, because decimal fractions are rounded.
 constexpr double sameTime = 1e-6;
 
-/// The names, and <model>Props of every model: those of one that is not chosen may stay in the file.
+/// The given names and <model>Props of every model: coefficients of a model that is not selected may stay in the file.
 wordList coefficientsOfModels(wordList names)
 {
     for (const wordList& models : {ForceModel::dictionaryConstructorTablePtr_->sortedToc(),
@@ -39,7 +39,7 @@ wordList coefficientsOfModels(wordList names)
     return names;
 }
 
-/// A file that is not there is refused by the IOdictionary that is made from this.
+/// The IOdictionary that is constructed from this reports a missing file.
 IOobject couplingProperties(const Time& time)
 {
     IOobject object("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
@@ -133,7 +133,8 @@ void CouplingSettings::readAdjustableCouplingTimeStep()
     {
         FatalIOErrorInFunction(dict_) << "Entry 'couplingTimeStep' is " << couplingTimeStep_
                                       << " s; allowed: from minCouplingTimeStep to maxCouplingTimeStep, " << shortest
-                                      << " to " << longest << " s, for it is the first interval" << exit(FatalIOError);
+                                      << " to " << longest << " s, because it is the first coupling step"
+                                      << exit(FatalIOError);
     }
 }
 
@@ -142,7 +143,7 @@ void CouplingSettings::checkTimeStep() const
     if (time_.controlDict().getOrDefault<Switch>("adjustTimeStep", false))
     {
         FatalIOErrorInFunction(time_.controlDict())
-            << "Entry 'adjustTimeStep' is on; allowed: off, for the fluid's time step is the coupling step"
+            << "Entry 'adjustTimeStep' is on; allowed: off, because the fluid's time step is the coupling step"
             << exit(FatalIOError);
     }
     if (std::abs(time_.deltaTValue() / couplingTimeStep_ - 1) > sameTime)
@@ -157,19 +158,20 @@ std::vector<std::string> CouplingSettings::descriptions() const
 {
     if (!hasFluid_)
     {
-        return {"fluid          none: a dry run"};
+        return {"fluid          none: DEM only"};
     }
     return {
         "equations      model " + std::string(dict_.get<word>("modelType")) + ", pressure without its hydrostatic part",
-        adjustableCouplingTimeStep_ ? "interval       adjustable, Courant numbers to "
+        adjustableCouplingTimeStep_ ? "coupling step  adjustable, Courant numbers up to "
                                           + std::to_string(adjustableCouplingTimeStep_->largestCourantNumber)
-                                    : std::string("interval       constant"),
+                                    : std::string("coupling step  constant"),
         "momentum       " + std::string(implicitCoupling_ ? "implicitCouple" : "explicitCouple"),
         "alphaMin       " + std::to_string(minimumVoidFraction_),
-        ddtVoidFraction_ ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
-                         : std::string("d(eps)/dt      OFF: WARNING, this removes what dilation does to the fluid, the "
-                                       "surge of a submerged hopper with it"),
-        "drag in DEM    at every step, from the particle's own velocity and the frozen fluid"};
+        ddtVoidFraction_
+            ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
+            : std::string("d(eps)/dt      OFF: WARNING, dilation of the particles does not move the fluid, so a "
+                          "submerged hopper has no surge"),
+        "drag in DEM    at every DEM step, from the particle's present velocity and the frozen fluid"};
 }
 
 fileName CouplingSettings::finalRestart() const

@@ -14,7 +14,8 @@
 namespace clepsydra
 {
 
-/// What intervals of changing length keep to: `adjustableCouplingTimeStep yes; maxCo; minCouplingTimeStep; maxCouplingTimeStep`.
+/// Limits of an adjustable coupling step (`adjustableCouplingTimeStep yes;`), from the entries `maxCo`,
+/// `minCouplingTimeStep` and `maxCouplingTimeStep`.
 struct AdjustableCouplingTimeStep
 {
     double largestCourantNumber;
@@ -22,10 +23,10 @@ struct AdjustableCouplingTimeStep
     double longest;  ///< [s]
 };
 
-/// What constant/couplingProperties says, checked. What is a member here is read here and nowhere else; models that are
-/// selected by name, outlets, conservation check and engine read what is theirs from dict().
+/// The entries of constant/couplingProperties, checked. Entries that are members here are read only here. Models that
+/// are selected by name, the outlets, the conservation check and the engine read their entries from dict().
 ///
-/// FatalIOError naming file, entry and what is allowed where something is missing or wrong.
+/// FatalIOError that names the file, the entry and what is allowed where an entry is missing or wrong.
 class CouplingSettings
 {
 public:
@@ -36,72 +37,74 @@ public:
         return dict_;
     }
 
-    /// False for DEM only, `fluid none;`.
+    /// False for DEM only (`fluid none;`).
     bool hasFluid() const
     {
         return hasFluid_;
     }
 
-    /// A where there is no fluid.
+    /// Form of the fluid's equations; A where there is no fluid.
     ModelType modelType() const
     {
         return modelType_;
     }
 
-    /// Time between exchanges of particles and fluid [s]; equals the fluid's time step. Of the first interval only, where
-    /// adjustableCouplingTimeStep() is there.
+    /// Time between exchanges of particles and fluid [s], which equals the fluid's time step. Where
+    /// adjustableCouplingTimeStep() has a value, it is the length of the first coupling step only.
     double couplingTimeStep() const
     {
         return couplingTimeStep_;
     }
 
-    /// Empty for intervals that are all alike, and in a dry run.
+    /// Limits of the coupling step; empty where its length is constant, and for DEM only.
     const std::optional<AdjustableCouplingTimeStep>& adjustableCouplingTimeStep() const
     {
         return adjustableCouplingTimeStep_;
     }
 
-    /// d(eps)/dt in the fluid's continuity equation.
+    /// Whether d(eps)/dt is part of the fluid's continuity equation.
     bool ddtVoidFraction() const
     {
         return ddtVoidFraction_;
     }
 
-    /// Time constant of the low-pass through which the void fraction enters d(eps)/dt [s]; 0 for none.
+    /// Time constant of the low-pass filter through which the void fraction enters d(eps)/dt [s]; 0 for none.
     double ddtSmoothingTime() const
     {
         return ddtSmoothingTime_;
     }
 
-    /// Drag implicit in the fluid's momentum equation.
+    /// Whether the drag is implicit in the fluid's momentum equation.
     bool implicitCoupling() const
     {
         return implicitCoupling_;
     }
 
-    /// Below this the void fraction is clipped (and the conservation check reported).
+    /// Void fractions below this value are clipped; the conservation check reports the clipped volume.
     double minimumVoidFraction() const
     {
         return minimumVoidFraction_;
     }
 
-    /// Particles for ParaView at write times: `particleOutput { writeVtk on; }`, off by default.
+    /// Whether the particles are written for ParaView at write times: `particleOutput { writeVtk on; }`, off by
+    /// default.
     bool writeVtk() const
     {
         return dict_.subOrEmptyDict("particleOutput").getOrDefault<Foam::Switch>("writeVtk", false);
     }
 
-    /// The choices of this file for the start of the log, a line each.
+    /// The choices in this file for the report at the start of the log, one line each.
     std::vector<std::string> descriptions() const;
 
-    /// The file that the particles are written to at the end of the run, empty for none.
+    /// File for the particles at the end of the run; empty for none.
     Foam::fileName finalRestart() const;
 
-    /// DEM steps in an interval. FatalIOError where that is no whole number.
+    /// Number of DEM steps in a coupling step. FatalIOError where the coupling step is not a whole multiple of the DEM
+    /// step.
     int demStepsPerCouplingStep(double demTimeStep) const;
 
-    /// FatalIOError where a time [s] that an entry of `dict` states is no whole number of DEM steps.
-    /// \return that number
+    /// Number of DEM steps in a time [s] that an entry of `dict` states. FatalIOError where the time is not a whole
+    /// multiple of the DEM step.
     double wholeSteps(const Foam::dictionary& dict, const Foam::word& entry, double time, double demTimeStep) const;
 
     const Foam::dictionary& demDict() const

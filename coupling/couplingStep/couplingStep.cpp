@@ -15,7 +15,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     : settings_(settings),
       engine_(engine),
       length_(settings, mesh.time(), engine.timeStep(), resumed),
-      interval_(length_.seconds()),
+      couplingTimeStep_(length_.seconds()),
       resumed_(resumed),
       fluidDensity_(fluid.density),
       timers_(timers),
@@ -28,12 +28,12 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     }
     if (models)
     {
-        engine_.keepMemory(models->forces.needs().memory + FluidCoupling::memory);
+        engine_.requestMemory(models->forces.needs().memory + FluidCoupling::memory);
     }
-    engine_.keepState(numbersOf(CouplingState::ofNewParticle()));
+    engine_.requestState(numbersOf(CouplingState::ofNewParticle()));
     engine_.initialise(models ? &models->forces : nullptr);
     conservation_.countParticles(engine_.particles());
-    conservation_.openSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed));
+    conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed));
     if (models)
     {
         fluid_ = std::make_unique<FluidCoupling>(
@@ -52,17 +52,17 @@ void CouplingStep::start(Foam::volVectorField& U, const Foam::volScalarField& p)
     else
     {
         evaluateFluidForces(U, p);
-        fluid_->takeFirstDragFrom(U, interval_);
+        fluid_->subtractFirstDrag(U, couplingTimeStep_);
         evaluateFluidForces(U, p);
         fluid_->assignSemiImplicitDrag(U, p);
     }
-    forgetGiven();
-    conservation_.openMomentum(fluid_->semiImplicitMomentum());
+    resetReceivedImpulse();
+    conservation_.setInitialMomentum(fluid_->semiImplicitMomentum());
 }
 
 void CouplingStep::evaluateFluidForces(const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
-    forgetGiven();
+    resetReceivedImpulse();
     fluid_->fluidToParticles(U, p);
     engine_.evaluateFluidForces();
 }
@@ -70,25 +70,25 @@ void CouplingStep::evaluateFluidForces(const Foam::volVectorField& U, const Foam
 void CouplingStep::advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
     const Foam::surfaceScalarField& phi, double timeLeft, const std::function<SolvedFluid()>& solveFluid)
 {
-    interval_ = length_.seconds();
+    couplingTimeStep_ = length_.seconds();
     advanceParticles();
     if (length_.isAdjustable())
     {
         length_.choose(limits(phi), timeLeft);
     }
-    fluid_->particlesToFluid(interval_, length_.seconds());
-    const ReceivedMomentum received = forgetGiven();
+    fluid_->particlesToFluid(couplingTimeStep_, length_.seconds());
+    const ReceivedMomentum received = resetReceivedImpulse();
     const SolvedFluid solved = solveFluid();
-    fluid_->updateAcceleration(U, interval_);
+    fluid_->updateAcceleration(U, couplingTimeStep_);
     fluid_->fluidToParticles(U, p);
     fluid_->assignSemiImplicitDrag(U, p);
     conservation_.recordMomentum(received,
-        -fluidDensity_ * interval_ * returnReduce(solved.sourceOfParticles, Foam::sumOp<Foam::vector>()),
+        -fluidDensity_ * couplingTimeStep_ * returnReduce(solved.sourceOfParticles, Foam::sumOp<Foam::vector>()),
         fluid_->semiImplicitMomentum());
-    conservation_.recordContinuity(interval_ * solved.continuityError());
+    conservation_.recordContinuity(couplingTimeStep_ * solved.continuityError());
     if (removeParticlesThatLeft())
     {
-        forgetGiven();
+        resetReceivedImpulse();
     }
 }
 
@@ -111,10 +111,10 @@ void CouplingStep::restartInPlace(const Foam::volVectorField& U, const Foam::vol
     insertionAndRemoval_.start(engine_.particles(), false);
     fluid_->start(true);
     fluid_->fluidToParticles(U, p);
-    forgetGiven();
+    resetReceivedImpulse();
 }
 
-ReceivedMomentum CouplingStep::forgetGiven()
+ReceivedMomentum CouplingStep::resetReceivedImpulse()
 {
     const ParticlesView particles = engine_.particles();
     Vector3d sum = Vector3d::Zero();
@@ -122,9 +122,9 @@ ReceivedMomentum CouplingStep::forgetGiven()
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
-        sum += state.given.impulse;
-        sumOfMagnitudes += state.given.impulse.norm();
-        state.given = GivenToFluid();
+        sum += state.received.impulse;
+        sumOfMagnitudes += state.received.impulse.norm();
+        state.received = ReceivedImpulse();
         state.velocityBefore = particles.velocity.col(particle);
     }
     return {
@@ -149,13 +149,13 @@ void CouplingStep::advanceParticles()
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
     const int highestBefore = conservation_.countParticles(particles);
-    insertionAndRemoval_.advance(particles, highestBefore, interval_);
+    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_);
     conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
 }
 
 bool CouplingStep::removeParticlesThatLeft()
 {
-    const Foam::label removed = insertionAndRemoval_.removeGone(engine_);
+    const Foam::label removed = insertionAndRemoval_.removeDeparted(engine_);
     if (removed == 0)
     {
         return false;

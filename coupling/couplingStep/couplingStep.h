@@ -11,64 +11,69 @@
 namespace clepsydra
 {
 
-/// What the conservation check asks of the fluid's equations as they were solved.
+/// Results of the fluid's equations that the conservation check needs.
 struct SolvedFluid
 {
-    /// Integral over this rank's cells of the particles' source in the momentum equation [m4/s2].
+    /// Integral of the particles' source in the momentum equation over this rank's cells [m4/s2].
     Foam::vector sourceOfParticles;
-    /// d(eps)/dt + div(eps U) [1/s]: what is left of the continuity equation.
+    /// Residual of the continuity equation, d(eps)/dt + div(eps U) [1/s].
     Foam::tmp<Foam::volScalarField> continuityError;
 };
 
-/// One coupling step from start to end: the only place where the order of its steps is written.
+/// Advances particles and fluid by coupling steps. The order of operations within a coupling step is defined here only.
 class CouplingStep
 {
 public:
-    /// Initialises the engine, puts the first particles on the mesh.
-    /// \param models  null for a dry run
-    /// \param resumed  particles and fields are those of a checkpoint
+    /// Initialises the engine and computes the first void fraction.
+    /// \param models  null for DEM only
+    /// \param resumed  true where particles and fields are those of a checkpoint
     CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
         DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed);
 
-    /// What the particles feel in the first interval. Call once, before advance(), where there is a fluid. In a run that is
-    /// not resumed the drag of the first interval is taken from U, see SemiImplicitSource.
+    /// Evaluates the fluid forces of the first coupling step. Call once, before advance(), in a run with fluid. In a
+    /// run that is not resumed, the drag of the first coupling step is subtracted from the fluid's momentum by changing
+    /// U, see SemiImplicitSource.
     void start(Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// Length of the coming interval [s]. \param timeLeft  to the next time that must be hit [s]: an adjustable interval
-    /// is shortened where that time has come nearer since its length was chosen, as in a run that is resumed to end sooner
+    /// Length of the next coupling step [s]. An adjustable coupling step is shortened where the next time that must be
+    /// hit has come nearer since the length was chosen, as in a run that is resumed with an earlier end time.
+    /// \param timeLeft  to the next time that must be hit [s]
     double lengthWithin(double timeLeft)
     {
         length_.fitInto(timeLeft);
         return length_.seconds();
     }
 
-    /// A run with fluid. \param phi  flux of U [m3/s]
-    /// \param timeLeft  from the end of this interval to the next time that must be hit [s], VGREAT for none
-    /// \param solveFluid  solves the fluid's equations over the interval with fluid().
+    /// Advances a run with fluid by one coupling step.
+    /// \param phi  flux of U [m3/s]
+    /// \param timeLeft  from the end of this coupling step to the next time that must be hit [s], VGREAT for none
+    /// \param solveFluid  solves the fluid's equations over the coupling step with fluid()
     void advance(const Foam::volVectorField& U, const Foam::volScalarField& p, const Foam::surfaceScalarField& phi,
         double timeLeft, const std::function<SolvedFluid()>& solveFluid);
 
-    /// A dry run.
+    /// Advances a DEM-only run by one coupling step.
     void advance();
 
-    /// After a checkpoint: forgets all that the checkpoint does not hold, so that going on equals being resumed.
+    /// Call after a checkpoint. Discards all state that the checkpoint does not hold, so that a run that continues and
+    /// a run that is resumed give the same results.
     void restartInPlace();
     void restartInPlace(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// What the fluid's equations need. \pre the settings have a fluid.
+    /// Fields and sources for the fluid's equations. \pre the settings have a fluid
     const FluidCoupling& fluid() const
     {
         return *fluid_;
     }
 
-    /// In a closed tank, before the pressure is solved for: see VoidFractionRate::spreadImbalance(). Collective.
+    /// Distributes the volume imbalance of a closed tank over its cells, before the pressure is solved: see
+    /// VoidFractionRate::spreadImbalance(). Collective.
     /// \param outflow  of fluid through the boundary of this rank [m3/s]
     void spreadImbalance(double outflow)
     {
-        conservation_.recordImbalance(interval_ * fluid_->spreadImbalance(outflow));
+        conservation_.recordImbalance(couplingTimeStep_ * fluid_->spreadImbalance(outflow));
     }
 
-    /// When the fluid's equations have been solved: see VoidFractionRate::close().
+    /// Call when the fluid's equations have been solved: see VoidFractionRate::close().
     void closeContinuity(const Foam::surfaceScalarField& anticipatedFlux)
     {
         fluid_->closeContinuity(anticipatedFlux);
@@ -86,22 +91,23 @@ public:
 
 private:
     void advanceParticles();
-    /// Before the first step of a run, whose first half uses the forces at its beginning: with the fluid, not without.
+    /// Evaluates the fluid forces before the first step of a run, whose first half (velocity Verlet) already uses them.
     void evaluateFluidForces(const Foam::volVectorField& U, const Foam::volScalarField& p);
-    /// \return true if there were any, and the engine is prepared again.
+    /// Removes particles that are entirely beyond an outlet. \return true if there were any; the engine has then been
+    /// prepared for its next step
     bool removeParticlesThatLeft();
-    /// \return what the particles of all ranks had received, taken from the particles themselves.
-    ReceivedMomentum forgetGiven();
-    /// What keeps the next interval short: every such reason is a line of this. Collective.
+    /// Sets the received impulses of all particles to zero. \return their sum over all ranks
+    ReceivedMomentum resetReceivedImpulse();
+    /// Upper limits of the next coupling step, one line for each reason. Collective.
     std::vector<CouplingStepLimit> limits(const Foam::surfaceScalarField& phi) const;
 
     const CouplingSettings& settings_;
     DemEngine& engine_;
-    /// Of the coming interval; from the moment on that the particles have been advanced, of the one after.
+    /// Length of the next coupling step. After `advanceParticles()`: of the step after that.
     CouplingStepLength length_;
-    /// Of the interval that the fluid is solved for [s].
-    double interval_;
-    /// By the smallest cell [m].
+    /// Length of the coupling step over which the fluid is solved [s].
+    double couplingTimeStep_;
+    /// Length over which the fluid changes, computed with the smallest cell [m].
     double lengthOfChange_ = 0;
     const bool resumed_;
     const double fluidDensity_;

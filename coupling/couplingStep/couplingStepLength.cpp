@@ -15,10 +15,10 @@ using namespace Foam;
 namespace
 {
 
-/// Quotients of times that are whole numbers but for rounding.
+/// Rounding error of a quotient of times that is a whole number.
 constexpr double rounding = 1e-6;
 
-/// So many parts of an interval may be added to the next.
+/// The coupling step may grow by a part of 1/partsToGrowBy from one step to the next.
 constexpr int partsToGrowBy = 5;
 
 const word stepsEntry = "steps";
@@ -53,7 +53,7 @@ CouplingStepLength::CouplingStepLength(
         file.readOpt() = IOobject::MUST_READ;
     }
     state_.reset(new IOdictionary(file));
-    keep(state_->getOrDefault<label>(stepsEntry, steps_));
+    setSteps(state_->getOrDefault<label>(stepsEntry, steps_));
 }
 
 void CouplingStepLength::checkTimes() const
@@ -79,7 +79,7 @@ void CouplingStepLength::checkTimes() const
     }
 }
 
-void CouplingStepLength::keep(int steps)
+void CouplingStepLength::setSteps(int steps)
 {
     steps_ = steps;
     state_->set(stepsEntry, label(steps_));
@@ -94,12 +94,13 @@ void CouplingStepLength::choose(const std::vector<CouplingStepLimit>& limits, do
     {
         warned_ = true;
         WarningInFunction << "The " << strictest->reason.c_str() << " asks for a coupling step of "
-                          << strictest->longest << " s, and minCouplingTimeStep is "
-                          << settings_.adjustableCouplingTimeStep()->shortest << " s. This is said once" << endl;
+                          << strictest->longest << " s, but minCouplingTimeStep is "
+                          << settings_.adjustableCouplingTimeStep()->shortest << " s. This warning is printed once"
+                          << endl;
     }
     const int fastestGrowth = steps_ + std::max(1, steps_ / partsToGrowBy);
-    keep(std::min(std::clamp(allowed, fewestSteps_, mostSteps_), fastestGrowth));
-    shareOut(timeLeft);
+    setSteps(std::min(std::clamp(allowed, fewestSteps_, mostSteps_), fastestGrowth));
+    divideTimeLeft(timeLeft);
 }
 
 void CouplingStepLength::fitInto(double timeLeft)
@@ -107,22 +108,22 @@ void CouplingStepLength::fitInto(double timeLeft)
     const double left = std::round(timeLeft / demTimeStep_);
     if (isAdjustable() && steps_ != left && 2.0 * steps_ > left)
     {
-        shareOut(timeLeft);
+        divideTimeLeft(timeLeft);
     }
 }
 
-void CouplingStepLength::shareOut(double timeLeft)
+void CouplingStepLength::divideTimeLeft(double timeLeft)
 {
     const double left = std::round(timeLeft / demTimeStep_);
-    const double intervals = std::ceil(left / steps_);
+    const double stepCount = std::ceil(left / steps_);
     if (left > std::numeric_limits<int>::max())
     {
         return;
     }
-    // The last interval but one is no longer than the last: OpenFOAM takes a time that is closer than half an interval
-    // for hit.
-    const double share = left / intervals;
-    keep(std::max(1, static_cast<int>(intervals == 2 ? std::floor(share) : std::ceil(share))));
+    // The last coupling step but one is not longer than the last, because OpenFOAM treats a time that is closer than
+    // half a time step as reached.
+    const double share = left / stepCount;
+    setSteps(std::max(1, static_cast<int>(stepCount == 2 ? std::floor(share) : std::ceil(share))));
 }
 
 } // namespace clepsydra

@@ -8,21 +8,22 @@
 namespace clepsydra
 {
 
-/// A reason why an interval may not be longer.
+/// An upper limit of the coupling step and its reason.
 struct CouplingStepLimit
 {
     std::string reason;
     double longest; ///< [s], the same on all ranks
 };
 
-/// Length of the coming coupling step, a whole number of DEM steps. With `adjustableCouplingTimeStep yes;` it follows the
-/// limits: down at once, up by at most a fifth or one DEM step from one interval to the next. The number of steps is
-/// part of checkpoints (uniform/couplingTimeStep), so a resumed run has the intervals of one that was never stopped.
+/// Length of the next coupling step, a whole number of DEM steps. With `adjustableCouplingTimeStep yes;` it follows the
+/// limits: it falls to them at once and grows by at most a fifth, or one DEM step, per coupling step. The number of DEM
+/// steps is part of checkpoints (uniform/couplingTimeStep), so a resumed run has the same coupling steps as an
+/// uninterrupted one.
 class CouplingStepLength
 {
 public:
-    /// FatalIOError where entries of couplingProperties or controlDict do not go with the DEM step.
-    /// \param resumed  goes on with the length that the checkpoint holds, if any
+    /// FatalIOError where entries of couplingProperties or controlDict are incompatible with the DEM step.
+    /// \param resumed  true to continue with the length in the checkpoint, if it has one
     CouplingStepLength(const CouplingSettings& settings, const Foam::Time& time, double demTimeStep, bool resumed);
 
     bool isAdjustable() const
@@ -35,26 +36,27 @@ public:
         return steps_;
     }
 
-    /// [s]
+    /// Length of the next coupling step [s].
     double seconds() const
     {
         return isAdjustable() ? steps_ * demTimeStep_ : settings_.couplingTimeStep();
     }
 
-    /// Chooses the length of another interval.
+    /// Chooses the length of the coupling step after the next one.
     /// \pre isAdjustable()
-    /// \param timeLeft  from that interval's start to the next time that must be hit [s], VGREAT for none
+    /// \param limits  upper limits, at least one
+    /// \param timeLeft  from that step's start to the next time that must be hit [s], VGREAT for none
     void choose(const std::vector<CouplingStepLimit>& limits, double timeLeft);
 
-    /// Shortens it where that time would not be hit, or only by a much shorter interval afterwards. Does nothing to an
-    /// interval that was chosen with the same time left.
+    /// Shortens the coupling step where the given time would not be hit, or only with a much shorter step at the end.
+    /// Does not change a length that was chosen with the same time left.
     void fitInto(double timeLeft);
 
 private:
     void checkTimes() const;
-    void keep(int steps);
-    /// Shortens it so that intervals of about this length end at that time.
-    void shareOut(double timeLeft);
+    void setSteps(int steps);
+    /// Shortens the coupling step so that a whole number of steps of about this length ends at the given time.
+    void divideTimeLeft(double timeLeft);
 
     const CouplingSettings& settings_;
     const Foam::Time& time_;
@@ -63,7 +65,7 @@ private:
     int fewestSteps_ = 0;
     int mostSteps_ = 0;
     bool warned_ = false;
-    /// What checkpoints hold.
+    /// The part of the state that checkpoints hold.
     Foam::autoPtr<Foam::IOdictionary> state_;
 };
 

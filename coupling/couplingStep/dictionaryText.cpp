@@ -19,26 +19,26 @@ namespace
 
 using namespace Foam;
 
-/// OpenFOAM reads a bracket in a bracket by a call in a call; a stack holds some thousands of these.
+/// OpenFOAM parses nested brackets by recursive calls, and its stack holds some thousands of them.
 constexpr std::size_t deepest = 100;
 
-/// `1000(0 0 ...)` and `1000{0}` are lists of OpenFOAM's, whose memory is taken before any of it is read.
+/// OpenFOAM allocates the memory of the lists `1000(0 0 ...)` and `1000{0}` before it reads any entry.
 constexpr double longestList = 1e6;
 
-/// A key in quotes is a regular expression, which std::regex tries in all ways in which it can be divided: in a time that
-/// grows with a power of a word's length, and exponentially where what is repeated has repetitions itself.
+/// A key in quotes is a regular expression. std::regex tries all ways of matching it, in a time that grows with a power
+/// of a word's length, and exponentially where a repeated group contains repetitions.
 constexpr std::size_t longestPattern = 200;
 constexpr std::ptrdiff_t mostChoices = 4;
 const std::string repetitions = "*+?{";
 
-/// A bracket or an #ifeq that is still open.
+/// A bracket or an #ifeq that has not been closed yet.
 struct Opened
 {
     std::string what;
     label line;
 };
 
-/// Goes through the text once, from token to token.
+/// Scans the text once, token by token.
 class TextCheck
 {
 public:
@@ -86,7 +86,7 @@ private:
     [[noreturn]] void refuse(const std::string& what, label line) const
     {
         FatalIOError(FUNCTION_NAME, __FILE__, __LINE__, file_, line) << what << exit(FatalIOError);
-        std::abort(); // not reached; exit() is not declared as what it is
+        std::abort(); // not reached, but exit() is not declared [[noreturn]]
     }
 
     bool startsWith(const std::string& part) const
@@ -101,13 +101,13 @@ private:
         at_ = end;
     }
 
-    /// \param what  for the error where the text ends before; empty where it may
+    /// \param what  name for the error where the text ends first; empty where it may end
     void skipTo(const std::string& end, const std::string& what)
     {
         const auto found = text_.find(end, at_ + 2);
         if (found == std::string::npos && !what.empty())
         {
-            refuse("A " + what + " is not closed", line_);
+            refuse("A " + what + " is not closed; allowed: text in which each has its end", line_);
         }
         step(found == std::string::npos ? text_.size() : found + end.size());
     }
@@ -144,9 +144,9 @@ private:
         if (repeatsGroup || choices > mostChoices || pattern.size() > longestPattern)
         {
             refuse("The pattern \"" + pattern.substr(0, longestPattern)
-                       + "\" may take for ever to be compared; allowed: up to " + std::to_string(longestPattern)
-                       + " characters, no '*', '+', '?' or '{' behind a ')', and up to " + std::to_string(mostChoices)
-                       + " of these and '|' in all",
+                       + "\" may take unbounded time to match; allowed: up to " + std::to_string(longestPattern)
+                       + " characters, no '*', '+', '?' or '{' after a ')', and up to " + std::to_string(mostChoices)
+                       + " of these and '|' in total",
                 line_);
         }
     }
@@ -166,7 +166,7 @@ private:
         }
         else if (word.find("include") != std::string::npos)
         {
-            refuseItself(end);
+            refuseSelfInclusion(end);
         }
         else if (word == "#else" || word == "#elif" || word == "#endif")
         {
@@ -182,15 +182,15 @@ private:
         step(end);
     }
 
-    /// \param end  of the word #include
-    void refuseItself(std::size_t end) const
+    /// \param end  position after the word #include
+    void refuseSelfInclusion(std::size_t end) const
     {
         const std::string blanks = " \t\r\n";
         auto begin = std::min(text_.find_first_not_of(blanks, end), text_.size());
         const bool quoted = begin < text_.size() && text_[begin] == '"';
         begin += quoted ? 1 : 0;
         string name = text_.substr(begin, text_.find_first_of(quoted ? "\"" : blanks + ';', begin) - begin);
-        // As OpenFOAM does it, but for the file's own words: what these make of the name is not known here.
+        // Expands the name as OpenFOAM does, except for entries of the file itself, whose values are not known here.
         name.expand(true);
         std::error_code notThere;
         if (std::filesystem::equivalent(
@@ -200,7 +200,7 @@ private:
         }
     }
 
-    /// A number right before an opening bracket.
+    /// Refuses a number directly before an opening bracket that states too long a list.
     void refuseLongList() const
     {
         const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
@@ -216,7 +216,7 @@ private:
         }
         if (begin < end && std::strtod(text_.substr(begin, end - begin).c_str(), nullptr) > longestList)
         {
-            refuse("A list of " + text_.substr(begin, end - begin) + " entries; allowed: up to a million", line_);
+            refuse("A list states " + text_.substr(begin, end - begin) + " entries; allowed: up to a million", line_);
         }
     }
 
@@ -226,9 +226,8 @@ private:
         const auto code = static_cast<unsigned char>(c);
         if (code > '~' || (code < ' ' && std::isspace(code) == 0))
         {
-            refuse("A character (code " + std::to_string(code)
-                       + ") that is no plain text; allowed outside comments and "
-                         "strings: ASCII",
+            refuse("The character with the code " + std::to_string(code)
+                       + " is not plain text; allowed outside comments and strings: printable ASCII",
                 line_);
         }
         if (c == '(' || c == '{' || c == '[')
@@ -241,7 +240,8 @@ private:
             const std::string opening = c == ')' ? "(" : c == '}' ? "{" : "[";
             if (open_.empty() || open_.back().what != opening)
             {
-                refuse("'" + std::string{c} + "' closes " + (open_.empty() ? "nothing" : "'" + open_.back().what + "'"),
+                refuse("'" + std::string{c} + "' has no opening bracket"
+                           + (open_.empty() ? "" : "; '" + open_.back().what + "' is open"),
                     line_);
             }
             open_.pop_back();
@@ -278,7 +278,7 @@ private:
     label line_ = 1;
     std::vector<Opened> open_;
     bool keyComes_ = true;
-    bool isDirectiveLine_ = false; // of an #include or #ifeq in a key's place, which a key may follow
+    bool isDirectiveLine_ = false; // an #include or #ifeq in place of a key, which a key may follow
 };
 
 } // namespace

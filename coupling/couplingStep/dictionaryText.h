@@ -5,13 +5,14 @@
 namespace clepsydra
 {
 
-/// OpenFOAM's parser never returns, or dies, on some texts that a slip of the hand or a damaged disk can make: control
-/// characters, an #ifeq without its #endif, brackets thousands deep, a list of billions, a file that includes itself, a key
-/// that is a regular expression such as "(a*)*b". This looks at the text before it is parsed.
+/// Checks the text of a dictionary before OpenFOAM parses it. OpenFOAM's parser never returns, or crashes, on some
+/// texts that a typing error or a damaged disk can produce: control characters, an #ifeq without its #endif, brackets
+/// nested thousands deep, a list of billions of entries, a file that includes itself, or a key that is a regular
+/// expression such as "(a*)*b".
 ///
-/// FatalIOError with file and line where the file is not plain text, a bracket, a comment, a string or an #ifeq is not
-/// closed, something is nested deeper or published longer than anybody means, or a key's pattern may take for ever to be
-/// compared. Files that this one includes are not looked at.
+/// FatalIOError with file and line where the file is not plain text, where a bracket, a comment, a string or an #ifeq
+/// is not closed, where brackets are nested too deep, where a list's stated length is too large, or where matching a
+/// key's pattern may take unbounded time. Files that this one includes are not checked.
 void checkDictionaryText(const Foam::fileName& file);
 
 } // namespace clepsydra

@@ -21,9 +21,9 @@ using namespace Foam;
 namespace
 {
 
-/// Rows of what particles put into cells: their volume, their reaction (first what SemiImplicitSource, then what
-/// VoidFractionRate needs), and the resistance only where a particle's own disturbance is removed.
-enum GivenRow : Eigen::Index
+/// Rows of what the particles add to the cells: their volume, their reaction (first for SemiImplicitSource, then for
+/// VoidFractionRate) and, where the self-induced velocity is removed, their resistance.
+enum DensityRow : Eigen::Index
 {
     solidVolume = 0,
     momentum = 1,
@@ -31,11 +31,11 @@ enum GivenRow : Eigen::Index
     resistanceTime = motion + VoidFractionRate::rowCount
 };
 
-/// Rows of what is kept of each particle from interval to interval: P, see SemiImplicitSource [N s], and what its own disturbance
-/// is worked out from.
-enum KeptRow : Eigen::Index
+/// Rows of the state that is stored for each particle from coupling step to coupling step: the impulse P of
+/// SemiImplicitSource [N s], and the quantities from which the self-induced velocity is computed.
+enum CheckpointRow : Eigen::Index
 {
-    inAdvance = 0,
+    semiImplicitImpulse = 0,
     drag = 3,
     selfMobility = 6
 };
@@ -65,8 +65,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       exchange_(duplicateWorld(), distribution_.cells().box(), distribution_.voidFractionModel().commonReach()),
       selfInducedVelocityCorrection_(settings, fluid, distribution.smoothingModel()),
       voidFraction_(couplingField<scalar>("voidFraction", mesh, dimless, 1)),
-      pressureFactor_(fieldOfInterval<volScalarField>(
-          "pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
+      pressureFactor_(
+          temporaryField<volScalarField>("pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
       voidFractionRate_(mesh, settings),
       semiImplicitSource_(mesh, fluid.density),
       viscousStress_(mesh, fluid),
@@ -77,7 +77,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
         acceleration_.reset(
             new volVectorField(couplingField<vector>("fluidAcceleration", mesh, dimAcceleration, vector::zero)));
     }
-    if (selfInducedVelocityCorrection_.isRemoved())
+    if (selfInducedVelocityCorrection_.isActive())
     {
         resistance_.reset(
             new volScalarField(couplingField<scalar>("resistanceOfParticles", mesh, dimDensity / dimTime, 0)));
@@ -85,8 +85,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
     voidFraction_.oldTime();
 }
 
-Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> FluidCoupling::kept(
-    const ParticlesView& particles)
+Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>>
+FluidCoupling::checkpointedState(const ParticlesView& particles)
 {
     return {particles.memory ? particles.memory + particles.memorySize - memory : nullptr, memory, particles.size(),
         Eigen::OuterStride<>(particles.memorySize)};
@@ -94,9 +94,10 @@ Eigen::Map<Eigen::Matrix<double, FluidCoupling::memory, Eigen::Dynamic>, 0, Eige
 
 vector FluidCoupling::semiImplicitMomentum() const
 {
-    const Vector3d ofParticles = kept(engine_.particles()).middleRows<3>(inAdvance).rowwise().sum();
+    const Vector3d ofParticles =
+        checkpointedState(engine_.particles()).middleRows<3>(semiImplicitImpulse).rowwise().sum();
     return returnReduce(toFoam(ofParticles), sumOp<vector>())
-           + gSum(vectorField(fluid_.density * mesh_.V().field() * semiImplicitSource_.unassigned()));
+           + gSum(vectorField(fluid_.density * mesh_.V().field() * semiImplicitSource_.pendingMomentum()));
 }
 
 void FluidCoupling::start(bool resumed)
@@ -106,73 +107,73 @@ void FluidCoupling::start(bool resumed)
     const Eigen::MatrixXd densities = densitiesOfParticles(solidVolume + 1);
     if (resumed)
     {
-        // Before clipping, which the void fraction that was read is not.
+        // The solid fraction is that before clipping, whereas the void fraction that was read is clipped.
         columns(solidFraction_) = densities.row(solidVolume);
-        recallDisturbance();
+        restoreSelfInducedVelocity();
         return;
     }
     updateVoidFraction(densities);
-    // No equation has been solved yet in which the drag took a part of the pressure from the particles.
+    // No equation has been solved yet in which drag transferred part of the pressure's impulse from the particles.
     updatePressureFactor(Eigen::RowVectorXd::Zero(mesh_.nCells()));
     voidFractionRate_.start(voidFraction_);
 }
 
-void FluidCoupling::keepDisturbance()
+void FluidCoupling::storeSelfInducedVelocity()
 {
     const ParticlesView particles = engine_.particles();
     for (Eigen::Index particle = 0; resistance_ && particle < particles.size(); ++particle)
     {
-        kept(particles).col(particle).segment<3>(drag) = particles.state[particle].drag;
-        kept(particles)(selfMobility, particle) = particles.state[particle].fluid.selfMobility;
+        checkpointedState(particles).col(particle).segment<3>(drag) = particles.state[particle].drag;
+        checkpointedState(particles)(selfMobility, particle) = particles.state[particle].fluid.selfMobility;
     }
 }
 
-void FluidCoupling::recallDisturbance()
+void FluidCoupling::restoreSelfInducedVelocity()
 {
     const ParticlesView particles = engine_.particles();
     for (Eigen::Index particle = 0; resistance_ && particle < particles.size(); ++particle)
     {
-        particles.state[particle].drag = kept(particles).col(particle).segment<3>(drag);
-        particles.state[particle].fluid.selfMobility = kept(particles)(selfMobility, particle);
+        particles.state[particle].drag = checkpointedState(particles).col(particle).segment<3>(drag);
+        particles.state[particle].fluid.selfMobility = checkpointedState(particles)(selfMobility, particle);
     }
 }
 
-void FluidCoupling::takeFirstDragFrom(volVectorField& U, double interval)
+void FluidCoupling::subtractFirstDrag(volVectorField& U, double couplingTimeStep)
 {
     const ParticlesView particles = engine_.particles();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        particles.state[particle].given.impulse.setZero();
+        particles.state[particle].received.impulse.setZero();
     }
-    anticipate(engine_.timeStep(), interval);
+    anticipate(engine_.timeStep(), couplingTimeStep);
     findCells();
     semiImplicitSource_.update(
-        densitiesOfParticles(motion).middleRows<SemiImplicitSource::rowCount>(momentum), interval);
-    semiImplicitSource_.takeFrom(U, voidFraction_);
+        densitiesOfParticles(motion).middleRows<SemiImplicitSource::rowCount>(momentum), couplingTimeStep);
+    semiImplicitSource_.subtractFirstDrag(U, voidFraction_);
 }
 
-void FluidCoupling::particlesToFluid(double interval, double next)
+void FluidCoupling::particlesToFluid(double couplingTimeStep, double next)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
-    anticipate(interval, next);
+    anticipate(couplingTimeStep, next);
     findCells();
     Eigen::MatrixXd densities = densitiesOfParticles(resistance_ ? resistanceTime + 1 : resistanceTime);
-    // Their motion over the coming interval, per time of the one that is solved.
-    densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / interval;
+    // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
+    densities.middleRows<VoidFractionRate::rowCount>(motion) *= next / couplingTimeStep;
     updateVoidFraction(densities);
     updatePressureFactor(densities.row(motion));
-    voidFractionRate_.update(voidFraction_, densities.middleRows<VoidFractionRate::rowCount>(motion), interval);
-    semiImplicitSource_.update(densities.middleRows<SemiImplicitSource::rowCount>(momentum), interval);
+    voidFractionRate_.update(voidFraction_, densities.middleRows<VoidFractionRate::rowCount>(motion), couplingTimeStep);
+    semiImplicitSource_.update(densities.middleRows<SemiImplicitSource::rowCount>(momentum), couplingTimeStep);
     if (resistance_)
     {
-        columns(resistance_->primitiveFieldRef()) = densities.row(resistanceTime) / interval;
+        columns(resistance_->primitiveFieldRef()) = densities.row(resistanceTime) / couplingTimeStep;
     }
 }
 
-void FluidCoupling::anticipate(double lastInterval, double nextInterval)
+void FluidCoupling::anticipate(double lastTimeStep, double nextTimeStep)
 {
     const ParticlesView particles = engine_.particles();
-    anticipatedTime_ = nextInterval;
+    anticipatedTime_ = nextTimeStep;
     anticipated_.assign(static_cast<std::size_t>(particles.size()), AnticipatedMotion());
     if (!settings_.implicitCoupling())
     {
@@ -181,12 +182,12 @@ void FluidCoupling::anticipate(double lastInterval, double nextInterval)
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const CouplingState& state = particles.state[particle];
-        // One that has left is given nothing in advance, for it is taken out before it could receive it.
+        // A particle that has left gets no semi-implicit drag, because it is removed before it could receive it.
         if (state.fluid.submergedFraction > 0)
         {
             anticipated_[static_cast<std::size_t>(particle)] =
-                anticipatedMotion(state.given, particles.velocity.col(particle) - state.velocityBefore,
-                    particles.mass[particle], lastInterval, nextInterval);
+                anticipatedMotion(state.received, particles.velocity.col(particle) - state.velocityBefore,
+                    particles.mass[particle], lastTimeStep, nextTimeStep);
         }
     }
 }
@@ -194,17 +195,17 @@ void FluidCoupling::anticipate(double lastInterval, double nextInterval)
 Reactions FluidCoupling::reactions() const
 {
     const ParticlesView particles = engine_.particles();
-    const auto ofParticle = kept(particles);
+    const auto ofParticle = checkpointedState(particles);
     Reactions all(reactionSize, particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(particle)];
         const Vector3d velocity = particles.velocity.col(particle);
-        // Explicit coupling anticipates nothing: a motion without its answer to the pressure would be worse than none.
+        // Explicit coupling anticipates no motion: without the response to the pressure it would be worse than none.
         const double volume = settings_.implicitCoupling() ? volumeInFluid(particles, particle) : 0;
         const double pressureForce = settings_.modelType() == ModelType::A ? fluid_.density * volume : 0;
-        all.col(particle) << particles.state[particle].given.impulse - ofParticle.col(particle).segment<3>(inAdvance)
-                                 - motion.drag * velocity,
+        all.col(particle) << particles.state[particle].received.impulse
+                                 - ofParticle.col(particle).segment<3>(semiImplicitImpulse) - motion.drag * velocity,
             motion.drag, volume * motion.velocityResponse, volume * motion.pressureResponse * pressureForce,
             volume * (1 - motion.velocityResponse) * velocity;
     }
@@ -227,10 +228,10 @@ void FluidCoupling::assignSemiImplicitDrag(const volVectorField& U, const volSca
         fromFluid.col(particle) =
             motion.drag * fluid.velocityInCells
             + anticipatedTime_ * motion.velocityResponse * volumeInFluid(particles, particle) * fluid.pressureGradient;
-        kept(particles).col(particle).segment<3>(inAdvance) =
+        checkpointedState(particles).col(particle).segment<3>(semiImplicitImpulse) =
             fromFluid.col(particle) - motion.drag * particles.velocity.col(particle);
     }
-    semiImplicitSource_.carry(U, sourceOfPressure(p), distribution_.densities(exchange_.toGhosts(fromFluid)));
+    semiImplicitSource_.defer(U, sourceOfPressure(p), distribution_.densities(exchange_.toGhosts(fromFluid)));
 }
 
 tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) const
@@ -251,7 +252,7 @@ void FluidCoupling::findCells()
         const PhaseTimers::Scope timing = timers_.time("locate");
         return distribution_.findCells(exchange_.ghosts());
     }();
-    const Eigen::MatrixXd shareSums = exchanged([&] { return exchange_.sumAtHome(sharesHere); });
+    const Eigen::MatrixXd shareSums = exchanged([&] { return exchange_.sumAtOwners(sharesHere); });
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         if (!(shareSums(0, particle) > 0))
@@ -273,13 +274,13 @@ void FluidCoupling::smooth(Eigen::MatrixXd& densities)
 Eigen::MatrixXd FluidCoupling::densitiesOfParticles(Eigen::Index rowCount)
 {
     const std::vector<GhostParticle>& ghosts = exchange_.ghosts();
-    Eigen::MatrixXd given(resistanceTime + 1, static_cast<Eigen::Index>(ghosts.size()));
-    for (Eigen::Index i = 0; i < given.cols(); ++i)
+    Eigen::MatrixXd amounts(resistanceTime + 1, static_cast<Eigen::Index>(ghosts.size()));
+    for (Eigen::Index i = 0; i < amounts.cols(); ++i)
     {
         const GhostParticle& particle = ghosts[static_cast<std::size_t>(i)];
-        given.col(i) << particle.volume, particle.reaction, particle.implicitCoefficientTime;
+        amounts.col(i) << particle.volume, particle.reaction, particle.implicitCoefficientTime;
     }
-    Eigen::MatrixXd densities = distribution_.densities(given.topRows(rowCount));
+    Eigen::MatrixXd densities = distribution_.densities(amounts.topRows(rowCount));
     if (rowCount > momentum)
     {
         semiImplicitSource_.addDeferred(densities.middleRows<SemiImplicitSource::rowCount>(momentum));
@@ -319,12 +320,12 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
         returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
 }
 
-void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following)
+void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse)
 {
     pressureFactor_ = voidFraction_;
     if (settings_.modelType() == ModelType::A)
     {
-        columns(pressureFactor_.primitiveFieldRef()) += following;
+        columns(pressureFactor_.primitiveFieldRef()) += velocityResponse;
     }
     else
     {
@@ -333,12 +334,12 @@ void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVector
     pressureFactor_.correctBoundaryConditions();
 }
 
-void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
+void FluidCoupling::updateAcceleration(const volVectorField& U, double couplingTimeStep)
 {
     if (needs_.acceleration)
     {
         const tmp<volTensorField> gradient = fvc::grad(U);
-        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField()) / interval
+        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField()) / couplingTimeStep
                                              + (U.primitiveField() & gradient().primitiveField());
         acceleration_->correctBoundaryConditions();
     }
@@ -347,7 +348,7 @@ void FluidCoupling::updateAcceleration(const volVectorField& U, double interval)
 void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarField& p)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
-    keepDisturbance();
+    storeSelfInducedVelocity();
     const ParticlesView particles = engine_.particles();
     const tmp<volVectorField> gradient = fvc::grad(p);
 
@@ -399,14 +400,14 @@ void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarFie
         surroundings << columns(resistance_->primitiveField()),
             columns(mesh_.V().field()).array().pow(1.0 / 3.0).matrix();
         sampled.add(surroundings, [&, particles](Eigen::Index particle, const double* value) {
-            particles.state[particle].fluid.selfMobility = selfInducedVelocityCorrection_.pressureResponse(
-                particles.state[particle], particles.position.col(particle), particles.radius[particle],
-                particles.velocity.col(particle), value[0], value[1]);
+            particles.state[particle].fluid.selfMobility =
+                selfInducedVelocityCorrection_.selfMobility(particles.state[particle], particles.position.col(particle),
+                    particles.radius[particle], particles.velocity.col(particle), value[0], value[1]);
         });
     }
-    sampled.keep(exchange_.sumAtHome(distribution_.sample(sampled.inCells())));
+    sampled.store(exchange_.sumAtOwners(distribution_.sample(sampled.inCells())));
 
-    // In model B no particle feels it, and the fluid's equation holds no reaction to it.
+    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
     if (settings_.modelType() == ModelType::A)
     {
         recordPressureForce(pressureForceInFluid);
@@ -453,9 +454,10 @@ void FluidCoupling::reportParticleOutsideMesh(const ParticlesView& particles, Ei
     const vector position = toFoam(particles.position.col(particle));
     const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
     FatalErrorInFunction << "Particle " << particles.id[particle] << " at " << position
-                         << " m lies in no cell of the mesh; the nearest, cell " << nearest << " of rank "
+                         << " m lies in no cell of the mesh; the nearest one, cell " << nearest << " of rank "
                          << Pstream::myProcNo() << ", is at " << (nearest < 0 ? vector::zero : mesh_.C()[nearest])
-                         << " m, the mesh of this rank spans " << mesh_.bounds() << exit(FatalError);
+                         << " m; allowed: particles within the mesh, which on this rank spans " << mesh_.bounds()
+                         << exit(FatalError);
     std::abort();
 }
 

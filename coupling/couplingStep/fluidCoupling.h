@@ -16,43 +16,45 @@
 namespace clepsydra
 {
 
-/// The fields that particles and fluid share, and how each side fills them for the other.
+/// The fields that particles and fluid exchange, and the operations that compute them.
 ///
-/// Model A of Anderson & Jackson's equations, divided by the fluid's density:
+/// The fluid's equations are model A of Anderson & Jackson, divided by the fluid's density:
 ///
 ///     d(eps)/dt + div(eps U) = 0
 ///     d(eps U)/dt + div(eps U U) = -eps grad p + div(tau) + momentumSource
 ///
-/// p is kinematic and without its hydrostatic part. In model B grad p stands without eps, see ModelType.
+/// p is kinematic and without its hydrostatic part. In model B grad p has no factor eps, see ModelType.
 class FluidCoupling
 {
 public:
-    /// \param needs  what of the fluid the forces need at the particles
+    /// \param needs  quantities of the fluid that the forces need at the particles
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
         const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, ConservationCheck& conservation,
         PhaseTimers& timers);
 
-    /// The first particles on the mesh. Collective.
-    /// \param resumed  the fields are those of a checkpoint: kept as they are, to the last bit
+    /// Computes the void fraction of the first particles. Collective.
+    /// \param resumed  true where the fields are those of a checkpoint; they are then left unchanged to the last bit
     void start(bool resumed);
 
-    /// For the first interval: takes from U the drag that the particles will receive in it. Collective.
-    /// \pre  the particles hold what one DEM step gives.
-    void takeFirstDragFrom(Foam::volVectorField& U, double interval);
+    /// Subtracts from U the drag that the particles will receive in the first coupling step. Collective.
+    /// \pre the particles hold the impulse that they receive in one DEM step
+    void subtractFirstDrag(Foam::volVectorField& U, double couplingTimeStep);
 
-    /// Void fraction and sources from the particles as they are now and from what they were given. Collective.
-    /// \param interval  time over which they were given, and over which the fluid is solved now [s]
-    /// \param next  length of the interval after that [s], whose drag the fluid gives semi-implicitly
-    void particlesToFluid(double interval, double next);
+    /// Computes the void fraction and the sources of the fluid's equations from the particles' present positions and
+    /// from what they received in the last coupling step. Collective.
+    /// \param couplingTimeStep  length of that coupling step, over which the fluid is solved next [s]
+    /// \param next  length of the coupling step after it, whose drag is in the semi-implicit source [s]
+    void particlesToFluid(double couplingTimeStep, double next);
 
-    /// When the fluid's equations have been solved. \param anticipatedFlux  see VoidFractionRate::close()
+    /// Call when the fluid's equations have been solved. \param anticipatedFlux  see VoidFractionRate::close()
     void closeContinuity(const Foam::surfaceScalarField& anticipatedFlux)
     {
         voidFractionRate_.close(anticipatedFlux);
     }
 
-    /// After fluidToParticles(): what of the drag each particle was given semi-implicitly, see SemiImplicitSource. Collective.
-    /// \pre  the particles have not moved since particlesToFluid()
+    /// Computes the part of its drag that each particle has been given semi-implicitly, see SemiImplicitSource. Call
+    /// after fluidToParticles(). Collective.
+    /// \pre the particles have not moved since particlesToFluid()
     void assignSemiImplicitDrag(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// See VoidFractionRate::spreadImbalance(). Collective.
@@ -61,11 +63,11 @@ public:
         return voidFractionRate_.spreadImbalance(outflow);
     }
 
-    /// DU/Dt over the interval that has just been solved, where a force needs it. It is kept as a field, so that a
-    /// resumed run has it too.
-    void updateAcceleration(const Foam::volVectorField& U, double interval);
+    /// Computes DU/Dt over the coupling step that has just been solved, where a force needs it. It is stored as a
+    /// field, so that a resumed run has it too.
+    void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
 
-    /// The fluid at the particles, for the next interval. Collective.
+    /// Samples the fluid at the particles, for the next coupling step. Collective.
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     const Foam::volScalarField& voidFraction() const
@@ -73,14 +75,14 @@ public:
         return voidFraction_;
     }
 
-    /// What the fluid's equation multiplies grad p with: in model A eps, and what of the particles' pressure force the drag
-    /// will take from them in the next interval; 1 in model B.
+    /// Factor of grad p in the fluid's equation. In model A it is eps plus the part of the particles' pressure force
+    /// that drag will transfer to the fluid in the next coupling step; in model B it is 1.
     const Foam::volScalarField& pressureFactor() const
     {
         return pressureFactor_;
     }
 
-    /// What of the pressure's term in the fluid's equation belongs to the particles: see pressureFactor() [m/s2].
+    /// The part of the pressure term in the fluid's equation that acts on the particles [m/s2], see pressureFactor().
     Foam::tmp<Foam::volVectorField> sourceOfPressure(const Foam::volScalarField& p) const;
 
     const VoidFractionRate& ddtVoidFraction() const
@@ -94,10 +96,11 @@ public:
         return semiImplicitSource_.source(U);
     }
 
-    /// What the fluid has given and the particles have not received yet [N s]; sum over the ranks. Collective.
+    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet [N s]; sum over
+    /// all ranks. Collective.
     Foam::vector semiImplicitMomentum() const;
 
-    /// Numbers of ParticlesView::memory that the coupling needs, after those of the forces.
+    /// Number of values that the coupling needs in ParticlesView::memory, after those of the forces.
     static constexpr int memory = 7;
 
     const ParticleExchange& exchange() const
@@ -107,21 +110,23 @@ public:
 
 private:
     void findCells();
-    /// Of every particle of this rank, from what it was given in the last interval.
-    void anticipate(double lastInterval, double nextInterval);
+    /// Computes anticipated_ for every particle of this rank, from what it received in the last coupling step.
+    void anticipate(double lastTimeStep, double nextTimeStep);
     Reactions reactions() const;
-    /// What the particles put into the cells, smoothed: rows as in GivenRow.
-    /// \param rowCount  the first of these rows
+    /// Smoothed densities of what the particles add to the cells, with the rows of DensityRow.
+    /// \param rowCount  number of rows to compute, from the first one on
     Eigen::MatrixXd densitiesOfParticles(Eigen::Index rowCount);
-    /// Before fluidToParticles(), and in a resumed run: what each particle's own disturbance is worked out from.
-    void keepDisturbance();
-    void recallDisturbance();
-    /// What of the coupling's state of each particle is part of checkpoints: rows as in KeptRow, writable.
-    static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> kept(
+    /// The self-induced velocity is computed from drag and selfMobility. They are stored before fluidToParticles() and
+    /// restored in a resumed run.
+    void storeSelfInducedVelocity();
+    void restoreSelfInducedVelocity();
+    /// The part of each particle's coupling state that checkpoints hold, writable, with the rows of CheckpointRow.
+    static Eigen::Map<Eigen::Matrix<double, memory, Eigen::Dynamic>, 0, Eigen::OuterStride<>> checkpointedState(
         const ParticlesView& particles);
     void updateVoidFraction(const Eigen::MatrixXd& densities);
-    /// \param following  of the particles' volume, what the drag makes follow the pressure, per volume of each cell
-    void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& following);
+    /// \param velocityResponse  volume of particles that follows the fluid's response to the pressure, per volume of
+    /// each cell
+    void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse);
     void smooth(Eigen::MatrixXd& densities);
     void recordPressureForce(const Foam::vector& inFluid);
     [[noreturn]] void reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const;
@@ -144,15 +149,15 @@ private:
     VoidFractionRate voidFractionRate_;
     SemiImplicitSource semiImplicitSource_;
     const ViscousStress viscousStress_;
-    /// Of the particles of this rank, over the next interval [s].
+    /// Anticipated motion of this rank's particles over the next coupling step.
     std::vector<AnticipatedMotion> anticipated_;
     double anticipatedTime_ = 0;
-    /// Drag coefficient of all particles per volume [kg/(m3 s)]; none where no particle's own disturbance is removed.
+    /// Drag coefficient of all particles per volume [kg/(m3 s)]; null where the self-induced velocity is not removed.
     Foam::autoPtr<Foam::volScalarField> resistance_;
-    /// DU/Dt [m/s2]; none where no force needs it.
+    /// DU/Dt [m/s2]; null where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
 
-    /// Volume of particles per volume, before it is clipped.
+    /// Volume of particles per volume of the cell, before clipping.
     Foam::scalarField solidFraction_;
 };
 

@@ -8,8 +8,8 @@
 namespace clepsydra
 {
 
-/// The models that couplingProperties selects, with their coefficients. Made before the engine starts and anything is
-/// written, so that a mistake in a dictionary leaves the case as it was.
+/// The models that couplingProperties selects, with their coefficients. They are created before the engine starts and
+/// before any file is written, so that a wrong entry leaves the case unchanged.
 struct FluidModels
 {
     FluidModels(

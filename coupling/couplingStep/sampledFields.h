@@ -10,20 +10,20 @@
 namespace clepsydra
 {
 
-/// What of the fluid is sampled at the particles: values in the cells, each with the place where a particle keeps them.
+/// Fields of the fluid that are sampled at the particles, each with a function that stores the sampled values.
 class SampledFields
 {
 public:
     /// \param values  1 x cells or 3 x cells
-    /// \param keep  called for every particle with its index and its 1 or 3 values
+    /// \param store  called for every particle with its index and its 1 or 3 values
     template<class Values>
-    void add(const Values& values, std::function<void(Eigen::Index, const double*)> keep)
+    void add(const Values& values, std::function<void(Eigen::Index, const double*)> store)
     {
         values_.emplace_back(values);
-        keep_.push_back(std::move(keep));
+        store_.push_back(std::move(store));
     }
 
-    /// All of them, one under the other.
+    /// Values of all fields, stacked by rows: rows x cells.
     Eigen::MatrixXd inCells() const
     {
         Eigen::Index rows = 0;
@@ -41,15 +41,16 @@ public:
         return all;
     }
 
-    /// \param atParticles  rows as inCells(), a column per particle
-    void keep(const Eigen::MatrixXd& atParticles) const
+    /// Passes the sampled values to the functions that store them. \param atParticles  rows x particles, rows as in
+    /// inCells()
+    void store(const Eigen::MatrixXd& atParticles) const
     {
         for (Eigen::Index particle = 0; particle < atParticles.cols(); ++particle)
         {
             const double* value = atParticles.col(particle).data();
             for (std::size_t i = 0; i < values_.size(); ++i)
             {
-                keep_[i](particle, value);
+                store_[i](particle, value);
                 value += values_[i].rows();
             }
         }
@@ -57,7 +58,7 @@ public:
 
 private:
     std::vector<Eigen::MatrixXd> values_;
-    std::vector<std::function<void(Eigen::Index, const double*)>> keep_;
+    std::vector<std::function<void(Eigen::Index, const double*)>> store_;
 };
 
 } // namespace clepsydra

@@ -1,6 +1,6 @@
 #include "couplingStep/selfInducedVelocityCorrection.h"
 
-#include "closures/gaussianDisturbance.h"
+#include "closures/selfInducedVelocity.h"
 
 #include "mathematicalConstants.H"
 
@@ -14,8 +14,8 @@ using namespace Foam;
 namespace
 {
 
-/// Diffusion on a lattice of cells from one cell, at that cell: exp(-x) I_0(x)/h with x = b2/(2 h2), which is the peak
-/// 1/(sqrt(pi) b) of the Gaussian where cells are small [1/m].
+/// Peak of a diffusion from one cell on a lattice of cells: exp(-x) I_0(x)/h with x = b2/(2 h2), per axis [1/m]. It
+/// tends to the peak 1/(sqrt(pi) b) of the Gaussian for small cells.
 double latticePeak(double bandwidthSqr, double cellSize)
 {
     const double x = bandwidthSqr / (2 * sqr(cellSize));
@@ -23,13 +23,13 @@ double latticePeak(double bandwidthSqr, double cellSize)
                    : std::exp(-x) * std::cyl_bessel_i(0, x) / cellSize;
 }
 
-/// A force in one cell acts on that cell like a Gaussian of this b2/h2: 1/(2 pi^1.5 b) of the Gaussian equals the
-/// simple cubic lattice's Green's function at its origin, 0.2527/h (Watson's integral).
+/// A force in one cell acts on that cell like a Gaussian with this b2/h2: the Gaussian's 1/(2 pi^1.5 b) equals
+/// 0.2527/h, the Green's function of the simple cubic lattice at its origin (Watson's integral).
 constexpr double latticeBandwidthSqr = 0.126;
 
 const ModelLines selfInducedVelocityCorrections("selfInducedVelocityCorrection",
-    {{"off", "a particle feels what it stirs up itself"},
-        {"Oseen", "what an isolated particle stirs up at its own place is taken out of what it feels"}});
+    {{"off", "forces use the sampled velocity, with the particle's self-induced part (the default)"},
+        {"Oseen", "forces use the sampled velocity less the particle's self-induced velocity"}});
 
 bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
 {
@@ -42,12 +42,12 @@ bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
     if (!settings.implicitCoupling())
     {
         FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen; allowed: with momCoupleModels "
-                                     << "(implicitCouple), whose coefficient says how dense the neighbours are"
+                                     << "(implicitCouple), whose coefficient measures how dense the neighbours are"
                                      << exit(FatalIOError);
     }
     if (dict.get<word>("smoothingModel") == "off")
     {
-        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen, and smoothingModel is off; allowed: with "
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen, but smoothingModel is off; allowed: with "
                                      << "smoothing over more than a particle's diameter" << exit(FatalIOError);
     }
     return true;
@@ -59,25 +59,25 @@ SelfInducedVelocityCorrection::SelfInducedVelocityCorrection(
     const CouplingSettings& settings, const FluidProperties& fluid, const SmoothingModel& smoothing)
     : dict_(settings.dict()),
       fluid_(fluid),
-      removed_(readSelfInducedVelocityCorrection(settings)),
+      active_(readSelfInducedVelocityCorrection(settings)),
       smoothingBandwidth_(smoothing.bandwidth())
 {}
 
-double SelfInducedVelocityCorrection::pressureResponse(const CouplingState& state, const Vector3d& position,
-    double radius, const Vector3d& particleVelocity, double resistance, double cellSize) const
+double SelfInducedVelocityCorrection::selfMobility(const CouplingState& state, const Vector3d& position, double radius,
+    const Vector3d& particleVelocity, double resistance, double cellSize) const
 {
-    // The force is spread by the particle's sphere and the smoothing, the velocity is sampled through the sphere. Variances
-    // add up: b2/2 of the Gaussian, d2/20 of a sphere along each axis.
+    // The particle's sphere and the smoothing spread the force, and the sphere samples the velocity. Variances add up:
+    // b2/2 of the Gaussian and d2/20 of a sphere along each axis.
     if (smoothingBandwidth_ <= 2 * radius)
     {
-        FatalIOErrorInFunction(dict_) << "Entry 'selfInducedVelocityCorrection' is Oseen, and the bandwidth of the smoothing is "
-                                      << smoothingBandwidth_ << " m; allowed: above the "
-                                      << "diameter of every particle, and there is one of " << 2 * radius << " m"
-                                      << exit(FatalIOError);
+        FatalIOErrorInFunction(dict_)
+            << "Entry 'selfInducedVelocityCorrection' is Oseen, but the bandwidth of the smoothing is "
+            << smoothingBandwidth_ << " m; allowed: above the "
+            << "diameter of every particle, and there is one of " << 2 * radius << " m" << exit(FatalIOError);
     }
     const double bandwidthSqr = sqr(smoothingBandwidth_) + sqr(2 * radius) / 5;
-    // Closures of beds speak of means over the bed, the particle's own disturbance included. So it is taken away only as far
-    // as the solid at the particle is its own: all of it from an isolated particle, next to nothing in a bed.
+    // Closures of beds refer to means over the bed, the self-induced velocity included. It is therefore subtracted in
+    // proportion to the particle's own part of the solid around it: fully for an isolated particle, hardly in a bed.
     const double ownSolid = sphereVolume(radius) * pow3(latticePeak(bandwidthSqr, cellSize));
     const double isolated = std::min(1.0, ownSolid / std::max(1 - state.fluid.voidFraction, VSMALL));
     const double slip = (state.fluid.velocityInCells + state.fluid.selfMobility * state.drag - particleVelocity).norm();

@@ -12,9 +12,9 @@ using namespace Foam;
 
 SemiImplicitSource::SemiImplicitSource(const fvMesh& mesh, double fluidDensity)
     : fluidDensity_(fluidDensity),
-      coefficient_(fieldOfInterval<volScalarField>("anticipatedDrag", mesh, dimless / dimTime)),
+      coefficient_(temporaryField<volScalarField>("anticipatedDrag", mesh, dimless / dimTime)),
       particleSource_(couplingField<vector>("particleSource", mesh, dimAcceleration, vector::zero)),
-      given_(couplingField<vector>("unassignedMomentum", mesh, dimVelocity, vector::zero)),
+      given_(couplingField<vector>("semiImplicitMomentum", mesh, dimVelocity, vector::zero)),
       deferred_(couplingField<vector>("deferredMomentum", mesh, dimVelocity, vector::zero))
 {}
 
@@ -23,10 +23,10 @@ void SemiImplicitSource::addDeferred(Eigen::Ref<Eigen::MatrixXd> densities) cons
     densities.topRows<3>() += fluidDensity_ * columns(deferred_.primitiveField());
 }
 
-void SemiImplicitSource::update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
+void SemiImplicitSource::update(const Eigen::Ref<const Eigen::MatrixXd>& densities, double couplingTimeStep)
 {
-    interval_ = interval;
-    const double perMassAndTime = 1 / (fluidDensity_ * interval);
+    couplingTimeStep_ = couplingTimeStep;
+    const double perMassAndTime = 1 / (fluidDensity_ * couplingTimeStep);
     columns(particleSource_.primitiveFieldRef()) = -perMassAndTime * densities.topRows<3>();
     columns(coefficient_.primitiveFieldRef()) = perMassAndTime * densities.row(3);
     particleSource_.correctBoundaryConditions();
@@ -34,24 +34,24 @@ void SemiImplicitSource::update(const Eigen::Ref<const Eigen::MatrixXd>& densiti
 
 tmp<fvVectorMatrix> SemiImplicitSource::source(volVectorField& U) const
 {
-    const dimensionedScalar interval("interval", dimTime, interval_);
-    return particleSource_ + given_ / interval - fvm::Sp(coefficient_, U);
+    const dimensionedScalar timeStep("couplingTimeStep", dimTime, couplingTimeStep_);
+    return particleSource_ + given_ / timeStep - fvm::Sp(coefficient_, U);
 }
 
-void SemiImplicitSource::carry(
+void SemiImplicitSource::defer(
     const volVectorField& U, const volVectorField& sourceOfPressure, const Eigen::Ref<const Eigen::MatrixXd>& densities)
 {
     given_.primitiveFieldRef() =
-        interval_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());
+        couplingTimeStep_ * (coefficient_.primitiveField() * U.primitiveField() - sourceOfPressure.primitiveField());
     given_.correctBoundaryConditions();
     columns(deferred_.primitiveFieldRef()) = densities / fluidDensity_;
 }
 
-void SemiImplicitSource::takeFrom(volVectorField& U, const volScalarField& voidFraction) const
+void SemiImplicitSource::subtractFirstDrag(volVectorField& U, const volScalarField& voidFraction) const
 {
     const scalarField& fluid = voidFraction.primitiveField();
-    U.primitiveFieldRef() = (fluid * U.primitiveField() + interval_ * particleSource_.primitiveField())
-                            / (fluid + interval_ * coefficient_.primitiveField());
+    U.primitiveFieldRef() = (fluid * U.primitiveField() + couplingTimeStep_ * particleSource_.primitiveField())
+                            / (fluid + couplingTimeStep_ * coefficient_.primitiveField());
     U.correctBoundaryConditions();
 }
 

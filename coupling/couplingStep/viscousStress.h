@@ -10,22 +10,23 @@
 namespace clepsydra
 {
 
-/// Divergence of a Newtonian fluid's viscous stress per density, tau/rho = nu (grad U + grad U^T - 2/3 div U I) [m/s2].
-/// Between particles div U is not zero, since their volume moves; so neither is the part with the transpose.
+/// Divergence of the viscous stress of a Newtonian fluid, divided by its density: tau/rho = nu (grad U + grad U^T - 2/3
+/// div U I) [m/s2]. Between particles div U is not zero, because the particles' volume moves; therefore the term with
+/// the transpose is not zero either.
 class ViscousStress
 {
 public:
     ViscousStress(const Foam::fvMesh& mesh, const FluidProperties& fluid);
 
-    /// As the particles have it.
+    /// Explicit form, which the particles' forces use.
     Foam::tmp<Foam::volVectorField> divergence(const Foam::volVectorField& U) const;
 
-    /// As the fluid's equation has it.
+    /// Implicit form, for the fluid's momentum equation.
     Foam::tmp<Foam::fvVectorMatrix> implicitDivergence(Foam::volVectorField& U) const;
 
 private:
     const Foam::dimensionedScalar uniform_;
-    std::unique_ptr<Foam::volScalarField> stratified_; // none: uniform
+    std::unique_ptr<Foam::volScalarField> stratified_; // null where the viscosity is uniform
 };
 
 } // namespace clepsydra

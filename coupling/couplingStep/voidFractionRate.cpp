@@ -16,7 +16,7 @@ using namespace Foam;
 namespace
 {
 
-/// No particle is anticipated to leave or to come in.
+/// The anticipated motion takes no particle through the boundary of the mesh.
 template<class Type>
 void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
 {
@@ -35,9 +35,9 @@ VoidFractionRate::VoidFractionRate(const fvMesh& mesh, const CouplingSettings& s
     : used_(settings.ddtVoidFraction()),
       smoothingTime_(settings.ddtSmoothingTime()),
       integral_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
-      explicitRate_(fieldOfInterval<volScalarField>("explicitRate", mesh, dimless / dimTime)),
-      velocityResponse_(fieldOfInterval<surfaceScalarField>("following", mesh, dimless)),
-      pressureResponse_(fieldOfInterval<surfaceScalarField>("pressureResponse", mesh, dimTime)),
+      explicitRate_(temporaryField<volScalarField>("explicitRate", mesh, dimless / dimTime)),
+      velocityResponse_(temporaryField<surfaceScalarField>("velocityResponse", mesh, dimless)),
+      pressureResponse_(temporaryField<surfaceScalarField>("pressureResponse", mesh, dimTime)),
       rate_(couplingField<scalar>("ddtVoidFraction", mesh, dimless / dimTime, 0))
 {}
 
@@ -47,25 +47,25 @@ void VoidFractionRate::start(const volScalarField& voidFraction)
 }
 
 void VoidFractionRate::update(
-    const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval)
+    const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double couplingTimeStep)
 {
-    interval_ = interval;
+    couplingTimeStep_ = couplingTimeStep;
     spread_ = 0;
     if (!used_)
     {
         return;
     }
     const fvMesh& mesh = voidFraction.mesh();
-    const double approach = smoothingTime_ > 0 ? -std::expm1(-interval / smoothingTime_) : 1;
+    const double approach = smoothingTime_ > 0 ? -std::expm1(-couplingTimeStep / smoothingTime_) : 1;
     const auto inCells = [&](Eigen::Index row, const dimensionSet& dimensions) {
-        auto field = fieldOfInterval<volScalarField>("ofParticles", mesh, dimensions);
+        auto field = temporaryField<volScalarField>("ofParticles", mesh, dimensions);
         columns(field.primitiveFieldRef()) = approach * densities.row(row);
         field.correctBoundaryConditions();
         return field;
     };
     velocityResponse_ = fvc::interpolate(inCells(0, dimless));
     pressureResponse_ = fvc::interpolate(inCells(1, dimTime));
-    auto particleFlux = fieldOfInterval<volVectorField>("particleFlux", mesh, dimVelocity);
+    auto particleFlux = temporaryField<volVectorField>("particleFlux", mesh, dimVelocity);
     columns(particleFlux.primitiveFieldRef()) = approach * densities.bottomRows<3>();
     particleFlux.correctBoundaryConditions();
     surfaceScalarField flux(fvc::interpolate(particleFlux) & mesh.Sf());
@@ -74,7 +74,7 @@ void VoidFractionRate::update(
     closeBoundary(flux);
     explicitRate_ = fvc::div(flux);
     explicitRate_.primitiveFieldRef() +=
-        approach / interval * (voidFraction.primitiveField() - integral_.primitiveField());
+        approach / couplingTimeStep * (voidFraction.primitiveField() - integral_.primitiveField());
 }
 
 double VoidFractionRate::spreadImbalance(double outflow)
@@ -90,8 +90,8 @@ double VoidFractionRate::spreadImbalance(double outflow)
 void VoidFractionRate::close(const surfaceScalarField& flux)
 {
     rate_ = explicitRate_ + fvc::div(flux);
-    // What was spread has been dealt with.
-    integral_.primitiveFieldRef() += interval_ * (rate_.primitiveField() + spread_);
+    // The imbalance that was distributed does not remain as an error to be corrected.
+    integral_.primitiveFieldRef() += couplingTimeStep_ * (rate_.primitiveField() + spread_);
 }
 
 } // namespace clepsydra

@@ -10,70 +10,74 @@
 namespace clepsydra
 {
 
-/// d(eps)/dt as it enters the fluid's continuity equation, with the particles' answer to the pressure that is solved for.
+/// d(eps)/dt in the fluid's continuity equation, with the particles' response to the pressure that is being solved for.
 ///
-/// The pressure moves the particles in the next interval, and their motion asks for another pressure. Given afterwards, from
-/// how eps did change, that answer comes too late: in a closed column the error grows where particles are light, or where
-/// the interval is longer than their relaxation (tests/conservation/pressureFeedback.cpp). So the continuity equation
-/// anticipates eps at the end of the next interval, implicitly in the velocity and the pressure that are solved for:
+/// The pressure accelerates the particles in the next coupling step, and their motion changes the pressure. Where that
+/// response is only taken from the past change of eps, it comes too late: in a closed column the error grows where
+/// particles are light, or where the coupling step is longer than their relaxation time
+/// (tests/conservation/pressureFeedback.cpp). The continuity equation therefore anticipates eps at the end of the next
+/// coupling step, implicitly in the velocity and the pressure that are solved for:
 ///
-///     eps + dt div(flux of the particles),    flux = particleFlux + following U - pressureResponse grad p
+///     eps + dt div(flux of the particles),    flux = particleFlux + velocityResponse U - pressureResponse grad p
 ///
-/// and the rate is what leads from the eps that was anticipated last to the one that is now: what was anticipated wrongly
-/// is made good one interval later, and the integral over time is that of the particles. As two-fluid solvers have it,
-/// div(eps U + (1 - eps) U_particles) = 0.
+/// The rate is the change from the eps that was anticipated last to the eps that is anticipated now. An error of the
+/// anticipation is thus corrected one coupling step later, and the integral over time is that of the particles' motion.
+/// As in two-fluid solvers, div(eps U + (1 - eps) U_particles) = 0.
 ///
-/// The rate passes a low-pass of first order in time (useDDTvoidfractionProps { smoothingTime }), elsewhere eps is that
-/// of the particles as they are. Collisions change the particles' velocities by jumps. The pressure answers to d2(eps)/dt2, so
-/// without the low-pass its noise grows without bound as the step falls; with it, it converges.
-/// In a dense bed (solid fraction above .5) that falls or rises at its terminal velocity, with intervals of three
-/// relaxation times and more, a low-pass over many intervals makes errors grow again, by up to 1.15 in an interval: where
-/// the interval is that long, leave the low-pass out.
+/// The rate passes a first-order low-pass filter in time (useDDTvoidfractionProps { smoothingTime }); everywhere else
+/// eps is that of the particles' present positions. Collisions change the particles' velocities by jumps, and the
+/// pressure responds to d2(eps)/dt2, so its noise would grow without bound as the step falls; with the filter it
+/// converges. In a dense bed (solid fraction above 0.5) that falls or rises at its terminal velocity, with coupling
+/// steps of three relaxation times or more, a filter over many coupling steps makes errors grow again, by a factor of
+/// up to 1.15 per coupling step. Do not use the filter with coupling steps of that length.
 class VoidFractionRate
 {
 public:
-    /// Reads what an earlier process of this run has left.
+    /// Reads the fields that an earlier process of this run has written.
     VoidFractionRate(const Foam::fvMesh& mesh, const CouplingSettings& settings);
 
     void start(const Foam::volScalarField& voidFraction);
 
-    /// Rows of what update() is given.
+    /// Number of rows of the densities that update() takes.
     static constexpr Eigen::Index rowCount = 5;
 
-    /// \param densities  rowCount x cells, per volume, sums over the particles of their volume times: following [-];
-    ///                   pressureResponse for the force of a kinematic pressure gradient [s]; the velocity now times what is not
-    ///                   following [m/s]
-    void update(
-        const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double interval);
+    /// Computes the explicit part of the rate and the coefficients of the implicit part.
+    /// \param densities  rowCount x cells, per volume, sums over the particles of their volume times: velocityResponse
+    /// [-]; pressureResponse for the force of a kinematic pressure gradient [s]; (1 - velocityResponse) times the
+    /// present velocity [m/s]
+    /// \param couplingTimeStep  length of the step that is solved next [s]
+    void update(const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
+        double couplingTimeStep);
 
-    /// In a closed tank the rate's integral and the outflow must add up to zero: takes what they do add up to evenly
-    /// from all cells, where a linear solver would dump it in the reference cell. Collective.
+    /// Makes the continuity equation of a closed tank solvable, where the rate's integral and the outflow must add up
+    /// to zero. Subtracts their sum evenly from all cells, whereas a linear solver would put it into the reference
+    /// cell. Collective.
     /// \param outflow  of fluid through the boundary of this rank [m3/s]
-    /// \return what was taken, over the tank's volume [1/s]
+    /// \return the volume rate that was subtracted, divided by the tank's volume [1/s]
     double spreadImbalance(double outflow);
 
-    /// The rate without what is implicit [1/s]; zero where `useDDTvoidfraction off`.
+    /// Explicit part of the rate [1/s]; zero with `useDDTvoidfraction off`.
     const Foam::volScalarField& withoutImplicit() const
     {
         return explicitRate_;
     }
 
-    /// What the flux of U is multiplied with in the implicit part.
+    /// Factor of the flux of U in the implicit part [-].
     const Foam::surfaceScalarField& velocityResponse() const
     {
         return velocityResponse_;
     }
 
-    /// What grad p is multiplied with in the implicit part [s].
+    /// Factor of grad p in the implicit part [s].
     const Foam::surfaceScalarField& pressureResponse() const
     {
         return pressureResponse_;
     }
 
-    /// When U and p have been solved for. \param flux  of the implicit part [m3/s]
+    /// Completes the rate when U and p have been solved for. \param flux  of the implicit part [m3/s]
     void close(const Foam::surfaceScalarField& flux);
 
-    /// All of it, once it is closed [1/s].
+    /// The whole rate [1/s]. \pre close() has been called
     const Foam::volScalarField& operator()() const
     {
         return rate_;
@@ -82,10 +86,10 @@ public:
 private:
     const bool used_;
     const double smoothingTime_;
-    double interval_ = 0;
-    /// What spreadImbalance() took in this interval [1/s].
+    double couplingTimeStep_ = 0;
+    /// Sum of what spreadImbalance() has subtracted in this coupling step [1/s].
     double spread_ = 0;
-    /// The integral of the rate.
+    /// Integral of the rate over time [-].
     Foam::volScalarField integral_;
     Foam::volScalarField explicitRate_;
     Foam::surfaceScalarField velocityResponse_;

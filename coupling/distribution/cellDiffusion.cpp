@@ -20,7 +20,7 @@ using namespace Foam;
 namespace
 {
 
-/// |S_f|/|d_f| between a cell and a column of the values.
+/// Conductance |S_f|/|d_f| between a cell and a column of the values [m], and their distance [m].
 struct Link
 {
     label cell;
@@ -43,7 +43,7 @@ struct Neighbours
     const double* rate;
 };
 
-/// above <- coefficient start + factor X here - above, in each cell
+/// above <- coefficient start + factor X here - above, in each cell.
 template<int Lanes>
 CLEPSYDRA_FOR_VECTOR_UNITS void sweep(label cellCount, const Neighbours neighbours, double coefficient, double factor,
     const Values<Lanes>* start, const Values<Lanes>* here, Values<Lanes>* above)
@@ -116,7 +116,7 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         width_[link.cell] = std::max(width_[link.cell], link.distance);
         ++whole.firstNeighbour[link.cell + 1];
     }
-    // A mesh of one cell has none; any bound will do there.
+    // A mesh of one cell has no links; there any bound is valid.
     largestEigenvalue_ = std::max(2 * gMax(outOfCell), VSMALL);
     std::partial_sum(whole.firstNeighbour.begin(), whole.firstNeighbour.end(), whole.firstNeighbour.begin());
 
@@ -133,7 +133,7 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
 
 void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
 {
-    // Where nearly all cells are near, a second list of them saves no time and costs memory.
+    // Where nearly all cells are near, a second list of them costs memory and saves no time.
     constexpr double worthwhile = 0.8;
     const std::vector<bool> taken = near(sources, reach);
     const auto count = static_cast<scalar>(std::count(taken.begin(), taken.end(), true));
@@ -144,7 +144,8 @@ void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
 
 std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double reach) const
 {
-    // Each cell learns of the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227, 1980).
+    // Each cell receives the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227,
+    // 1980).
     struct Nearest
     {
         vector source = vector::zero;
@@ -216,7 +217,7 @@ CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const
         }
     }
     part.columnCount = static_cast<Eigen::Index>(part.cells.size());
-    // Faces with a cell that is taken on either side: both ranks have the same, in the same order.
+    // Boundary faces between two cells that are both in the part; the two ranks find the same faces in the same order.
     for (const Boundary& boundary : whole_.boundaries)
     {
         Boundary some{boundary.rank, boundary.tag, boundary.communicator, {}, part.columnCount};
@@ -276,7 +277,8 @@ void CellDiffusion::applyChebyshev(const std::vector<double>& coefficients, Eige
 template<int Lanes>
 void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const
 {
-    // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; result c_0 u + X b_1 - b_2.
+    // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; the result is c_0 u + X
+    // b_1 - b_2.
     const Part& part = part_ ? *part_ : whole_;
     const auto cellCount = static_cast<label>(part.cells.size());
     std::vector<Values<Lanes>> start(part.columnCount);

@@ -16,15 +16,15 @@ using Foam::label;
 namespace
 {
 
-/// Between the planes of a brick and the box about its corners, in parts of it.
+/// Relative distance allowed between the planes of a brick and the box around its corners.
 constexpr double roundingOfPlanes = 1e-9;
 constexpr double infinitelyFar = std::numeric_limits<double>::infinity();
 /// Faces of a cell whose normals differ by less than about 25 degrees bound it on the same side.
 constexpr double sameSideCosine = 0.9;
-/// Sides whose normals are within about 60 degrees of opposite bound the same slab.
+/// Sides whose normals are within about 60 degrees of opposite directions bound the same slab.
 constexpr double oppositeCosine = -0.5;
-/// Exponent: of two cells behind whose walls a particle is, the one behind whose wall it is half as far gets nearly all.
-constexpr double leastBehindCounts = 8;
+/// Exponent of the share behind walls: of two cells, nearly all goes to the one whose wall is half as far.
+constexpr double behindWallExponent = 8;
 
 bool isWallFace(const Foam::polyMesh& mesh, label face)
 {
@@ -146,7 +146,7 @@ double CellSlabs::partBeforeWalls(label cell, const Vector3d& centre, double par
     }
     return nearestPlane == 0
                ? 1
-               : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / particleRadius), leastBehindCounts);
+               : behindWall * std::pow(std::max(0.0, 1 + nearestPlane / particleRadius), behindWallExponent);
 }
 
 template<class Cut>

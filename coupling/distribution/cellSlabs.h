@@ -12,43 +12,43 @@
 namespace clepsydra
 {
 
-/// The cells as slabs that cross, for the share of a sphere that lies in each.
+/// The cells as intersections of slabs, which give the share of a sphere in each cell.
 ///
-/// The share in a brick along the axes is the part of the sphere that lies in it. Any other cell is taken as the
-/// intersection of slabs, each between two opposite faces (or one face, where nothing is opposite): the share of a sphere
-/// in a slab follows from the two planes alone, and the share in the cell is the product over its slabs; where a cell's
-/// edge passes through the sphere that is off by up to a tenth of the sphere. On bricks the shares of all cells add up
-/// to one for any position and size of the sphere; elsewhere they nearly do and the caller normalises. The share has a
-/// continuous derivative in the sphere's position, and depends on nothing but the sphere and the cell: not on the host
-/// cell of the last interval, not on how the mesh is decomposed.
+/// In a brick along the axes the share is the exact part of the sphere's volume. Any other cell is treated as the
+/// intersection of slabs, each between two opposite faces (or behind one face, where no other is opposite). The share
+/// of a sphere in a slab follows from the two planes, and the share in the cell is the product over its slabs; where an
+/// edge of the cell passes through the sphere, the error is up to a tenth of the sphere. On bricks the shares of all
+/// cells add up to one for any position and size of the sphere; elsewhere they nearly do, and the caller normalises
+/// them. The share has a continuous derivative with respect to the sphere's position. It depends on the sphere and the
+/// cell only, not on the cell of the last coupling step and not on the decomposition of the mesh.
 ///
-/// A wall bounds no share: a particle does not reach through a wall, it touches it. So a cell has the full share on the
-/// fluid's side of its wall faces, and next to none, behindWall at most, of a particle whose centre lies behind one. This is
-/// what keeps the solid volume from leaking through baffles of zero thickness.
+/// A wall does not reduce a share, because a particle touches a wall and does not pass it. A cell therefore has the
+/// full share on the fluid's side of its wall faces, and at most behindWall of a particle whose centre is behind one of
+/// them. This prevents solid volume from leaking through baffles of zero thickness.
 ///
-/// Next to none and not none, because the mesh's walls are not quite the engine's: snappyHexMesh cuts an edge short that
-/// a small particle rolls into. A particle whose centre is in front of no cell's walls so belongs to the cells whose walls it is
-/// the least behind, as long as that is less than its radius.
+/// The share behind a wall is not zero because the walls of the mesh differ from those of the engine: snappyHexMesh
+/// cuts off edges into which a small particle can roll. A particle whose centre is behind walls of all cells therefore
+/// belongs to the cells whose walls it is the least behind, as long as that distance is less than its radius.
 class CellSlabs
 {
 public:
-    /// Beside any other share it is lost in rounding.
+    /// Largest share behind a wall; beside any other share it is below rounding.
     static constexpr double behindWall = 1e-30;
 
     explicit CellSlabs(const Foam::fvMesh& mesh);
 
     /// Share of a sphere in one cell, not normalised, in [0, 1].
-    /// \param radius      of the sphere [m]
-    /// \param particleRadius  how far behind a wall its centre may be [m]
+    /// \param radius  of the sphere [m]
+    /// \param particleRadius  largest distance of the centre behind a wall [m]
     double share(Foam::label cell, const Vector3d& centre, double radius, double particleRadius) const;
 
-    /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; the same rule at walls.
+    /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; walls are treated in the same way.
     double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double particleRadius) const;
 
-    /// Cells whose bounding box meets the cube about the sphere, by growing label.
+    /// Cells whose bounding boxes intersect the cube around the sphere, in ascending order.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
 
-    /// Whether the cell's bounding box meets the cube about the sphere.
+    /// Whether the cell's bounding box intersects the cube around the sphere.
     bool isNear(Foam::label cell, const Vector3d& centre, double radius) const
     {
         return cubeMeets(cellBoxes_[cell], centre, radius);
@@ -66,7 +66,7 @@ private:
         Vector3d inwardNormal;
         double offset;
     };
-    /// The faces on one side of a cell: several where the neighbours are finer.
+    /// The faces on one side of a cell; there are several where the neighbours are finer.
     struct Side
     {
         int firstPlane;
@@ -88,7 +88,8 @@ private:
     };
 
     double shareInBrick(Foam::label cell, const Vector3d& centre, double radius) const;
-    // cut: fraction of the kernel on the inner side of a plane at a signed distance [m] from its centre; a wall cuts nothing
+    // \param cut  function of the signed distance [m] between the kernel's centre and a plane: the fraction of the
+    // kernel on the inner side; a wall cuts nothing off
     template<class Cut>
     double fractionInside(const Side& side, const Vector3d& centre, const Cut& cut) const;
     template<class Cut>

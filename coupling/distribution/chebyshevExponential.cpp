@@ -12,9 +12,9 @@ std::vector<double> chebyshevExponential(double exponent, double tolerance)
     {
         return {1};
     }
-    // Miller's backward recurrence (Abramowitz & Stegun 9.12, example 1): I_(k-1) = I_(k+1) + 2 k/a I_k from far beyond
-    // the last term that matters, in any unit. The unit follows from e^-a (I_0 + 2 I_1 + 2 I_2 + ...) = 1. Neither e^a
-    // nor I_k is ever formed, which overflow at a = 710.
+    // Miller's backward recurrence (Abramowitz & Stegun 9.12, example 1): I_(k-1) = I_(k+1) + 2 k/a I_k, started far
+    // beyond the last term that matters and with an arbitrary scale. The scale follows from e^-a (I_0 + 2 I_1 + 2
+    // I_2 + ...) = 1. Neither e^a nor I_k is computed, which would overflow at a = 710.
     const auto start = static_cast<std::size_t>(20 + 12 * std::sqrt(exponent));
     constexpr double tiny = 1e-280;
     constexpr double huge = 1e250;

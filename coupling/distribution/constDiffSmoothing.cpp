@@ -11,12 +11,15 @@ namespace
 {
 
 /// Diffusion over a fixed pseudo-time: Sun & Xiao, "Diffusion-based coarse graining in hybrid continuum-discrete
-/// solvers", Int. J. Multiphase Flow 72 (2015). With bandwidth b = `bandwidth` it diffuses over D t = b2/4, exactly
-/// in t: the operator is exp(-b2/4 L), on a fine mesh a Gaussian exp(-r2/b2), of variance b2/2 along each axis on a mesh
-/// of any size. (One implicit Euler step, Sun & Xiao's choice, has exp(-2 r/b)/r instead, with a peak at the particle.)
+/// solvers", Int. J. Multiphase Flow 72 (2015). With the bandwidth b the pseudo-time is D t = b2/4, and the operator
+/// exp(-b2/4 L) is evaluated exactly in t. On a fine mesh it is a Gaussian exp(-r2/b2); on any mesh the variance along
+/// each axis is b2/2. (One implicit Euler step, Sun & Xiao's choice, gives exp(-2 r/b)/r, which is singular at the
+/// particle.)
 ///
-/// Walls and baffles are faces without neighbour: nothing diffuses through them, and going round an edge costs the
-/// length of the way.
+///     constDiffSmoothingProps { bandwidth 6e-3; }    // b [m]
+///
+/// Walls and baffles are faces without a neighbour: nothing diffuses through them, and a path around an edge counts
+/// with its whole length.
 class ConstDiffSmoothing : public SmoothingModel
 {
 public:
@@ -33,8 +36,8 @@ public:
 
     void nearTo(const std::vector<Foam::label>& cells) override
     {
-        // Beyond, the Gaussian has less than a part in a million; on cells as wide as it, whose steps reach farther, the
-        // two cells more that restrictTo() takes keep it so.
+        // Beyond this reach the Gaussian holds less than 1e-6. On cells as wide as the bandwidth, where a step reaches
+        // farther, the two additional cells of restrictTo() ensure the same.
         diffusion_.restrictTo(cells, 4 * smoothingBandwidth_);
     }
 
@@ -55,8 +58,8 @@ public:
     }
 
 private:
-    /// Largest error of the operator, relative to what it acts on, in the volume-weighted mean square. Volume, momentum
-    /// and reaction do not depend on it: they are kept to rounding.
+    /// Largest error of the operator, relative to its argument, in the volume-weighted root mean square. Conservation
+    /// of volume and momentum does not depend on it; they are conserved to rounding.
     static constexpr double tolerance = 1e-5;
 
     const double smoothingBandwidth_;
@@ -66,8 +69,8 @@ private:
 
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, ConstDiffSmoothing, dictionary);
-const ModelLines lines(
-    "smoothingModel", {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of `bandwidth`, stopped by walls"}});
+const ModelLines lines("smoothingModel",
+    {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of the given bandwidth, which does not pass walls"}});
 
 } // namespace
 

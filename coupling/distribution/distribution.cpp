@@ -11,10 +11,10 @@ namespace clepsydra
 namespace
 {
 
-/// In units of a particle's reach. Larger: fewer searches, more cells to look at in between.
-constexpr double marginOfNeighbourhood = 0.3;
+/// Margin in units of a particle's reach. A larger one needs fewer searches and more cells to examine between them.
+constexpr double neighbourhoodMargin = 0.3;
 
-/// A particle at a cyclic patch would have to be at two places, in the fluid and among its neighbours.
+/// A particle at a cyclic patch would have to be in two places, in the fluid and among its neighbours.
 const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh())
@@ -23,11 +23,11 @@ const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
             Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch);
         if (patch.coupled() && !betweenRanks)
         {
-            FatalErrorInFunction << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
-                                 << " is of type " << patch.type()
-                                 << "; allowed: wall, patch, symmetryPlane and others "
-                                 << "that join no cells, and processor between ranks: a particle is in one place only"
-                                 << Foam::exit(Foam::FatalError);
+            FatalErrorInFunction
+                << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath() << " is of type "
+                << patch.type() << "; allowed: wall, patch, symmetryPlane and others that "
+                << "couple no cells, and processor between ranks, because a particle is in one place only"
+                << Foam::exit(Foam::FatalError);
         }
     }
     return mesh;
@@ -53,7 +53,7 @@ Eigen::MatrixXd Distribution::findCells(const std::vector<GhostParticle>& ghosts
     for (std::size_t ghost = 0; ghost < ghosts.size(); ++ghost)
     {
         const GhostParticle& particle = ghosts[ghost];
-        Neighbourhood& near = known_[std::lround(particle.id)];
+        Neighbourhood& near = cache_[std::lround(particle.id)];
         addShares(particle, near);
         near.call = call_;
         near.position = particle.position;
@@ -78,7 +78,7 @@ void Distribution::addShares(const GhostParticle& particle, Neighbourhood& near)
             lastShares_.begin() + lastFirstShare_[near.ghost + 1]);
         return;
     }
-    const double margin = marginOfNeighbourhood * reach;
+    const double margin = neighbourhoodMargin * reach;
     if (!alike || (particle.position - near.centre).cwiseAbs().maxCoeff() > margin)
     {
         near.centre = particle.position;
@@ -106,10 +106,10 @@ void Distribution::addShares(const GhostParticle& particle, Neighbourhood& near)
 
 void Distribution::pruneCache(std::size_t ghostCount)
 {
-    // Particles come back to a rank that they have just left, so not each at once.
-    if (known_.size() > 2 * ghostCount + 1000)
+    // Particles often return to a rank that they have just left, so entries are not removed at once.
+    if (cache_.size() > 2 * ghostCount + 1000)
     {
-        known_.clear();
+        cache_.clear();
     }
 }
 

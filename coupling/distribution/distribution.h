@@ -9,36 +9,36 @@
 namespace clepsydra
 {
 
-/// How particles act on cells and cells on particles: one operator, shares then smoothing, for volume, impulse and implicit
-/// coefficients alike, and its adjoint for what the particles feel.
+/// Distributes the particles' volume, impulse and implicit coefficients to the cells by one operator, shares and then
+/// smoothing, and samples the fluid at the particles by its adjoint.
 class Distribution
 {
 public:
-    /// FatalError naming the patch for a mesh with cyclic patches, FatalIOError as the models' own.
+    /// FatalError that names the patch for a mesh with cyclic patches; FatalIOError from the models.
     Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
-    /// Finds the cells of each visiting particle. Local.
-    /// \return 1 x ghosts: the sum of the shares on this rank, zero for a particle with no cell here.
+    /// Finds the cells of each ghost particle. Local.
+    /// \return 1 x ghosts: sum of the shares on this rank, zero for a particle without a cell here
     Eigen::MatrixXd findCells(const std::vector<GhostParticle>& ghosts);
 
-    /// Makes the shares of each particle add up to one over all ranks. Local.
-    /// \param shareSums  1 x ghosts: sums over all ranks.
+    /// Scales the shares so that those of each particle add up to one over all ranks. Local.
+    /// \param shareSums  1 x ghosts: sums of the shares over all ranks
     void normalise(const Eigen::MatrixXd& shareSums);
 
     /// Adds the particles' amounts to their cells, without smoothing. Local.
     /// \param amounts  quantities x ghosts, extensive (volume, impulse component ...)
-    /// \return amounts per cell volume, quantities x cells
+    /// \return quantities x cells: amounts per cell volume
     Eigen::MatrixXd densities(const Eigen::MatrixXd& amounts) const;
 
-    /// Values at each particle: shares times cell values, summed over this rank's cells only. Local.
+    /// Samples cell values at each ghost particle: shares times values, summed over this rank's cells only. Local.
     /// \param cellValues  quantities x cells
     /// \return quantities x ghosts
     Eigen::MatrixXd sample(const Eigen::MatrixXd& cellValues) const;
 
-    /// Lets smooth() leave out the cells far from the particles that were found last. Collective.
+    /// Allows smooth() to leave out cells far from the particles of the last findCells(). Collective.
     void smoothNearParticles();
 
-    /// Smooths densities; see SmoothingModel::smooth. Collective.
+    /// Smooths densities, see SmoothingModel::smooth(). Collective.
     void smooth(Eigen::MatrixXd& densities) const
     {
         smoothing_->smooth(densities);
@@ -66,14 +66,15 @@ private:
         double share;
     };
 
-    /// Where a ghost was looked up, and what was there.
+    /// The cells near a ghost particle when it was last searched for.
     struct Neighbourhood
     {
         Vector3d centre;
         double reach = -1;
-        /// All that a particle can touch while its centre is within the margin of `centre`.
+        /// All cells that the particle can overlap while its centre is within the margin of `centre`.
         std::vector<Foam::label> cells;
-        /// The last call of findCells() that had the particle, where it was then, and its place among the ghosts.
+        /// Number of the last call of findCells() that had the particle, its position then and its index among the
+        /// ghosts.
         long call = -1;
         Vector3d position;
         std::size_t ghost = 0;
@@ -86,15 +87,15 @@ private:
     CellSlabs cells_;
     Foam::autoPtr<VoidFractionModel> voidFraction_;
     Foam::autoPtr<SmoothingModel> smoothing_;
-    /// Of each ghost, not normalised: from firstShare_[ghost] to firstShare_[ghost + 1].
+    /// Shares of each ghost, not normalised: entries firstShare_[ghost] to firstShare_[ghost + 1].
     std::vector<Share> shares_;
     std::vector<std::size_t> firstShare_;
-    /// What makes them add up to one.
+    /// Factor of each ghost's shares that makes them add up to one.
     Eigen::ArrayXd normalisation_;
 
-    /// By particle. Spares the search for cells to particles that hardly move, the cutting of spheres to those at rest; the
-    /// shares are the same to the last bit as without.
-    std::unordered_map<long, Neighbourhood> known_;
+    /// Cache by particle id. It saves the search for cells where a particle has hardly moved, and the cutting of
+    /// spheres where it is at rest. The shares are the same to the last bit as without the cache.
+    std::unordered_map<long, Neighbourhood> cache_;
     long call_ = 0;
     std::vector<Share> lastShares_;
     std::vector<std::size_t> lastFirstShare_;

@@ -10,14 +10,14 @@ namespace clepsydra
 namespace
 {
 
-/// A Gaussian exp(-r2/b2) about the particle's centre, integrated over each cell (exactly so over bricks) and normalised
-/// over the cells that it reaches, up to 3 b.
+/// A Gaussian exp(-r2/b2) around the particle's centre, integrated over each cell (exactly over bricks) and normalised
+/// over the cells within 3 b.
 ///
 ///     GaussianProps { bandwidth 2e-3; }    // b [m]
 ///
-/// A wall cell keeps what would lie behind its wall. A baffle of zero thickness is seen by the cells at it only: where
-/// 3 b is more than a particle's radius and a cell's width behind the baffle, the kernel leaks into the second cell behind.
-/// constDiffSmoothing does not.
+/// A wall cell holds what would lie behind its wall. Only the cells at a baffle of zero thickness are affected by it:
+/// where 3 b exceeds a particle's radius plus the width of the cell behind the baffle, the kernel leaks into the second
+/// cell behind. constDiffSmoothing does not leak.
 class Gaussian : public VoidFractionModel
 {
 public:
@@ -37,7 +37,7 @@ public:
 
     double commonReach() const override
     {
-        // Beyond it lie 2e-5 of the kernel along each axis.
+        // Beyond this distance lie 2e-5 of the kernel along each axis.
         return 3 * bandwidth_;
     }
 
@@ -48,7 +48,7 @@ public:
 
     Foam::string description() const override
     {
-        return "Gaussian: bandwidth " + Foam::name(bandwidth_) + " m, normalised over the cells it reaches";
+        return "Gaussian: bandwidth " + Foam::name(bandwidth_) + " m, normalised over the cells within its reach";
     }
 
 private:
@@ -58,7 +58,7 @@ private:
 defineTypeNameAndDebug(Gaussian, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Gaussian, dictionary);
 const ModelLines lines(
-    "voidFractionModel", {{Gaussian::typeName_(), "a Gaussian round the centre, of a bandwidth in metres"}});
+    "voidFractionModel", {{Gaussian::typeName_(), "a Gaussian of a given bandwidth around the centre"}});
 
 } // namespace
 

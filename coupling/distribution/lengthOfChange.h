@@ -9,19 +9,20 @@
 namespace clepsydra
 {
 
-/// Width of a cube as large as the smallest cell [m]. Collective.
+/// Width of a cube with the volume of the smallest cell [m]. Collective.
 inline double smallestCellWidth(const Foam::fvMesh& mesh)
 {
     return std::cbrt(Foam::gMin(mesh.cellVolumes()));
 }
 
-/// Width of a cube as large as the cells are in the mean [m]. Collective.
+/// Width of a cube with the cells' mean volume [m]. Collective.
 inline double meanCellWidth(const Foam::fvMesh& mesh)
 {
     return std::cbrt(Foam::gSum(mesh.cellVolumes()) / mesh.globalData().nTotalCells());
 }
 
-/// The length over which the fluid changes that a particle meets [m]: the smoothing bandwidth, or a cell where that is wider.
+/// Length over which the fluid around a particle changes [m]: the smoothing bandwidth, or the cell width where that is
+/// larger.
 inline double lengthOfChange(double smoothingBandwidth, double cellWidth)
 {
     return std::max(smoothingBandwidth, cellWidth);

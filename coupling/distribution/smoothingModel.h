@@ -10,11 +10,11 @@
 namespace clepsydra
 {
 
-/// A linear, conservative and self-adjoint smoothing of what the particles put into the cells. Selected by
-/// `smoothingModel` in couplingProperties, coefficients in `<name>Props`.
+/// A linear, conservative and self-adjoint smoothing of the densities that the particles add to the cells. Selected by
+/// `smoothingModel` in couplingProperties, with coefficients in `<name>Props`.
 ///
-/// Conservative: the integral over the mesh stays to rounding. Self-adjoint in the volume-weighted product: the same
-/// operator samples the fluid for the particles, so that action equals reaction.
+/// Conservative: the integral over the mesh is constant to rounding. Self-adjoint in the volume-weighted product: the
+/// same operator samples the fluid for the particles, so action equals reaction.
 class SmoothingModel
 {
 public:
@@ -27,19 +27,19 @@ public:
 
     virtual ~SmoothingModel() = default;
 
-    /// From now on smooth() is asked for what is in these cells, or wanted there; what it does far from them does not
-    /// matter. Collective.
-    /// \param cells  of this rank; may be listed twice
+    /// Restricts later calls of smooth() to densities in these cells and around them; the result far from them is not
+    /// used. Collective.
+    /// \param cells  of this rank; a cell may be listed twice
     virtual void nearTo(const std::vector<Foam::label>& cells) = 0;
 
-    /// Smooths quantities per volume, all in one pass over the mesh. Collective.
+    /// Smooths quantities per volume in one pass over the mesh. Collective.
     /// \param densities  quantities x cells of this rank
     virtual void smooth(Eigen::MatrixXd& densities) const = 0;
 
-    /// b, where the result is like a Gaussian exp(-r2/b2) [m].
+    /// Bandwidth b of the Gaussian exp(-r2/b2) that the smoothing approximates [m]; 0 without smoothing.
     virtual double bandwidth() const = 0;
 
-    /// One line for the start of the log.
+    /// One line for the report at the start of the log.
     virtual Foam::string description() const = 0;
 };
 

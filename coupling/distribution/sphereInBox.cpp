@@ -12,8 +12,8 @@ namespace
 constexpr double pi = 3.14159265358979323846;
 constexpr double volumeOfUnitSphere = 4 * pi / 3;
 
-/// a (3 - a2), from the circle that the plane at distance a cuts out: of its arc in the sphere's surface and of the
-/// cone from it to the centre.
+/// a (3 - a2) for the circle in which the plane at distance a cuts the sphere: the contributions of its arc on the
+/// sphere's surface and of the cone from it to the centre.
 double ofCircle(double a)
 {
     return a * (3 - a * a);
@@ -30,12 +30,12 @@ double partInHalfSpace(double distance)
     return distance <= -1 ? 0 : 0.25 * (2 + ofCircle(distance));
 }
 
-// In one order of the distances, so that the parts are the same to the last bit whatever has been remembered before.
+// The distances are sorted first, so that the parts are the same to the last bit whatever the caches hold.
 //
-// Where planes at right angles cut the unit sphere, the part beyond them is a third of its surface on the sphere, less
+// Where planes at right angles cut the unit sphere, the part beyond them is a third of its surface on the sphere less
 // the cones from the centre to its plane sides (divergence theorem). The surface on the sphere follows from its arcs
-// and the angles between them (Gauss-Bonnet): an arc at distance a that spans theta has curvature a theta, two arcs at
-// distances a and b meet at the angle of the complex number (a b, h), h2 = 1 - a2 - b2.
+// and the angles between them (Gauss-Bonnet theorem): an arc at distance a that spans theta has the curvature a theta,
+// and two arcs at distances a and b meet at the angle of the complex number (a b, h), h2 = 1 - a2 - b2.
 
 double SphereInBox::beyondEdgeOfPositive(double a, double b)
 {
@@ -48,7 +48,7 @@ double SphereInBox::beyondEdgeOfPositive(double a, double b)
     {
         return 0;
     }
-    for (const Remembered<2>& edge : edges_)
+    for (const CachedPart<2>& edge : edges_)
     {
         if (edge.part > 0 && edge.distances[0] == a && edge.distances[1] == b)
         {
@@ -90,11 +90,11 @@ double SphereInBox::beyondCornerOfPositive(double a, double b, double c)
     const double hab = std::sqrt(1 - a * a - b * b);
     const double hbc = std::sqrt(1 - b * b - c * c);
     const double hca = std::sqrt(1 - c * c - a * a);
-    // Of the three angles, less pi.
+    // Sum of the three angles less pi.
     const double twoReal = a * b * b * c - hab * hbc;
     const double twoImaginary = a * b * hbc + b * c * hab;
     const double excess = std::atan2(-twoReal * hca - twoImaginary * c * a, twoImaginary * hca - twoReal * c * a);
-    // The quarter circle about the foot of the centre on the plane at distance a, between the planes b and c.
+    // The quarter circle around the projection of the centre onto the plane at distance a, between the planes b and c.
     const auto span = [](double p, double q, double hToP, double hToQ) {
         return std::atan2(hToP * hToQ - p * q, p * hToQ + q * hToP);
     };
@@ -106,7 +106,8 @@ double SphereInBox::beyondCornerOfPositive(double a, double b, double c)
     return corner_.part;
 }
 
-// A plane on the other side of the centre: all that is beyond the others, less what is beyond them and behind it.
+// For a plane on the other side of the centre: the part beyond the other planes less the part that is beyond them and
+// behind this plane.
 
 double SphereInBox::beyondEdge(double a, double b)
 {
@@ -132,8 +133,9 @@ double SphereInBox::beyondCorner(double a, double b, double c)
 
 double SphereInBox::operator()(const std::array<SlabAboutSphere, 3>& slabs)
 {
-    // The box is what lies beyond its low planes and not beyond its high ones, along each axis: a sum over the choices of
-    // one plane along each axis, whose sign is that of the number of high ones. Planes that do not cut drop out.
+    // The box is what lies beyond its low planes and not beyond its high ones along each axis. It is a sum over all
+    // choices of one plane per axis, whose sign is that of the number of high planes. Planes that do not cut the sphere
+    // drop out.
     struct Plane
     {
         double distance;
@@ -156,7 +158,7 @@ double SphereInBox::operator()(const std::array<SlabAboutSphere, 3>& slabs)
             continue;
         }
         int& count = cutCount[axes];
-        // One plane that cuts is a low one, seen from its own side.
+        // A single plane that cuts is treated as a low one, seen from its own side.
         cuts[axes][count++] = {-std::min(slab.low, slab.high), 1};
         if (slab.low < 1 && slab.high < 1)
         {

@@ -5,8 +5,8 @@
 namespace clepsydra
 {
 
-/// Two parallel planes with a sphere's centre between them or beside them: their distances from the centre, in radii,
-/// positive where the centre is on the inner side. A plane farther away than 1 does not cut the sphere.
+/// Two parallel planes near a sphere. Their distances from the sphere's centre are in radii, positive where the centre
+/// is on the inner side. A plane at a distance above 1 does not cut the sphere.
 struct SlabAboutSphere
 {
     double low;
@@ -16,9 +16,9 @@ struct SlabAboutSphere
 /// Part of a sphere on the inner side of one plane. \param distance  as in SlabAboutSphere
 double partInHalfSpace(double distance);
 
-/// Part of a sphere in the box between three pairs of planes at right angles to one another; exact, to 1e-15.
+/// Part of a sphere in the box between three pairs of orthogonal planes, exact to 1e-15.
 ///
-/// Remembers what it worked out last: the boxes about one sphere have edges and corners in common.
+/// The last results are cached, because boxes around one sphere share edges and corners.
 class SphereInBox
 {
 public:
@@ -32,13 +32,13 @@ private:
     double beyondCornerOfPositive(double a, double b, double c);
 
     template<int Planes>
-    struct Remembered
+    struct CachedPart
     {
         std::array<double, Planes> distances{};
         double part = 0;
     };
-    std::array<Remembered<2>, 4> edges_{};
-    Remembered<3> corner_{};
+    std::array<CachedPart<2>, 4> edges_{};
+    CachedPart<3> corner_{};
     std::size_t nextEdge_ = 0;
 };
 

@@ -19,7 +19,7 @@ Foam::autoPtr<VoidFractionModel> VoidFractionModel::New(
 namespace
 {
 
-/// The particle's own sphere cut by the cells.
+/// The particle's sphere, divided by the cells' faces.
 class Divided : public VoidFractionModel
 {
 public:
@@ -43,11 +43,11 @@ public:
 
     Foam::string description() const override
     {
-        return "divided: sphere cut by the cells' faces, continuous derivative in time";
+        return "divided: each cell holds the part of the sphere in it; the derivative in time is continuous";
     }
 };
 
-/// All of the particle in the cell that holds its centre.
+/// The whole particle in the cell that holds its centre.
 class Centre : public VoidFractionModel
 {
 public:
@@ -71,11 +71,13 @@ public:
 
     Foam::string description() const override
     {
-        return "centre: whole particle in the cell of its centre; jumps in time, use with smoothing";
+        return "centre: the cell that holds the centre holds the whole particle; it jumps in time, use it with "
+               "smoothing";
     }
 
 private:
-    /// A small sphere instead of the point itself: a point can fall between warped faces, into no cell.
+    /// Radius of a small sphere in place of the centre, in radii of the particle: a point can lie between warped faces,
+    /// in no cell.
     static constexpr double smallPart = 0.01;
 };
 
@@ -84,8 +86,8 @@ addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
 defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
 const ModelLines lines("voidFractionModel",
-    {{Divided::typeName_(), "each cell has the part of the sphere in it"},
-        {Centre::typeName_(), "the cell of the centre has all of the particle; with smoothing only"}});
+    {{Divided::typeName_(), "each cell holds the part of the sphere in it"},
+        {Centre::typeName_(), "the cell that holds the centre holds the whole particle; use with smoothing only"}});
 
 } // namespace
 

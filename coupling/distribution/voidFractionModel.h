@@ -8,8 +8,8 @@
 namespace clepsydra
 {
 
-/// How a particle is shared among the cells around it, before any smoothing. Selected by `voidFractionModel` in
-/// couplingProperties, coefficients in `<name>Props`.
+/// Shares of a particle in the cells around it, before smoothing. Selected by `voidFractionModel` in
+/// couplingProperties, with coefficients in `<name>Props`.
 class VoidFractionModel
 {
 public:
@@ -18,7 +18,7 @@ public:
     declareRunTimeSelectionTable(Foam::autoPtr, VoidFractionModel, dictionary,
         (const Foam::dictionary& coefficients, const CellSlabs& cells), (coefficients, cells))
 
-        /// \param couplingProperties  FatalIOError listing the known models where its entry names none of them.
+        /// FatalIOError with the known models where the entry of couplingProperties names none of them.
         static Foam::autoPtr<VoidFractionModel> New(const Foam::dictionary& couplingProperties, const CellSlabs& cells);
 
     explicit VoidFractionModel(const CellSlabs& cells)
@@ -27,10 +27,11 @@ public:
 
     virtual ~VoidFractionModel() = default;
 
-    /// How far from its centre a particle acts [m].
+    /// Distance from its centre over which a particle acts [m].
     virtual double reach(const GhostParticle& particle) const = 0;
 
-    /// A reach that all particles have, if farther than their radius: they visit the ranks with cells that near [m].
+    /// Reach that is common to all particles, where it is larger than their radius [m]; the particles are sent to ranks
+    /// with cells within this distance.
     virtual double commonReach() const
     {
         return 0;
@@ -39,7 +40,7 @@ public:
     /// Share of the particle in a cell, not normalised, >= 0.
     virtual double share(Foam::label cell, const GhostParticle& particle) const = 0;
 
-    /// One line for the start of the log.
+    /// One line for the report at the start of the log.
     virtual Foam::string description() const = 0;
 
 protected:

@@ -6,7 +6,7 @@
 #include <type_traits>
 
 /// \file
-/// The particles of one rank, as the coupling sees them. SI units throughout.
+/// The particles of one rank, as the coupling accesses them. SI units throughout.
 
 namespace clepsydra
 {
@@ -14,19 +14,18 @@ namespace clepsydra
 using Eigen::Vector3d;
 using Box = Eigen::AlignedBox3d;
 
-/// Whether the cube about a sphere meets a box. Whoever asks what a particle can act on asks this: a share may be above zero
-/// in a cell that the cube meets and the sphere does not (CellSlabs).
+/// Whether the cube around a sphere intersects a box. Use it to find what a particle can act on, because the share of a
+/// particle may be above zero in a cell that the cube intersects and the sphere does not (CellSlabs).
 inline bool cubeMeets(const Box& box, const Vector3d& centre, double radius)
 {
     return ((centre - box.min()).array() >= -radius).all() && ((box.max() - centre).array() >= -radius).all();
 }
 
-/// The coupling's part of a particle's state, which it defines (couplingState.h). To an engine so many plain numbers, which
-/// travel with the particle from rank to rank, because a particle may change rank at any DEM step, also in the middle of an
-/// interval.
+/// The coupling's part of a particle's state, defined in couplingState.h. For an engine it is an array of plain
+/// numbers, which travels with the particle from rank to rank, because a particle may change rank at any DEM step.
 struct CouplingState;
 
-/// A view of a contiguous array, of fixed size while it lives (std::span of C++20, as far as needed).
+/// A view of a contiguous array, whose size is constant while the view exists (a subset of C++20's std::span).
 template<class T>
 using View = Eigen::Map<Eigen::Array<std::remove_const_t<T>, Eigen::Dynamic, 1>>;
 template<class T>
@@ -34,20 +33,21 @@ using ConstView = Eigen::Map<const Eigen::Array<T, Eigen::Dynamic, 1>>;
 using ConstVectors = Eigen::Map<const Eigen::Matrix3Xd>;
 using Vectors = Eigen::Map<Eigen::Matrix3Xd>;
 
-/// Pairs of particles near each other, for forces between particles. A pair of own particles is listed once; a pair of an own particle
-/// and a copy of another rank's particle (or of a particle across a periodic boundary) is listed at either, its own particle first.
+/// Pairs of particles near each other, for forces between particles. A pair of two own particles is listed once. A pair
+/// of an own particle and a copy of another rank's particle (or of a particle across a periodic boundary) is listed on
+/// both sides, with the own particle first.
 struct ParticlePairs
 {
-    /// Own particles first, in ParticlesView's order, then the copies.
+    /// Own particles first, in the order of ParticlesView, then the copies.
     ConstVectors position{nullptr, 3, 0};
     ConstVectors velocity{nullptr, 3, 0};
     ConstView<double> radius{nullptr, 0};
-    /// 2 x number of pairs: columns of the above. Empty unless DemEngine::requestPairs() was called.
+    /// 2 x number of pairs: column indices in the arrays above. Empty unless DemEngine::requestPairs() was called.
     Eigen::Map<const Eigen::Matrix2Xi> list{nullptr, 2, 0};
 };
 
-/// The particles that this rank owns; column i of every array is the same particle.
-/// Valid until the engine advances: particles move between ranks then.
+/// The particles that this rank owns; column i of every array is the same particle. Valid until the engine advances,
+/// because particles change ranks then.
 struct ParticlesView
 {
     ConstView<int> id;
@@ -56,22 +56,23 @@ struct ParticlesView
     ConstVectors angularVelocity;
     ConstView<double> radius;
     ConstView<double> mass;
-    /// `size()` entries, writable. None unless DemEngine::keepState() was called.
+    /// `size()` entries, writable. Null unless DemEngine::requestState() was called.
     CouplingState* state = nullptr;
-    /// Sum of the forces of all else: contacts, walls, gravity [N]. Meaningful while FluidForces::evaluate() runs.
+    /// Sum of all other forces: contacts, walls, gravity [N]. Valid only during FluidForces::evaluate().
     ConstVectors otherForce{nullptr, 3, 0};
-    /// For FluidForces::evaluate() only, as is otherForce.
+    /// Valid only during FluidForces::evaluate().
     ParticlePairs pairs{};
-    /// What forces and coupling keep from step to step: `memorySize` numbers per particle, writable. None unless
-    /// DemEngine::keepMemory() was called.
+    /// Values that forces and coupling store from step to step: `memorySize` numbers per particle, writable. Null
+    /// unless DemEngine::requestMemory() was called.
     double* memory = nullptr;
     Eigen::Index memorySize = 0;
-    /// False where forces are evaluated without a step: DemEngine::evaluateFluidForces().
-    bool memoryAges = true;
-    /// For FluidForces::evaluate() only: true where no force moves the particle, for the engine holds it fast.
-    ConstView<bool> held{nullptr, 0};
-    /// How far a particle that has come in during the run has been introduced to the fluid, from 0 to 1; 1 of all others.
-    /// Writable, part of checkpoints.
+    /// False where forces are evaluated without a step, as in DemEngine::evaluateFluidForces(); forces must not advance
+    /// their memory then.
+    bool advancesMemory = true;
+    /// True for a particle that no force moves because the engine fixes it. Valid only during FluidForces::evaluate().
+    ConstView<bool> fixed{nullptr, 0};
+    /// Fraction of the insertion time that has passed for a particle inserted during the run, from 0 to 1; 1 for all
+    /// others. Writable; part of checkpoints.
     double* insertionRamp = nullptr;
 
     Eigen::Index size() const

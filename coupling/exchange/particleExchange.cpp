@@ -12,11 +12,11 @@ namespace
 
 constexpr int messageTag = 51;
 
-/// On each side, in parts of the box around a rank's particles: what spreads is published ever less often, and no rank hears
-/// of many more particles than touch it.
+/// Margin on each side as a fraction of the box around a rank's particles. With it, a growing region is published ever
+/// less often, and a rank does not receive many more particles than overlap its cells.
 constexpr double roomAroundParticles = 0.25;
 
-/// Collective.
+/// Box of each rank. Collective.
 std::vector<Box> subdomainBounds(MPI_Comm communicator, const Box& own)
 {
     int rankCount = 1;
@@ -28,7 +28,7 @@ std::vector<Box> subdomainBounds(MPI_Comm communicator, const Box& own)
     std::vector<Box> boxes;
     for (const auto& of : all.colwise())
     {
-        // An empty one stays empty.
+        // An empty box remains empty.
         boxes.emplace_back(Vector3d(of.head<3>()), Vector3d(of.tail<3>()));
     }
     return boxes;
@@ -47,10 +47,10 @@ Box boxAround(const ParticlesView& particles, double commonReach)
     return around;
 }
 
-GhostParticle visitFrom(const ParticlesView& particles, const Reactions& reactions, Eigen::Index particle)
+GhostParticle ghostOf(const ParticlesView& particles, const Reactions& reactions, Eigen::Index particle)
 {
     const SphereInFluid sphere = sphereInFluid(particles, particle);
-    return {sphere.centre, reactions.col(particle), particles.state[particle].given.implicitCoefficientTime,
+    return {sphere.centre, reactions.col(particle), particles.state[particle].received.implicitCoefficientTime,
         volumeInFluid(particles, particle), sphere.radius, static_cast<double>(particles.id[particle])};
 }
 
@@ -106,10 +106,10 @@ void ParticleExchange::makePlan(const ParticlesView& particles)
         publishBounds(around);
     }
     exports_.clear();
-    for (const int host : receivingRanks_)
+    for (const int receivingRank : receivingRanks_)
     {
-        Exports leaving{host, {}};
-        const Box& cells = subdomainBounds_[static_cast<std::size_t>(host)];
+        Exports leaving{receivingRank, {}};
+        const Box& cells = subdomainBounds_[static_cast<std::size_t>(receivingRank)];
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             const SphereInFluid sphere = sphereInFluid(particles, particle);
@@ -121,9 +121,9 @@ void ParticleExchange::makePlan(const ParticlesView& particles)
         exports_.push_back(std::move(leaving));
     }
     imports_.clear();
-    for (const int guest : sendingRanks_)
+    for (const int sendingRank : sendingRanks_)
     {
-        imports_.push_back({guest, 0, 0});
+        imports_.push_back({sendingRank, 0, 0});
     }
 }
 
@@ -149,7 +149,7 @@ std::vector<std::vector<double>> ParticleExchange::swap(const std::vector<int>& 
     {
         if (fromRanks[i] == rank_)
         {
-            // There is one: both plans compare this rank's own two boxes.
+            // Such a message exists, because both lists of ranks compare the same two boxes of this rank.
             in[i] = toSelf ? *toSelf : std::vector<double>();
             continue;
         }
@@ -181,8 +181,8 @@ void ParticleExchange::send(const ParticlesView& particles, const Reactions& rea
         double* place = message.data();
         for (const Eigen::Index particle : leaving.particles)
         {
-            const GhostParticle visit = visitFrom(particles, reactions, particle);
-            std::copy_n(reinterpret_cast<const double*>(&visit), size, place);
+            const GhostParticle ghost = ghostOf(particles, reactions, particle);
+            std::copy_n(reinterpret_cast<const double*>(&ghost), size, place);
             place += size;
         }
     }
@@ -199,28 +199,28 @@ void ParticleExchange::send(const ParticlesView& particles, const Reactions& rea
         const std::size_t count = in[i].size() / size;
         imports_[i].first = static_cast<Eigen::Index>(ghosts_.size());
         imports_[i].count = static_cast<Eigen::Index>(count);
-        for (std::size_t visit = 0; visit < count; ++visit)
+        for (std::size_t ghost = 0; ghost < count; ++ghost)
         {
-            std::copy_n(&in[i][visit * size], size, reinterpret_cast<double*>(&ghosts_.emplace_back()));
+            std::copy_n(&in[i][ghost * size], size, reinterpret_cast<double*>(&ghosts_.emplace_back()));
         }
     }
 }
 
-Eigen::MatrixXd ParticleExchange::sumAtHome(const Eigen::MatrixXd& perGhost) const
+Eigen::MatrixXd ParticleExchange::sumAtOwners(const Eigen::MatrixXd& perGhost) const
 {
     const Eigen::Index width = perGhost.rows();
     std::vector<int> toRanks;
     std::vector<std::vector<double>> out;
-    for (const Imports& hosted : imports_)
+    for (const Imports& received : imports_)
     {
-        toRanks.push_back(hosted.rank);
-        const double* first = perGhost.data() + hosted.first * width;
-        out.emplace_back(first, first + hosted.count * width);
+        toRanks.push_back(received.rank);
+        const double* first = perGhost.data() + received.first * width;
+        out.emplace_back(first, first + received.count * width);
     }
     std::vector<int> fromRanks;
-    for (const Exports& home : exports_)
+    for (const Exports& sent : exports_)
     {
-        fromRanks.push_back(home.rank);
+        fromRanks.push_back(sent.rank);
     }
 
     Eigen::MatrixXd perParticle = Eigen::MatrixXd::Zero(width, particleCount_);
@@ -242,20 +242,20 @@ Eigen::MatrixXd ParticleExchange::toGhosts(const Eigen::MatrixXd& perParticle) c
     const Eigen::Index width = perParticle.rows();
     std::vector<int> toRanks;
     std::vector<std::vector<double>> out;
-    for (const Exports& home : exports_)
+    for (const Exports& sent : exports_)
     {
-        toRanks.push_back(home.rank);
+        toRanks.push_back(sent.rank);
         std::vector<double>& message = out.emplace_back();
-        message.reserve(home.particles.size() * static_cast<std::size_t>(width));
-        for (const Eigen::Index particle : home.particles)
+        message.reserve(sent.particles.size() * static_cast<std::size_t>(width));
+        for (const Eigen::Index particle : sent.particles)
         {
             message.insert(message.end(), perParticle.col(particle).begin(), perParticle.col(particle).end());
         }
     }
     std::vector<int> fromRanks;
-    for (const Imports& hosted : imports_)
+    for (const Imports& received : imports_)
     {
-        fromRanks.push_back(hosted.rank);
+        fromRanks.push_back(received.rank);
     }
 
     Eigen::MatrixXd perGhost(width, static_cast<Eigen::Index>(ghosts_.size()));

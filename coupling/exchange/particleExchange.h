@@ -9,13 +9,13 @@
 namespace clepsydra
 {
 
-/// What a particle does to the fluid, to be spread over its cells: rows as in FluidCoupling.
+/// Reaction of a particle on the fluid, which is distributed to its cells; rows as in FluidCoupling.
 constexpr int reactionSize = 9;
 using Reaction = Eigen::Matrix<double, reactionSize, 1, Eigen::DontAlign>;
 using Reactions = Eigen::Matrix<double, reactionSize, Eigen::Dynamic>;
 
-/// A particle as the rank of its cells sees it: what the distribution onto the mesh needs, nothing else. SI units.
-/// Of a particle that is only partly in the fluid: the sphere that stands for that part, see SphereInFluid.
+/// Copy of a particle on a rank that has cells near it, with the data that the distribution onto the mesh needs. SI
+/// units. Where the particle is only partly in the fluid, position, volume and radius are those of SphereInFluid.
 struct GhostParticle
 {
     Vector3d position;
@@ -26,46 +26,51 @@ struct GhostParticle
     double id;
 };
 
-/// Carries particles to the ranks whose cells they touch, and answers back.
+/// Sends particles to the ranks whose cells they overlap, as ghost particles, and returns results to their owners.
 ///
-/// The engine and the fluid cut space differently, so a particle may live on one rank and displace fluid on another, or
-/// on two at a processor boundary. Ranks whose boxes (particles here, cells there) do not touch never exchange a message:
-/// what is known to every rank is two boxes a rank, not the particles. A rank publishes a box with room around its particles, so
-/// that in most intervals all that every rank must hear is that no box has become too small.
+/// The engine and the fluid decompose space differently. A particle may be owned by one rank and displace fluid on
+/// another, or on two ranks at a processor boundary. Ranks whose boxes (particles of one, cells of the other) do not
+/// intersect never exchange a message. Every rank knows two boxes per rank, not the particles of other ranks. A rank
+/// publishes a box with a margin around its particles, so that in most coupling steps the only collective communication
+/// is the confirmation that no box has become too small.
 class ParticleExchange
 {
 public:
     /// Collective.
-    /// \param cells  box around this rank's cells; the mesh does not move.
-    /// \param commonReach  how far from its centre every particle acts, if farther than its radius [m]
+    /// \param cells  box around this rank's cells; the mesh does not move
+    /// \param commonReach  distance from its centre over which every particle acts, where that is larger than its
+    /// radius [m]
     ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
 
-    /// Sends every particle to each rank whose box the cube about its sphere, or its reach, meets. Collective.
-    /// \param reactions  of each particle
+    /// Sends every particle to each rank whose box of cells intersects the cube around the particle's sphere or reach.
+    /// Collective.
+    /// \param reactions  a column per particle
     void send(const ParticlesView& particles, const Reactions& reactions);
 
-    /// Local: the particles that touch this rank's box, own ones first, then by rank.
+    /// The ghost particles on this rank: copies of its own particles first, then by sending rank. Local.
     const std::vector<GhostParticle>& ghosts() const
     {
         return ghosts_;
     }
 
-    /// Adds up at each particle's home what its visits found. Collective.
-    /// \param perGhost  one column per ghost. \return one column per particle, zero where it visited no rank.
-    Eigen::MatrixXd sumAtHome(const Eigen::MatrixXd& perGhost) const;
+    /// Sums results of ghost particles on their owning ranks. Collective.
+    /// \param perGhost  a column per ghost particle
+    /// \return a column per particle of this rank; zero for a particle without ghosts
+    Eigen::MatrixXd sumAtOwners(const Eigen::MatrixXd& perGhost) const;
 
-    /// Hands a value of each particle to all its visits. Collective.
-    /// \param perParticle  one column per particle. \return one column per ghost.
+    /// Sends a value of each particle to its ghosts. Collective.
+    /// \param perParticle  a column per particle of this rank
+    /// \return a column per ghost particle
     Eigen::MatrixXd toGhosts(const Eigen::MatrixXd& perParticle) const;
 
-    /// Local: bytes that this rank has sent to others so far.
+    /// Bytes that this rank has sent to other ranks so far. Local.
     std::size_t bytesSent() const
     {
         return bytesSent_;
     }
 
 private:
-    /// Particles that one other rank (or this one) hosts or is host to.
+    /// Particles that this rank sends to one rank (also to itself), and ghosts that it receives from one rank.
     struct Exports
     {
         int rank;
@@ -79,7 +84,8 @@ private:
     };
 
     void makePlan(const ParticlesView& particles);
-    /// Makes the published boxes wide enough, and the lists from them. Collective.
+    /// Enlarges the published boxes where necessary, and determines the receiving and sending ranks from them.
+    /// Collective.
     void publishBounds(const Box& particles);
     std::vector<std::vector<double>> swap(const std::vector<int>& toRanks, const std::vector<std::vector<double>>& out,
         const std::vector<int>& fromRanks) const;
@@ -88,11 +94,12 @@ private:
     int rank_ = 0;
     Box cells_;
     double commonReach_;
-    /// Of each rank.
+    /// Boxes around the cells of each rank.
     std::vector<Box> subdomainBounds_;
-    /// Around the particles of this rank, with room; never shrinks.
+    /// Box around this rank's particles with a margin; it never shrinks.
     Box publishedBounds_;
-    /// Ranks with cells in the published box; ranks with cells here in theirs. This rank first.
+    /// Ranks whose cells may be near this rank's particles, and ranks whose particles may be near this rank's cells.
+    /// This rank comes first.
     std::vector<int> receivingRanks_;
     std::vector<int> sendingRanks_;
     std::vector<Exports> exports_;

@@ -20,7 +20,7 @@ namespace
 
 constexpr std::size_t bufferSize = 1 << 20;
 
-/// An open file, closed at the end.
+/// An open file, closed by the destructor.
 class OpenFile
 {
 public:
@@ -82,7 +82,7 @@ private:
     std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), &EVP_MD_CTX_free};
 };
 
-/// \return 0, or errno of what failed.
+/// \return 0, or errno of the write that failed
 int writeAll(int descriptor, const char* bytes, std::size_t count)
 {
     while (count > 0)
@@ -107,7 +107,7 @@ std::filesystem::path withEnding(std::filesystem::path file, const char* ending)
     return file;
 }
 
-/// What has been written of an unfinished file is on the disk, or FileError.
+/// Waits until everything written to an unfinished file is on the disk. \throws FileError
 void settle(int unfinished, const std::filesystem::path& file)
 {
     if (fsync(unfinished) != 0)
@@ -156,7 +156,7 @@ std::string sha256(const std::string& text)
 void flushToDisk(const std::filesystem::path& file)
 {
     const OpenFile open(file, O_RDONLY);
-    // Some file systems know no fsync of folders.
+    // Some file systems do not support fsync() for folders.
     if (fsync(open.descriptor()) != 0 && errno != EINVAL)
     {
         throw FileError::ofSystem("Cannot write", file);
@@ -185,7 +185,8 @@ void beginInParts(const std::filesystem::path& file)
 
 void writePart(const std::filesystem::path& file, std::uint64_t place, const std::string& text)
 {
-    // To create what is there makes a computer of a network ask for it, where it may still believe that it is not.
+    // O_CREAT makes a client of a network file system ask the server, where it may still have cached that the file does
+    // not exist.
     const OpenFile output(unfinishedName(file), O_WRONLY | O_CREAT);
     if (lseek(output.descriptor(), static_cast<off_t>(place), SEEK_SET) < 0)
     {
@@ -287,7 +288,7 @@ void FileThroughPipe::openEntrance()
         throw FileError::ofSystem("Cannot open a pipe for", file_);
     }
     const std::filesystem::path link = entrance(file_);
-    // that of a program that was killed
+    // A killed program may have left its link.
     unlink(link.c_str());
     if (symlink(("/proc/self/fd/" + std::to_string(ends[1])).c_str(), link.c_str()) != 0)
     {
@@ -314,7 +315,8 @@ void FileThroughPipe::receive()
             failure_ = errno;
             break;
         }
-        // After a failure the pipe is emptied all the same: a writer whose reader has gone is killed.
+        // After a failure the pipe is still emptied, because a process that writes to a pipe without a reader is
+        // killed.
         if (failure_ == 0)
         {
             failure_ = writeAll(output_, buffer.data(), static_cast<std::size_t>(count));

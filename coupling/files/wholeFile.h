@@ -9,17 +9,17 @@
 namespace clepsydra
 {
 
-/// A file that could not be read or written; the message names it and says why.
+/// A file could not be read or written; the message names the file and the cause.
 class FileError : public std::runtime_error
 {
 public:
     using std::runtime_error::runtime_error;
 
-    /// "<action> <file>: <what the system says of errno>".
+    /// Message "<action> <file>: <the system's text for errno>".
     static FileError ofSystem(const std::string& action, const std::filesystem::path& file);
 };
 
-/// What a file held when it was written.
+/// Size and checksum of a file's contents.
 struct FileContents
 {
     std::uintmax_t size = 0;
@@ -31,40 +31,41 @@ struct FileContents
     }
 };
 
-/// Reads the whole file. FileError where that fails.
+/// Reads the whole file. \throws FileError where that fails
 FileContents contentsOf(const std::filesystem::path& file);
 
 std::string sha256(const std::string& text);
 
-/// Waits until a file or folder is on the disk: only then is it known that a disk was not full. FileError.
+/// Waits until a file or folder is on the disk; only then is it certain that the disk was not full. \throws FileError
 void flushToDisk(const std::filesystem::path& file);
 
-/// Puts `text` in the place of `file`: under another name first, which takes the file's place when it is on the disk. So
-/// the file is the old one or the new one, whatever happens. FileError, and the old one is there still.
+/// Replaces `file` by one that contains `text`. The text is written under another name and takes the file's place once
+/// it is on the disk, so `file` is always either the old or the new one. \throws FileError, after which the old file is
+/// unchanged
 void writeWhole(const std::filesystem::path& file, const std::string& text);
 
-/// The same of a file that several processes write, each its own part: first one begins it, then each writes, then, when all
-/// have, one finishes it, or discards it where one could not write. Each may throw FileError; the old file is there until it
-/// is finished.
+/// Replaces a file of which each of several processes writes its own part. One process calls beginInParts(); then every
+/// process calls writePart(); then one process calls finishInParts(), or discardParts() where a part could not be
+/// written. The old file is unchanged until finishInParts(). \throws FileError
 void beginInParts(const std::filesystem::path& file);
 void writePart(const std::filesystem::path& file, std::uint64_t place, const std::string& text);
 void finishInParts(const std::filesystem::path& file);
 void discardParts(const std::filesystem::path& file) noexcept;
 
-/// Name under which a file is written before it is whole.
+/// Name under which a file is written until it is complete.
 std::filesystem::path unfinishedName(const std::filesystem::path& file);
 
-/// The file beside `file` with its checksum, as `sha256sum --check` reads it.
+/// Name of the checksum file beside `file`, which `sha256sum --check` can read.
 std::filesystem::path checksumName(const std::filesystem::path& file);
 void writeChecksum(const std::filesystem::path& file);
 
-/// FileError where `file` is empty or absent, or is not the one whose checksum stands beside it. Without a checksum, as
-/// of another program, it is taken as it is.
+/// \throws FileError where `file` is empty, missing, or does not match the checksum beside it. A file without a
+/// checksum, such as one of another program, is accepted.
 void requireUndamaged(const std::filesystem::path& file);
 
-/// A file that a library writes by its name without looking whether that works, as LIGGGHTS does. The library writes
-/// into a pipe; what comes out of it is written here, and checked. While this lives there is a link to the pipe beside the
-/// file, for a library that makes the names of several files of one.
+/// A file that a library writes by name without checking for errors, as LIGGGHTS does. The library writes into a pipe;
+/// this class writes the pipe's contents to the file and checks every write. A symbolic link to the pipe lies beside
+/// the file while the object lives, because the library may derive the names of several files from one.
 ///
 ///     FileThroughPipe checkpoint("particles.restart");
 ///     library.writeTo(FileThroughPipe::entrance("particles.restart"));
@@ -72,18 +73,18 @@ void requireUndamaged(const std::filesystem::path& file);
 class FileThroughPipe
 {
 public:
-    /// FileError where the file or the link cannot be made.
+    /// \throws FileError where the file or the link cannot be created
     explicit FileThroughPipe(std::filesystem::path file);
 
-    /// Without finish(): the file stays as it was.
+    /// Unless finish() was called, the old file is unchanged.
     ~FileThroughPipe();
     FileThroughPipe(const FileThroughPipe&) = delete;
     FileThroughPipe& operator=(const FileThroughPipe&) = delete;
 
-    /// The name to write to, of this file's link. It is to be opened once, and closed before finish().
+    /// Name of the link, for the library to write to. It may be opened once and must be closed before finish().
     static std::filesystem::path entrance(const std::filesystem::path& file);
 
-    /// FileError where not all that was written is on the disk; otherwise it is, and has taken the file's place.
+    /// Replaces the file. \throws FileError where not everything that was written is on the disk
     void finish();
 
 private:
@@ -96,7 +97,7 @@ private:
     int output_ = -1;
     int entrance_ = -1;
     int exit_ = -1;
-    /// errno of the first write that failed.
+    /// errno of the first write that failed; 0 where none has.
     int failure_ = 0;
     std::thread receiver_;
 };

@@ -9,8 +9,8 @@ namespace clepsydra
 namespace
 {
 
-/// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: times a number, and for
-/// particles beside walls.
+/// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: multiplied by a factor
+/// and corrected for walls.
 template<class Law>
 class Drag : public ForceModel
 {
@@ -28,7 +28,7 @@ public:
     {
         ManyParticlesInFluid many;
         many.density = fluid_.density;
-        // Particles that are taken together are in liquid of one viscosity.
+        // Particles that are evaluated together have the same viscosity, so in a stratified liquid it is one at a time.
         const Eigen::Index atATime = fluid_.stratification.isThere() ? 1 : most;
         for (Eigen::Index first = 0; first < particles.size(); first += atATime)
         {
@@ -40,8 +40,8 @@ public:
     Foam::string description() const override
     {
         return Foam::string(Law::name) + ": fluid density " + Foam::name(fluid_.density) + " kg/m3, viscosity "
-               + Foam::name(fluid_.dynamicViscosity) + " Pa s" + (factor_ == 1 ? "" : ", times " + Foam::name(factor_))
-               + walls_.description();
+               + Foam::name(fluid_.dynamicViscosity) + " Pa s"
+               + (factor_ == 1 ? "" : ", multiplied by " + Foam::name(factor_)) + walls_.description();
     }
 
 private:
@@ -90,7 +90,7 @@ private:
     const DragOfMany law_;
 };
 
-/// Makes every law known under its own name.
+/// Registers every law under its own name.
 template<class Laws>
 struct RegisterEach;
 

@@ -1,5 +1,5 @@
-// Compiled with -ffast-math, see CMakeLists.txt: only so does the compiler take the C library's exponential and
-// logarithm of vectors. Nothing but the drag laws belongs here.
+// Compiled with -ffast-math, see CMakeLists.txt: only then does the compiler use the C library's vector versions of the
+// exponential and the logarithm. This file must contain nothing but the drag laws.
 #include "forces/dragOfMany.h"
 
 #include "closures/dragLaws.h"

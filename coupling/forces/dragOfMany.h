@@ -9,7 +9,7 @@
 namespace clepsydra
 {
 
-/// What closures::ParticleInFluid holds, of many particles. SI units.
+/// Data of closures::ParticleInFluid for many particles, as arrays for vector units. SI units.
 struct ManyParticlesInFluid
 {
     static constexpr std::size_t most = 256;
@@ -25,11 +25,12 @@ struct ManyParticlesInFluid
 
 using ManyCoefficients = std::array<double, ManyParticlesInFluid::most>;
 
-/// A drag law for many particles at once, in vector units: a sixth of the time of one particle after the other. Exponentials and
-/// logarithms are good to 4 units in the last place, not to one.
+/// A drag law that is evaluated for many particles at once by vector units, in a sixth of the time of single
+/// evaluations. Exponentials and logarithms are accurate to 4 units in the last place instead of one.
 using DragOfMany = void (*)(const ManyParticlesInFluid& particles, ManyCoefficients& coefficients);
 
-/// \param name  of one of closures::DragLaws; \throws std::invalid_argument for another
+/// \param name  of one of closures::DragLaws
+/// \throws std::invalid_argument for another name
 DragOfMany dragOfMany(const std::string& name);
 
 } // namespace clepsydra

@@ -16,7 +16,7 @@ closures::Stratification readStratification(
     {
         return stratification;
     }
-    // Viscosities of liquids do not differ by more than e to this power.
+    // Viscosities of liquids differ by less than e to this power.
     constexpr double largest = 20;
     const dictionary& dict = transportProperties.subDict("stratification");
     requireKnownEntries(dict, {"height", "width", "step", "lag", "gradient"});
@@ -39,7 +39,8 @@ closures::Stratification readStratification(
     if (stratification.isThere() && gravity.isZero())
     {
         FatalIOErrorInFunction(dict) << "Entry 'stratification' needs gravity, which is 0 in constant/g; allowed: a "
-                                     << "direction, for layers lie across it" << exit(FatalIOError);
+                                     << "gravity that is not zero, because the layers are perpendicular to it"
+                                     << exit(FatalIOError);
     }
     return stratification;
 }

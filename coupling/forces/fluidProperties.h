@@ -9,16 +9,17 @@
 namespace clepsydra
 {
 
-/// The fluid of a run. SI units.
+/// Properties of the fluid of a run. SI units.
 struct FluidProperties
 {
     double density;
-    /// Of a stratified liquid the lower one's.
+    /// Dynamic viscosity [Pa s]; in a stratified liquid that of the lower liquid.
     double dynamicViscosity;
     Vector3d gravity;
     closures::Stratification stratification = {};
 
-    /// Dynamic [Pa s]. \param diameter  of the particle that feels it; 0: of the liquid as it lies
+    /// Dynamic viscosity at a position [Pa s]. \param diameter  of the particle on which the liquid acts [m]; 0 for the
+    /// liquid itself
     double viscosityAt(const Vector3d& position, double diameter = 0) const
     {
         return stratification.isThere()
@@ -27,18 +28,18 @@ struct FluidProperties
     }
 };
 
-/// Entry `stratification` of transportProperties; see closures/stratifiedViscosity.h.
+/// Reads the entry `stratification` of transportProperties; see closures/stratifiedViscosity.h.
 ///
 ///     stratification
 ///     {
-///         height      0.243;  // of the edge [m], against gravity from the origin
-///         width       0.008;  // of the edge, its standard deviation [m]
-///         step        0.66;   // ln of the lower liquid's viscosity, nu, over the upper one's; default 0
-///         lag         1.5;    // a particle feels the liquid so many diameters above it; default 0
-///         gradient    0;      // of ln(nu) [1/m] besides; default 0
+///         height      0.243;  // of the edge against gravity from the origin [m]
+///         width       0.008;  // standard deviation of the edge [m]
+///         step        0.66;   // ln of the lower liquid's kinematic viscosity over the upper one's; default 0
+///         lag         1.5;    // the liquid this many diameters above a particle acts on it; default 0
+///         gradient    0;      // additional gradient of ln(nu) [1/m]; default 0
 ///     }
 ///
-/// FatalIOError for what it cannot use, in the box of the mesh.
+/// FatalIOError where an entry is out of range for the box of the mesh.
 closures::Stratification readStratification(
     const Foam::dictionary& transportProperties, const Vector3d& gravity, const Foam::boundBox& mesh);
 

@@ -8,8 +8,8 @@ namespace clepsydra
 namespace
 {
 
-/// -V_p grad p, p being the pressure without its hydrostatic part. In model A the fluid keeps eps grad p, so the
-/// reaction, (1 - eps) grad p, is in its equation already. Anderson & Jackson, I&EC Fundamentals 6, 527 (1967).
+/// -V_p grad p, where p is the pressure without its hydrostatic part. In model A the fluid has eps grad p, so the
+/// reaction (1 - eps) grad p is already in its equation. Anderson & Jackson, I&EC Fundamentals 6, 527 (1967).
 class PressureGradientForce : public ForceModel
 {
 public:
@@ -40,7 +40,7 @@ public:
     }
 };
 
-/// V_p div(tau): the viscous stress of the undisturbed flow on the particle.
+/// V_p div(tau): the force of the undisturbed flow's viscous stress on the particle.
 class ViscousForce : public ForceModel
 {
 public:
@@ -78,7 +78,7 @@ public:
     }
 };
 
-/// -rho_f V_p g: the hydrostatic part of the pressure gradient. Its reaction is what the tank's floor carries.
+/// -rho_f V_p g: the force of the hydrostatic part of the pressure gradient. Its reaction acts on the tank's floor.
 class Archimedes : public ForceModel
 {
 public:
@@ -114,9 +114,10 @@ addToRunTimeSelectionTable(ForceModel, ViscousForce, dictionary);
 defineTypeNameAndDebug(Archimedes, 0);
 addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
 const ModelLines lines(
-    "forceModels", {{PressureGradientForce::typeName_(), "-V grad p, p without its hydrostatic part (model A)"},
-                       {ViscousForce::typeName_(), "V div(tau) (model A)"},
-                       {Archimedes::typeName_(), "buoyancy; always, with either model"}});
+    "forceModels", {{PressureGradientForce::typeName_(),
+                        "pressure gradient force -V grad p, with p without its hydrostatic part (model A)"},
+                       {ViscousForce::typeName_(), "viscous force V div(tau) (model A)"},
+                       {Archimedes::typeName_(), "buoyancy; necessary with either modelType"}});
 
 } // namespace
 

@@ -7,50 +7,52 @@
 namespace clepsydra
 {
 
-/// What a force needs beyond what is always there.
+/// Quantities that a force needs beyond those that are always available.
 struct ForceNeeds
 {
-    /// DU/Dt
+    /// DU/Dt.
     bool acceleration = false;
-    /// curl U
+    /// curl U.
     bool vorticity = false;
-    /// div(tau)
+    /// div(tau).
     bool viscousStress = false;
-    /// ParticlesView::pairs up to this gap, in units of the sum of the two radii; 0: none.
+    /// Gap up to which ParticlesView::pairs is needed, divided by the sum of the two radii; 0 for none.
     double pairReach = 0;
-    /// ParticlesView::memory: numbers per particle kept from step to step; 0: none. One force of a run may ask for it.
+    /// Number of values per particle in ParticlesView::memory, stored from step to step; 0 for none. Only one force of
+    /// a run may use it.
     int memory = 0;
 };
 
-/// The forces of one DEM step on the particles of one rank, split by what is implicit and by whose reaction the fluid
-/// must be handed. Force on particle i, dv_i/dt being its acceleration:
+/// Sum of all forces of one DEM step on the particles of one rank. Parts are separated by whether they are implicit and
+/// by where their reaction on the fluid is. The force on particle i with the acceleration dv_i/dt is
 ///
-///     implicitCoefficient[i] (U_fluid - v_i) + source.col(i) + addedMass[i] (DU/Dt - dv_i/dt)    handed to the fluid
-///     + shared.col(i)                                                                            in its equation
-///     + mutual.col(i)                                                                            not the fluid's
+///     implicitCoefficient[i] (U_fluid - v_i) + source.col(i)
+///     + addedMass[i] (DU/Dt - dv_i/dt)    reaction: a source of the fluid
+///     + shared.col(i)                     reaction: already in the fluid's equation
+///     + mutual.col(i)                     reaction: on another particle or a wall
 ///
-/// In model B what is handed over is the same divided by the void fraction (ParticleForces does that, no force model does).
+/// In model B the first two lines are divided by the void fraction; ParticleForces does this, the force models do not.
 struct ForceSum
 {
-    /// Sp [kg/s]. Reaction: handed to the fluid.
+    /// Sp [kg/s]. Its reaction is a source of the fluid.
     Eigen::ArrayXd implicitCoefficient;
-    /// Su [N]. Reaction: handed to the fluid.
+    /// Su [N]. Its reaction is a source of the fluid.
     Eigen::Matrix3Xd source;
-    /// Su [N]. Reaction: already in the fluid's equation (model A's eps grad p; the hydrostatic part of p).
+    /// Su [N]. Its reaction is already in the fluid's equation: model A's eps grad p, and the hydrostatic part of p.
     Eigen::Matrix3Xd shared;
-    /// Su [N] between two particles, or a particle and a wall: the other one has the reaction.
+    /// Su between two particles, or a particle and a wall [N]. Its reaction acts on the other one.
     Eigen::Matrix3Xd mutual;
-    /// m_a [kg], implicit in the particle's inertia. Reaction: handed to the fluid.
+    /// m_a [kg], implicit in the particle's inertia. Its reaction is a source of the fluid.
     Eigen::ArrayXd addedMass;
-    /// Over which they act [s].
+    /// DEM step over which the forces act [s].
     double timeStep = 0;
 
     void setZero(Eigen::Index particleCount);
 };
 
-/// One force of the fluid on particles, selected by name in `forceModels (...)` of couplingProperties, coefficients in
-/// `<name>Props`. A model adds its part for all particles of the rank at once; what it keeps between calls is in
-/// ParticlesView::memory, for particles change ranks.
+/// One force of the fluid on the particles. It is selected by name in `forceModels (...)` of couplingProperties, with
+/// coefficients in `<name>Props`. A model adds its force on all particles of the rank at once. Values that it stores
+/// between calls are in ParticlesView::memory, because particles change ranks.
 class ForceModel
 {
 public:
@@ -71,17 +73,17 @@ public:
         return {};
     }
 
-    /// True for what model A has beside the drag and model B has in it.
+    /// True for a force that is separate from the drag in model A and contained in the drag in model B.
     virtual bool onlyInModelA() const
     {
         return false;
     }
 
-    /// One line for the start of the log, with the coefficients.
+    /// One line with the coefficients for the report at the start of the log.
     virtual Foam::string description() const = 0;
 };
 
-/// Makes a law of closures/ known under its own name, as a force model.
+/// Registers a law of closures/ as a force model under the law's own name.
 template<template<class> class Model, class Law>
 struct RegisterLaw : ForceModel::adddictionaryConstructorToTable<Model<Law>>
 {

@@ -16,22 +16,24 @@ using closures::historyModes;
 const ModelLines laws(
     "historyForceProps { law }", {{"Basset", "creeping flow"}, {"MeiAdrian", "finite Re (the default)"}});
 
-/// What a particle keeps, all zero before its first step.
+/// State that is stored for each particle; all values are zero before its first step.
 struct MotionHistory
 {
-    /// 1 after it.
+    /// 1 after the first step.
     double begun;
-    /// Of the particle past the fluid, at the last step [m/s].
+    /// Velocity of the particle relative to the fluid at the last step [m/s].
     Vector3d velocity;
-    /// Changes of that velocity, faded with each mode's rate.
+    /// Changes of that velocity, each decayed with the rate of its mode [m/s].
     Eigen::Matrix<double, 3, historyModes, Eigen::DontAlign> modes;
 };
 static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as plain doubles beside the particle");
 
-/// -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A particle's history begins at its first step with the
-/// coupling; before, it is taken to have always moved as then. The last DEM step's part is implicit in its inertia.
+/// History force -C int K(t - s) d(v - U)/ds ds: see closures/historyForce.h. A particle's history begins at its first
+/// step with the coupling; the relative velocity is taken as constant before. The contribution of the last DEM step is
+/// implicit in the particle's inertia.
 ///
 ///     historyForceProps { law Basset; }         // creeping flow
+///     historyForceProps { law MeiAdrian; }      // finite Re; the default
 ///     historyForceProps { law MeiAdrian; }      // finite Re; the default
 class HistoryForce : public ForceModel
 {
@@ -61,7 +63,7 @@ public:
         {
             auto& history = *reinterpret_cast<MotionHistory*>(particles.memory + particle * particles.memorySize);
             const Vector3d velocity = particles.velocity.col(particle) - particles.state[particle].fluid.velocity;
-            if (particles.memoryAges)
+            if (particles.advancesMemory)
             {
                 const Vector3d change = history.begun * (velocity - history.velocity);
                 history.modes = history.modes * fades.matrix().asDiagonal();
@@ -112,13 +114,12 @@ private:
 
     const FluidProperties fluid_;
     Modes weight_;
-    std::unique_ptr<closures::MeiAdrianShare> share_; // none: Basset
+    std::unique_ptr<closures::MeiAdrianShare> share_; // null for Basset's kernel
 };
 
 defineTypeNameAndDebug(HistoryForce, 0);
 addToRunTimeSelectionTable(ForceModel, HistoryForce, dictionary);
-const ModelLines lines("forceModels",
-    {{HistoryForce::typeName_(), "drag that remembers how the particle moved (Basset; Mei & Adrian 1992)"}});
+const ModelLines lines("forceModels", {{HistoryForce::typeName_(), "history force (Basset; Mei & Adrian 1992)"}});
 
 } // namespace
 

@@ -8,7 +8,7 @@ namespace clepsydra
 namespace
 {
 
-/// A lift law of closures/ as a force model: C (U_f - u_p) x w.
+/// A lift law of closures/ as a force model, C (U_f - u_p) x w.
 template<class Law>
 class Lift : public ForceModel
 {
@@ -55,7 +55,7 @@ private:
 template<class Law>
 using Register = RegisterLaw<Lift, Law>;
 
-// Adding a lift law to the program is one line here.
+// A lift law is added to the program by one line here.
 const Register<closures::RubinowKellerLift> rubinowKeller;
 const Register<closures::OesterleBuiDinhLift> oesterleBuiDinh;
 const Register<closures::SaffmanMeiLift> saffmanMei;

@@ -10,19 +10,20 @@ namespace clepsydra
 namespace
 {
 
-/// The fluid squeezed out between two particles or a particle and a wall resists their approach: see closures/lubrication.h.
-/// Equal and opposite on the two; nothing of it is handed to the fluid's equation.
+/// Lubrication force: fluid that is squeezed out between two particles, or a particle and a wall, resists their
+/// approach; see closures/lubrication.h. The forces on the two are equal and opposite, and the fluid's equation
+/// receives no reaction.
 ///
 ///     lubricationForceProps
 ///     {
-///         roughness 1e-6;     // [m], gap at which the surfaces touch
+///         roughness 1e-6;     // gap at which the surfaces touch [m]
 ///         reach     0.1;      // gap beyond which the drag law has it all, in sums of the two radii; default 0.1
-///         walls     ( ((0 0 0) (0 0 1)) );    // point and normal of planes; default none
-///         wallReach 1.25;     // as reach, at the walls; default reach
+///         walls     ( ((0 0 0) (0 0 1)) );    // point and normal of each plane; default none
+///         wallReach 1.25;     // reach at the walls, in diameters; default: the value of reach
 ///     }
 ///
-/// It acts explicitly at every DEM step, so that steps must stay below m/(6 pi mu R_eff^2/roughness): 0.5 ms for 2 mm
-/// glass beads at a wall in water with 1 um. FatalError above half of it.
+/// The force is explicit in every DEM step, so the step must stay below m/(6 pi mu R_eff^2/roughness), which is 0.5 ms
+/// for 2 mm glass beads at a wall in water with a roughness of 1 um. FatalError for DEM steps above half of it.
 class LubricationForce : public ForceModel
 {
 public:
@@ -56,9 +57,9 @@ public:
 
     Foam::string description() const override
     {
-        return "lubricationForce: normal squeeze, roughness " + Foam::name(roughness_) + " m, reach "
+        return "lubricationForce: normal component, roughness " + Foam::name(roughness_) + " m, reach "
                + Foam::name(reach_) + " (R1 + R2), " + Foam::name(static_cast<Foam::label>(walls_.size()))
-               + " walls, felt from gaps of " + Foam::name(wallReach_) + " diameters on";
+               + " walls with a reach of " + Foam::name(wallReach_) + " diameters";
     }
 
 private:
@@ -86,7 +87,7 @@ private:
             requireStable(coefficient, particles.mass[first], sum.timeStep);
             const Vector3d force = coefficient * approach * normal;
             sum.mutual.col(first) -= force;
-            // Otherwise another rank's, which sees it first.
+            // Otherwise the second particle is another rank's, which lists the pair with it as the first one.
             if (second < particles.size())
             {
                 requireStable(coefficient, particles.mass[second], sum.timeStep);
@@ -114,7 +115,7 @@ private:
         if (coefficient * timeStep > largestPart * mass)
         {
             FatalErrorInFunction << "lubricationForce damps a particle of " << mass << " kg at the rate "
-                                 << coefficient / mass << " 1/s, too fast for DEM steps of " << timeStep
+                                 << coefficient / mass << " 1/s, which is too fast for DEM steps of " << timeStep
                                  << " s; allowed: steps up to " << largestPart * mass / coefficient
                                  << " s, or a larger roughness than " << roughness_ << " m"
                                  << Foam::exit(Foam::FatalError);
@@ -130,9 +131,8 @@ private:
 
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
-const ModelLines lines(
-    "forceModels", {{LubricationForce::typeName_(),
-                       "fluid squeezed from the gap of two particles, or a particle and a wall (Cox 1974)"}});
+const ModelLines lines("forceModels",
+    {{LubricationForce::typeName_(), "lubrication force between two particles, or a particle and a wall (Cox 1974)"}});
 
 } // namespace
 

@@ -5,12 +5,13 @@
 namespace clepsydra
 {
 
-/// How the fluid's pressure gradient and viscous stress are shared with the particles; Zhou, Kuang, Chu & Yu, J. Fluid
-/// Mech. 661, 482 (2010).
+/// How the fluid's pressure gradient and viscous stress are divided between fluid and particles; Zhou, Kuang, Chu & Yu,
+/// J. Fluid Mech. 661, 482 (2010).
 ///
-/// A (their set II): the fluid keeps eps grad p, a particle feels drag, -V_p grad p and V_p div(tau).
-/// B (their set III): the fluid keeps all of grad p and div(tau); a particle feels (drag + other forces)/eps.
-/// Both with Archimedes' force, p being without its hydrostatic part. In a steady homogeneous bed they are the same.
+/// A (their set II): the fluid has eps grad p; the forces on a particle are drag, -V_p grad p and V_p div(tau). B
+/// (their set III): the fluid has all of grad p and div(tau); the force on a particle is (drag + other forces)/eps.
+/// Both add Archimedes' force, because p is without its hydrostatic part. In a steady homogeneous bed they are
+/// equivalent.
 enum class ModelType
 {
     A,
@@ -18,10 +19,10 @@ enum class ModelType
 };
 
 inline const ModelLines modelTypes(
-    "modelType", {{"A", "the fluid keeps eps grad p; particles feel drag, -V grad p and V div(tau)"},
-                     {"B", "the fluid keeps all of grad p and div(tau); particles feel drag/eps"}});
+    "modelType", {{"A", "the fluid has eps grad p; on a particle act drag, -V grad p and V div(tau)"},
+                     {"B", "the fluid has all of grad p and div(tau); on a particle acts drag/eps"}});
 
-/// Entry `modelType` of couplingProperties. FatalIOError for anything but A and B.
+/// Reads the entry `modelType` of couplingProperties. FatalIOError for anything but A and B.
 inline ModelType readModelType(const Foam::dictionary& couplingProperties)
 {
     return selectedModel(couplingProperties, "modelType", modelTypes.names()) == "B" ? ModelType::B : ModelType::A;

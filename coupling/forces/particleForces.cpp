@@ -15,8 +15,8 @@ namespace
 
 constexpr Eigen::Index particlesAtATime = 64;
 
-/// Asks for what every force needs of the states of particles `first` to `end`: the engine's contacts have pushed it out of
-/// the near caches.
+/// Prefetches the part of the states of particles `first` to `end` that every force needs; the evaluation of contacts
+/// has displaced it from the caches.
 void prefetch(const ParticlesView& particles, Eigen::Index first, Eigen::Index end)
 {
     constexpr std::size_t cacheLine = 64;
@@ -30,7 +30,7 @@ void prefetch(const ParticlesView& particles, Eigen::Index first, Eigen::Index e
     }
 }
 
-/// Particles `first` to `first + count`, with all the pairs.
+/// View of the particles `first` to `first + count`, with all pairs.
 ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eigen::Index count)
 {
     const auto values = [&](const auto& all) { return std::decay_t<decltype(all)>(all.data() + first, count); };
@@ -38,7 +38,7 @@ ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eige
     return {values(particles.id), vectors(particles.position), vectors(particles.velocity),
         vectors(particles.angularVelocity), values(particles.radius), values(particles.mass), particles.state + first,
         vectors(particles.otherForce), particles.pairs, particles.memory + first * particles.memorySize,
-        particles.memorySize, particles.memoryAges, values(particles.held)};
+        particles.memorySize, particles.advancesMemory, values(particles.fixed)};
 }
 
 } // namespace
@@ -62,14 +62,16 @@ ParticleForces::ParticleForces(
         if (modelType_ == ModelType::B && models_.last().onlyInModelA())
         {
             FatalIOErrorInFunction(couplingProperties)
-                << "Entry 'forceModels' lists '" << name << "' and entry 'modelType' is B; allowed: without it, for in "
-                << "model B the fluid keeps the whole pressure gradient and viscous stress, and the particles' part of "
+                << "Entry 'forceModels' lists '" << name
+                << "' and entry 'modelType' is B; allowed: without it, because in "
+                << "model B the fluid has the whole pressure gradient and viscous stress, and the particles' part of "
                 << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
         }
         if (memoryTaken && models_.last().needs().memory > 0)
         {
-            FatalIOErrorInFunction(couplingProperties) << "Entry 'forceModels' lists a second force with a memory, '"
-                                                       << name << "'; allowed: one" << Foam::exit(Foam::FatalIOError);
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry 'forceModels' lists a second force that stores values per particle, '" << name
+                << "'; allowed: one such force" << Foam::exit(Foam::FatalIOError);
         }
     }
     pairs_ = needs().pairReach > 0;
@@ -92,7 +94,8 @@ ForceNeeds ParticleForces::needs() const
 void ParticleForces::evaluate(const ParticlesView& particles, double timeStep, Vectors force)
 {
     const PhaseTimers::Scope timing = timers_.time("forces");
-    // Pairs may be of any two particles, everything else is done for a few at a time: their states stay in the cache.
+    // Pairs may consist of any two particles; everything else is evaluated for a few particles at a time, so that their
+    // states stay in the cache.
     const Eigen::Index most = pairs_ ? particles.size() : particlesAtATime;
     for (Eigen::Index first = 0; first < particles.size(); first += most)
     {
@@ -119,26 +122,27 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
             modelType_ == ModelType::B ? submergedFraction / state.fluid.voidFraction : submergedFraction;
         const double coefficient = ofModel * sum_.implicitCoefficient[particle];
         const double addedMass = ofModel * sum_.addedMass[particle];
-        Vector3d handedOver = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
-                              + ofModel * sum_.source.col(particle);
-        const Vector3d notHandedOver = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
+        Vector3d withReaction = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
+                                + ofModel * sum_.source.col(particle);
+        const Vector3d withoutReaction = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
         if (addedMass > 0)
         {
-            state.given.addedMassTime += timeStep * addedMass;
-            // The particle's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt): stable at any m_a/m.
-            const Vector3d others = particles.otherForce.col(particle) + handedOver + notHandedOver;
+            state.received.addedMassTime += timeStep * addedMass;
+            // The particle's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt), which is stable for
+            // any m_a/m.
+            const Vector3d others = particles.otherForce.col(particle) + withReaction + withoutReaction;
             const Vector3d free =
                 (others + addedMass * state.fluid.acceleration) / (particles.mass[particle] + addedMass);
-            const Vector3d acceleration = particles.held[particle] ? Vector3d(Vector3d::Zero()) : free;
-            handedOver += addedMass * (state.fluid.acceleration - acceleration);
+            const Vector3d acceleration = particles.fixed[particle] ? Vector3d(Vector3d::Zero()) : free;
+            withReaction += addedMass * (state.fluid.acceleration - acceleration);
         }
-        force.col(particle) = handedOver + notHandedOver;
+        force.col(particle) = withReaction + withoutReaction;
         if (state.fluid.selfMobility > 0)
         {
             state.drag = coefficient * (state.fluid.velocity - particles.velocity.col(particle));
         }
-        state.given.impulse += timeStep * handedOver;
-        state.given.implicitCoefficientTime += timeStep * coefficient;
+        state.received.impulse += timeStep * withReaction;
+        state.received.implicitCoefficientTime += timeStep * coefficient;
     }
 }
 
@@ -149,9 +153,10 @@ void ParticleForces::removeSelfInducedVelocity(const ParticlesView& particles)
         FluidAtParticle& fluid = particles.state[particle].fluid;
         if (fluid.selfMobility > 0)
         {
-            // The fluid has the opposite force. The one of the step before: it changes little from step to step. Only the drag,
-            // for the disturbance is a steady one; added mass and history force answer a change of the fluid's velocity
-            // with so large a force that each step would change it more.
+            // The reaction of the particle's drag acts on the fluid. The drag of the last DEM step is used, because it
+            // changes little from step to step. Only the drag is used, because the self-induced velocity is that of a
+            // steady force: added mass and history force respond to a change of the fluid's velocity with so large a
+            // force that each step would increase the change.
             fluid.velocity = fluid.velocityInCells + fluid.selfMobility * particles.state[particle].drag;
         }
     }

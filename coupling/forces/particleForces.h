@@ -10,18 +10,19 @@
 namespace clepsydra
 {
 
-/// All forces of the fluid on the particles, as listed in `forceModels (...)`, evaluated at every DEM step from the particle's
-/// own velocity and the frozen fluid; keeps the account of what the fluid must receive.
+/// All forces of the fluid on the particles, as listed in `forceModels (...)`. They are evaluated at every DEM step
+/// from the particle's present velocity and the frozen fluid. The impulses that the fluid must receive in return are
+/// summed in CouplingState::received.
 class ParticleForces final : public FluidForces
 {
 public:
-    /// FatalIOError for an unknown force and for one that does not go with `modelType`.
+    /// FatalIOError for an unknown force and for one that is incompatible with `modelType`.
     ParticleForces(const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid,
         PhaseTimers& timers);
 
     void evaluate(const ParticlesView& particles, double timeStep, Vectors force) override;
 
-    /// What any of the forces needs.
+    /// Quantities that at least one of the forces needs.
     ForceNeeds needs() const;
 
     const Foam::PtrList<ForceModel>& models() const
@@ -31,7 +32,7 @@ public:
 
 private:
     void evaluatePart(const ParticlesView& particles, double timeStep, Vectors force);
-    /// Sets the velocity that the forces see to the one that the fluid would have without the particle.
+    /// Sets the velocity that the forces use to the sampled one less the particle's self-induced velocity.
     static void removeSelfInducedVelocity(const ParticlesView& particles);
 
     PhaseTimers& timers_;

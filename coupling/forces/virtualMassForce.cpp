@@ -10,13 +10,14 @@ namespace
 {
 
 const ModelLines laws(
-    "virtualMassForceProps { law }", {{"constant", "Cadd of the particle's volume: 0.5 unless given (the default)"},
-                                         {"Zuber", "grows with the solid fraction (Zuber 1964)"}});
+    "virtualMassForceProps { law }", {{"constant", "coefficient Cadd, 0.5 unless given (the default)"},
+                                         {"Zuber", "coefficient that increases with the solid fraction (Zuber 1964)"}});
 
-/// m_a (DU/Dt - dv/dt), implicit in the particle's inertia: see closures/addedMass.h and ForceSum::addedMass.
+/// Added mass force m_a (DU/Dt - dv/dt), implicit in the particle's inertia: see closures/addedMass.h and
+/// ForceSum::addedMass.
 ///
 ///     virtualMassForceProps { law constant; Cadd 0.5; }     // the default
-///     virtualMassForceProps { law Zuber; }                  // grows with the solid fraction
+///     virtualMassForceProps { law Zuber; }                  // increases with the solid fraction
 class VirtualMassForce : public ForceModel
 {
 public:
@@ -58,7 +59,7 @@ public:
     Foam::string description() const override
     {
         return "virtualMassForce: added mass, coefficient "
-               + (zuber_ ? Foam::string("after Zuber") : Foam::string(Foam::name(coefficient_)));
+               + (zuber_ ? Foam::string("after Zuber 1964") : Foam::string(Foam::name(coefficient_)));
     }
 
 private:
@@ -69,7 +70,8 @@ private:
 
 defineTypeNameAndDebug(VirtualMassForce, 0);
 addToRunTimeSelectionTable(ForceModel, VirtualMassForce, dictionary);
-const ModelLines lines("forceModels", {{VirtualMassForce::typeName_(), "added mass (Auton, Hunt & Prud'homme 1988)"}});
+const ModelLines lines(
+    "forceModels", {{VirtualMassForce::typeName_(), "added mass force (Auton, Hunt & Prud'homme 1988)"}});
 
 } // namespace
 

@@ -14,18 +14,19 @@ inline const ModelLines wallCorrections("<drag law>Props { wallCorrection { law 
     {{"none", "none (the default)"}, {"DiFelice1996", "on the axis of a tube, any Re (Di Felice 1996)"},
         {"Faxen", "beside plane walls, Re << 1 (Faxen 1923)"}});
 
-/// Drag beside walls, in the coefficients of any drag law; see closures/wallCorrection.h.
+/// Corrects the drag of any drag law for walls; see closures/wallCorrection.h. With planes, the drag of a particle is
+/// F = Sp (slip + addedSlip).
 ///
-///     wallCorrection { law none; }                                        // as without the entry
+///     wallCorrection { law none; }                                        // the default
 ///     wallCorrection { law DiFelice1996; tubeDiameter 0.094; }            // [m], any Re
-///     wallCorrection { law Faxen; walls ( ((0 0 0) (0 0 1)) ); }          // point and normal of planes, Re << 1
+///     wallCorrection { law Faxen; walls ( ((0 0 0) (0 0 1)) ); }          // point and normal of each plane, Re << 1
 ///
-/// Towards a plane it is Brenner's factor, and from a gap of a fifth of a radius on constant: that is where
-/// lubricationForce begins, by default, which adds what is left of it. Several planes add up (Oseen). The drag of a particle is then F = Sp (slip + addedSlip).
+/// For motion towards a plane the factor is Brenner's. It is constant for gaps below a fifth of a radius, where
+/// lubricationForce begins by default and adds the rest. Contributions of several planes are added (Oseen).
 class WallCorrection
 {
 public:
-    /// FatalIOError for a law that is unknown or, beside other entries, missing, and for a tube or walls that are missing.
+    /// FatalIOError for an unknown law, for other entries without a law, and for a law without its tube or walls.
     explicit WallCorrection(const Foam::dictionary& dict)
     {
         requireKnownEntries(dict, {"law", "tubeDiameter", "walls"});
@@ -45,8 +46,8 @@ public:
         }
     }
 
-    /// Speed of the particle over that of a free particle with the same drag; 1 without a tube. FatalError for a particle as wide
-    /// as the tube.
+    /// Speed of the particle divided by that of a free particle with the same drag [-]; 1 without a tube. FatalError
+    /// for a particle as wide as the tube.
     double tubeVelocityRatio(const closures::ParticleInFluid& particle) const
     {
         if (tubeDiameter_ == 0)
@@ -56,9 +57,9 @@ public:
         const double lambda = particle.diameter / tubeDiameter_;
         if (lambda >= 1)
         {
-            FatalErrorInFunction << "A particle of diameter " << particle.diameter << " m in wallCorrection's tube of "
-                                 << tubeDiameter_ << " m; allowed: particles narrower than tubeDiameter"
-                                 << Foam::exit(Foam::FatalError);
+            FatalErrorInFunction << "A particle has a diameter of " << particle.diameter
+                                 << " m, but wallCorrection's tube has " << tubeDiameter_
+                                 << " m; allowed: particles narrower than tubeDiameter" << Foam::exit(Foam::FatalError);
         }
         return closures::diFeliceWallVelocityRatioAtSpeed(lambda, closures::isolatedReynolds(particle));
     }
@@ -68,7 +69,8 @@ public:
         return !planes_.empty();
     }
 
-    /// By how much more slip a free particle would have the same drag [m/s]. FatalError for a particle behind a plane.
+    /// Additional slip with which a free particle would have the same drag [m/s]. FatalError for a particle behind a
+    /// plane.
     Vector3d addedSlip(const Vector3d& slip, const Vector3d& position, double radius) const
     {
         Vector3d added = Vector3d::Zero();
@@ -92,19 +94,20 @@ public:
         return added;
     }
 
-    /// To follow that of the drag law; empty without correction.
+    /// Text that follows the drag law's description; empty without a correction.
     Foam::string description() const
     {
         if (tubeDiameter_ > 0)
         {
             return ", walls after Di Felice 1996, tube of " + Foam::name(tubeDiameter_) + " m";
         }
-        return hasPlanes() ? ", Faxen's walls, " + Foam::name(static_cast<Foam::label>(planes_.size())) + " planes"
+        return hasPlanes() ? ", walls after Faxen, " + Foam::name(static_cast<Foam::label>(planes_.size())) + " planes"
                            : "";
     }
 
 private:
-    /// Over the radius: lubricationForce's default reach, .1, in diameters.
+    /// Gap divided by the radius below which the factor is constant: lubricationForce's default reach, 0.1, in
+    /// diameters.
     static constexpr double lubricatedGap = 0.2;
 
     double tubeDiameter_ = 0;

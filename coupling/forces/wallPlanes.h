@@ -13,20 +13,20 @@
 namespace clepsydra
 {
 
-/// A plane wall; the fluid is on the side that the normal points to.
+/// A plane wall. Its normal points to the side of the fluid.
 struct WallPlane
 {
     Eigen::Vector3d point;
     Eigen::Vector3d normal; // of length 1
 
-    /// Of a point from the wall [m].
+    /// Distance of a point from the wall [m].
     double distance(const Eigen::Vector3d& position) const
     {
         return normal.dot(position - point);
     }
 };
 
-/// Entry `walls ( ((point) (normal)) ... );`, none where it is missing. FatalIOError for a normal without length.
+/// Reads the entry `walls ( ((point) (normal)) ... );`, which may be missing. FatalIOError for a normal of zero length.
 inline std::vector<WallPlane> readWallPlanes(const Foam::dictionary& dict)
 {
     using Plane = Foam::Tuple2<Foam::vector, Foam::vector>;

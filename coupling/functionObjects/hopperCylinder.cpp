@@ -16,7 +16,7 @@ HopperCylinder::HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwa
 {
     using namespace Foam;
 
-    // Bounds in a frame whose third axis is the hopper's.
+    // Bounds in a frame whose third axis is that of the hopper.
     const Vector3d e1 = axis_.unitOrthogonal();
     const Vector3d e2 = axis_.cross(e1);
     vector low = vector::max;

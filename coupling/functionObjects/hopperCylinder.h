@@ -7,15 +7,17 @@
 namespace clepsydra
 {
 
-/// The upright cylinder that a hopper's wall patch spans, over all ranks. Lengths in m.
+/// The upright cylinder around a hopper's wall patch, over all ranks. SI units.
 ///
-/// A particle is in the hopper if its centre is above the lowest point of the wall and no further from the axis than the
-/// wall's furthest point. There is no upper bound: particles above the rim while filling count, too.
+/// A particle is in the hopper where its centre is above the lowest point of the wall and not farther from the axis
+/// than the farthest point of the wall. There is no upper limit, so particles above the rim during filling are counted,
+/// too.
 class HopperCylinder
 {
 public:
-    /// Collective. \param wall  has a face on one rank at least.
-    /// \param upwards  direction of the axis, of any length but zero.
+    /// Collective.
+    /// \param wall  patch with a face on at least one rank
+    /// \param upwards  direction of the axis, of any length but zero
     HopperCylinder(const Foam::polyPatch& wall, const Vector3d& upwards);
 
     bool contains(const Vector3d& point) const
@@ -25,7 +27,7 @@ public:
         return height > 0 && (fromFoot - height * axis_).squaredNorm() <= radius_ * radius_;
     }
 
-    /// Where the axis meets the plane of the wall's lowest point.
+    /// Intersection of the axis with the horizontal plane through the wall's lowest point [m].
     const Vector3d& foot() const
     {
         return foot_;

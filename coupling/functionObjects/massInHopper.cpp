@@ -15,15 +15,16 @@ namespace clepsydra
 
 defineTypeNameAndDebug(MassInHopper, 0);
 addToRunTimeSelectionTable(functionObject, MassInHopper, dictionary);
-static const ModelLines lines("functions { type }",
-    {{MassInHopper::typeName_(), "mass, number and rate of the particles in a hopper: what a scale reads"}});
+static const ModelLines lines(
+    "functions { type }", {{MassInHopper::typeName_(), "mass, number and rate of the particles in a hopper"}});
 
 namespace
 {
 
 const word countEntry = "particlesInHopper";
 const word lastDepartureEntry = "lastDeparture";
-/// Times and masses in turn, as text: OpenFOAM would write numbers with the fields' digits, and the rate would differ.
+/// Times and masses alternately, as text: OpenFOAM would write numbers with the precision of the fields, and the rate
+/// would differ.
 const word samplesEntry = "samplesOfRate";
 const word rowsEntry = "rows";
 
@@ -56,7 +57,8 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     : fvMeshFunctionObject(name, time, dict),
       writeFile(mesh_, name, name)
 {
-    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    // The file is created after all checks, because one that is left by a wrong entry would make OpenFOAM write the
+    // next run's file under another name.
     MassInHopper::read(dict);
     const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
@@ -72,7 +74,7 @@ MassInHopper::MassInHopper(const word& name, const Time& time, const dictionary&
     os << endl;
 
     resume(rowsThatStay);
-    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
     if (lastSample_ < 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
         sample();
@@ -115,10 +117,11 @@ bool MassInHopper::read(const dictionary& dict)
     const label patch = mesh_.boundaryMesh().findPatchID(patchName);
     if (patch < 0)
     {
-        FatalIOErrorInFunction(dict) << "Entry 'patch' is '" << patchName << "', which the mesh has not; allowed: "
+        FatalIOErrorInFunction(dict) << "Entry 'patch' is '" << patchName
+                                     << "', which is not a patch of the mesh; allowed: "
                                      << flatOutput(mesh_.boundaryMesh().names()) << exit(FatalIOError);
     }
-    // FatalIOError, too: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
+    // A FatalIOError, because OpenFOAM turns a FatalError of a function object into a warning and continues without it.
     if (returnReduce(mesh_.boundaryMesh()[patch].size(), sumOp<label>()) == 0)
     {
         FatalIOErrorInFunction(dict) << "Entry 'patch' is '" << patchName
@@ -136,7 +139,8 @@ bool MassInHopper::read(const dictionary& dict)
     rate_ = std::make_unique<TrailingRate>(dict.found("rateWindow") ? positiveEntry(dict, "rateWindow", true) : 0.1);
     stopAfter_ = dict.found("stopWhenFlowStops") ? positiveEntry(dict, "stopWhenFlowStops") : 0;
     sampleInterval_ = dict.found("sampleInterval") ? positiveEntry(dict, "sampleInterval") : 0;
-    // Not the last interval, which may be longer with adjustableCouplingTimeStep: what a fresh start takes, a resumed run takes.
+    // deltaT of controlDict, not the length of the last coupling step, which adjustableCouplingTimeStep may have
+    // increased: a resumed run must accept what a fresh start accepts.
     const auto timeStep = time_.controlDict().get<scalar>("deltaT");
     if (sampleInterval_ > 0 && sampleInterval_ < timeStep * (1 - roundingOfTime))
     {
@@ -212,8 +216,8 @@ void MassInHopper::stopIfFlowStopped()
         return;
     }
     stopping_ = true;
-    Info << type() << ' ' << name() << ": no particle has left since " << lastDeparture << " s, " << lastParticles_
-         << " remain; ending the run" << endl;
+    Info << type() << ' ' << name() << ": no particle has left since " << lastDeparture << " s, and " << lastParticles_
+         << " remain; the run ends" << endl;
     time_.stopAt(Time::saWriteNow);
 }
 

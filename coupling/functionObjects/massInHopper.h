@@ -12,24 +12,24 @@
 namespace clepsydra
 {
 
-/// Function object: the particles in the hopper over time.
+/// Function object: mass, number and rate of the particles in a hopper.
 ///
 ///     massInHopper
 ///     {
 ///         type                massInHopper;
 ///         patch               hopper;     // the hopper's wall
 ///         axis                (0 0 1);    // upwards; default (0 0 1)
-///         sampleInterval      0.01;       // s; rows are at most that far apart. Default: a row per execution
-///         rateWindow          0.1;        // s; the rate is the mean over that time. Default 0.1
-///         stopWhenFlowStops   1;          // s; optional: ends the run, with its fields written, when particles have left
-///                                         // and then none has for so long
+///         sampleInterval      0.01;       // largest time between rows [s]; default: a row per execution
+///         rateWindow          0.1;        // time over which the rate is averaged [s]; default 0.1
+///         stopWhenFlowStops   1;          // optional: ends the run with a checkpoint when particles have left and
+///                                         // then none has left for this time [s]
 ///     }
 ///
-/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], mass [kg], particles [-], rate [kg/s] (positive when
-/// the hopper empties). Which particles are in the hopper: see HopperCylinder. A restart continues in a folder of its
-/// own start time, with the rows that it would have written had it not been stopped.
+/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], mass [kg], particles [-], rate [kg/s] (positive while
+/// the hopper empties). HopperCylinder defines which particles are in the hopper. A resumed run continues in a folder
+/// of its own start time, with the same rows as an uninterrupted run.
 ///
-/// FatalIOError where the mesh has no such patch (its patches are listed) or an entry is out of range.
+/// FatalIOError where the mesh has no such patch (the message lists its patches) and where an entry is out of range.
 class MassInHopper : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
 {
 public:
@@ -42,7 +42,7 @@ public:
     /// Adds a row where one is due. Collective.
     bool execute() override;
 
-    /// Nothing: rows are written when they are taken.
+    /// Does nothing, because execute() writes the rows.
     bool write() override
     {
         return true;
@@ -51,13 +51,13 @@ public:
     /// Adds the last row. Collective.
     bool end() override;
 
-    /// Particles in the hopper as last counted by the function object of this type in `functions`, over all ranks;
-    /// -1 where there is none or it has not counted yet. Local.
+    /// Number of particles in the hopper, over all ranks, that the function object of this type in `functions` has
+    /// counted last; -1 where there is none or where it has not counted yet. Local.
     static Foam::label lastCount(const Foam::Time& time);
 
 private:
-    /// Takes up the state that the checkpoint holds, if there is one.
-    /// \param rowsThatStay  in tables of earlier start times
+    /// Restores the state from a checkpoint, if there is one.
+    /// \param rowsThatStay  number of rows in tables of earlier start times
     void resume(Foam::label rowsThatStay);
     void sample();
     void stopIfFlowStopped();
@@ -68,7 +68,7 @@ private:
     Foam::scalar stopAfter_ = 0;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::label lastParticles_ = -1;
-    /// In all tables, since the fresh start.
+    /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;
     bool stopping_ = false;
 };

@@ -16,17 +16,18 @@ using namespace Foam;
 namespace
 {
 
-/// Half the last digit of a time's name would do; times of rows are that far apart at least.
+/// Tolerance in comparisons of times; the times of rows differ by more.
 constexpr scalar sameTime = 1e-9;
 
-/// Cuts the table where they begin. Rows before are not touched, so a full disk cannot harm them.
-/// \return how many those are.
+/// Truncates the table before its first row of the given time or later. Earlier rows are not rewritten, so a full disk
+/// cannot damage them.
+/// \return number of remaining rows
 label dropRowsFrom(scalar time, const fileName& table)
 {
     std::ifstream lines(table);
-    std::uintmax_t kept = 0;
+    std::uintmax_t bytesKept = 0;
     label rows = 0;
-    // FatalIOError: OpenFOAM takes a FatalError from a function object for a warning and goes on without it.
+    // A FatalIOError, because OpenFOAM turns a FatalError of a function object into a warning and continues without it.
     const auto requireReadable = [&] {
         if (!lines.is_open() || lines.bad())
         {
@@ -35,7 +36,7 @@ label dropRowsFrom(scalar time, const fileName& table)
     };
     requireReadable();
     std::string line;
-    // A line without its end is the one that the run was killed in.
+    // A line without its end was being written when the run was killed.
     while (std::getline(lines, line) && !lines.eof())
     {
         std::istringstream columns(line);
@@ -48,15 +49,16 @@ label dropRowsFrom(scalar time, const fileName& table)
             }
             ++rows;
         }
-        kept += line.size() + 1;
+        bytesKept += line.size() + 1;
     }
     requireReadable();
     lines.close();
     std::error_code problem;
-    std::filesystem::resize_file(table.c_str(), kept, problem);
+    std::filesystem::resize_file(table.c_str(), bytesKept, problem);
     if (problem)
     {
-        FatalIOErrorInFunction(IFstream(table)) << "Cannot cut: " << problem.message() << exit(FatalIOError);
+        FatalIOErrorInFunction(IFstream(table))
+            << "Cannot remove rows from the table: " << problem.message() << exit(FatalIOError);
     }
     return rows;
 }
@@ -104,8 +106,8 @@ void warnOfLostRows(label stayed, label written, const word& table)
 {
     if (Pstream::master() && stayed != written)
     {
-        Info << "WARNING: " << table << " has " << stayed << " rows of before this checkpoint in place of the "
-             << written << " that were written: cut, edited or removed since then?" << nl << endl;
+        Info << "WARNING: " << table << " has " << stayed << " rows from before this checkpoint, but " << written
+             << " were written: was it edited, truncated or removed since then?" << nl << endl;
     }
 }
 

@@ -8,8 +8,9 @@
 namespace clepsydra
 {
 
-/// Lets function objects see the particles: registered with the mesh's database under the name "particles".
-/// A function object of one's own finds them by
+/// Gives function objects access to the particles. The object is registered with the mesh's database under the name
+/// "particles". A user's function object obtains them by
+///
 ///     mesh_.lookupObject<clepsydra::ObservedParticles>(clepsydra::ObservedParticles::registryName).particles()
 class ObservedParticles : public Foam::regIOobject
 {
@@ -21,7 +22,7 @@ public:
           engine_(engine)
     {}
 
-    /// The particles of this rank, at the end of the last coupling step.
+    /// The particles of this rank at the end of the last coupling step.
     ParticlesView particles() const
     {
         return engine_.particles();

@@ -17,16 +17,17 @@ namespace clepsydra
 
 defineTypeNameAndDebug(ParticleFlux, 0);
 addToRunTimeSelectionTable(functionObject, ParticleFlux, dictionary);
-static const ModelLines lines(
-    "functions { type }", {{ParticleFlux::typeName_(), "particles that come in and that leave through outlets"}});
+static const ModelLines lines("functions { type }",
+    {{ParticleFlux::typeName_(),
+        "number, mass, momentum and rate of inserted particles and of those that leave through outlets"}});
 
 namespace
 {
 
-/// The outlets' names; one text per patchFlux; the time of the last row with the masses then, and the row. As text: OpenFOAM
-/// would write numbers with the fields' digits.
+/// The state in checkpoints: names of the outlets; one text per transfer; time of the last row with the masses at that
+/// time, and the row itself. They are text because OpenFOAM would write numbers with the precision of the fields.
 const word outletsEntry = "outlets";
-const word patchFluxesEntry = "patchFluxes";
+const word transfersEntry = "transfers";
 const word lastSampleEntry = "lastSample";
 const word lastRowEntry = "lastRow";
 const word rowsEntry = "rows";
@@ -43,7 +44,8 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     : fvMeshFunctionObject(name, time, dict),
       writeFile(mesh_, name, name)
 {
-    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    // The file is created after all checks, because one that is left by a wrong entry would make OpenFOAM write the
+    // next run's file under another name.
     ParticleFlux::read(dict);
     requireSameOutlets();
     const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
@@ -53,7 +55,7 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     columns.append(insertionAndRemoval().outlets());
     Ostream& os = file();
     writeHeader(
-        os, "Particles inserted, and those that left through " + std::to_string(columns.size() - 1) + " outlets");
+        os, "Inserted particles, and particles that left through " + std::to_string(columns.size() - 1) + " outlets");
     writeCommented(os, "time [s]");
     for (const word& column : columns)
     {
@@ -65,10 +67,10 @@ ParticleFlux::ParticleFlux(const word& name, const Time& time, const dictionary&
     }
     os << endl;
 
-    patchFluxes_.resize(static_cast<std::size_t>(columns.size()));
-    lastMasses_.resize(patchFluxes_.size());
+    transfers_.resize(static_cast<std::size_t>(columns.size()));
+    lastMasses_.resize(transfers_.size());
     resume(rowsThatStay);
-    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
     if (lastSample_ < 0)
     {
         sample();
@@ -87,30 +89,30 @@ void ParticleFlux::requireSameOutlets() const
     if (getProperty(outletsEntry, before) && before != insertionAndRemoval().outlets())
     {
         FatalIOError(FUNCTION_NAME, __FILE__, __LINE__, time_.globalPath() / time_.constant() / "couplingProperties")
-            << "Entry 'particleOutlets' is " << flatOutput(insertionAndRemoval().outlets()) << " and was "
+            << "Entry 'particleOutlets' is " << flatOutput(insertionAndRemoval().outlets()) << ", but it was "
             << flatOutput(before) << " when " << name()
-            << " counted what left; allowed: as it was, for its totals are those since the fresh "
-            << "start, or another name for " << name() << " in system/controlDict, by which it begins at 0"
+            << " began to count; allowed: the same as before, because its totals are those since the fresh "
+            << "start, or another name for " << name() << " in system/controlDict, under which it begins at 0"
             << exit(FatalIOError);
     }
 }
 
 void ParticleFlux::resume(label rowsThatStay)
 {
-    stringList patchFluxes;
+    stringList transfers;
     string lastSample;
-    // Checkpoints of earlier versions have no outlets' names: their number is all that can be compared.
-    if (!getProperty(patchFluxesEntry, patchFluxes) || !getProperty(lastSampleEntry, lastSample)
-        || !getProperty(lastRowEntry, lastRow_) || patchFluxes.size() != static_cast<label>(patchFluxes_.size()))
+    // Checkpoints of earlier versions do not contain the names of the outlets, so only their number can be compared.
+    if (!getProperty(transfersEntry, transfers) || !getProperty(lastSampleEntry, lastSample)
+        || !getProperty(lastRowEntry, lastRow_) || transfers.size() != static_cast<label>(transfers_.size()))
     {
         return;
     }
-    for (std::size_t i = 0; i < patchFluxes_.size(); ++i)
+    for (std::size_t i = 0; i < transfers_.size(); ++i)
     {
-        PatchFlux& patchFlux = patchFluxes_[i];
-        std::istringstream text(patchFluxes[static_cast<label>(i)]);
-        text >> patchFlux.particles >> patchFlux.mass >> patchFlux.momentum.x() >> patchFlux.momentum.y()
-            >> patchFlux.momentum.z();
+        ParticleTransfer& transfer = transfers_[i];
+        std::istringstream text(transfers[static_cast<label>(i)]);
+        text >> transfer.particles >> transfer.mass >> transfer.momentum.x() >> transfer.momentum.y()
+            >> transfer.momentum.z();
     }
     std::istringstream text(lastSample);
     text >> lastSample_;
@@ -119,9 +121,9 @@ void ParticleFlux::resume(label rowsThatStay)
         text >> mass;
     }
     getProperty(rowsEntry, rows_);
-    const bool again = isRowOfNow(time_, lastSample_);
-    warnOfLostRows(rowsThatStay, again ? rows_ - 1 : rows_, name() + ".dat");
-    if (again)
+    const bool rewritesRow = isRowOfNow(time_, lastSample_);
+    warnOfLostRows(rowsThatStay, rewritesRow ? rows_ - 1 : rows_, name() + ".dat");
+    if (rewritesRow)
     {
         writeRow();
     }
@@ -144,7 +146,7 @@ bool ParticleFlux::execute()
     {
         sample();
     }
-    keepState();
+    storeState();
     return true;
 }
 
@@ -152,7 +154,7 @@ bool ParticleFlux::end()
 {
     count();
     sample();
-    keepState();
+    storeState();
     return true;
 }
 
@@ -163,11 +165,11 @@ void ParticleFlux::count()
         return;
     }
     lastCount_ = time_.value();
-    patchFluxes_.front() += insertionAndRemoval().lastInserted();
-    const std::vector<PatchFlux>& left = insertionAndRemoval().lastLeft();
+    transfers_.front() += insertionAndRemoval().lastInserted();
+    const std::vector<ParticleTransfer>& left = insertionAndRemoval().lastDeparted();
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        patchFluxes_[outlet + 1] += left[outlet];
+        transfers_[outlet + 1] += left[outlet];
     }
 }
 
@@ -181,16 +183,16 @@ void ParticleFlux::sample()
     OStringStream row;
     row.precision(file().precision());
     writeCurrentTime(row);
-    for (std::size_t i = 0; i < patchFluxes_.size(); ++i)
+    for (std::size_t i = 0; i < transfers_.size(); ++i)
     {
-        const scalar rate = lastSample_ < 0 ? 0 : (patchFluxes_[i].mass - lastMasses_[i]) / (now - lastSample_);
-        const vector& momentum = patchFluxes_[i].momentum;
-        row << tab << setw(charWidth()) << patchFluxes_[i].particles;
-        for (const scalar value : {patchFluxes_[i].mass, momentum.x(), momentum.y(), momentum.z(), rate})
+        const scalar rate = lastSample_ < 0 ? 0 : (transfers_[i].mass - lastMasses_[i]) / (now - lastSample_);
+        const vector& momentum = transfers_[i].momentum;
+        row << tab << setw(charWidth()) << transfers_[i].particles;
+        for (const scalar value : {transfers_[i].mass, momentum.x(), momentum.y(), momentum.z(), rate})
         {
             row << tab << setw(charWidth()) << value;
         }
-        lastMasses_[i] = patchFluxes_[i].mass;
+        lastMasses_[i] = transfers_[i].mass;
     }
     lastRow_ = row.str();
     lastSample_ = now;
@@ -205,21 +207,21 @@ void ParticleFlux::writeRow()
     requireWritten(os);
 }
 
-void ParticleFlux::keepState()
+void ParticleFlux::storeState()
 {
     stringList texts;
     std::string lastSample = textOf(lastSample_);
-    for (const PatchFlux& patchFlux : patchFluxes_)
+    for (const ParticleTransfer& transfer : transfers_)
     {
-        const vector& momentum = patchFlux.momentum;
-        texts.append(textOf(patchFlux.particles, patchFlux.mass, momentum.x(), momentum.y(), momentum.z()));
+        const vector& momentum = transfer.momentum;
+        texts.append(textOf(transfer.particles, transfer.mass, momentum.x(), momentum.y(), momentum.z()));
     }
     for (const double mass : lastMasses_)
     {
         lastSample += textOf(mass);
     }
     setProperty(outletsEntry, insertionAndRemoval().outlets());
-    setProperty(patchFluxesEntry, texts);
+    setProperty(transfersEntry, texts);
     setProperty(lastSampleEntry, string(lastSample));
     setProperty(lastRowEntry, lastRow_);
     setProperty(rowsEntry, rows_);

@@ -11,20 +11,22 @@
 namespace clepsydra
 {
 
-/// Function object: the particles that have been inserted and that have left through each of `particleOutlets`.
+/// Function object: the particles that have been inserted, and those that have left through each of the
+/// `particleOutlets`.
 ///
 ///     particleFlux
 ///     {
 ///         type            particleFlux;
-///         sampleInterval  0.01;       // s; rows are that far apart. Default: a row per time step
+///         sampleInterval  0.01;       // time between rows [s]; default: a row per time step
 ///     }
 ///
-/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], then for the particles inserted and for each outlet
-/// their number, mass [kg] and momentum [N s] since the fresh start of the run, and the mean rate [kg/s] since the row
-/// before. A restart continues in a folder of its own start time, and goes on counting. It looks at every time step, so it
-/// has no executeControl: what leaves between two looks would not be in a checkpoint.
+/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], then for the inserted particles and for each outlet
+/// their number, mass [kg] and momentum [N s] since the fresh start of the run, and the mean rate [kg/s] since the
+/// previous row. A resumed run continues in a folder of its own start time and continues to count. The function object
+/// is executed in every time step and has no executeControl, because particles that leave between two executions would
+/// be missing in a checkpoint.
 ///
-/// FatalIOError where an entry is out of range, and where `particleOutlets` is another than before a restart.
+/// FatalIOError where an entry is out of range, and where `particleOutlets` has changed since the fresh start.
 class ParticleFlux : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
 {
 public:
@@ -37,7 +39,7 @@ public:
     /// Adds a row where one is due.
     bool execute() override;
 
-    /// Nothing: rows are written when they are taken.
+    /// Does nothing, because execute() writes the rows.
     bool write() override
     {
         return true;
@@ -48,26 +50,27 @@ public:
 
 private:
     const InsertionAndRemoval& insertionAndRemoval() const;
-    /// Before any table is touched.
+    /// FatalIOError where the outlets differ from those in the checkpoint. Called before any table is changed.
     void requireSameOutlets() const;
-    /// Adds the last interval's. Interval by interval: the sums of a resumed run are those of one never stopped.
+    /// Adds the transfers of the last coupling step, so that the sums of a resumed run are those of an uninterrupted
+    /// one.
     void count();
-    /// Takes up what the checkpoint holds, if there is one.
-    /// \param rowsThatStay  in tables of earlier start times
+    /// Restores the state from a checkpoint, if there is one.
+    /// \param rowsThatStay  number of rows in tables of earlier start times
     void resume(Foam::label rowsThatStay);
-    void keepState();
+    void storeState();
     void sample();
     void writeRow();
 
     Foam::scalar sampleInterval_ = 0;
-    /// Inserted first, then outlet by outlet.
-    std::vector<PatchFlux> patchFluxes_;
+    /// Transfers since the fresh start: the inserted particles first, then one entry per outlet.
+    std::vector<ParticleTransfer> transfers_;
     Foam::scalar lastCount_ = -Foam::GREAT;
     Foam::scalar lastSample_ = -Foam::GREAT;
     Foam::string lastRow_;
-    /// Masses at that time.
+    /// Masses at the time of the last row [kg].
     std::vector<double> lastMasses_;
-    /// In all tables, since the fresh start.
+    /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;
 };
 

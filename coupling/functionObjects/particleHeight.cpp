@@ -15,12 +15,12 @@ namespace clepsydra
 defineTypeNameAndDebug(ParticleHeight, 0);
 addToRunTimeSelectionTable(functionObject, ParticleHeight, dictionary);
 static const ModelLines lines(
-    "functions { type }", {{ParticleHeight::typeName_(), "height and velocity of one particle"}});
+    "functions { type }", {{ParticleHeight::typeName_(), "height and velocity of one particle along an axis"}});
 
 namespace
 {
 
-/// As text: OpenFOAM would write the number with the fields' digits.
+/// As text, because OpenFOAM would write the number with the precision of the fields.
 const word lastRowEntry = "lastRow";
 const word rowsEntry = "rows";
 
@@ -30,7 +30,8 @@ ParticleHeight::ParticleHeight(const word& name, const Time& time, const diction
     : fvMeshFunctionObject(name, time, dict),
       writeFile(mesh_, name, name)
 {
-    // Only then the file: one left behind by a wrong entry would make OpenFOAM write the next run's elsewhere.
+    // The file is created after all checks, because one that is left by a wrong entry would make OpenFOAM write the
+    // next run's file under another name.
     ParticleHeight::read(dict);
     const label rowsThatStay = makeRoomFrom(time.value(), time.globalPath() / outputPrefix / name, name + ".dat");
     resetFile(name);
@@ -43,7 +44,7 @@ ParticleHeight::ParticleHeight(const word& name, const Time& time, const diction
     writeTabbed(os, "velocity [m/s]");
     os << endl;
 
-    // OpenFOAM executes function objects after the first step only; the curve should start at the start.
+    // OpenFOAM executes function objects only after the first step, but the table should begin at the start time.
     if (resume(rowsThatStay) && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
         sample();
@@ -58,10 +59,10 @@ bool ParticleHeight::resume(label rowsThatStay)
         return true;
     }
     getProperty(rowsEntry, rows_);
-    const bool again = isRowOfNow(time_, std::stod(lastRow));
-    rows_ -= again ? 1 : 0;
+    const bool rewritesRow = isRowOfNow(time_, std::stod(lastRow));
+    rows_ -= rewritesRow ? 1 : 0;
     warnOfLostRows(rowsThatStay, rows_, name() + ".dat");
-    return again;
+    return rewritesRow;
 }
 
 bool ParticleHeight::read(const dictionary& dict)
@@ -80,8 +81,8 @@ bool ParticleHeight::read(const dictionary& dict)
 
     stopBelow_ = dict.getOrDefault<scalar>("stopBelow", -GREAT);
     particle_ = dict.getOrDefault<label>("particle", 1);
-    gone_ = false;
-    // Later, and in a resumed run, it may have left.
+    hasLeft_ = false;
+    // At later times, and in a resumed run, the particle may have left.
     if (time_.timeIndex() == 0 && mesh_.foundObject<ObservedParticles>(ObservedParticles::registryName))
     {
         const ParticlesView particles =
@@ -104,7 +105,7 @@ bool ParticleHeight::execute()
 
 void ParticleHeight::sample()
 {
-    // One rank has the particle, the others add nothing.
+    // Only the owning rank adds values, the others add zero.
     scalar height = 0;
     scalar velocity = 0;
     bool found = false;
@@ -121,11 +122,11 @@ void ParticleHeight::sample()
     reduce(found, orOp<bool>());
     if (!found)
     {
-        if (!gone_)
+        if (!hasLeft_)
         {
-            Info << name() << ": particle " << particle_ << " is no longer there, no more rows" << endl;
+            Info << name() << ": particle " << particle_ << " is no longer there, so no more rows are written" << endl;
         }
-        gone_ = true;
+        hasLeft_ = true;
         return;
     }
     reduce(height, sumOp<scalar>());

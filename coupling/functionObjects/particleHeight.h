@@ -9,22 +9,22 @@
 namespace clepsydra
 {
 
-/// Function object: where one particle is along an axis, and how fast it moves there.
+/// Function object: the position of one particle along an axis, and its velocity in that direction.
 ///
 ///     particleHeight
 ///     {
-///         type    particleHeight;
+///         type        particleHeight;
 ///         particle    1;          // its id; default 1
-///         axis    (0 0 1);    // upwards; default (0 0 1)
-///         stopBelow 0.06;     // height at which the run writes a checkpoint and ends [m]; default: none
+///         axis        (0 0 1);    // upwards; default (0 0 1)
+///         stopBelow   0.06;       // height below which the run writes a checkpoint and ends [m]; default: none
 ///     }
 ///
-/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s], a row per
-/// execution (executeControl, executeInterval, and `writeControl none`: OpenFOAM executes before each write) and one at the
-/// fresh start, until the particle has left. A restart continues in a folder of its own start time, with the rows that it would
-/// have written had it not been stopped.
+/// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s]. There is
+/// one row at the fresh start and one per execution until the particle has left. Set executeControl, executeInterval
+/// and `writeControl none`, because OpenFOAM executes function objects before each write, too. A resumed run continues
+/// in a folder of its own start time, with the same rows as an uninterrupted run.
 ///
-/// FatalIOError where there is no such particle at a fresh start, or the axis is zero.
+/// FatalIOError where the particle does not exist at a fresh start, and where the axis is zero.
 class ParticleHeight : public Foam::functionObjects::fvMeshFunctionObject, public Foam::functionObjects::writeFile
 {
 public:
@@ -37,24 +37,25 @@ public:
     /// Adds a row. Collective.
     bool execute() override;
 
-    /// Nothing: rows are written when they are taken.
+    /// Does nothing, because execute() writes the rows.
     bool write() override
     {
         return true;
     }
 
 private:
-    /// Takes up the state that the checkpoint holds, if there is one.
-    /// \param rowsThatStay  in tables of earlier start times
-    /// \return whether a row of the start time is due: at a fresh start, or where there was one and is to be written again
+    /// Restores the state from a checkpoint, if there is one.
+    /// \param rowsThatStay  number of rows in tables of earlier start times
+    /// \return whether a row of the start time is due: at a fresh start, and where that row has been removed and must
+    /// be written again
     bool resume(Foam::label rowsThatStay);
     void sample();
 
     Foam::label particle_ = 1;
     Eigen::Vector3d axis_ = Eigen::Vector3d::UnitZ();
     Foam::scalar stopBelow_ = -Foam::GREAT;
-    bool gone_ = false;
-    /// In all tables, since the fresh start.
+    bool hasLeft_ = false;
+    /// Number of rows in all tables since the fresh start.
     Foam::label rows_ = 0;
 };
 

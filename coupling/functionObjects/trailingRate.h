@@ -6,21 +6,22 @@
 namespace clepsydra
 {
 
-/// How fast an amount falls, as the mean over a trailing window: single particles make its derivative a row of spikes.
+/// Rate at which an amount decreases, as the mean over a trailing time window; the derivative itself would be a series
+/// of peaks, one per particle.
 class TrailingRate
 {
 public:
-    /// \param window  [s], >= 0; zero: since the last sample.
+    /// \param window  length of the window [s], >= 0; zero: since the last sample
     explicit TrailingRate(double window)
         : window_(window)
     {}
 
-    /// Adds a sample; times must rise.
+    /// Adds a sample; times must increase.
     /// \return -(change of the amount)/(time passed) since the latest sample that is at least a window old, or since
-    ///         the first where none is; 0 for the first sample.
+    /// the first one where none is; 0 for the first sample
     double add(double time, double amount)
     {
-        // Sums of time steps miss the end of the window by rounding.
+        // Sums of time steps miss the start of the window by rounding.
         const double start = time - window_ * (1 - 1e-9);
         while (samples_.size() > 1 && samples_[1].time <= start)
         {
@@ -37,7 +38,7 @@ public:
         double amount;
     };
 
-    /// Those that later rates need: the state that a resumed run goes on with.
+    /// Samples that later rates need: the state from which a resumed run continues.
     const std::deque<Sample>& samples() const
     {
         return samples_;

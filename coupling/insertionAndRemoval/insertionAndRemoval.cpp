@@ -10,7 +10,7 @@ namespace clepsydra
 
 using namespace Foam;
 
-PatchFlux& PatchFlux::operator+=(const PatchFlux& other)
+ParticleTransfer& ParticleTransfer::operator+=(const ParticleTransfer& other)
 {
     particles += other.particles;
     mass += other.mass;
@@ -22,29 +22,30 @@ PatchFlux& PatchFlux::operator+=(const PatchFlux& other)
 namespace
 {
 
-/// Coupling steps in which a particle comes in, unless said otherwise.
-constexpr double usualIntervals = 10;
+/// Default duration of the insertion ramp in coupling steps.
+constexpr double defaultInsertionSteps = 10;
 
 double readInsertionTime(const dictionary& couplingProperties, double couplingTimeStep)
 {
     return couplingProperties.found("insertionTime") ? positiveEntry(couplingProperties, "insertionTime")
-                                                     : usualIntervals * couplingTimeStep;
+                                                     : defaultInsertionSteps * couplingTimeStep;
 }
 
-/// \param insertionRamp  the part of the insertion's time that is over
+/// Submerged fraction of a particle during insertion. \param insertionRamp  fraction of the insertion time that has
+/// passed
 double shareAfterRamp(double insertionRamp)
 {
     return insertionRamp * insertionRamp * (3 - 2 * insertionRamp);
 }
 
-/// Of all ranks.
-PatchFlux sumOfRanks(const PatchFlux& ofRank)
+/// Sum over all ranks.
+ParticleTransfer sumOfRanks(const ParticleTransfer& ofRank)
 {
     return {returnReduce(ofRank.particles, sumOp<label>()), returnReduce(ofRank.mass, sumOp<scalar>()),
         returnReduce(ofRank.momentum, sumOp<vector>()), returnReduce(ofRank.volume, sumOp<scalar>())};
 }
 
-void addParticle(PatchFlux& to, double mass, const Vector3d& velocity)
+void addParticle(ParticleTransfer& to, double mass, const Vector3d& velocity)
 {
     ++to.particles;
     to.mass += mass;
@@ -58,33 +59,33 @@ InsertionAndRemoval::InsertionAndRemoval(
     : regIOobject(IOobject(registryName, mesh.time().timeName(), mesh)),
       outlets_(couplingProperties, mesh),
       insertionTime_(readInsertionTime(couplingProperties, couplingTimeStep)),
-      interval_(couplingTimeStep),
-      lastLeft_(static_cast<std::size_t>(outlets_.names().size()))
+      couplingTimeStep_(couplingTimeStep),
+      lastDeparted_(static_cast<std::size_t>(outlets_.names().size()))
 {}
 
-double InsertionAndRemoval::start(const ParticlesView& particles, bool fresh)
+double InsertionAndRemoval::start(const ParticlesView& particles, bool freshStart)
 {
     double inFluid = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
-        if (fresh)
+        if (freshStart)
         {
             particles.insertionRamp[particle] = 1;
         }
-        state.part = partOf(particles, particle, interval_);
+        state.part = partOf(particles, particle, couplingTimeStep_);
         state.fluid.submergedFraction = shareAfterRamp(particles.insertionRamp[particle]) * state.part.share;
         inFluid += volumeInFluid(particles, particle);
     }
     return returnReduce(inFluid, sumOp<scalar>());
 }
 
-void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, double interval)
+void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, double couplingTimeStep)
 {
-    interval_ = interval;
-    PatchFlux inserted;
-    std::vector<PatchFlux> left(lastLeft_.size());
-    gone_.clear();
+    couplingTimeStep_ = couplingTimeStep;
+    ParticleTransfer inserted;
+    std::vector<ParticleTransfer> left(lastDeparted_.size());
+    departed_.clear();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
@@ -96,11 +97,11 @@ void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, d
             addParticle(inserted, particles.mass[particle], particles.velocity.col(particle));
         }
         const double before = shareAfterRamp(insertionRamp);
-        insertionRamp = std::min(1.0, insertionRamp + interval / insertionTime_);
+        insertionRamp = std::min(1.0, insertionRamp + couplingTimeStep / insertionTime_);
         const double now = shareAfterRamp(insertionRamp);
 
-        const PartWithin part = partOf(particles, particle, interval);
-        // One that has turned back is recorded where it had begun to leave.
+        const PartWithin part = partOf(particles, particle, couplingTimeStep);
+        // A particle that has turned back is recorded at the outlet where it had begun to leave.
         const auto outlet = static_cast<label>(part.outlet < 0 ? state.part.outlet : part.outlet);
         inserted.volume += (now - before) * state.part.share * volume;
         if (outlet >= 0)
@@ -111,7 +112,7 @@ void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, d
         state.fluid.submergedFraction = now * part.share;
         if (!(part.share > 0))
         {
-            gone_.push_back(
+            departed_.push_back(
                 {particles.id[particle], outlet, particles.mass[particle], particles.velocity.col(particle)});
         }
     }
@@ -119,38 +120,39 @@ void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, d
     netVolume_ += lastInserted_.volume;
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        lastLeft_[outlet] = sumOfRanks(left[outlet]);
-        netVolume_ -= lastLeft_[outlet].volume;
+        lastDeparted_[outlet] = sumOfRanks(left[outlet]);
+        netVolume_ -= lastDeparted_[outlet].volume;
     }
 }
 
-label InsertionAndRemoval::removeGone(DemEngine& engine)
+label InsertionAndRemoval::removeDeparted(DemEngine& engine)
 {
-    const label count = returnReduce(static_cast<label>(gone_.size()), sumOp<label>());
+    const label count = returnReduce(static_cast<label>(departed_.size()), sumOp<label>());
     if (count == 0)
     {
         return count;
     }
     std::vector<int> ids;
-    std::vector<PatchFlux> left(lastLeft_.size());
-    for (const Gone& particle : gone_)
+    std::vector<ParticleTransfer> left(lastDeparted_.size());
+    for (const DepartedParticle& particle : departed_)
     {
         ids.push_back(particle.id);
         addParticle(left[particle.outlet], particle.mass, particle.velocity);
     }
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        lastLeft_[outlet] += sumOfRanks(left[outlet]);
+        lastDeparted_[outlet] += sumOfRanks(left[outlet]);
     }
-    gone_.clear();
+    departed_.clear();
     engine.remove(ids);
     return count;
 }
 
-PartWithin InsertionAndRemoval::partOf(const ParticlesView& particles, Eigen::Index particle, double interval) const
+PartWithin InsertionAndRemoval::partOf(
+    const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const
 {
     return outlets_.partWithin(particles.position.col(particle), particles.radius[particle],
-        interval * particles.velocity.col(particle).norm());
+        couplingTimeStep * particles.velocity.col(particle).norm());
 }
 
 } // namespace clepsydra

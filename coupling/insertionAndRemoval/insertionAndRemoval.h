@@ -10,68 +10,74 @@
 namespace clepsydra
 {
 
-/// What has come or gone in this process, over all ranks.
-struct PatchFlux
+/// Particles that were inserted or left through an outlet, as sums over all ranks since this process started or over
+/// one coupling step.
+struct ParticleTransfer
 {
     Foam::label particles = 0;
     double mass = 0;                            // [kg]
-    Foam::vector momentum = Foam::vector::zero; // [N s], as they came or went
-    /// [m3]; of particles on their way the part that has come or gone, so that it does not wait for them to be counted.
+    Foam::vector momentum = Foam::vector::zero; // [N s], when they were inserted or left
+    /// Volume [m3]. It includes the parts of particles that are still being inserted or are leaving, before these are
+    /// counted in `particles`.
     double volume = 0;
 
-    PatchFlux& operator+=(const PatchFlux& other);
+    ParticleTransfer& operator+=(const ParticleTransfer& other);
 };
 
-/// Particles that come and go: how much of each is in the fluid, which are gone, and the balances of both.
+/// Insertion and removal of particles: the submerged fraction of each particle, the particles that have left, and their
+/// balances.
 ///
-///     particleOutlets     (floor outlet);     // see ParticleOutlets; default: none
-///     insertionTime   0.02;               // s, see below; default: ten coupling steps
+///     particleOutlets  (floor outlet);    // see ParticleOutlets; default: none
+///     insertionTime    0.02;              // [s], duration of the insertion ramp; default: ten coupling steps
 ///
-/// A particle that crosses an outlet hands over its volume as the part of its sphere beyond it, and is taken out of the
-/// engine when all of it is there. A particle that the engine's script inserts during the run comes in within insertionTime,
-/// at a share of 3 r2 - 2 r3 of its volume at a part r of that time: neither way does the void fraction's rate jump.
-/// What is not in the fluid feels no fluid.
+/// A particle that crosses an outlet leaves the fluid in proportion to the part of its sphere beyond the outlet; it is
+/// removed from the engine when all of it is there. The volume of a particle that the engine's script inserts during
+/// the run enters the fluid within insertionTime: the fraction is 3 r2 - 2 r3 at the fraction r of that time. In
+/// neither case does the rate of the void fraction jump. No fluid force acts on the part of a particle that is not in
+/// the fluid.
 ///
-/// Registered with the mesh's database under the name "insertionAndRemoval", for function objects.
+/// The object is registered with the mesh's database under the name "insertionAndRemoval", for function objects.
 class InsertionAndRemoval : public Foam::regIOobject
 {
 public:
     static constexpr const char* registryName = "insertionAndRemoval";
 
-    /// FatalIOError for entries out of range.
+    /// FatalIOError where an entry is out of range.
     InsertionAndRemoval(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh, double couplingTimeStep);
 
-    /// Of particles that have been here all along: how they lie to the outlets. Nothing is recorded.
-    /// \param fresh  no particle is on its way in; otherwise the engine's checkpoint says how far it is
-    /// \return the volume of what of them is in the fluid, over all ranks [m3]. Collective.
-    double start(const ParticlesView& particles, bool fresh);
+    /// Determines the submerged fraction of the particles at the start, without recording insertions. Collective.
+    /// \param freshStart  true where no particle is being inserted; otherwise the engine's checkpoint holds each
+    /// particle's insertion ramp
+    /// \return volume of the particles that is in the fluid, over all ranks [m3]
+    double start(const ParticlesView& particles, bool freshStart);
 
-    /// After the engine has advanced by `interval`. Collective.
-    /// \param newFrom  particles with a higher id have come in
-    void advance(const ParticlesView& particles, int newFrom, double interval);
+    /// Updates the submerged fractions after the engine has advanced by one coupling step. Collective.
+    /// \param newFrom  particles with a higher id have been inserted in this coupling step
+    void advance(const ParticlesView& particles, int newFrom, double couplingTimeStep);
 
-    /// Takes those particles out of the engine that are wholly outside, and balances them. Collective.
-    /// \return how many, on all ranks. If any, views are invalid and DemEngine::prepare() must follow.
-    Foam::label removeGone(DemEngine& engine);
+    /// Removes particles that are entirely beyond an outlet from the engine, and records them. Collective.
+    /// \return number of removed particles on all ranks. If it is not zero, views are invalid and DemEngine::prepare()
+    /// must be called.
+    Foam::label removeDeparted(DemEngine& engine);
 
     const Foam::wordList& outlets() const
     {
         return outlets_.names();
     }
 
-    /// In the last interval.
-    const PatchFlux& lastInserted() const
+    /// Particles inserted in the last coupling step.
+    const ParticleTransfer& lastInserted() const
     {
         return lastInserted_;
     }
 
-    /// In the last interval, in the order of outlets().
-    const std::vector<PatchFlux>& lastLeft() const
+    /// Particles that left in the last coupling step, in the order of outlets().
+    const std::vector<ParticleTransfer>& lastDeparted() const
     {
-        return lastLeft_;
+        return lastDeparted_;
     }
 
-    /// Solid volume that came in less that which left, since start() [m3].
+    /// Solid volume that was inserted less that which has left, since start() [m3].
     double netVolume() const
     {
         return netVolume_;
@@ -83,8 +89,8 @@ public:
     }
 
 private:
-    /// A particle of this rank that is wholly outside.
-    struct Gone
+    /// A particle of this rank that is entirely beyond an outlet.
+    struct DepartedParticle
     {
         int id;
         Foam::label outlet;
@@ -92,15 +98,15 @@ private:
         Vector3d velocity;
     };
 
-    PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double interval) const;
+    PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const;
 
     const ParticleOutlets outlets_;
     const double insertionTime_;
-    double interval_;
-    PatchFlux lastInserted_;
-    std::vector<PatchFlux> lastLeft_;
+    double couplingTimeStep_;
+    ParticleTransfer lastInserted_;
+    std::vector<ParticleTransfer> lastDeparted_;
     double netVolume_ = 0;
-    std::vector<Gone> gone_;
+    std::vector<DepartedParticle> departed_;
 };
 
 } // namespace clepsydra

@@ -20,11 +20,11 @@ namespace
 /// The part of a sphere on one side of a plane.
 struct Segment
 {
-    double share; // of the sphere's volume
-    double depth; // of its centroid below the plane, in radii
+    double share; // fraction of the sphere's volume
+    double depth; // distance of its centroid from the plane, in radii
 };
 
-/// \param beyond  distance of the sphere's centre from the plane, positive on the other side, in radii, from -1 to 1
+/// \param beyond  distance of the sphere's centre beyond the plane, in radii, from -1 to 1
 Segment segmentWithin(double beyond)
 {
     const double height = 1 - beyond;
@@ -55,13 +55,13 @@ void ParticleOutlets::readNames(const dictionary& couplingProperties, const fvMe
         if (patch < 0)
         {
             FatalIOErrorInFunction(couplingProperties)
-                << "Entry '" << entry << "' lists '" << name << "', which is no patch of the mesh"
+                << "Entry '" << entry << "' lists '" << name << "', which is not a patch of the mesh"
                 << didYouMean(name, known).c_str() << "; allowed: " << flatOutput(known) << exit(FatalIOError);
         }
         if (mesh.boundaryMesh()[patch].coupled())
         {
             FatalIOErrorInFunction(couplingProperties) << "Entry '" << entry << "' lists '" << name
-                                                       << "', which joins two parts of the mesh; allowed: patches "
+                                                       << "', which couples two parts of the mesh; allowed: patches "
                                                        << "at which the mesh ends" << exit(FatalIOError);
         }
         if (returnReduce(mesh.boundaryMesh()[patch].size(), sumOp<label>()) == 0)
@@ -75,7 +75,7 @@ void ParticleOutlets::readNames(const dictionary& couplingProperties, const fvMe
 
 void ParticleOutlets::gatherFaces(const fvMesh& mesh)
 {
-    // Three corners after each other, and the outlet of each triangle.
+    // Three consecutive corners per triangle, and the outlet of each triangle.
     List<pointField> cornersOfRanks(Pstream::nProcs());
     List<labelList> outletsOfRanks(Pstream::nProcs());
     DynamicList<point> corners;
@@ -118,7 +118,8 @@ PartWithin ParticleOutlets::partWithin(const Vector3d& centre, double radius, do
 {
     PartWithin part;
     const point at = toFoam(centre);
-    // A particle that something behind the outlet has slowed down has come farther than it now goes.
+    // A particle that an obstacle behind the outlet has slowed down has come farther than its present velocity
+    // suggests.
     const double reach = 3 * radius + travel;
     if (!search_ || magSqr(bounds_.nearest(at) - at) > sqr(reach))
     {
@@ -129,11 +130,11 @@ PartWithin ParticleOutlets::partWithin(const Vector3d& centre, double radius, do
     {
         return part;
     }
-    // Outwards, as all faces of the boundary are.
+    // The normal points outwards, as on all boundary faces.
     const vector normal = surface_->faceNormals()[found.index()];
     const vector fromSurface = at - found.hitPoint();
     const bool inside = (normal & fromSurface) <= 0;
-    // Beside an outlet's edge a particle on the inner side is as far from it as from the edge.
+    // On the inner side, the distance from the edge of an outlet is also the distance from the outlet.
     const double beyond = inside ? -mag(fromSurface) : normal & fromSurface;
     if (beyond <= -radius)
     {
@@ -141,7 +142,8 @@ PartWithin ParticleOutlets::partWithin(const Vector3d& centre, double radius, do
     }
     const vector inwards = inside && beyond < 0 ? fromSurface / -beyond : -normal;
     const Segment segment = segmentWithin(std::min(beyond / radius, 1.0));
-    // Where nothing is left, too, there is a place inside to hand over the last impulse.
+    // A particle that has left entirely still needs a position inside, where its last impulse is transferred to the
+    // fluid.
     constexpr double smallestDepth = 1e-2;
     part.outlet = (*surface_)[found.index()].region();
     part.share = segment.share;

@@ -10,17 +10,17 @@
 namespace clepsydra
 {
 
-/// The open boundaries for particles: patches of the mesh that particles leave through.
+/// The outlets: patches of the mesh through which particles leave.
 ///
-///     particleOutlets     (floor outlet);     // in couplingProperties; default: none
+///     particleOutlets  (floor outlet);    // in couplingProperties; default: none
 ///
-/// A wall of the fluid may be one, too: particles reach it only where the DEM script has no wall of its own there. Every
-/// rank knows all faces, for the ranks of the particles are not those of the cells. Exact where a patch is flat, on a curved
-/// one a particle sees the plane of the nearest face. The mesh must end there: what lies up to a particle's diameter and the
-/// travel of one interval behind an outlet is outside.
+/// A wall of the fluid may be an outlet, too; particles reach it only where the DEM script has no wall there. Every
+/// rank stores the faces of all ranks, because the ranks of the particles are not those of the cells. The result is
+/// exact for flat patches; on a curved patch the plane of the nearest face is used. The mesh must end at an outlet:
+/// everything up to a particle's diameter plus its travel in one coupling step behind it counts as outside.
 ///
-/// FatalIOError, with the nearest patch's name, where an entry names no patch, a patch without faces, or one that
-/// joins two parts of the mesh.
+/// FatalIOError with the nearest patch's name where an entry names no patch, a patch without faces, or a patch that
+/// couples two parts of the mesh.
 class ParticleOutlets
 {
 public:
@@ -31,8 +31,9 @@ public:
         return names_;
     }
 
-    /// What of a particle is inside; of one that is wholly beyond an outlet nothing. Local.
-    /// \param travel  that the particle may have moved since it was inside [m]
+    /// The part of a particle that is on the fluid's side of the outlets; its share is 0 where the particle is entirely
+    /// beyond an outlet. Local.
+    /// \param travel  distance that the particle may have moved since it was inside [m]
     PartWithin partWithin(const Vector3d& centre, double radius, double travel) const;
 
 private:
@@ -40,7 +41,7 @@ private:
     void gatherFaces(const Foam::fvMesh& mesh);
 
     Foam::wordList names_;
-    /// Of all ranks, in triangles whose region is the outlet's index; none where there is no outlet.
+    /// Faces of all ranks as triangles whose region is the outlet's index; null where there is no outlet.
     std::unique_ptr<Foam::triSurface> surface_;
     std::unique_ptr<Foam::triSurfaceSearch> search_;
     Foam::boundBox bounds_;

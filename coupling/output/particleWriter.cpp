@@ -15,7 +15,7 @@ namespace clepsydra
 namespace
 {
 
-void endWhereThereIsA(const std::string& problem)
+void exitOnProblem(const std::string& problem)
 {
     using namespace Foam;
 
@@ -25,7 +25,7 @@ void endWhereThereIsA(const std::string& problem)
     }
 }
 
-/// Where a part of so many bytes begins in the file of all ranks. Collective.
+/// Position in the common file at which this rank's part of the given size begins. Collective.
 std::uint64_t placeOf(std::uint64_t bytes)
 {
     std::uint64_t end = bytes;
@@ -41,7 +41,7 @@ std::uint64_t placeOf(std::uint64_t bytes)
 ParticleWriter::ParticleWriter(const Foam::Time& time)
     : folder_(std::string(time.globalPath() / "VTK"))
 {
-    endWhereThereIsA(problemOfRanks([&] {
+    exitOnProblem(problemOfRanks([&] {
         if (Foam::Pstream::master())
         {
             series_ = std::make_unique<VtkSeries>(folder_ / "particles.pvd", time.startTime().value());
@@ -84,7 +84,7 @@ void ParticleWriter::write(const ParticlesView& particles, double time)
     {
         discardParts(file);
     }
-    endWhereThereIsA(problem);
+    exitOnProblem(problem);
 }
 
 } // namespace clepsydra

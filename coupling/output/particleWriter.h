@@ -12,23 +12,24 @@ namespace clepsydra
 
 class VtkSeries;
 
-/// Writes the particles for ParaView: <case>/VTK/particles_<time>.vtp and the time series <case>/VTK/particles.pvd, which opens
-/// beside OpenFOAM's fields. A restart goes on with the series; see VtkSeries.
+/// Writes the particles for ParaView: <case>/VTK/particles_<time>.vtp and the time series <case>/VTK/particles.pvd,
+/// which can be opened together with OpenFOAM's fields. A resumed run continues the series; see VtkSeries.
 ///
-/// FatalError on all ranks, naming the file, where one cannot be written.
+/// FatalError on all ranks, which names the file, where one cannot be written.
 class ParticleWriter
 {
 public:
-    /// Collective. Touches no file before the first write, apart from reading the series.
+    /// Reads the series and writes no file before the first write(). Collective.
     explicit ParticleWriter(const Foam::Time& time);
     ~ParticleWriter();
 
-    /// Collective: each rank writes its own particles into the one file. No rank has those of another. \param time  [s]
+    /// Writes the particles of all ranks into one file. Each rank writes its own part; no rank receives the particles
+    /// of others. Collective. \param time  [s]
     void write(const ParticlesView& particles, double time);
 
 private:
     std::filesystem::path folder_;
-    /// On the master only.
+    /// Null except on the master rank.
     std::unique_ptr<VtkSeries> series_;
 };
 

@@ -44,7 +44,7 @@ Eigen::RowVectorXd voidFractions(const ParticlesView& particles)
     return values;
 }
 
-vtkNew<vtkPolyData> drawingOf(const ParticlesView& particles)
+vtkNew<vtkPolyData> polyDataOf(const ParticlesView& particles)
 {
     std::vector<Eigen::Index> byId(static_cast<std::size_t>(particles.size()));
     std::iota(byId.begin(), byId.end(), 0);
@@ -78,14 +78,15 @@ vtkNew<vtkPolyData> drawingOf(const ParticlesView& particles)
 std::string partOfVtp(const ParticlesView& particles, bool first, bool last)
 {
     vtkNew<vtkXMLPolyDataWriter> writer;
-    // VTK does not see every write that fails.
+    // Into a string, because VTK does not detect every failure of writing to a file.
     writer->WriteToOutputStringOn();
-    writer->SetInputData(drawingOf(particles));
-    // Not appended, a third smaller: Debian 12's ParaView 5.11 cannot read that with Debian's expat 2.5.0-1+deb12u2.
+    writer->SetInputData(polyDataOf(particles));
+    // Not "appended", which would be a third smaller: Debian 12's ParaView 5.11 cannot read that with Debian's expat
+    // 2.5.0-1+deb12u2.
     writer->SetDataModeToBinary();
     if (writer->Write() != 1)
     {
-        throw std::runtime_error("VTK cannot make a drawing of the particles");
+        throw std::runtime_error("VTK cannot write the particles");
     }
     const std::string whole = writer->GetOutputString();
     const std::string pieceEnd = "</Piece>\n";

@@ -7,12 +7,14 @@
 namespace clepsydra
 {
 
-/// A rank's part of a file of the particles for ParaView (.vtp, binary): VTK reads as many pieces as there are in it. The
-/// parts of all ranks, one after the other, are the file. Each but the last ends at a multiple of `pageSize`, for file
-/// systems of networks keep files by pages, and two ranks that write to the same page may each undo what the other wrote.
+/// A rank's part of a file of the particles for ParaView (.vtp, binary); VTK reads any number of pieces in a file. The
+/// parts of all ranks, one after the other, form the file. Each part but the last ends at a multiple of `pageSize`,
+/// because network file systems cache files by pages, and two ranks that write to the same page could overwrite each
+/// other's data.
 ///
-/// A piece has the particles as vertices, sorted by id, with point data id, radius, velocity, angularVelocity, voidFraction
-/// (of the fluid at the particle; 1 without fluid) and speed. \throws std::runtime_error where VTK cannot make it.
+/// A piece holds the particles as vertices, sorted by id, with the point data id, radius, velocity, angularVelocity,
+/// voidFraction (of the fluid at the particle; 1 without fluid) and speed.
+/// \throws std::runtime_error where VTK cannot create it
 std::string partOfVtp(const ParticlesView& particles, bool first, bool last);
 
 constexpr std::size_t pageSize = 4096;

@@ -18,7 +18,7 @@ namespace clepsydra
 namespace
 {
 
-/// Times closer than this are the same: sums of time steps against times read back [s, relative].
+/// Relative tolerance in comparisons of times, because sums of time steps differ from times that are read.
 constexpr double sameTime = 1e-9;
 
 bool notAfter(double time, double other)
@@ -43,7 +43,8 @@ void VtkSeries::read(double startTime)
     parser->SetFileName(file_.c_str());
     if (parser->Parse() != 1 || parser->GetRootElement() == nullptr)
     {
-        throw std::runtime_error(file_.string() + " is no ParaView collection; move it away to start a new one");
+        throw std::runtime_error(
+            file_.string() + " is not a ParaView collection; allowed: a collection, or no file of this name");
     }
     vtkXMLDataElement* collection = parser->GetRootElement()->FindNestedElementWithName("Collection");
     for (int i = 0; collection != nullptr && i < collection->GetNumberOfNestedElements(); ++i)

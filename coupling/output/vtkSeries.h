@@ -6,17 +6,17 @@
 namespace clepsydra
 {
 
-/// A ParaView collection (.pvd): which file shows which time. Local.
+/// A ParaView collection (.pvd): a list of files with their times. Local.
 class VtkSeries
 {
 public:
-    /// Goes on with the series in `file` where there is one: its entries up to `startTime` [s] whose files exist stay,
+    /// Continues the series in `file` where there is one. Entries up to `startTime` [s] whose files exist are kept;
     /// later ones belong to a run that is being overwritten.
     VtkSeries(std::filesystem::path file, double startTime);
 
-    /// Adds `dataFile`, a path relative to the series, in place of the entry of the same time if there is one. The
-    /// series is replaced as a whole: whoever reads it meanwhile sees the old one or the new one.
-    /// \throws std::runtime_error or std::filesystem::filesystem_error naming the file where it cannot be written.
+    /// Adds `dataFile`, a path relative to the series, and replaces an entry of the same time. The file of the series
+    /// is replaced as a whole, so a program that reads it sees either the old or the new one.
+    /// \throws std::runtime_error or std::filesystem::filesystem_error that names the file where it cannot be written
     void add(double time, const std::filesystem::path& dataFile);
 
 private:

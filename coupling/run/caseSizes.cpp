@@ -13,15 +13,16 @@ namespace clepsydra
 namespace
 {
 
-/// Below it a rank has more to send than to solve.
+/// A rank with fewer cells spends more time on communication than on solving.
 constexpr label fewCellsOfRank = 100;
 
-/// In lengths of the mesh. Two spread the disturbance of an isolated particle evenly, and cases do so on purpose; more is a slip.
+/// Largest bandwidth in lengths of the mesh. Cases use two on purpose, to spread the disturbance of an isolated
+/// particle evenly; ten is an error of the unit.
 constexpr scalar longestSmoothing = 10;
 
 bool isParticleDiameter(const std::string& name)
 {
-    return name.find("ead") != std::string::npos && name.find("iameter") != std::string::npos;
+    return name.find("article") != std::string::npos && name.find("iameter") != std::string::npos;
 }
 
 void warn(const std::string& message)
@@ -59,34 +60,34 @@ void checkCaseSizes(
     const double cellWidth = meanCellWidth(mesh);
     const label fewestCells = returnReduce(mesh.nCells(), minOp<label>());
 
-    Info << "Sizes" << nl << "    mesh           " << span << " m, " << cells << " cells of " << cellWidth
-         << " m in the mean, at least " << fewestCells << " on each of " << Pstream::nProcs() << " ranks" << nl
+    Info << "Sizes" << nl << "    mesh               " << span << " m, " << cells << " cells of " << cellWidth
+         << " m mean width, at least " << fewestCells << " on each of " << Pstream::nProcs() << " ranks" << nl
          << "    largest particle   " << largest << " m, " << largest / cellWidth << " cells" << nl
-         << "    smoothing      " << smoothingBandwidth << " m" << nl << endl;
+         << "    smoothing          " << smoothingBandwidth << " m" << nl << endl;
 
     if (largest > cmptMin(span))
     {
         FatalIOErrorInFunction(couplingProperties)
-            << "A particle of the DEM script has a diameter of " << largest << " m and the mesh spans " << span
-            << " m; allowed: particles that are smaller than the mesh is thin" << exit(FatalIOError);
+            << "A particle of the DEM script has a diameter of " << largest << " m, but the mesh spans " << span
+            << " m; allowed: particles that are smaller than each extent of the mesh" << exit(FatalIOError);
     }
     if (smoothingBandwidth > longestSmoothing * cmptMax(span))
     {
         FatalIOErrorInFunction(couplingProperties)
-            << "Entry 'bandwidth' is " << smoothingBandwidth << " m and the mesh spans " << span
+            << "Entry 'bandwidth' is " << smoothingBandwidth << " m, but the mesh spans " << span
             << " m; allowed: at most " << longestSmoothing
             << " times its length, which spreads particles evenly over it" << exit(FatalIOError);
     }
     if (largest > lengthOfChange(smoothingBandwidth, cellWidth))
     {
-        warn("A particle of " + Foam::name(largest) + " m is wider than the cells, " + Foam::name(cellWidth)
-             + " m, and than the smoothing bandwidth, " + Foam::name(smoothingBandwidth)
-             + " m: the void fraction near it may be clipped; usual is a bandwidth of 2 to 4 diameters");
+        warn("A particle with a diameter of " + Foam::name(largest) + " m is wider than the cells, "
+             + Foam::name(cellWidth) + " m, and than the smoothing bandwidth, " + Foam::name(smoothingBandwidth)
+             + " m: the void fraction near it may be clipped; a bandwidth of 2 to 4 diameters is usual");
     }
     if (fewestCells < fewCellsOfRank && Pstream::parRun())
     {
         warn("A rank has " + Foam::name(fewestCells) + " of the mesh's " + Foam::name(cells)
-             + " cells: fewer ranks are faster");
+             + " cells; a run on fewer ranks is faster");
     }
 }
 

@@ -9,7 +9,7 @@ namespace clepsydra
 namespace
 {
 
-/// Where there are no particles yet, steps take their time all the same.
+/// Without particles, steps still take some time.
 double atLeastOne(double particles)
 {
     return std::max(particles, 1.0);
@@ -23,13 +23,13 @@ CostModel::CostModel(std::map<std::string, double> seconds)
 
 void CostModel::add(double particles, double demSteps)
 {
-    ++intervals_;
-    particleIntervals_ += atLeastOne(particles);
+    ++couplingSteps_;
+    particleCouplingSteps_ += atLeastOne(particles);
     particleSteps_ += atLeastOne(particles) * demSteps;
 }
 
 double CostModel::secondsLeft(
-    const std::map<std::string, double>& seconds, double particles, double demSteps, double intervals) const
+    const std::map<std::string, double>& seconds, double particles, double demSteps, double couplingSteps) const
 {
     double left = 0;
     for (const auto& [phase, total] : seconds)
@@ -46,11 +46,11 @@ double CostModel::secondsLeft(
         }
         else if (phase == "locate" || phase == "exchange")
         {
-            left += taken / particleIntervals_ * atLeastOne(particles) * intervals;
+            left += taken / particleCouplingSteps_ * atLeastOne(particles) * couplingSteps;
         }
         else
         {
-            left += taken / intervals_ * intervals;
+            left += taken / couplingSteps_ * couplingSteps;
         }
     }
     return left;

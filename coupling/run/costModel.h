@@ -6,37 +6,41 @@
 namespace clepsydra
 {
 
-/// How long the rest of a run will take, from what the run itself has taken so far:
+/// Estimates the time that the rest of a run will take, from the time that it has taken so far:
 ///
-///     seconds = perParticleStep n_particles n_steps + (perParticle n_particles + perInterval) n_intervals
+///     seconds = perParticleStep n_particles n_steps + (perParticle n_particles + perCouplingStep) n_couplingSteps
 ///
-/// Its speeds are measured on the spot, each from the time of its own phases: DEM and forces; finding cells and the
-/// exchange; all the rest, which goes with the cells of the mesh. So the estimate holds on any machine and on any number of
-/// ranks, and follows where particles come and go, or the interval's length changes; not where the flow itself changes what an
-/// iteration or a contact costs. (scripts/benchmarks/costModel.py has the last term by the number of cells.)
+/// The coefficients are measured in the run, each from the time of its own phases: DEM and forces; locating cells and
+/// exchange; all others, whose time depends on the cells of the mesh. The estimate is therefore valid on any machine
+/// and any number of ranks, and it takes changes of the number of particles and of the coupling step into account; it
+/// does not predict changes of the flow that change the cost of an iteration or a contact. (In
+/// scripts/benchmarks/costModel.py the last coefficient depends on the number of cells.)
 class CostModel
 {
 public:
-    /// \param seconds  of each phase so far, which do not count: PhaseTimers' "other" never does
+    /// \param seconds  time of each phase before the start of the measurement; the phase "other" of PhaseTimers is
+    /// never counted
     explicit CostModel(std::map<std::string, double> seconds = {});
 
-    /// One more interval has been done.
+    /// Adds a coupling step that has been completed.
     void add(double particles, double demSteps);
 
-    double intervals() const
+    double couplingSteps() const
     {
-        return intervals_;
+        return couplingSteps_;
     }
 
-    /// \param seconds  of each phase so far
-    /// \param particles  in all that is left, as DEM steps and intervals are. \pre intervals() > 0
+    /// Time that the rest of the run will take [s]. \pre couplingSteps() > 0
+    /// \param seconds  time of each phase so far
+    /// \param particles  number of particles in the rest of the run
+    /// \param demSteps, couplingSteps  number of steps that are left
     double secondsLeft(
-        const std::map<std::string, double>& seconds, double particles, double demSteps, double intervals) const;
+        const std::map<std::string, double>& seconds, double particles, double demSteps, double couplingSteps) const;
 
 private:
     std::map<std::string, double> before_;
-    double intervals_ = 0;
-    double particleIntervals_ = 0;
+    double couplingSteps_ = 0;
+    double particleCouplingSteps_ = 0;
     double particleSteps_ = 0;
 };
 

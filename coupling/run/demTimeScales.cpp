@@ -14,11 +14,11 @@ namespace clepsydra
 namespace
 {
 
-/// The smallest value seen on any rank; empty where none was.
+/// The smallest time on any rank; empty where none was added.
 class Shortest
 {
 public:
-    void see(double time)
+    void add(double time)
     {
         shortest_ = std::min(shortest_, time);
     }
@@ -41,9 +41,9 @@ double relaxationTime(const ParticlesView& particles, Eigen::Index particle, con
     return closures::relaxationTime(particles.mass[particle], closures::SchillerNaumannDrag{}(inFluid));
 }
 
-/// Through the faces' projected areas, as OpenFOAM's Courant number has it: right for flat cells and for cells with
-/// divided faces, where the cube root of the volume is not.
-void seeCells(const Foam::fvMesh& mesh, Shortest& courant)
+/// Uses the projected areas of the faces, as OpenFOAM's Courant number does. This is correct for flat cells and for
+/// cells with divided faces, where the cube root of the volume is not.
+void addCells(const Foam::fvMesh& mesh, Shortest& courant)
 {
     using namespace Foam;
 
@@ -59,7 +59,7 @@ void seeCells(const Foam::fvMesh& mesh, Shortest& courant)
     }
     forAll (projectedAreas, cell)
     {
-        courant.see(mesh.cellVolumes()[cell] / (cmptMax(projectedAreas[cell]) * DemTimeScales::speed));
+        courant.add(mesh.cellVolumes()[cell] / (cmptMax(projectedAreas[cell]) * DemTimeScales::speed));
     }
 }
 
@@ -80,17 +80,18 @@ DemTimeScales demTimeScales(
         const double density = particles.mass[particle] / sphereVolume(radius);
         for (const auto& [young, poisson] : materials)
         {
-            rayleigh.see(closures::rayleighTime(radius, density, closures::shearModulus(young, poisson), poisson));
-            collision.see(closures::hertzCollisionTimeOfTwins(radius, density, young, poisson, DemTimeScales::speed));
+            rayleigh.add(closures::rayleighTime(radius, density, closures::shearModulus(young, poisson), poisson));
+            collision.add(
+                closures::hertzCollisionTimeOfEqualParticles(radius, density, young, poisson, DemTimeScales::speed));
         }
         if (fluid != nullptr)
         {
-            relaxation.see(relaxationTime(particles, particle, *fluid));
+            relaxation.add(relaxationTime(particles, particle, *fluid));
         }
     }
     if (fluid != nullptr)
     {
-        seeCells(mesh, courant);
+        addCells(mesh, courant);
     }
     const auto allParticles =
         Foam::returnReduce(static_cast<Foam::label>(particles.size()), Foam::sumOp<Foam::label>());

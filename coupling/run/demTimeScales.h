@@ -10,27 +10,28 @@
 namespace clepsydra
 {
 
-/// The times that a run's steps must resolve, and those steps, over all ranks [s]. What cannot be known (no particles
-/// yet, no contact material in the engine's script, no fluid) is empty.
+/// The time scales that a run's steps must resolve, and those steps, over all ranks [s]. A time scale that cannot be
+/// determined (no particles yet, no contact material in the engine's script, no fluid) is empty.
 struct DemTimeScales
 {
-    /// The speed of approach, slip and flow that three of them are stated for [m/s].
+    /// Speed of approach, slip and flow to which three of the time scales refer [m/s].
     static constexpr double speed = 1.0;
 
     double demStep;
     double couplingTimeStep;
     long particles;
-    /// Rayleigh time, the shortest of any particle in any material.
+    /// Rayleigh time, the shortest over all particles and materials.
     std::optional<double> rayleigh;
-    /// Hertz collision of two alike particles at `speed`, the shortest of any particle in any material.
+    /// Duration of a Hertz collision of two equal particles at `speed`, the shortest over all particles and materials.
     std::optional<double> collision;
-    /// Relaxation of an isolated particle that slips at `speed`, by Schiller-Naumann's drag, the shortest of any particle.
+    /// Relaxation time of an isolated particle with the slip `speed` and Schiller & Naumann's drag, the shortest over
+    /// all particles.
     std::optional<double> relaxation;
-    /// The step at which a uniform flow of `speed` along an axis has the Courant number one in some cell.
+    /// Time step at which a uniform flow of `speed` along an axis has the Courant number one in some cell.
     std::optional<double> courant;
 };
 
-/// Collective. \param fluid  null in a dry run. \pre the engine is initialised.
+/// Collective. \param fluid  null for DEM only. \pre the engine is initialised
 DemTimeScales demTimeScales(
     DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid, const Foam::fvMesh& mesh);
 

@@ -19,10 +19,10 @@ namespace clepsydra
 namespace
 {
 
-constexpr std::chrono::milliseconds betweenBars{200};
+constexpr std::chrono::milliseconds barInterval{200};
 constexpr std::size_t barLength = 24;
 
-/// A longer line would wrap, and could not be rewritten in place.
+/// Width of the terminal. A longer line would wrap and could not be rewritten in place.
 std::size_t terminalWidth()
 {
     winsize size{};
@@ -50,7 +50,8 @@ double shareDone(const ProgressState& state)
     return all > 0 ? (state.time - state.startTime) / all : 1.0;
 }
 
-/// mpirun gives its ranks a terminal of their own even where its output goes to a file: then ask for mpirun's.
+/// Whether standard output is a terminal. mpirun gives its ranks a pseudo-terminal even where its own output goes to a
+/// file, so mpirun's output is examined in that case.
 bool outputIsTerminal()
 {
     if (isatty(STDOUT_FILENO) != 1)
@@ -125,9 +126,9 @@ void Progress::update(double time, double endTime, long particlesInHopper, doubl
         clear();
         out_ << describe(state) << std::endl;
     }
-    if (isTerminal_ && (lastBar_ == Clock::time_point{} || now - lastBar_ >= betweenBars))
+    if (isTerminal_ && (lastBar_ == Clock::time_point{} || now - lastBar_ >= barInterval))
     {
-        // The cursor waits at the start of the line: whatever is printed next replaces the bar.
+        // The cursor stays at the start of the line, so that the next output replaces the bar.
         out_ << '\r' << (bar(shareDone(state)) + describe(state)).substr(0, terminalWidth() - 1) << "\x1b[K\r"
              << std::flush;
         barShown_ = true;

@@ -15,10 +15,10 @@ using namespace Foam;
 namespace
 {
 
-/// As many intervals in a row without convergence end a run.
+/// A run ends after this number of consecutive coupling steps without convergence.
 constexpr long mostUnconvergedInRow = 50;
 
-/// So many lengths over which the fluid changes in one interval end a run.
+/// A run ends where a particle travels this many lengths of change of the fluid in one coupling step.
 constexpr double farthestTravel = 10;
 
 } // namespace
@@ -28,16 +28,16 @@ RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
       lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
-void RunChecks::afterInterval(const ParticlesView& particles)
+void RunChecks::afterCouplingStep(const ParticlesView& particles)
 {
-    ++intervals_;
+    ++couplingSteps_;
     checkConvergence();
     checkTravel(particles);
 }
 
 void RunChecks::checkConvergence()
 {
-    // Of the velocity OpenFOAM does not keep whether it has converged.
+    // OpenFOAM does not store whether the velocity has converged.
     List<solverPerformance> solutions;
     if (!mesh_.solverPerformanceDict().readIfPresent("p", solutions) || solutions.empty()
         || solutions.last().converged())
@@ -49,18 +49,19 @@ void RunChecks::checkConvergence()
     ++unconverged_;
     ++unconvergedInRow_;
     std::ostringstream text;
-    text << "The pressure is not solved to its tolerance: " << last.solverName() << " stopped after "
+    text << "The pressure was not solved to its tolerance: " << last.solverName() << " stopped after "
          << last.nIterations() << " iterations at a residual of " << last.finalResidual()
          << ". More iterations (maxIter) or a larger tolerance in system/fvSolution, or a mesh of better quality";
     const std::string message = text.str();
     if (unconvergedInRow_ >= mostUnconvergedInRow)
     {
         FatalErrorInFunction << message.c_str() << " is needed; this was so in the last " << label(unconvergedInRow_)
-                             << " intervals" << exit(FatalError);
+                             << " coupling steps" << exit(FatalError);
     }
     if (unconverged_ == 1 && Pstream::master())
     {
-        WarningInFunction << message.c_str() << " may be needed. This is said once, and counted" << endl;
+        WarningInFunction << message.c_str()
+                          << " may be needed. This warning is printed once, and such steps are counted" << endl;
     }
 }
 
@@ -69,17 +70,17 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     Eigen::Index fastest = 0;
     const double here = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff(&fastest) : 0;
     const double speed = returnReduce(here, maxOp<scalar>());
-    const double interval = mesh_.time().deltaTValue();
-    const double travel = speed * interval / lengthOfChange_;
+    const double timeStep = mesh_.time().deltaTValue();
+    const double travel = speed * timeStep / lengthOfChange_;
     if (travel <= 1)
     {
         return;
     }
     ++fast_;
     std::ostringstream text;
-    text << "moves " << speed << " m/s, hence " << speed * interval << " m in a coupling step of " << interval
+    text << "moves " << speed << " m/s, hence " << speed * timeStep << " m in a coupling step of " << timeStep
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing bandwidth or cell), "
-         << lengthOfChange_ << " m, and the fluid at a particle is frozen for an interval";
+         << lengthOfChange_ << " m, but the fluid at a particle is frozen during a coupling step";
     if (travel > farthestTravel && here == speed)
     {
         FatalErrorInFunction << "Particle " << particles.id[fastest] << ' ' << text.str().c_str()
@@ -89,7 +90,8 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     }
     if (fast_ == 1 && Pstream::master())
     {
-        WarningInFunction << "A particle " << text.str().c_str() << ". This is said once, and counted" << endl;
+        WarningInFunction << "A particle " << text.str().c_str()
+                          << ". This warning is printed once, and such steps are counted" << endl;
     }
 }
 
@@ -98,12 +100,12 @@ void RunChecks::report() const
     if (unconverged_ > 0)
     {
         Info << "WARNING: the pressure was not solved to its tolerance in " << label(unconverged_) << " of "
-             << label(intervals_) << " intervals" << nl;
+             << label(couplingSteps_) << " coupling steps" << nl;
     }
     if (fast_ > 0)
     {
-        Info << "WARNING: particles moved farther than the fluid's length of change in " << label(fast_) << " of "
-             << label(intervals_) << " intervals: couplingTimeStep is long" << nl;
+        Info << "WARNING: particles moved farther than the length over which the fluid changes in " << label(fast_)
+             << " of " << label(couplingSteps_) << " coupling steps: couplingTimeStep is too long" << nl;
     }
 }
 

@@ -7,20 +7,21 @@
 namespace clepsydra
 {
 
-/// What is looked at after every interval of a run with fluid: whether the pressure was solved to its tolerance,
-/// and whether particles move on little enough in an interval for the fluid at them to be taken as frozen.
+/// Checks after every coupling step of a run with fluid whether the pressure was solved to its tolerance, and whether
+/// particles travel little enough in a coupling step for the fluid at them to be taken as frozen.
 ///
-/// Both are warnings at first, and counted; a run that goes on like that is ended by a FatalError.
+/// The first violation of each is a warning, and violations are counted; a run in which they persist ends with a
+/// FatalError.
 class RunChecks
 {
 public:
     /// \param smoothingBandwidth  [m], 0 without smoothing
     RunChecks(const Foam::fvMesh& mesh, double smoothingBandwidth);
 
-    /// Collective; when the fluid is solved.
-    void afterInterval(const ParticlesView& particles);
+    /// Call when the fluid has been solved. Collective.
+    void afterCouplingStep(const ParticlesView& particles);
 
-    /// How often there was reason to warn, where there was.
+    /// Prints the number of violations, where there were any.
     void report() const;
 
 private:
@@ -28,9 +29,9 @@ private:
     void checkTravel(const ParticlesView& particles);
 
     const Foam::fvMesh& mesh_;
-    /// By the cells' mean width [m]: refined cells somewhere are no reason to warn.
+    /// Computed with the mean width of the cells [m], because locally refined cells are no reason for a warning.
     const double lengthOfChange_;
-    long intervals_ = 0;
+    long couplingSteps_ = 0;
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;

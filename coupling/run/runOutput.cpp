@@ -25,9 +25,9 @@ namespace
 std::string describe(const closures::Stratification& liquid)
 {
     std::ostringstream line;
-    line << "viscosity      of layers: ln(nu) less by " << liquid.step << " above " << liquid.height << " m, the edge "
-         << liquid.width << " m wide, and more by " << liquid.gradient << " per metre; particles feel what is "
-         << liquid.lag << " d above them";
+    line << "viscosity      stratified: ln(nu) decreases by " << liquid.step << " at " << liquid.height
+         << " m over an edge of standard deviation " << liquid.width << " m, gradient " << liquid.gradient
+         << " 1/m; a particle has the viscosity " << liquid.lag << " d above it";
     return line.str();
 }
 
@@ -40,12 +40,13 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints, bool dryRun)
+    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
+    bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
       engine_(engine),
-      interval_(interval),
+      couplingStep_(couplingStep),
       checkpoints_(checkpoints),
       observedParticles_(mesh, engine),
       stopRequest_(time)
@@ -55,7 +56,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
         scratch_ = std::make_unique<ScratchFolder>();
     }
     startTime_ = time_.value();
-    intervals_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
+    couplingStepCount_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
     printReport(fluid, models);
     if (models)
     {
@@ -93,34 +94,34 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
 
 double RunOutput::estimate()
 {
-    const PhaseTimers& timers = interval_.timers();
-    const auto particles = static_cast<double>(interval_.conservation().particles());
-    const double interval = time_.deltaTValue();
+    const PhaseTimers& timers = couplingStep_.timers();
+    const auto particles = static_cast<double>(couplingStep_.conservation().particles());
+    const double couplingTimeStep = time_.deltaTValue();
     const double timeLeft = std::max(0.0, time_.endTime().value() - time_.value());
     const auto left = [&](CostModel& cost, const std::map<std::string, double>& seconds) {
-        cost.add(particles, interval / engine_.timeStep());
-        return cost.secondsLeft(seconds, particles, timeLeft / engine_.timeStep(), timeLeft / interval);
+        cost.add(particles, couplingTimeStep / engine_.timeStep());
+        return cost.secondsLeft(seconds, particles, timeLeft / engine_.timeStep(), timeLeft / couplingTimeStep);
     };
     const double wall = left(wallCost_, timers.wallSeconds());
     const double processor = left(processorCost_, timers.processorSeconds());
     constexpr double firstPart = 0.01;
     constexpr double fewest = 5;
-    if (!firstIntervalSeconds_)
+    if (!firstStepSeconds_)
     {
-        firstIntervalSeconds_ =
-            wallCost_.secondsLeft(timers.wallSeconds(), particles, interval / engine_.timeStep(), 1);
-        // It also fetches all memory.
+        firstStepSeconds_ =
+            wallCost_.secondsLeft(timers.wallSeconds(), particles, couplingTimeStep / engine_.timeStep(), 1);
+        // Its time is not counted from here on, because it also contains that of first access to memory.
         wallCost_ = CostModel(timers.wallSeconds());
         processorCost_ = CostModel(timers.processorSeconds());
         return -1;
     }
     const double done = time_.value() - startTime_;
-    if (!estimateOfRun_ && wallCost_.intervals() >= fewest && done >= firstPart * (done + timeLeft))
+    if (!estimateOfRun_ && wallCost_.couplingSteps() >= fewest && done >= firstPart * (done + timeLeft))
     {
         estimateOfRun_ = EstimatedSeconds{sum(timers.wallSeconds()) + wall, sum(timers.processorSeconds()) + processor};
         progress_.clear();
-        Info << "Estimated wall time: " << round(wall) << " s more to " << time_.endTime().value() << " s, as the last "
-             << wallCost_.intervals() << " intervals" << nl << endl;
+        Info << "Estimated wall time: " << round(wall) << " s until " << time_.endTime().value() << " s, from the last "
+             << wallCost_.couplingSteps() << " coupling steps" << nl << endl;
     }
     return wall;
 }
@@ -133,18 +134,19 @@ void RunOutput::start()
     }
     if (scratch_)
     {
-        // Without a check for letters that no word should have: this one leads out of the case.
+        // Without the check for characters that a word should not have, because this path leads out of the case.
         functionObject::outputPrefix =
             word(std::filesystem::relative(scratch_->path(), std::string(time_.globalPath())).string(), false);
     }
-    const PhaseTimers& timers = interval_.timers();
+    const PhaseTimers& timers = couplingStep_.timers();
     wallCost_ = CostModel(timers.wallSeconds());
     processorCost_ = CostModel(timers.processorSeconds());
-    // They check their entries now, before anything of an earlier run is replaced.
+    // Function objects check their entries at this point, before any output of an earlier run is replaced.
     if (!time_.functionObjects().start())
     {
-        // OpenFOAM itself would only warn, and the run would end without that table.
-        FatalErrorInFunction << "A function object could not be started: see the warning above" << exit(FatalError);
+        // OpenFOAM itself would only warn, and the run would end without the table.
+        FatalErrorInFunction << "A function object could not be started; the warning above gives the cause"
+                             << exit(FatalError);
     }
     if (scratch_)
     {
@@ -159,7 +161,7 @@ void RunOutput::start()
 
 void RunOutput::checkDemStepOnce()
 {
-    if (!demStepChecked_ && interval_.conservation().particles() > 0)
+    if (!demStepChecked_ && couplingStep_.conservation().particles() > 0)
     {
         const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), nullptr, mesh_);
         checkDemStep(scales, settings_.demDict());
@@ -167,13 +169,13 @@ void RunOutput::checkDemStepOnce()
     }
 }
 
-bool RunOutput::afterInterval()
+bool RunOutput::afterCouplingStep()
 {
-    const PhaseTimers::Scope timing = interval_.timers().time("output");
+    const PhaseTimers::Scope timing = couplingStep_.timers().time("output");
     checkDemStepOnce();
     if (runChecks_)
     {
-        runChecks_->afterInterval(engine_.particles());
+        runChecks_->afterCouplingStep(engine_.particles());
     }
     const double wallLeft = estimate();
     if (scratch_)
@@ -196,7 +198,7 @@ bool RunOutput::afterInterval()
     {
         checkpoints_.begin();
     }
-    // Their state is part of the checkpoint.
+    // The state of function objects is part of the checkpoint.
     time_.functionObjects().execute();
     if (atWriteTime)
     {
@@ -206,7 +208,7 @@ bool RunOutput::afterInterval()
         {
             particleWriter_->write(engine_.particles(), time_.value());
         }
-        interval_.conservation().report();
+        couplingStep_.conservation().report();
     }
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), wallLeft, atWriteTime);
     return atWriteTime;
@@ -217,8 +219,8 @@ void RunOutput::writeCheckpoint()
     if (!time_.write())
     {
         FatalErrorInFunction << "The fields of time " << time_.timeName() << " could not be written to "
-                             << time_.timePath() << ": is the disk full? The same command goes on from the checkpoint "
-                             << "before" << exit(FatalError);
+                             << time_.timePath() << ": is the disk full? The same command resumes from the previous "
+                             << "checkpoint" << exit(FatalError);
     }
     checkpoints_.complete(engine_);
 }
@@ -230,13 +232,13 @@ void RunOutput::finish()
     {
         time_.functionObjects().end();
     }
-    interval_.conservation().report();
+    couplingStep_.conservation().report();
     if (runChecks_)
     {
         runChecks_->report();
     }
 
-    const PhaseTimers& timers = interval_.timers();
+    const PhaseTimers& timers = couplingStep_.timers();
     double total = 0;
     for (const auto& [phase, time] : timers.wallSeconds())
     {
@@ -250,24 +252,24 @@ void RunOutput::finish()
              << nl;
     }
     Info << endl;
-    if (scratch_ && !firstIntervalSeconds_)
+    if (scratch_ && !firstStepSeconds_)
     {
-        Info << "Dry run: the case is at its end, " << time_.value() << " s: there is no interval to try. Nothing was "
-             << "written" << nl << endl;
+        Info << "Case check: the case has reached its end, " << time_.value()
+             << " s, so there is no coupling step to try. Nothing was written" << nl << endl;
         return;
     }
     if (scratch_)
     {
         const memInfo memory;
         const scalar mebibytes = returnReduce(scalar(memory.peak()), sumOp<scalar>()) / 1024;
-        Info << "Dry run: one interval took " << *firstIntervalSeconds_ << " s, so the " << round(intervals_) << " to "
-             << "endTime take about " << round(intervals_ * *firstIntervalSeconds_)
-             << " s as long as they are like it; memory " << round(mebibytes)
-             << " MiB in all. The case would start; nothing was written" << nl << endl;
+        Info << "Case check: one coupling step took " << *firstStepSeconds_ << " s, so the "
+             << round(couplingStepCount_) << " coupling steps to endTime take about "
+             << round(couplingStepCount_ * *firstStepSeconds_) << " s if each takes as long; all ranks together use "
+             << round(mebibytes) << " MiB of memory. The case would start; nothing was written" << nl << endl;
         return;
     }
-    const double sent = settings_.hasFluid() ? static_cast<double>(interval_.fluid().exchange().bytesSent()) : 0;
-    interval_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
+    const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().exchange().bytesSent()) : 0;
+    couplingStep_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
 }
 
 } // namespace clepsydra

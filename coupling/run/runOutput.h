@@ -17,69 +17,73 @@
 namespace clepsydra
 {
 
-/// What a run prints and writes: the report at its start, progress, and at write times OpenFOAM's fields, the particles
-/// for ParaView and the conservation check's line. Or, of a run that only tries the case (`-dryRun`), the report and what one
-/// interval has taken; files of function objects then go to a scratch folder.
+/// Output of a run: the report at its start, the progress, and at write times OpenFOAM's fields, the particles for
+/// ParaView and the line of the conservation check. With `-dryRun` it is the report and the duration of one coupling
+/// step; files of function objects then go to a scratch folder.
 class RunOutput
 {
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
-    /// \param models  null in a dry run
+    /// \param models  null for DEM only
+    /// \param dryRun  whether the case is only checked
     RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, const FluidModels* models, CouplingStep& interval, const Checkpoints& checkpoints,
+        DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
         bool dryRun = false);
 
-    /// Starts the function objects and writes the first particles. Collective; once all fields exist.
+    /// Starts the function objects and writes the first particles. Call when all fields exist. Collective.
     void start();
 
-    /// True where a bar shows the progress, and other lines would break it.
+    /// Whether a progress bar is shown, which other lines would break.
     bool onTerminal() const
     {
         return progress_.isTerminal();
     }
 
-    /// Collective; after each interval, when the fluid is solved. The state at the end of the run is a checkpoint, too.
-    /// \return true if a checkpoint was written: the run must restart in place.
-    bool afterInterval();
+    /// Call after each coupling step, when the fluid has been solved. The state at the end of the run is a checkpoint,
+    /// too. Collective.
+    /// \return true if a checkpoint was written; the run must then restart in place
+    bool afterCouplingStep();
 
-    /// True where the run was asked to stop before its end.
+    /// Whether the run was asked to stop before its end.
     bool stopped() const
     {
         return stopped_;
     }
 
-    /// Collective; after the last interval: the table of phases, and the conservation check's summary.
+    /// Prints the table of phases and writes the summary of the conservation check. Call after the last coupling step.
+    /// Collective.
     void finish();
 
 private:
     void checkDemStepOnce();
     void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
-    /// After each interval. \return wall time that is left [s], negative while it is not known
+    /// Updates the estimates of the run time after each coupling step. \return wall time that is left [s], negative
+    /// where not known yet
     double estimate();
 
     RunTime& time_;
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
-    CouplingStep& interval_;
+    CouplingStep& couplingStep_;
     const Checkpoints& checkpoints_;
-    /// For function objects.
+    /// Gives function objects access to the particles.
     ObservedParticles observedParticles_;
     std::unique_ptr<ParticleWriter> particleWriter_;
     Progress progress_;
     StopRequest stopRequest_;
     std::unique_ptr<RunChecks> runChecks_;
-    /// Empty unless the run only tries the case.
+    /// Null unless the case is only checked.
     std::unique_ptr<ScratchFolder> scratch_;
-    /// By wall and by processor time.
+    /// Estimates of wall time and of processor time.
     CostModel wallCost_;
     CostModel processorCost_;
-    std::optional<double> firstIntervalSeconds_;
+    std::optional<double> firstStepSeconds_;
     std::optional<EstimatedSeconds> estimateOfRun_;
     double startTime_ = 0;
-    double intervals_ = 0;
-    /// False while there are no particles yet: filling starts without.
+    double couplingStepCount_ = 0;
+    /// False while there are no particles yet, as at the start of a filling.
     bool demStepChecked_ = false;
     bool stopped_ = false;
 };

@@ -8,7 +8,7 @@
 namespace clepsydra
 {
 
-/// A folder among the system's temporary ones, removed with all it holds at the end.
+/// A folder in the system's temporary directory, which the destructor removes with its contents.
 class ScratchFolder
 {
 public:
@@ -18,8 +18,8 @@ public:
         std::string pattern = (std::filesystem::temp_directory_path(problem) / "pimpleDemFoam.XXXXXX").string();
         if (problem || !mkdtemp(pattern.data()))
         {
-            const char* const asked = std::getenv("TMPDIR");
-            throw std::runtime_error("cannot make a temporary folder; TMPDIR is '" + std::string(asked ? asked : "")
+            const char* const tmpdir = std::getenv("TMPDIR");
+            throw std::runtime_error("cannot make a temporary folder; TMPDIR is '" + std::string(tmpdir ? tmpdir : "")
                                      + "', allowed: a folder that can be written to");
         }
         path_ = pattern;

@@ -15,10 +15,10 @@ namespace clepsydra
 namespace
 {
 
-/// LIGGGHTS advises 0.1 to 0.2 of the collision time.
+/// LIGGGHTS recommends 0.1 to 0.2 of the collision time.
 constexpr double maxCollisionFraction = 0.2;
 
-/// One line: the time scale, what share of it the step is, and whether that respects the limit.
+/// One line: the time scale, the fraction of it that the step is, and whether that is below the limit.
 std::string scaleLine(
     const std::string& name, const std::optional<double>& scale, const std::string& stepName, double step, double limit)
 {
@@ -73,11 +73,11 @@ void checkDemStep(const DemTimeScales& scales, const dictionary& demDict)
     const double limit = maxRayleighFraction(demDict);
     if (scales.rayleigh && scales.demStep > limit * (*scales.rayleigh))
     {
-        FatalIOErrorInFunction(demDict) << "DEM step above the stable one: the script "
+        FatalIOErrorInFunction(demDict) << "The DEM step is above the stable one: the script "
                                         << demDict.getOrDefault<fileName>("script", "").c_str() << " sets "
                                         << scales.demStep << " s, which is " << scales.demStep / (*scales.rayleigh)
                                         << " of the Rayleigh time of " << *scales.rayleigh << " s; allowed: at most "
-                                        << limit * (*scales.rayleigh) << " s, for entry 'maxRayleighFraction' is "
+                                        << limit * (*scales.rayleigh) << " s, because entry 'maxRayleighFraction' is "
                                         << limit << exit(FatalIOError);
     }
 }

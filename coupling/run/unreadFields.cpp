@@ -40,11 +40,11 @@ void reportUnreadFields(const fvMesh& mesh)
         const std::string nearest = didYouMean(name, read);
         if (!nearest.empty())
         {
-            FatalErrorInFunction << "Nobody reads the field " << file.c_str() << nearest.c_str()
+            FatalErrorInFunction << "The field " << file.c_str() << " is not read" << nearest.c_str()
                                  << "; allowed: " << flatOutput(read) << exit(FatalError);
         }
-        WarningInFunction << "Unless a function object does, is unknown the field " << file.c_str()
-                          << "; those that are read: " << flatOutput(read) << endl;
+        WarningInFunction << "The field " << file.c_str() << " is not read, unless by a function object"
+                          << "; the solver reads " << flatOutput(read) << endl;
     }
 }
 

@@ -5,9 +5,9 @@
 namespace clepsydra
 {
 
-/// Fields that stand in the start time's folder and that nobody has read: a warning with the names that are read, or, where
-/// one of these is near, so that it is a misspelling, FatalError with that one. Call when all fields of the solver are there,
-/// and before function objects begin to write.
+/// Reports fields in the folder of the start time that have not been read. FatalError with the nearest name where it is
+/// near enough for a misspelling, otherwise a warning with the names of the fields that are read. Call when all fields
+/// of the solver exist, and before function objects begin to write.
 void reportUnreadFields(const Foam::fvMesh& mesh);
 
 } // namespace clepsydra

@@ -6,14 +6,14 @@
 namespace clepsydra
 {
 
-/// " (did you mean 'divided'?)" for a word that is nearly one of those; the new name where one of those had the word for its
-/// name in an earlier version; else nothing. For the end of an error.
+/// Ending of an error message: " (did you mean 'divided'?)" for a word that nearly equals a known one; the new name
+/// where the word is the name of a known one in an earlier version; otherwise an empty string.
 std::string didYouMean(const std::string& word, const std::vector<std::string>& known);
 
-/// Words as an error lists them: "a, b or c".
+/// A list as error messages write it: "a, b or c".
 std::string listed(const std::vector<std::string>& words);
 
-/// The keys of a map, or the first of each pair.
+/// The keys of a map, or the first element of each pair.
 template<class Pairs>
 std::vector<std::string> namesOf(const Pairs& pairs)
 {

@@ -7,7 +7,7 @@
 namespace clepsydra
 {
 
-/// A number with as many digits as it takes to read the very same one again.
+/// Text of a number with so many digits that reading it gives the same number, to the bit.
 inline std::string exactText(double number)
 {
     std::ostringstream text;

@@ -17,7 +17,7 @@ std::string smallLetters(std::string word)
     return word;
 }
 
-/// How many letters must be changed, put in, taken out or swapped with their neighbour (optimal string alignment).
+/// Number of letters to change, insert, delete or swap with their neighbour (optimal string alignment distance).
 std::size_t editDistance(const std::string& from, const std::string& to)
 {
     std::vector<std::size_t> beforeLast(to.size() + 1);
@@ -45,7 +45,7 @@ std::size_t editDistance(const std::string& from, const std::string& to)
 
 std::string nearestWord(const std::string& word, const std::vector<std::string>& known)
 {
-    // Longer ones are no misspelling of anything, and cost time.
+    // Longer words are not misspellings of an entry, and comparing them takes time.
     constexpr std::size_t longest = 60;
     std::string nearest;
     if (word.size() > longest)

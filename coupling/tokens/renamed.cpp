@@ -10,10 +10,11 @@ const Renamed* renamed(const std::string& word)
     static const std::map<std::string, Renamed> table = {
         // constant/couplingProperties
         {"couplingInterval",
-            {"couplingTimeStep", "In CFDEMcoupling couplingInterval counts DEM steps; couplingTimeStep is a time [s], equal "
-                                 "to deltaT"}},
+            {"couplingTimeStep",
+                "In CFDEMcoupling couplingInterval counts DEM steps; couplingTimeStep is a time [s], equal to deltaT"}},
         {"smoothingLength",
-            {"bandwidth", "CFDEMcoupling's smoothingLength is half of the bandwidth b [m] of the kernel exp(-r^2/b^2)"}},
+            {"bandwidth",
+                "In CFDEMcoupling smoothingLength is half of the bandwidth b [m] of the kernel exp(-r^2/b^2)"}},
         {"adjustableInterval", {"adjustableCouplingTimeStep", ""}},
         {"minInterval", {"minCouplingTimeStep", ""}},
         {"maxInterval", {"maxCouplingTimeStep", ""}},

@@ -13,7 +13,7 @@ namespace clepsydra
 namespace
 {
 
-/// A value as LIGGGHTS is to read it, every digit kept.
+/// A value as text for LIGGGHTS, with all its digits.
 std::string valueOf(const dictionary& variables, const word& name)
 {
     const ITstream& values = variables.lookup(name);
@@ -45,8 +45,9 @@ std::string valueOf(const dictionary& variables, const word& name)
     return value.isString() ? value.stringToken() : value.wordToken();
 }
 
-/// No material has a negative friction, nor a density or diameter of zero; the script's own checks come too late or
-/// not at all. Variables are known by their names, since the script may call them what it likes.
+/// Checks values of materials: no negative friction or cohesion, no density or diameter of zero. The script's own
+/// checks come too late or do not exist. The quantity is recognised by the variable's name, because the script may use
+/// any names.
 void checkMaterialValues(const dictionary& variables)
 {
     const auto names = [](const word& name, const std::string& quantity) {
@@ -66,7 +67,7 @@ void checkMaterialValues(const dictionary& variables)
     }
 }
 
-/// \param changes  the dictionary DEM/groupChanges, a sub-dictionary each.
+/// \param changes  the dictionary DEM/groupChanges, with one sub-dictionary per change
 std::vector<GroupChange> readGroupChanges(const dictionary& changes)
 {
     std::vector<GroupChange> read;
@@ -75,7 +76,7 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
         if (!item.isDict())
         {
             FatalIOErrorInFunction(changes)
-                << "Entry '" << item.keyword() << "' of DEM/groupChanges is no dictionary; allowed: "
+                << "Entry '" << item.keyword() << "' of DEM/groupChanges is not a dictionary; allowed: "
                 << "name { from <group>; to <group>; below <z>; }" << exit(FatalIOError);
         }
         const dictionary& dict = item.dict();

@@ -6,11 +6,12 @@
 namespace clepsydra
 {
 
-/// What the dictionary DEM of couplingProperties says to LIGGGHTS: the script, its variables, the group changes.
+/// Settings for LIGGGHTS from the dictionary DEM of couplingProperties: the script, its variables and the group
+/// changes.
 ///
-/// FatalIOError naming file, entry and what is allowed where something is missing or wrong.
-/// \param resumeFrom  the particles' part of a checkpoint, empty for a fresh start.
-/// \param writesNothing  the engine leaves no files, its log neither
+/// FatalIOError that names file, entry and what is allowed where an entry is missing or wrong.
+/// \param resumeFrom  the particles' part of a checkpoint, empty for a fresh start
+/// \param writesNothing  true where the engine must not write files, including its log
 LiggghtsSetup liggghtsSetup(
     const CouplingSettings& settings, const std::filesystem::path& resumeFrom, bool writesNothing = false);
 

@@ -5,8 +5,8 @@
 namespace clepsydra
 {
 
-/// MPI for the engine in a serial run, where OpenFOAM does not start it. Construct after argList, so that it ends
-/// before OpenFOAM's own clean-up.
+/// Initialises MPI for the engine in a serial run, where OpenFOAM does not. Construct after argList, so that MPI is
+/// finalised before OpenFOAM's own clean-up.
 class MpiSession
 {
 public:

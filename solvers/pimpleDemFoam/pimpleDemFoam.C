@@ -1,5 +1,5 @@
-// Grains and water: OpenFOAM solves the volume-averaged Navier-Stokes equations by PIMPLE, LIGGGHTS moves the particles,
-// both in this process. With `fluid none;` in constant/couplingProperties the particles move alone.
+// Solver for particles in a fluid. OpenFOAM solves the volume-averaged Navier-Stokes equations by PIMPLE, and LIGGGHTS
+// moves the particles in the same process. With `fluid none;` in constant/couplingProperties the run is DEM only.
 
 #include "checkpoint/caseLock.h"
 #include "checkpoint/checkpoints.h"
@@ -27,8 +27,8 @@ namespace
 
 using namespace clepsydra;
 
-/// A function object under the name that it had in an earlier version is an error that names the new one. OpenFOAM itself
-/// would only warn of an unknown type and run without it.
+/// Refuses a function object whose type has the name of an earlier version; the FatalIOError names the new one.
+/// OpenFOAM itself would only warn of an unknown type and run without it.
 void refuseRenamedFunctionObjects(const Time& runTime)
 {
     for (const entry& item : runTime.controlDict().subOrEmptyDict("functions"))
@@ -36,14 +36,14 @@ void refuseRenamedFunctionObjects(const Time& runTime)
         const word type = item.isDict() ? item.dict().getOrDefault<word>("type", word::null) : word::null;
         if (const Renamed* const change = renamed(type))
         {
-            FatalIOErrorInFunction(item.dict()) << "Function object '" << item.keyword() << "' has the type '" << type
-                                                << "', which is now called '" << change->newName.c_str() << "'"
-                                                << exit(FatalIOError);
+            FatalIOErrorInFunction(item.dict())
+                << "Function object '" << item.keyword() << "' has the type '" << type << "', which is now called '"
+                << change->newName.c_str() << "'" << exit(FatalIOError);
         }
     }
 }
 
-/// What OpenFOAM's other solvers read here would be without effect.
+/// Refuses entries of OpenFOAM's other solvers that would have no effect here.
 void requireLaminar(const Time& runTime, const dictionary& transportProperties)
 {
     if (transportProperties.found("transportModel"))
@@ -79,22 +79,24 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
     return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
 }
 
-/// The weight of the particles is the DEM script's, their buoyancy is constant/g's.
+/// The DEM script gives the particles' weight and constant/g their buoyancy, so both must have the same gravity.
 void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
 {
     const Vector3d dem = engine.gravity();
     if ((fluid.gravity - dem).norm() > 1e-6 * fluid.gravity.norm())
     {
         FatalErrorInFunction << "constant/g is (" << fluid.gravity.x() << ' ' << fluid.gravity.y() << ' '
-                             << fluid.gravity.z() << ") m/s2, fix gravity of the DEM script gives (" << dem.x() << ' '
-                             << dem.y() << ' ' << dem.z() << ") m/s2; allowed: the same in both" << exit(FatalError);
+                             << fluid.gravity.z() << ") m/s2, but fix gravity of the DEM script gives (" << dem.x()
+                             << ' ' << dem.y() << ' ' << dem.z() << ") m/s2; allowed: the same in both"
+                             << exit(FatalError);
     }
 }
 
-/// The particles for other runs, with a checksum that the engine holds them against.
+/// Writes the particles for other runs, with a checksum that these runs check.
 void writeFinalParticles(DemEngine& engine, const std::filesystem::path& file)
 {
-    // First those of an earlier run. In one file, or in parts, of which this rank writes one and the first the base, too.
+    // Removes the checksums of an earlier run first. The particles are in one file, or in parts, of which this rank
+    // writes one and the first rank also the base.
     for (const std::string& part : {std::string("base"), std::to_string(Pstream::myProcNo())})
     {
         std::string name = file;
@@ -110,7 +112,7 @@ void writeFinalParticles(DemEngine& engine, const std::filesystem::path& file)
     }
 }
 
-/// Silences the solvers' lines on a terminal, where they would break the progress bar. In a log they stay.
+/// Suppresses the solvers' lines on a terminal, where they would break the progress bar. In a log they remain.
 class QuietOnTerminal
 {
 public:
@@ -135,35 +137,35 @@ private:
 };
 
 void runWithFluid(
-    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& interval, RunOutput& output)
+    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& couplingStep, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid);
-    interval.start(flow.U(), flow.p());
+    couplingStep.start(flow.U(), flow.p());
     output.start();
 
-    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
+    while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        interval.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
+        couplingStep.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
-            return flow.solve(interval);
+            return flow.solve(couplingStep);
         });
-        if (output.afterInterval())
+        if (output.afterCouplingStep())
         {
-            interval.restartInPlace(flow.U(), flow.p());
+            couplingStep.restartInPlace(flow.U(), flow.p());
         }
     }
 }
 
-void runDry(RunTime& runTime, CouplingStep& interval, RunOutput& output)
+void runDemOnly(RunTime& runTime, CouplingStep& couplingStep, RunOutput& output)
 {
     output.start();
-    while (runTime.loop(interval.lengthWithin(runTime.timeLeft())))
+    while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        interval.advance();
-        if (output.afterInterval())
+        couplingStep.advance();
+        if (output.afterCouplingStep())
         {
-            interval.restartInPlace();
+            couplingStep.restartInPlace();
         }
     }
 }
@@ -172,11 +174,11 @@ void runDry(RunTime& runTime, CouplingStep& interval, RunOutput& output)
 
 int main(int argc, char* argv[])
 {
-    argList::addNote("Grains in water: PIMPLE with LIGGGHTS particles, coupled by constant/couplingProperties");
-    // OpenFOAM's own -dry-run puts a column of cells in the mesh's place; this tries the case as it is.
-    argList::addBoolOption("dryRun", "Check the case as a start does, solve one interval, write nothing");
+    argList::addNote("Particles in a fluid: PIMPLE coupled with LIGGGHTS as constant/couplingProperties states");
+    // OpenFOAM's own -dry-run replaces the mesh by a column of cells; this option checks the case as it is.
+    argList::addBoolOption("dryRun", "Case check: start the case, solve one coupling step, write nothing");
     argList::addBoolOption("listModels", "List every model that a case may name, with one line on each");
-    // Before OpenFOAM's banner, and in any folder.
+    // This option works before OpenFOAM's banner and in any folder.
     if (std::find(argv, argv + argc, std::string_view("-listModels")) != argv + argc)
     {
         listModels();
@@ -219,20 +221,20 @@ int main(int argc, char* argv[])
         {
             requireSameGravity(fluid, engine);
         }
-        CouplingStep interval(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), interval, checkpoints, dryRun);
+        CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, interval, output);
+            runWithFluid(runTime, mesh, fluid, couplingStep, output);
         }
         else
         {
-            runDry(runTime, interval, output);
+            runDemOnly(runTime, couplingStep, output);
         }
 
         output.finish();
-        // What comes after takes the particles for those of the end.
+        // Later steps of a case take this file as the state at the end of the run, so a stopped run must not write it.
         if (!dryRun && !output.stopped() && !settings.finalRestart().empty())
         {
             writeFinalParticles(engine, settings.finalRestart().c_str());

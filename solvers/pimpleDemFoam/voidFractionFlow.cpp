@@ -10,7 +10,7 @@ namespace clepsydra
 namespace
 {
 
-/// Not OpenFOAM's createPhi.H, which takes a file that cannot be opened for one that is not there.
+/// Not OpenFOAM's createPhi.H, which treats a file that cannot be opened as missing.
 surfaceScalarField readFlux(const volVectorField& U)
 {
     const fvMesh& mesh = U.mesh();
@@ -28,8 +28,8 @@ IOobject readAndWritten(const word& name, const fvMesh& mesh)
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
 }
 
-/// Of fluid through the boundary of this rank [m3/s], where p has its gradient given everywhere. A patch that extrapolates
-/// p has a flux without pressure, too, which its gradient takes back.
+/// Outflow of fluid through the boundary of this rank [m3/s], where p has a prescribed gradient everywhere. A patch
+/// that extrapolates p contributes a flux without pressure, from which that of its gradient is subtracted.
 scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField& phiHbyA,
     const surfaceScalarField& rAUf, const volScalarField& p)
 {
@@ -61,42 +61,42 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
     mesh_.setFluxRequired(p_.name());
 }
 
-SolvedFluid VoidFractionFlow::solve(CouplingStep& interval)
+SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
 {
-    const FluidCoupling& particles = interval.fluid();
+    const FluidCoupling& particles = couplingStep.fluid();
     const surfaceScalarField voidFractionf(fvc::interpolate(particles.voidFraction()));
     vector sourceOfParticles = vector::zero;
     tmp<surfaceScalarField> anticipatedFlux;
     while (pimple_.loop())
     {
         const fvVectorMatrix particleSource(particles.momentumSource(U_));
-        const fvVectorMatrix UEqn(momentumEquation(interval, voidFractionf, particleSource));
+        const fvVectorMatrix UEqn(momentumEquation(couplingStep, voidFractionf, particleSource));
         while (pimple_.correct())
         {
-            anticipatedFlux = correctPressure(interval, voidFractionf, UEqn);
+            anticipatedFlux = correctPressure(couplingStep, voidFractionf, UEqn);
         }
         sourceOfParticles =
             sum(mesh_.V().field() * ((particleSource & U_) + particles.sourceOfPressure(p_))().primitiveField());
     }
-    interval.closeContinuity(anticipatedFlux);
+    couplingStep.closeContinuity(anticipatedFlux);
     return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
 }
 
-// The layout shows the equations.
+// The layout shows the terms of the equations.
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
-    const CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
+    const CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
 {
-    const PhaseTimers::Scope timing = interval.timers().time("momentum");
-    const volScalarField& voidFraction = interval.fluid().voidFraction();
+    const PhaseTimers::Scope timing = couplingStep.timers().time("momentum");
+    const volScalarField& voidFraction = couplingStep.fluid().voidFraction();
     const surfaceScalarField alphaPhi("alphaPhi", voidFractionf*phi_);
 
     fvVectorMatrix UEqn
     (
         fvm::ddt(voidFraction, U_)
       + fvm::div(alphaPhi, U_, "div(phi,U)")
-      // alphaPhi is the last interval's: what it lacks in continuity must not act as a source of momentum.
+      // alphaPhi is that of the last coupling step. Its continuity error must not act as a source of momentum.
       - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
       - viscousStress_.implicitDivergence(U_)
      ==
@@ -106,16 +106,16 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
 
     if (pimple_.momentumPredictor())
     {
-        Foam::solve(UEqn == -interval.fluid().pressureFactor()*fvc::grad(p_));
+        Foam::solve(UEqn == -couplingStep.fluid().pressureFactor()*fvc::grad(p_));
     }
     return UEqn;
 }
 
 tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
-    CouplingStep& interval, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
+    CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
 {
-    const PhaseTimers::Scope timing = interval.timers().time("pressure");
-    const volScalarField& pressureFactor = interval.fluid().pressureFactor();
+    const PhaseTimers::Scope timing = couplingStep.timers().time("pressure");
+    const volScalarField& pressureFactor = couplingStep.fluid().pressureFactor();
 
     const volScalarField rAU("rAU", 1.0/UEqn.A());
     // U = HbyA - (pressureFactor/A) grad(p)
@@ -128,11 +128,11 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
     constrainPressure(p_, U_, phiHbyA, rAUf);
     if (p_.needReference())
     {
-        interval.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
+        couplingStep.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
     }
 
-    // d(eps)/dt + div(eps U) = 0, with d(eps)/dt = ... + div(following U - pressureResponse grad(p))
-    const VoidFractionRate& rate = interval.fluid().ddtVoidFraction();
+    // d(eps)/dt + div(eps U) = 0 with d(eps)/dt = ... + div(velocityResponse U - pressureResponse grad(p))
+    const VoidFractionRate& rate = couplingStep.fluid().ddtVoidFraction();
     const surfaceScalarField moving("moving", voidFractionf + rate.velocityResponse());
     const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.pressureResponse());
     auto anticipatedFlux = tmp<surfaceScalarField>::New("anticipatedFlux", phi_);

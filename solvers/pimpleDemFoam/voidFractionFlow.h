@@ -10,20 +10,20 @@
 namespace clepsydra
 {
 
-/// The fluid between the particles: its fields, and one PIMPLE step of the equations that FluidCoupling states.
+/// The fluid between the particles: its fields, and one PIMPLE step of the equations in FluidCoupling.
 class VoidFractionFlow
 {
 public:
-    /// Reads p, U and, where the run was stopped, phi.
+    /// Reads p and U and, where the run was stopped, phi.
     VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid);
 
-    /// Interstitial [m/s].
+    /// Interstitial velocity [m/s].
     Foam::volVectorField& U()
     {
         return U_;
     }
 
-    /// Kinematic, without its hydrostatic part [m2/s2].
+    /// Kinematic pressure without its hydrostatic part [m2/s2].
     const Foam::volScalarField& p() const
     {
         return p_;
@@ -35,15 +35,15 @@ public:
         return phi_;
     }
 
-    /// Solves over one coupling step.
-    SolvedFluid solve(CouplingStep& interval);
+    /// Solves the fluid's equations over one coupling step.
+    SolvedFluid solve(CouplingStep& couplingStep);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(const CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf,
-        const Foam::fvVectorMatrix& particleSource);
-    /// \return the part of d(eps)/dt that is implicit, as a flux [m3/s]
+    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep,
+        const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& particleSource);
+    /// \return the implicit part of d(eps)/dt as a flux [m3/s]
     Foam::tmp<Foam::surfaceScalarField> correctPressure(
-        CouplingStep& interval, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
+        CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;
     Foam::pimpleControl pimple_;

@@ -105,7 +105,7 @@ TEST(TerminalVelocity, InABedIsMinimumFluidisation)
     {
         SettlingParticle particle = glassInWater(0.002, 2500.0);
         particle.voidFraction = eps;
-        const double expected = minimumFluidisationVelocity({0.002, eps, 1000.0, 1e-3}, 2500.0, usualGravity);
+        const double expected = minimumFluidisationVelocity({0.002, eps, 1000.0, 1e-3}, 2500.0, defaultGravity);
         EXPECT_RELATIVE(hinderedSettlingVelocity(GidaspowDrag{}, particle), expected, 1e-10);
     }
     SettlingParticle isolated = glassInWater(0.002, 2500.0);

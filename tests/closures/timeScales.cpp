@@ -44,7 +44,7 @@ TEST(TimeScales, HertzCollisionTimeIsTheIntegralOfTheMotion)
         sum += 2.0 * s / std::sqrt(1.0 - x * x * std::sqrt(x)) / steps;
     }
     const double integral = 2.0 * maximum / speed * sum;
-    EXPECT_RELATIVE(hertzCollisionTimeOfTwins(radius, 2540.0, 5e6, 0.2, speed), integral, 1e-6);
+    EXPECT_RELATIVE(hertzCollisionTimeOfEqualParticles(radius, 2540.0, 5e6, 0.2, speed), integral, 1e-6);
     EXPECT_RELATIVE(hertzCollisionTime(effectiveMass, 0.5 * radius, modulus, speed), integral, 1e-6);
     EXPECT_RELATIVE(integral, 4.384447e-4, 1e-6); // and by hand, 2.94328 x_max/v
 }

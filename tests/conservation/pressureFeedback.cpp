@@ -32,11 +32,11 @@ struct Column
 /// Per mass of particles, an interval being one: what a particle answers to what it received in the last interval.
 AnticipatedMotion anticipated(const Column& column, bool seenAsHeld)
 {
-    GivenToFluid given;
-    given.implicitCoefficientTime = column.relaxationTimes;
-    given.impulse = Vector3d(0, 0, 1);
+    ReceivedImpulse received;
+    received.implicitCoefficientTime = column.relaxationTimes;
+    received.impulse = Vector3d(0, 0, 1);
     // A change of velocity across the impulse: the particle is not held fast, and all of the drag was.
-    return anticipatedMotion(given, seenAsHeld ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
+    return anticipatedMotion(received, seenAsHeld ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
 }
 
 /// What an interval makes of particles' velocity, fluid's velocity, -grad p over the fluid's density, impulse given in
@@ -49,7 +49,7 @@ Eigen::Matrix<double, 5, 5> amplification(const Column& column, const Anticipate
     const Row velocity = unit(0);
     const Row fluid = unit(1);
     const Row push = unit(2);
-    const Row inAdvance = unit(3);
+    const Row semiImplicitImpulse = unit(3);
     const double alpha = column.solidFraction;
     const double eps = 1 - alpha;
     const double massRatio = alpha * column.densityRatio / eps;
@@ -75,7 +75,7 @@ Eigen::Matrix<double, 5, 5> amplification(const Column& column, const Anticipate
     left2 << 1 + massRatio * motion.drag, -1 - massRatio * buoyancy * n, //
         eps / alpha + column.approach * n, column.approach * motion.pressureResponse * buoyancy;
     Eigen::Matrix<double, 2, 5> right;
-    right << fluid + massRatio * motion.drag * moved - received + inAdvance,
+    right << fluid + massRatio * motion.drag * moved - received + semiImplicitImpulse,
         -column.approach * (owed + (1 - n) * moved);
     const Eigen::Matrix<double, 2, 5> solved = left2.partialPivLu().solve(right);
     const Row newFluid = solved.row(0);

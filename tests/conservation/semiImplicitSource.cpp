@@ -94,7 +94,7 @@ TEST_P(DragTimes, WaterStopsMonotonouslyWhileTheIntervalChanges)
         const double nextOverFirst = static_cast<double>(next) / setup.demStepsPerCouplingStep;
         EXPECT_NEAR(stream.waterSpeed() / before, 1 / (1 + GetParam() * nextOverFirst), 1e-6) << "next " << next;
     }
-    EXPECT_NEAR(stream.lastInterval(), 3 * setup.interval / setup.demStepsPerCouplingStep, 1e-9);
+    EXPECT_NEAR(stream.lastTimeStep(), 3 * setup.interval / setup.demStepsPerCouplingStep, 1e-9);
 }
 
 INSTANTIATE_TEST_SUITE_P(WeakToStrong, DragTimes, testing::Values(0.01, 0.3, 1, 10, 100, 1000));

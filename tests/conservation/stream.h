@@ -34,7 +34,7 @@ public:
         {
             --viewsWithout_;
             shown_.assign(all.state, all.state + all.size());
-            shown_.front().given.impulse.setZero();
+            shown_.front().received.impulse.setZero();
             all.state = shown_.data();
         }
         return all;
@@ -99,7 +99,8 @@ public:
         const FluidProperties fluid{density, setup.viscosity, Vector3d::Zero()};
         settings_ = std::make_unique<CouplingSettings>(case_.time());
         models_ = std::make_unique<FluidModels>(*mesh_, *settings_, fluid, timers_);
-        interval_ = std::make_unique<CouplingStep>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
+        couplingStep_ =
+            std::make_unique<CouplingStep>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
         U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedVector("U", dimVelocity, vector(0, 0, 0.1)), "zeroGradient");
         if (setup.wave)
@@ -110,7 +111,7 @@ public:
             dimensionedScalar("p", dimPressure / dimDensity, 0), "zeroGradient");
         p_->primitiveFieldRef() = setup.pressureGradient * mesh_->C().primitiveField().component(vector::Z);
         p_->correctBoundaryConditions();
-        interval_->start(*U_, *p_);
+        couplingStep_->start(*U_, *p_);
     }
 
     /// \param solved  what becomes of the particles' source before it is put into the equation
@@ -118,17 +119,17 @@ public:
     ///                   this one has
     void advance(const std::function<void(fvVectorMatrix&)>& solved, int nextSteps = 0)
     {
-        case_.time().setDeltaT(interval_->lengthWithin(VGREAT), false);
+        case_.time().setDeltaT(couplingStep_->lengthWithin(VGREAT), false);
         ++case_.time();
         U_->storeOldTime();
         const double timeLeft = nextSteps > 0 ? nextSteps * engine_.timeStep() : VGREAT;
-        interval_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
-            fvVectorMatrix source(interval_->fluid().momentumSource(*U_));
+        couplingStep_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
+            fvVectorMatrix source(couplingStep_->fluid().momentumSource(*U_));
             solved(source);
-            const volVectorField ofPressure(interval_->fluid().sourceOfPressure(*p_));
-            solve(fvm::ddt(interval_->fluid().voidFraction(), *U_) == source + ofPressure);
+            const volVectorField ofPressure(couplingStep_->fluid().sourceOfPressure(*p_));
+            solve(fvm::ddt(couplingStep_->fluid().voidFraction(), *U_) == source + ofPressure);
             return SolvedFluid{sum(mesh_->V().field() * ((source & *U_) + ofPressure)().primitiveField()),
-                tmp<volScalarField>::New("none", interval_->fluid().ddtVoidFraction()())};
+                tmp<volScalarField>::New("none", couplingStep_->fluid().ddtVoidFraction()())};
         });
     }
 
@@ -144,7 +145,7 @@ public:
     }
 
     /// Length of the interval that was advanced over last [s].
-    double lastInterval() const
+    double lastTimeStep() const
     {
         return case_.time().deltaTValue();
     }
@@ -165,10 +166,10 @@ public:
     double momentum()
     {
         const ParticlesView particles = engine_.particles();
-        const scalarField voidFraction(interval_->fluid().voidFraction().primitiveField());
+        const scalarField voidFraction(couplingStep_->fluid().voidFraction().primitiveField());
         return density * sum(mesh_->V().field() * voidFraction * U_->primitiveField().component(vector::Z))
                + (particles.velocity.row(2).array() * particles.mass.transpose()).sum()
-               + interval_->fluid().semiImplicitMomentum().z();
+               + couplingStep_->fluid().semiImplicitMomentum().z();
     }
 
 private:
@@ -199,7 +200,7 @@ private:
     ForgetfulEngine engine_;
     std::unique_ptr<CouplingSettings> settings_;
     std::unique_ptr<FluidModels> models_;
-    std::unique_ptr<CouplingStep> interval_;
+    std::unique_ptr<CouplingStep> couplingStep_;
     std::unique_ptr<volVectorField> U_;
     std::unique_ptr<volScalarField> p_;
 };

@@ -144,7 +144,7 @@ public:
             }
         }
         exchange_.send(engine_.particles(), Reactions::Zero(reactionSize, engine_.particles().size()));
-        shareSums_ = exchange_.sumAtHome(distribution_.findCells(exchange_.ghosts()));
+        shareSums_ = exchange_.sumAtOwners(distribution_.findCells(exchange_.ghosts()));
         distribution_.normalise(exchange_.toGhosts(shareSums_));
     }
 
@@ -178,7 +178,7 @@ public:
     /// A cell field at the particles of this rank.
     Eigen::RowVectorXd atParticles(const Foam::scalarField& field) const
     {
-        return exchange_.sumAtHome(distribution_.sample(columns(field)));
+        return exchange_.sumAtOwners(distribution_.sample(columns(field)));
     }
 
     double integral(const Foam::scalarField& density) const

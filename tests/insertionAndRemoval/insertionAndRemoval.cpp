@@ -143,8 +143,8 @@ TEST(InsertionAndRemovalTest, TheBalancesFollowTheVolumeInside)
     double largestStep = 0;
     double last = first;
     label removed = 0;
-    PatchFlux inserted;
-    PatchFlux left;
+    ParticleTransfer inserted;
+    ParticleTransfer left;
     for (int step = 1; step <= 160; ++step)
     {
         if (step == 30 && mine)
@@ -162,9 +162,9 @@ TEST(InsertionAndRemovalTest, TheBalancesFollowTheVolumeInside)
         EXPECT_NEAR(now, first + insertionAndRemoval.netVolume(), 1e-15) << step;
         largestStep = step == 30 ? largestStep : std::max(largestStep, std::abs(now - last));
         last = now;
-        removed += insertionAndRemoval.removeGone(engine);
+        removed += insertionAndRemoval.removeDeparted(engine);
         inserted += insertionAndRemoval.lastInserted();
-        left += insertionAndRemoval.lastLeft()[0];
+        left += insertionAndRemoval.lastDeparted()[0];
     }
     EXPECT_EQ(removed, 2);
     EXPECT_EQ(returnReduce(label(engine.particles().size()), sumOp<label>()), 1);
@@ -225,7 +225,7 @@ TEST(InsertionAndRemovalTest, TheConservationCheckFindsVolumeThatIsLost)
     const Cube cube;
     const auto conservationError = [&](double cells, double netVolume) {
         ConservationCheck conservation(dictionary::null, cube.temporaryCase.time());
-        conservation.openSolidVolume(1e-6);
+        conservation.setInitialSolidVolume(1e-6);
         conservation.recordNetInsertion(netVolume);
         return errorOf([&] { conservation.recordSolidVolume(cells, cells, 0, "none"); });
     };

@@ -75,8 +75,8 @@ TEST(VirtualMass, IsGivenToTheFluid)
     const Vector3d gained = mass * test.engine().particles().velocity.col(0) - before;
     const Vector3d byGravityAndBuoyancy =
         50 * test.engine().timeStep() * Vector3d(0, 0, -9.81) * (mass - 1000 * sphereVolume(radius));
-    EXPECT_LT((test.given(0).impulse - (gained - byGravityAndBuoyancy)).norm(), 1e-12 * gained.norm());
-    EXPECT_GT(std::abs(test.given(0).impulse.y()), 0.1 * std::abs(gained.y()));
+    EXPECT_LT((test.received(0).impulse - (gained - byGravityAndBuoyancy)).norm(), 1e-12 * gained.norm());
+    EXPECT_GT(std::abs(test.received(0).impulse.y()), 0.1 * std::abs(gained.y()));
 }
 
 /// A particle that the engine holds fast does not accelerate, whatever pulls at it: what it gives to the fluid is the part of
@@ -90,7 +90,7 @@ TEST(VirtualMass, OfAFixedParticleIsThatOfAParticleWithoutAcceleration)
     test.engine().advance(50);
     const Vector3d expected =
         50 * test.engine().timeStep() * closures::addedMass(0.5, 1000, sphereVolume(radius)) * Vector3d(0, 5, 0);
-    EXPECT_LT((test.given(0).impulse - expected).norm(), 1e-12 * expected.norm());
+    EXPECT_LT((test.received(0).impulse - expected).norm(), 1e-12 * expected.norm());
 }
 
 /// Zuber's coefficient, 2.75 at eps = .4, instead of 1/2: (1 - r) g/(1 + 2.75 r).

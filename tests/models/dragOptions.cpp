@@ -20,7 +20,7 @@ Vector3d dragOn(const std::string& properties, const Vector3d& position, const V
     ForcesOnParticles test(properties, {1000, 1e-3, Vector3d::Zero()});
     test.engine().addParticle(1, position, radius, 2500, velocity);
     Vector3d force = 2500 * sphereVolume(radius) * test.accelerationOf(0);
-    EXPECT_LT((test.given(0).impulse - test.engine().timeStep() * force).norm(), 1e-14 * force.norm());
+    EXPECT_LT((test.received(0).impulse - test.engine().timeStep() * force).norm(), 1e-14 * force.norm());
     return force;
 }
 

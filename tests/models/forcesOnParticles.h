@@ -44,9 +44,9 @@ public:
         return engine_.particles().state[particle].fluid;
     }
 
-    const GivenToFluid& given(Eigen::Index particle)
+    const ReceivedImpulse& received(Eigen::Index particle)
     {
-        return engine_.particles().state[particle].given;
+        return engine_.particles().state[particle].received;
     }
 
     /// Acceleration of a particle over one step from now [m/s2].

@@ -28,7 +28,7 @@ FluidProperties oil()
 void addParticle(ForcesOnParticles& test, double density, const Vector3d& velocity = Vector3d::Zero())
 {
     test.engine().addParticle(1, Vector3d::Zero(), radius, density, velocity);
-    test.engine().keepMemory(test.forces().needs().memory);
+    test.engine().requestMemory(test.forces().needs().memory);
 }
 
 /// Velocity over the terminal one of a particle that starts from rest, creeping, with Stokes' drag, added mass and Basset's
@@ -78,7 +78,7 @@ TEST(HistoryForce, IsGivenToTheFluid)
     const Vector3d before = mass * test.engine().particles().velocity.col(0);
     test.engine().advance(300);
     const Vector3d gained = mass * test.engine().particles().velocity.col(0) - before;
-    EXPECT_LT((test.given(0).impulse - gained).norm(), 1e-12 * gained.norm());
+    EXPECT_LT((test.received(0).impulse - gained).norm(), 1e-12 * gained.norm());
     EXPECT_GT(gained.norm(), 0.1 * before.norm());
 }
 
@@ -104,7 +104,7 @@ TEST(HistoryForce, FadesFasterWithMeiAndAdriansLaw)
         ForcesOnParticles test(
             std::string("forceModels (historyForce); historyForceProps { law ") + laws[i] + "; }", water());
         test.engine().addParticle(1, Vector3d::Zero(), radius, 1e6);
-        test.engine().keepMemory(test.forces().needs().memory);
+        test.engine().requestMemory(test.forces().needs().memory);
         test.accelerationOf(0);
         test.fluidAt(0).velocity = {0.5, 0, 0};
         test.engine().advance(

@@ -27,7 +27,7 @@ TEST(Lift, OfShearPointsToTheFasterSideForAParticleThatLags)
         EXPECT_NEAR(force.y(), lag * 1.459639e-8, 1e-13);
         EXPECT_NEAR(force.x(), 0, 1e-20);
         EXPECT_NEAR(force.z(), 0, 1e-20);
-        EXPECT_LT((test.given(0).impulse - test.engine().timeStep() * force).norm(),
+        EXPECT_LT((test.received(0).impulse - test.engine().timeStep() * force).norm(),
             1e-12 * test.engine().timeStep() * force.norm());
     }
 }

@@ -92,7 +92,7 @@ public:
         {
             engine_->requestPairs(pairReach);
         }
-        engine_->keepState(numbersOf(CouplingState()));
+        engine_->requestState(numbersOf(CouplingState()));
         engine_->initialise(forces);
         if (forces)
         {
@@ -164,7 +164,7 @@ Vector3d impulseGiven(LiggghtsEngine& engine)
     Vector3d sum = Vector3d::Zero();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        sum += particles.state[particle].given.impulse;
+        sum += particles.state[particle].received.impulse;
     }
     return sumOverRanks(sum);
 }

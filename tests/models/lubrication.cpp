@@ -35,7 +35,7 @@ TEST(Lubrication, PushesApproachingParticlesApart)
     EXPECT_LT((force.col(0) + force.col(1)).norm(), 1e-16);
     EXPECT_NEAR(force(1, 0), 0, 1e-16);
     EXPECT_NEAR(force.col(2).norm(), 0, 1e-20);
-    EXPECT_EQ(test.given(0).impulse.norm(), 0);
+    EXPECT_EQ(test.received(0).impulse.norm(), 0);
 }
 
 /// At a wall: 10 um above it, reach 0.05*2 R = 100 um, sinking by 1 cm/s: 1.698360e-3*.01 upwards; sliding costs nothing.

@@ -52,7 +52,7 @@ TEST(ModelType, InBTheFluidIsGivenAll)
     test.fluidAt(0).voidFraction = voidFraction;
     test.fluidAt(0).velocity = {0, 0, speed};
     const Vector3d gained = 2500 * sphereVolume(radius) * test.engine().timeStep() * test.accelerationOf(0);
-    EXPECT_LT((test.given(0).impulse - gained).norm(), 1e-12 * gained.norm());
+    EXPECT_LT((test.received(0).impulse - gained).norm(), 1e-12 * gained.norm());
 }
 
 /// Forces that model B has in its drag already are refused, with the reason.

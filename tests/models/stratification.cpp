@@ -37,7 +37,7 @@ Eigen::Matrix3Xd accelerations(const std::string& force, const std::vector<Fluid
             test.engine().addParticle(particle + 1, {0, 0, heights[particle]}, radius, 2500, {0.01, 0.002, -0.03});
             test.fluidAt(particle).vorticity = {2, 3, 5};
         }
-        test.engine().keepMemory(test.forces().needs().memory);
+        test.engine().requestMemory(test.forces().needs().memory);
         test.engine().advance(1);
         found.col(static_cast<Eigen::Index>(i)) = test.accelerationOf(static_cast<Eigen::Index>(i)) - fluids[i].gravity;
     }

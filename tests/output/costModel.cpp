@@ -64,7 +64,7 @@ TEST(CostModel, KnowsTheRestOfARunByItsFirstIntervals)
     {
         machine.interval(5000, 100);
     }
-    EXPECT_EQ(model.intervals(), 10);
+    EXPECT_EQ(model.couplingSteps(), 10);
     EXPECT_NEAR(model.secondsLeft(soFar, 5000, 40000, 400) / (machine.total() - before), 1, 1e-12);
 }
 

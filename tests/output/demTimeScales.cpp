@@ -90,7 +90,7 @@ TEST(StartReport, RefusesADemStepAboveTheStableOne)
 {
     EXPECT_EQ(errorWith(3.9e-5, ""), "");
     EXPECT_THAT(errorWith(4.1e-5, ""),
-        testing::AllOf(testing::HasSubstr("DEM step above the stable one"), testing::HasSubstr("DEM/in.hopper"),
+        testing::AllOf(testing::HasSubstr("DEM step is above the stable one"), testing::HasSubstr("DEM/in.hopper"),
             testing::HasSubstr("'maxRayleighFraction'"), testing::HasSubstr("at most 4e-05 s")));
     EXPECT_EQ(errorWith(4.1e-5, "maxRayleighFraction 0.5;"), "");
     EXPECT_THAT(errorWith(2.1e-5, "maxRayleighFraction 0.2;"), testing::HasSubstr("at most 2e-05 s"));

@@ -34,7 +34,7 @@ double sphereVolume(double diameter)
 double buoyantWeight(Eigen::Index particles, double diameter, double particleDensity, double fluidDensity)
 {
     return static_cast<double>(particles) * sphereVolume(diameter) * (particleDensity - fluidDensity)
-           * closures::usualGravity;
+           * closures::defaultGravity;
 }
 
 double crossSection(const TestCase& test)

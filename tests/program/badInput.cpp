@@ -415,7 +415,7 @@ TEST(BadInput, Steps)
         {couplingProperties, "'couplingTimeStep' is 0.001 s", "allowed: a whole multiple", "3e-05 s", script},
         SeenBy::engine);
     expectRefused([](TestCase& test) { test.dem.timeStep = 2.5e-4; },
-        {couplingProperties, "DEM step above the stable one", script, "0.00025 s", "Rayleigh", "allowed: at most",
+        {couplingProperties, "DEM step is above the stable one", script, "0.00025 s", "Rayleigh", "allowed: at most",
             "'maxRayleighFraction'"},
         SeenBy::engine);
     expectRefused([](TestCase& test) { test.control().set("adjustTimeStep", "yes"); },
@@ -559,11 +559,12 @@ TEST(BadInput, UnconvergedPressure)
     const Outcome few = test.run();
     EXPECT_TRUE(few.succeeded()) << few.output;
     EXPECT_TRUE(few.says("DICPCG stopped after 1 iterations")) << few.output;
-    EXPECT_TRUE(few.says("WARNING: the pressure was not solved to its tolerance in 4 of 4 intervals")) << few.output;
+    EXPECT_TRUE(few.says("WARNING: the pressure was not solved to its tolerance in 4 of 4 coupling steps"))
+        << few.output;
 
     test.control().set("endTime", "0.2").set("startFrom", "latestTime");
     test.write();
-    expectRefused(test.runCommand("$SOLVER"), {"DICPCG stopped after 1 iterations", "in the last 50 intervals"});
+    expectRefused(test.runCommand("$SOLVER"), {"DICPCG stopped after 1 iterations", "in the last 50 coupling steps"});
 }
 
 /// An interval in which a particle crosses many cells: warned of with the figure. A hundredfold deltaT went unnoticed.
@@ -592,7 +593,7 @@ TEST(BadInput, DryRun)
     const Files before = filesIn(test.path());
     const Outcome outcome = test.runCommand("$SOLVER -dryRun");
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
-    EXPECT_TRUE(outcome.says("Dry run: one interval took")) << outcome.output;
+    EXPECT_TRUE(outcome.says("Case check: one coupling step took")) << outcome.output;
     EXPECT_TRUE(outcome.says("MiB")) << outcome.output;
     EXPECT_EQ(before, filesIn(test.path()));
 
@@ -601,7 +602,7 @@ TEST(BadInput, DryRun)
     const Outcome atEnd = test.runCommand("cp -r . ../$$ && cd ../$$ && $SOLVER && $SOLVER -dryRun; status=$?; "
                                           "rm -r ../$$; exit $status");
     EXPECT_TRUE(atEnd.succeeded()) << atEnd.output;
-    EXPECT_TRUE(atEnd.says("Dry run: the case is at its end, 0.004 s")) << atEnd.output;
+    EXPECT_TRUE(atEnd.says("Case check: the case has reached its end, 0.004 s")) << atEnd.output;
 
     test.dem.particles.emplace_back(0.01, 0.01, 0.0412);
     test.write();

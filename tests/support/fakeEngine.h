@@ -68,15 +68,15 @@ public:
     /// All pairs of particles of this rank, near or not.
     void requestPairs(double) override
     {
-        seesPairs_ = true;
+        needsPairs_ = true;
     }
 
     /// Not heeded: every particle begins as one that has been in the fluid all along.
-    void keepState(const std::vector<double>&) override
+    void requestState(const std::vector<double>&) override
     {}
 
     /// For the particles that there are.
-    void keepMemory(int numbers) override
+    void requestMemory(int numbers) override
     {
         memory_.setZero(numbers, static_cast<Eigen::Index>(id_.size()));
     }
@@ -181,7 +181,7 @@ private:
 
     void listPairs()
     {
-        const int count = seesPairs_ ? static_cast<int>(id_.size()) : 0;
+        const int count = needsPairs_ ? static_cast<int>(id_.size()) : 0;
         pairs_.resize(2, count * (count - 1) / 2);
         Eigen::Index pair = 0;
         for (int first = 0; first < count; ++first)
@@ -211,7 +211,7 @@ private:
     Eigen::Matrix3Xd weight_;
     std::set<int> fixedIds_;
     Eigen::Array<bool, Eigen::Dynamic, 1> held_;
-    bool seesPairs_ = false;
+    bool needsPairs_ = false;
     Eigen::Matrix2Xi pairs_;
     Eigen::MatrixXd memory_;
 };

@@ -5,9 +5,11 @@
 namespace clepsydra
 {
 
-/// While it lives, exactly these floating-point exceptions (FE_INVALID | ...) end the program; afterwards those as before.
+/// Makes exactly the given floating-point exceptions (FE_INVALID | ...) end the program while the object exists, and
+/// restores the previous setting afterwards.
 ///
-/// OpenFOAM lets them end the program, which then cannot say which particle it was. LIGGGHTS goes on with "not a number".
+/// OpenFOAM lets these exceptions end the program, which then cannot report the particle that caused them. LIGGGHTS
+/// continues with "not a number", so the particle can be found.
 class FloatingPointTraps
 {
 public:

@@ -91,7 +91,7 @@ int GroupChanger::groupBit(const std::string& group) const
             known += std::string(" ") + groups.names[i];
         }
         throw DemEngineError("Entry 'DEM/groupChanges/" + change_.name + "' names the group '" + group
-                             + "', which the DEM script does not make; it has:" + known);
+                             + "', which the DEM script does not define; allowed:" + known);
     }
     return groups.bitmask[index];
 }

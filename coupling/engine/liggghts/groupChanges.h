@@ -13,42 +13,45 @@ class LAMMPS;
 namespace clepsydra
 {
 
-/// Particles that have sunk below a height change from one group of the LIGGGHTS script to another, for good.
+/// A rule by which particles that have sunk below a height change from one group of the LIGGGHTS script to another,
+/// permanently.
 ///
-/// The script says what a group is good for, and so what a run can be spared: a wall that only particles above it can touch
-/// acts on their group alone; particles that lie still for the rest of the run need no integration and no contacts with
-/// each other (`neigh_modify exclude group resting resting`). They keep their volume, their drag and their contacts
-/// with particles that move.
+/// The script defines what the groups are used for, and thus what a run can save. A wall that only particles above it
+/// can touch acts on their group alone. Particles that rest until the end of the run need neither integration nor
+/// contacts with each other (`neigh_modify exclude group resting resting`); they keep their volume, their drag and
+/// their contacts with particles that move.
 struct GroupChange
 {
-    /// What it rests on: a particle that has been slow for a while.
+    /// Definition of rest: the particle has been slow for some time.
     struct Rest
     {
-        double speed;    // [m/s], of its centre and, by rotation, of its surface
+        double speed;    // upper limit for its centre and, by rotation, for its surface [m/s]
         double duration; // [s]
     };
 
     std::string name;
     std::string from;
     std::string to;
-    double below; // height of the centre, z [m]
-    /// Where given, only particles at rest change, and they are stopped.
+    double below; // upper limit for the height z of its centre [m]
+    /// Where it is given, only particles at rest change their group, and they are stopped.
     std::optional<Rest> rest;
 };
 
-/// Carries out one GroupChange in a running LIGGGHTS.
+/// Applies one GroupChange to a running LIGGGHTS.
 class GroupChanger
 {
 public:
-    /// \throws DemEngineError where the script has no such group.
+    /// \throws DemEngineError where the script has no such group
     GroupChanger(LAMMPS_NS::LAMMPS& program, const GroupChange& change);
 
-    /// The command that makes the property in which particles carry the time that they have been at rest, from rank to rank
-    /// and through checkpoints; empty where none is needed. To be given to LIGGGHTS before the first apply().
+    /// Command that creates the property with the time for which each particle has been at rest; it travels with the
+    /// particle and is part of checkpoints. Empty where none is needed. Pass it to LIGGGHTS before the first apply().
     std::string propertyCommand() const;
 
-    /// To be called between two runs of LIGGGHTS, `elapsed` seconds after the last call. Local.
-    /// \throws DemEngineError if a particle is in both groups or in none: the script's fixes would act twice, or not at all.
+    /// Call between two runs of LIGGGHTS. Local.
+    /// \param elapsed  time since the last call [s]
+    /// \throws DemEngineError where a particle is in both groups or in neither, because the script's fixes would act on
+    /// it twice or not at all
     void apply(double elapsed);
 
 private:

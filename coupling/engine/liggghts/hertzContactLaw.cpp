@@ -1,5 +1,5 @@
-// Compiled without fused operations, so that rounding is LIGGGHTS' own, and without errno, so that roots vectorise: see
-// CMakeLists.txt.
+// Compiled without fused multiply-add, so that rounding is the same as in LIGGGHTS, and without errno, so that square
+// roots are vectorised: see CMakeLists.txt.
 #include "engine/liggghts/hertzContactLaw.h"
 
 #include "vectorUnits.h"
@@ -29,7 +29,7 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double nz = dz * rInverse;
         const double mass = c.massI[k] * c.massJ[k] / (c.massI[k] + c.massJ[k]);
 
-        // Relative velocity of the surfaces
+        // Relative velocity of the surfaces.
         const double normalVelocity = c.velocity[0][k] * nx + c.velocity[1][k] * ny + c.velocity[2][k] * nz;
         const double overlap = c.radiusI[k] + c.radiusJ[k] - r;
         const double armI = c.radiusI[k] - 0.5 * overlap;
@@ -41,7 +41,7 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double ty = c.velocity[1][k] - normalVelocity * ny - (dx * wz - dz * wx);
         const double tz = c.velocity[2][k] - normalVelocity * nz - (dy * wx - dx * wy);
 
-        // Normal force
+        // Normal force.
         const double radius = c.radiusI[k] * c.radiusJ[k] / (c.radiusI[k] + c.radiusJ[k]);
         const double root = std::sqrt(radius * overlap);
         const double normalStiffness = 4. / 3. * c.youngsModulus[k] * root;
@@ -51,7 +51,7 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double tangentialDamping = twiceDamping * std::sqrt(tangentialStiffness * mass);
         const double normalForce = -normalDamping * normalVelocity + normalStiffness * overlap;
 
-        // Shear: grown, and turned with the contact
+        // Tangential displacement: integrated, and rotated with the contact.
         double sx = c.shear[0][k];
         double sy = c.shear[1][k];
         double sz = c.shear[2][k];
@@ -63,14 +63,14 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         sy = shears ? grownY - along * ny : sy;
         sz = shears ? grownZ - along * nz : sz;
 
-        // Tangential force: spring and dashpot, or friction, which also holds the spring back
+        // Tangential force: spring and dashpot, or friction, which also limits the displacement.
         const double springX = -(tangentialStiffness * sx);
         const double springY = -(tangentialStiffness * sy);
         const double springZ = -(tangentialStiffness * sz);
         const double spring = tangentialStiffness * std::sqrt(sx * sx + sy * sy + sz * sz);
         const double limit = c.friction[k] * std::fabs(normalForce);
         const bool slides = spring > limit;
-        // Whatever is not taken is evaluated too, and must divide by nothing that may be zero: OpenFOAM traps that.
+        // Branches that are not taken are evaluated, too. They must not divide by zero, because OpenFOAM traps that.
         const double ratio = limit / std::max(std::max(spring, limit), smallest);
         const double frictionX = springX * ratio;
         const double frictionY = springY * ratio;
@@ -79,13 +79,13 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double fy = slides ? frictionY : springY - tangentialDamping * ty;
         const double fz = slides ? frictionZ : springZ - tangentialDamping * tz;
         const double divisor = std::max(tangentialStiffness, smallest);
-        const double heldX = -frictionX / divisor;
-        const double heldY = -frictionY / divisor;
-        const double heldZ = -frictionZ / divisor;
-        const bool holds = slides && shears;
-        c.shear[0][k] = holds ? heldX : sx;
-        c.shear[1][k] = holds ? heldY : sy;
-        c.shear[2][k] = holds ? heldZ : sz;
+        const double limitedX = -frictionX / divisor;
+        const double limitedY = -frictionY / divisor;
+        const double limitedZ = -frictionZ / divisor;
+        const bool limitsShear = slides && shears;
+        c.shear[0][k] = limitsShear ? limitedX : sx;
+        c.shear[1][k] = limitsShear ? limitedY : sy;
+        c.shear[2][k] = limitsShear ? limitedZ : sz;
 
         c.force[0][k] = normalForce * nx + fx;
         c.force[1][k] = normalForce * ny + fy;

@@ -6,7 +6,7 @@
 namespace clepsydra
 {
 
-/// Contacts between particles, each quantity of all of them side by side, as vector units take them. SI units.
+/// Contacts between particles, with each quantity of all contacts side by side for vector units. SI units.
 struct HertzContacts
 {
     static constexpr std::size_t most = 64;
@@ -15,7 +15,7 @@ struct HertzContacts
 
     std::size_t count = 0;
 
-    /// Of particle i from particle j.
+    /// Position and velocity of particle i relative to particle j.
     Vectors distance;
     Vectors velocity;
     Values radiusI;
@@ -24,24 +24,25 @@ struct HertzContacts
     Values massJ;
     Vectors angularVelocityI;
     Vectors angularVelocityJ;
-    /// Of the two materials: effective Young's and shear modulus, damping by restitution (negative), friction.
+    /// Properties of the pair of materials: effective Young's and shear modulus, damping coefficient from restitution
+    /// (negative), friction coefficient.
     Values youngsModulus;
     Values shearModulus;
     Values damping;
     Values friction;
 
-    /// Tangential displacement since the particles met: taken and brought up to date.
+    /// Tangential displacement since the start of the contact; updated.
     Vectors shear;
 
-    /// On particle i; particle j has the opposite.
+    /// Results. The force acts on particle i; particle j has the opposite one.
     Vectors force;
     Vectors torqueI;
     Vectors torqueJ;
 };
 
-/// LIGGGHTS' `model hertz tangential history` (normal_model_hertz.h, tangential_model_history.h) with its operations in
-/// their order: the same results to the last bit.
-/// \param shearStep  time by which the shear grows [s]; 0 leaves it as it is
+/// The contact law `model hertz tangential history` of LIGGGHTS (normal_model_hertz.h, tangential_model_history.h). It
+/// has LIGGGHTS' operations in their order, so the results are the same to the last bit.
+/// \param shearStep  time over which the tangential displacement grows [s]; 0 leaves it unchanged
 void evaluateHertz(HertzContacts& contacts, double shearStep);
 
 } // namespace clepsydra

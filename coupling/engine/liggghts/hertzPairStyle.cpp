@@ -3,7 +3,7 @@
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"
 
-// What LIGGGHTS' headers below use and do not include
+// Headers that LIGGGHTS' headers below use without including them.
 #include <mpi.h>
 
 #include <cctype>
@@ -44,7 +44,7 @@
 #include <string>
 #include <vector>
 
-// The library has it compiled.
+// The library contains the compiled template.
 using HertzStyle = LIGGGHTS::ContactModels::GranStyle<LIGGGHTS::ContactModels::HERTZ,
     LIGGGHTS::ContactModels::TANGENTIAL_HISTORY, LIGGGHTS::ContactModels::COHESION_OFF,
     LIGGGHTS::ContactModels::ROLLING_OFF, LIGGGHTS::ContactModels::SURFACE_DEFAULT>;
@@ -63,11 +63,12 @@ using HertzOfLiggghts = LIGGGHTS::PairStyles::Granular<models::ContactModel<Hert
 
 constexpr const char* forgetKeyword = "forget_parted";
 
-/// LIGGGHTS' style, with a loop over many contacts at a time in the place of a chain of calls for each. What only some
-/// scripts ask for is left to LIGGGHTS' own loop.
+/// LIGGGHTS' pair style with a loop over many contacts at a time in place of a chain of calls for each contact. Options
+/// that few scripts use are left to LIGGGHTS' own loop.
 ///
-/// LIGGGHTS keeps the spring of a contact until the next neighbour list, so that particles which have parted and meet again
-/// before that go on with the old one. Here it goes with the contact, unless the script says `forget_parted off`.
+/// LIGGGHTS keeps the tangential displacement of a contact until the next neighbour list, so particles that have
+/// separated and collide again before that start with the old displacement. Here the displacement is reset at
+/// separation, unless the script says `forget_parted off`.
 class HertzPairStyle : public HertzOfLiggghts
 {
 public:
@@ -76,10 +77,10 @@ public:
           program_(program)
     {}
 
-    void settings(int count, char** words, LIGGGHTS::IContactHistorySetup* history) override
+    void settings(int count, char** tokens, LIGGGHTS::IContactHistorySetup* history) override
     {
-        std::vector<char*> rest(words, words + count);
-        readForgetting(rest);
+        std::vector<char*> rest(tokens, tokens + count);
+        readForgetParted(rest);
         plain_ = rest.empty();
         HertzOfLiggghts::settings(static_cast<int>(rest.size()), rest.data(), history);
     }
@@ -103,7 +104,7 @@ public:
                 findContacts(*pair, pair->list->ilist[particle]);
                 forgetParted(*pair, pair->list->ilist[particle]);
             }
-#ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style has not
+#ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style excludes
             HertzOfLiggghts::compute_force(pair, energies, virials, forCompute);
 #endif
             return;
@@ -135,7 +136,7 @@ private:
         double* shear;
     };
 
-    /// Some of a particle's neighbours, by their number in its list.
+    /// Some of a particle's neighbours, by their index in its list.
     struct Chosen
     {
         std::vector<int> which;
@@ -147,7 +148,7 @@ private:
             count = 0;
         }
 
-        /// Without a branch: one neighbour in three touches, which no processor foresees.
+        /// Without a branch, because one neighbour in three is in contact, which no processor predicts.
         void addIf(bool isChosen, int neighbour)
         {
             which[count] = neighbour;
@@ -155,25 +156,25 @@ private:
         }
     };
 
-    /// Takes `forget_parted on|off` out of the words.
-    void readForgetting(std::vector<char*>& words)
+    /// Removes `forget_parted on|off` from the tokens.
+    void readForgetParted(std::vector<char*>& tokens)
     {
         const auto keyword = std::find_if(
-            words.begin(), words.end(), [](const char* word) { return word == std::string(forgetKeyword); });
-        if (keyword == words.end())
+            tokens.begin(), tokens.end(), [](const char* word) { return word == std::string(forgetKeyword); });
+        if (keyword == tokens.end())
         {
             return;
         }
-        const std::string value = keyword + 1 == words.end() ? "" : *(keyword + 1);
+        const std::string value = keyword + 1 == tokens.end() ? "" : *(keyword + 1);
         if (value != "on" && value != "off")
         {
             throw LiggghtsStopped(std::string("'") + forgetKeyword + ' ' + value + "'; allowed: on, off", false);
         }
         forgetsParted_ = value == "on";
-        words.erase(keyword, keyword + 2);
+        tokens.erase(keyword, keyword + 2);
     }
 
-    /// Without what LIGGGHTS' loop does beside the forces of contacts.
+    /// Whether only contact forces are needed, and nothing else that LIGGGHTS' loop computes.
     bool canEvaluate(lmp::PairGran& pair, bool asksForMore) const
     {
         const lmp::Atom& atoms = *program_.atom;
@@ -186,7 +187,7 @@ private:
 
     void fillMaterials()
     {
-        // LIGGGHTS has no values for types that no particle and no wall has.
+        // LIGGGHTS has no values for types that neither a particle nor a wall has.
         typeCount_ = program_.atom->get_properties()->max_type() + 1;
         materials_.resize(static_cast<std::size_t>(typeCount_) * typeCount_);
         for (int i = 1; i < typeCount_; ++i)
@@ -199,7 +200,7 @@ private:
         }
     }
 
-    /// The contacts of particle i with the later ones of its neighbours.
+    /// Adds the contacts of particle i with the neighbours in its list.
     void addContacts(lmp::PairGran& pair, int i, double shearStep)
     {
         findContacts(pair, i);
@@ -219,7 +220,7 @@ private:
         }
     }
 
-    /// Which neighbours of particle i touch it, and which did until now.
+    /// Finds the neighbours that particle i touches, and those from which it has just separated.
     void findContacts(const lmp::PairGran& pair, int i)
     {
         const lmp::Atom& atoms = *program_.atom;
@@ -280,7 +281,7 @@ private:
         c.friction[k] = material.friction;
     }
 
-    /// Forces of the contacts that have been added, which are forgotten then.
+    /// Applies the forces of the contacts that have been added, and clears the list of contacts.
     void evaluate(lmp::PairGran& pair, double shearStep)
     {
         HertzContacts& c = contacts_;
@@ -311,7 +312,7 @@ private:
     }
 
     lmp::LAMMPS& program_;
-    /// No further words in the script's line, such as limitForce.
+    /// True where the script's line has no further tokens, such as limitForce.
     bool plain_ = false;
     bool forgetsParted_ = true;
     double** youngsModulus_ = nullptr;
@@ -319,7 +320,7 @@ private:
     double** damping_ = nullptr;
     double** friction_ = nullptr;
     int typeCount_ = 0;
-    /// By the two types.
+    /// Indexed by the two types.
     std::vector<Material> materials_;
     Chosen touching_;
     Chosen parted_;
@@ -336,7 +337,7 @@ LIGGGHTS::PairStyles::IGranularPairStyle* create(lmp::LAMMPS* program, lmp::Pair
 
 void registerHertzPairStyle()
 {
-    // LIGGGHTS warns there that it knows the style already.
+    // LIGGGHTS would warn that the style is known already.
     std::cerr.setstate(std::ios::failbit);
     LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(HertzStyle::HASHCODE), &create);
     std::cerr.clear();

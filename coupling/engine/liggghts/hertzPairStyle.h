@@ -3,8 +3,8 @@
 namespace clepsydra
 {
 
-/// Puts our evaluation of `pair_style gran model hertz tangential history` in the place of LIGGGHTS' own: the same forces
-/// in less time. To be called once LIGGGHTS has started and before the script's pair_style.
+/// Replaces LIGGGHTS' evaluation of `pair_style gran model hertz tangential history` by a faster one with the same
+/// forces. Call when LIGGGHTS has started, before the script's pair_style.
 void registerHertzPairStyle();
 
 } // namespace clepsydra

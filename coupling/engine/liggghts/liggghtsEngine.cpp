@@ -57,11 +57,11 @@ bool isNumber(const std::string& text)
     return used == text.size();
 }
 
-/// By the forces on its particles, not as the script states or not at all.
+/// Whether the fix moves its particles by the forces on them, and not as the script prescribes or not at all.
 bool movesByForces(const lmp::Fix& fix)
 {
     const std::string style = fix.style;
-    const bool isMultisphere = style.rfind("multisphere", 0) == 0; // does not say that it integrates
+    const bool isMultisphere = style.rfind("multisphere", 0) == 0; // does not declare that it integrates
     return (fix.time_integrate == 1 && style != "move" && style.find("noforce") == std::string::npos) || isMultisphere;
 }
 
@@ -87,14 +87,15 @@ public:
             program_.execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
         }
         runScript(setup);
-        fresh_ = setup.resumeFrom.empty();
+        freshStart_ = setup.resumeFrom.empty();
         for (const GroupChange& change : setup.groupChanges)
         {
             groupChangers_.emplace_back(*program_, change);
         }
     }
 
-    /// A command of the script. LIGGGHTS makes no particle that is outside the box, and says nothing.
+    /// Executes a command of the script. LIGGGHTS gives no message where create_atoms creates no particle because its
+    /// positions are outside the box.
     void executeOfScript(const ScriptCommand& command)
     {
         const auto before = program_->atom->natoms;
@@ -102,13 +103,13 @@ public:
         if (isCommand(command.text, "create_atoms") && program_->atom->natoms == before)
         {
             throw DemEngineError(command.where + ": '" + command.text + "'" + program_.valuesIn(command.text)
-                                 + " made no particle; allowed: places in " + boxText(*program_));
+                                 + " made no particle; allowed: positions in " + boxText(*program_));
         }
     }
 
     void checkStart()
     {
-        if (fresh_)
+        if (freshStart_)
         {
             requireNoDeepOverlap(*program_, pairs());
         }
@@ -119,24 +120,25 @@ public:
         const int before = program_->atom->nlocal;
         try
         {
-            program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM interval");
+            program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM steps of a coupling step");
             requireFiniteForces(*program_);
         }
         catch (const DemEngineError& error)
         {
-            // What LIGGGHTS says then is about atom types. Where some are left it goes on, and the census names the others.
+            // LIGGGHTS' own message would be about atom types. Where some particles are left it continues, and
+            // ParticleCensus names the missing ones.
             if (before > 0 && program_->atom->nlocal == 0)
             {
                 throw DemEngineError(
                     std::string(error.what()) + "; no particle is left of the " + std::to_string(before)
-                    + " that were here: a force has thrown them out of the box within these steps, as one "
-                      "does that is unstable with this DEM step or coupling step");
+                    + " that were here: a force has thrown them out of the box within these steps, as an unstable "
+                      "one does; allowed: a DEM step and a coupling step that are short enough");
             }
             throw;
         }
     }
 
-    void keepState(const std::vector<double>& ofNewParticle)
+    void requestState(const std::vector<double>& ofNewParticle)
     {
         stateOfNewParticle_ = ofNewParticle;
     }
@@ -159,7 +161,7 @@ public:
             stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewParticle_.size()), 0, "coupling");
     }
 
-    /// Part of LIGGGHTS' restart files. 1 of particles in files that do not have it.
+    /// The property is part of LIGGGHTS' restart files. Particles in files that do not have it get the value 1.
     void addInsertionRamp()
     {
         program_.execute(std::string("fix ") + insertionRampFixId + " all property/atom " + insertionRampFixId
@@ -202,7 +204,7 @@ public:
         });
     }
 
-    /// Part of LIGGGHTS' restart files.
+    /// The property is part of LIGGGHTS' restart files.
     void addLastForces()
     {
         program_.execute(std::string("fix ") + lastForceFixId + " all property/atom " + lastForceFixId
@@ -210,18 +212,19 @@ public:
             "forces of the last step");
         lastForceFix_ =
             program_->modify->find_fix_property(lastForceFixId, "property/atom", "vector", 6, 0, "coupling");
-        lastForcesKnown_ = !fresh_;
+        lastForcesKnown_ = !freshStart_;
     }
 
-    /// Forces and torques on particles, rows 0 to 3 and 3 to 6.
+    /// Forces on particles in rows 0 to 2, torques in rows 3 to 5.
     Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> lastForces()
     {
         return {firstElement(lastForceFix_->array_atom), 6, program_->atom->nlocal};
     }
 
-    /// With which the next step begins. LIGGGHTS makes others at a `run` that begins again, and in a resumed process: from
-    /// the velocities at the end of a step, where damping and drag had those in its middle.
-    void keepForces()
+    /// Stores the forces with which the next step begins. At a new `run`, and in a resumed process, LIGGGHTS would
+    /// compute others: from the velocities at the end of a step, whereas damping and drag of the last step used those
+    /// in its middle.
+    void storeForces()
     {
         const lmp::Atom& atom = *program_->atom;
         lastForces().topRows<3>() = ConstVectors(firstElement(atom.f), 3, atom.nlocal);
@@ -247,24 +250,24 @@ public:
         reevaluatesFluidForces_ = true;
         prepare();
         reevaluatesFluidForces_ = false;
-        keepForces();
+        storeForces();
     }
 
-    /// Those at rest by `groupChanges` are in no group that moves.
+    /// Particles that `groupChanges` has put to rest are in no group that moves.
     void findFixedParticles()
     {
         const lmp::Atom& atom = *program_->atom;
-        held_.resize(atom.nlocal);
-        std::transform(atom.mask, atom.mask + atom.nlocal, held_.begin(),
+        fixed_.resize(atom.nlocal);
+        std::transform(atom.mask, atom.mask + atom.nlocal, fixed_.begin(),
             [this](int groups) { return (groups & movingGroups_) == 0 || (groups & frozenGroups_) != 0; });
     }
 
-    /// `fix freeze` has cleared all forces but the fluid's, which come after it.
+    /// `fix freeze` has cleared all forces except the fluid's, which are added after it.
     void clearForceOnFixedParticles(Vectors force) const
     {
         for (Eigen::Index particle = 0; frozenGroups_ != 0 && particle < force.cols(); ++particle)
         {
-            if (held_[particle])
+            if (fixed_[particle])
             {
                 force.col(particle).setZero();
             }
@@ -273,13 +276,15 @@ public:
 
     void requestPairs(double reach)
     {
-        seesPairs_ = true;
-        // Widens the lists beyond the skin, so that what the skin allows the particles to move costs none of it.
+        needsPairs_ = true;
+        // Widens the neighbour lists in addition to the skin, so that the distance which particles may move between two
+        // lists is not reduced.
         program_->neighbor->register_contact_dist_factor(1 + reach);
     }
 
-    /// LIGGGHTS looks among particles and fixes for the first material, and stops where it finds none, as when all particles have
-    /// left. A template has it; its radius matters to no particle, for there is none.
+    /// LIGGGHTS searches particles and fixes for the first material, and stops where it finds none, as when all
+    /// particles have left. A particle template provides the material; its radius has no effect because there are no
+    /// particles.
     void allowNoParticles()
     {
         const lmp::Modify& modify = *program_->modify;
@@ -297,12 +302,13 @@ public:
             "fix clepsydraTemplates all particledistribution/discrete 10009 1 clepsydraTemplate 1.", "no particles");
     }
 
-    /// As LIGGGHTS' own fixes delete atoms.
+    /// Deletes atoms in the same way as LIGGGHTS' own fixes.
     void remove(const std::vector<int>& ids)
     {
         const FloatingPointTraps none(0);
         lmp::Atom& atom = *program_->atom;
-        // While the neighbour lists that hold the contacts' history still fit the particles: it goes to the particles.
+        // The contact histories are copied from the neighbour lists to the particles, while the lists still correspond
+        // to the particles.
         program_->modify->setup_pre_exchange();
         const std::unordered_set<int> leaving(ids.begin(), ids.end());
         for (int particle = 0; particle < atom.nlocal;)
@@ -317,7 +323,7 @@ public:
         }
         const lmp::bigint here = atom.nlocal;
         MPI_Allreduce(&here, &atom.natoms, 1, MPI_LMP_BIGINT, MPI_SUM, program_->world);
-        // Copies of particles that are no longer there must not be found.
+        // Copies of removed particles must not be found.
         atom.nghost = 0;
         if (atom.map_style != 0)
         {
@@ -327,12 +333,12 @@ public:
         allowNoParticles();
     }
 
-    void keepMemory(int numbers)
+    void requestMemory(int numbers)
     {
         memorySize_ = numbers;
     }
 
-    /// Unlike the state it is part of LIGGGHTS' restart files.
+    /// Unlike the state, the property is part of LIGGGHTS' restart files.
     void addMemory()
     {
         if (memorySize_ == 0)
@@ -363,7 +369,7 @@ public:
             insertionRampFix_->vector_atom};
     }
 
-    /// LIGGGHTS' own list: half, with `newton off` pairs across ranks on both.
+    /// LIGGGHTS' own list. It is a half list; with `newton off`, pairs across ranks are on both ranks.
     ParticlePairs pairs()
     {
         pairList_.clear();
@@ -432,9 +438,9 @@ private:
         }
         engine.findFixedParticles();
         const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
-            own.state, own.otherForce, engine.seesPairs_ ? engine.pairs() : ParticlePairs{},
+            own.state, own.otherForce, engine.needsPairs_ ? engine.pairs() : ParticlePairs{},
             engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_, !preparing,
-            ConstView<bool>(engine.held_.data(), own.size())};
+            ConstView<bool>(engine.fixed_.data(), own.size())};
         engine.forces_->evaluate(particles, engine.program_->update->dt, ofFluid);
         engine.clearForceOnFixedParticles(ofFluid);
     }
@@ -446,17 +452,17 @@ private:
     lmp::Fix* lastForceFix_ = nullptr;
     bool lastForcesKnown_ = false;
     bool reevaluatesFluidForces_ = false;
-    /// Of which groups forces move the particles, and of which a fix forbids it.
+    /// Groups whose particles are moved by forces, and groups whose particles are frozen by a fix.
     int movingGroups_ = 0;
     int frozenGroups_ = 0;
-    Eigen::Array<bool, Eigen::Dynamic, 1> held_;
-    bool seesPairs_ = false;
+    Eigen::Array<bool, Eigen::Dynamic, 1> fixed_;
+    bool needsPairs_ = false;
     lmp::Fix* memoryFix_ = nullptr;
     int memorySize_ = 0;
     lmp::Fix* insertionRampFix_ = nullptr;
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
-    bool fresh_ = true;
+    bool freshStart_ = true;
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
@@ -470,14 +476,14 @@ void LiggghtsEngine::requestPairs(double reach)
     implementation_->requestPairs(reach);
 }
 
-void LiggghtsEngine::keepState(const std::vector<double>& ofNewParticle)
+void LiggghtsEngine::requestState(const std::vector<double>& ofNewParticle)
 {
-    implementation_->keepState(ofNewParticle);
+    implementation_->requestState(ofNewParticle);
 }
 
-void LiggghtsEngine::keepMemory(int numbers)
+void LiggghtsEngine::requestMemory(int numbers)
 {
-    implementation_->keepMemory(numbers);
+    implementation_->requestMemory(numbers);
 }
 
 void LiggghtsEngine::initialise(FluidForces* forces)
@@ -492,7 +498,7 @@ void LiggghtsEngine::initialise(FluidForces* forces)
         implementation_->addFluidForce(forces);
     }
     requireNoNegativeFriction(*implementation_->program());
-    // Lost particles are found, named and reported by the coupling's census; LIGGGHTS would end the process.
+    // ParticleCensus finds and reports lost particles with their ids; LIGGGHTS would end the process.
     implementation_->program().execute("thermo_modify lost ignore flush yes", "initialise");
     requireParticlesInBox(*implementation_->program());
     implementation_->allowNoParticles();
@@ -513,7 +519,7 @@ void LiggghtsEngine::evaluateFluidForces()
 void LiggghtsEngine::advance(int steps)
 {
     implementation_->run(steps);
-    implementation_->keepForces();
+    implementation_->storeForces();
     implementation_->changeGroups(steps * timeStep());
 }
 
@@ -537,7 +543,7 @@ Vector3d LiggghtsEngine::gravity() const
     Vector3d acceleration = Vector3d::Zero();
     if (lmp::Fix* fix = findFixOfStyle(*implementation_->program()->modify, "gravity"))
     {
-        // The fix works out its components in init(), which LIGGGHTS itself calls before the first step only.
+        // The fix computes its components in init(), which LIGGGHTS itself calls only before the first step.
         fix->init();
         static_cast<lmp::FixGravity*>(fix)->get_gravity(acceleration.data());
     }

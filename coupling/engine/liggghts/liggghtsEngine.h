@@ -12,36 +12,37 @@
 namespace clepsydra
 {
 
-/// What a LIGGGHTS run is started with.
+/// Settings of a LIGGGHTS run.
 struct LiggghtsSetup
 {
     std::filesystem::path script;
-    /// Become `variable <name> equal|string <value>` before the first line of the script.
+    /// Each becomes `variable <name> equal|string <value>` before the first line of the script.
     std::vector<std::pair<std::string, std::string>> variables;
     std::filesystem::path logFile;
     /// Leaves out the script's commands that write files.
     bool writesNothing = false;
-    /// A checkpoint to go on from, as DemEngine::writeCheckpoint was reported its name; empty: the script's own beginning. With a
-    /// checkpoint the script's first `create_box`, `read_data` or `read_restart` reads that instead, and what else makes or
-    /// changes particles (`create_atoms`, `group`, `set`, `velocity`, ...) is left out. Materials, walls and fixes are made as ever.
+    /// Name of a checkpoint to resume from, as it was passed to DemEngine::writeCheckpoint(); empty for a fresh start.
+    /// With a checkpoint, the script's first `create_box`, `read_data` or `read_restart` reads the checkpoint instead,
+    /// and other commands that create or change particles (`create_atoms`, `group`, `set`, `velocity`, ...) are left
+    /// out. Materials, walls and fixes are created as in a fresh start.
     std::filesystem::path resumeFrom;
-    /// Between two intervals, in this order.
+    /// Applied in this order after each coupling step.
     std::vector<GroupChange> groupChanges;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 
-/// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity; it must not define
-/// `fix external` (the coupling adds that as the last fix, so that it sees all other forces).
+/// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity. It must not define
+/// `fix external`, which the coupling adds as the last fix, so that it has access to all other forces.
 class LiggghtsEngine final : public DemEngine
 {
 public:
-    /// Runs the script. \throws DemEngineError naming script, line and LIGGGHTS' own message.
+    /// Runs the script. \throws DemEngineError that names the script, the line and LIGGGHTS' own message
     explicit LiggghtsEngine(const LiggghtsSetup& setup);
     ~LiggghtsEngine() override;
 
     void requestPairs(double reach) override;
-    void keepState(const std::vector<double>& ofNewParticle) override;
-    void keepMemory(int numbers) override;
+    void requestState(const std::vector<double>& ofNewParticle) override;
+    void requestMemory(int numbers) override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;

@@ -62,5 +62,5 @@ void LAMMPS_NS::Error::universe_one(const char*, int, const char* message)
 void LAMMPS_NS::Error::done()
 {
     throw LiggghtsStopped(
-        "it asks for the end; allowed: a script without 'quit', for the coupling ends the run", false);
+        "the command ends the run; allowed: a script without 'quit', because the coupling ends the run", false);
 }

@@ -19,7 +19,7 @@ public:
           onOneRankOnly_(onOneRankOnly)
     {}
 
-    /// True if the other ranks do not know and may wait for this one.
+    /// True where the other ranks do not have this error and may wait for this rank.
     bool onOneRankOnly() const
     {
         return onOneRankOnly_;

@@ -17,7 +17,7 @@ namespace clepsydra
 LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator)
 {
     requireLiggghtsErrorReplacements();
-    // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
+    // The screen output must go to a file, because `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
     std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
     std::vector<char*> arguments;
     arguments.reserve(words.size());
@@ -38,7 +38,7 @@ LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm 
 
 LiggghtsProgram::~LiggghtsProgram()
 {
-    // After an error LIGGGHTS is in the middle of a command: its destructors may wait for other ranks.
+    // After an error LIGGGHTS is in the middle of a command, and its destructors may wait for other ranks.
     if (failed_)
     {
         static_cast<void>(program_.release());
@@ -85,7 +85,7 @@ std::string LiggghtsProgram::withVariables(const std::string& command) const
     }
     catch (const LiggghtsStopped&)
     {
-        // A variable that is not there: LIGGGHTS says so when it executes the command.
+        // The command has an unknown variable. LIGGGHTS reports it when it executes the command.
     }
     std::string result = text;
     std::free(text);

@@ -14,28 +14,29 @@ class LAMMPS;
 namespace clepsydra
 {
 
-/// LIGGGHTS in this process, to which commands are given. Its own classes are behind `->`.
+/// LIGGGHTS in this process, which executes commands. Its own classes are accessible by `->`.
 class LiggghtsProgram
 {
 public:
-    /// \throws DemEngineError where it does not start
+    /// \throws DemEngineError where LIGGGHTS does not start
     LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator);
     ~LiggghtsProgram();
 
     LiggghtsProgram(const LiggghtsProgram&) = delete;
     LiggghtsProgram& operator=(const LiggghtsProgram&) = delete;
 
-    /// One command; \param where  named in the error.
-    /// \throws DemEngineError with what LIGGGHTS said. After that only ending the program is safe.
+    /// Executes one command.
+    /// \param where  place of the command, for the error message
+    /// \throws DemEngineError with LIGGGHTS' own message; after that the program can only end
     void execute(const std::string& command, const std::string& where);
 
-    /// A command as LIGGGHTS reads it, the values of its variables put in.
+    /// The command with the values of its variables, as LIGGGHTS reads it.
     std::string withVariables(const std::string& command) const;
 
-    /// " (the same)", for errors; nothing where a command has no variables.
+    /// " (command with values)" for error messages; empty where a command has no variables.
     std::string valuesIn(const std::string& command) const;
 
-    /// The floating-point exceptions that ended the program where the last command was given, see FloatingPointTraps.
+    /// Floating-point exceptions that ended the program when the last command was called, see FloatingPointTraps.
     int trapsOutside() const
     {
         return trapsOutside_;

@@ -29,18 +29,19 @@ std::string placeText(const double* place)
     return text.str();
 }
 
-/// Why a particle may have a force that is no number.
+/// Cause of a force on a particle that is not a finite number, as far as it is known.
 std::string causeOf(const lmp::Atom& atom, int particle)
 {
     for (int other = 0; other < atom.nlocal + atom.nghost; ++other)
     {
         if (other != particle && std::equal(atom.x[particle], atom.x[particle] + 3, atom.x[other]))
         {
-            return ": particle " + std::to_string(atom.tag[other]) + " is at the same place; allowed: particles apart";
+            return ": particle " + std::to_string(atom.tag[other])
+                   + " is at the same place; allowed: particles at different positions";
         }
     }
-    return ": as where a particle's centre lies exactly on a wall, on an edge or a corner of one, or where the DEM "
-           "step is too long; allowed: particles beside walls, at most touching them";
+    return ". This happens where a particle's centre lies exactly on a wall, on an edge or a corner of one, or where "
+           "the DEM step is too long; allowed: particles beside walls that at most touch them";
 }
 
 } // namespace
@@ -62,7 +63,7 @@ void requireParticlesInBox(const lmp::LAMMPS& program)
             if (domain.periodicity[axis] == 0 && !(x >= domain.boxlo[axis] && x <= domain.boxhi[axis]))
             {
                 throw DemEngineError("Particle " + std::to_string(atom.tag[particle]) + " at "
-                                     + placeText(atom.x[particle]) + " lies outside the DEM box; allowed: places in "
+                                     + placeText(atom.x[particle]) + " lies outside the DEM box; allowed: positions in "
                                      + boxText(program));
             }
         }

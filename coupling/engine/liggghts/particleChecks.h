@@ -12,22 +12,22 @@ class LAMMPS;
 namespace clepsydra
 {
 
-/// What LIGGGHTS takes without a word, and what goes wrong later. Each throws a DemEngineError that names the particle, its place and
-/// what is allowed.
+/// Checks of input that LIGGGHTS accepts without a message and that fails later. Each throws a DemEngineError that
+/// names the particle, its position and what is allowed.
 
-/// "the box, (0 0 0) m to (1 1 1) m"
+/// Text for messages: "the box, (0 0 0) m to (1 1 1) m".
 std::string boxText(const LAMMPS_NS::LAMMPS& program);
 
-/// LIGGGHTS forgets particles outside the box.
+/// All particles are in the box. LIGGGHTS drops particles outside it.
 void requireParticlesInBox(const LAMMPS_NS::LAMMPS& program);
 
-/// Particles that start deep in each other fly apart as from an explosion.
+/// No particles overlap deeply at the start, where they would be thrown apart by their contact force.
 void requireNoDeepOverlap(const LAMMPS_NS::LAMMPS& program, const ParticlePairs& pairs);
 
-/// Where all else but the fluid has given a particle a force (or a place) that is no number.
+/// All positions and all forces except the fluid's are finite numbers.
 void requireFiniteForces(const LAMMPS_NS::LAMMPS& program);
 
-/// None of the materials' frictions is negative.
+/// No friction coefficient of the materials is negative.
 void requireNoNegativeFriction(const LAMMPS_NS::LAMMPS& program);
 
 } // namespace clepsydra

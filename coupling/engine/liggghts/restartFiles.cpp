@@ -25,8 +25,8 @@ namespace
 
 namespace lmp = LAMMPS_NS;
 
-/// A restart file begins with two numbers of four bytes and the text "Version LIGGGHTS-...". False for one that cannot be
-/// read: LIGGGHTS says that.
+/// Whether a file is something else than a restart file, which begins with two numbers of four bytes and the text
+/// "Version LIGGGHTS-...". False for a file that cannot be read, which LIGGGHTS reports itself.
 bool isOtherThanRestart(const std::string& file)
 {
     const std::string begin = "Version LIGGGHTS";
@@ -38,7 +38,7 @@ bool isOtherThanRestart(const std::string& file)
                || found.substr(numbers) != begin);
 }
 
-/// A restart's name with something in place of its `%`.
+/// Name of a restart file with a text in place of its `%`.
 std::filesystem::path restartFile(std::string name, const std::string& part)
 {
     return name.replace(name.find('%'), 1, part);
@@ -49,7 +49,7 @@ bool isInParts(const std::filesystem::path& restart)
     return restart.string().find('%') != std::string::npos;
 }
 
-/// What LIGGGHTS' write_restart writes on one rank.
+/// Files that LIGGGHTS' write_restart writes on one rank.
 std::vector<std::filesystem::path> filesWritten(const std::filesystem::path& restart, int rank)
 {
     std::vector<std::filesystem::path> files;
@@ -64,7 +64,7 @@ std::vector<std::filesystem::path> filesWritten(const std::filesystem::path& res
     return files;
 }
 
-/// What LIGGGHTS' read_restart reads on one of so many ranks. Before that it reads the base, for all.
+/// Files that LIGGGHTS' read_restart reads on one of the ranks. The base is read first, for all ranks.
 std::vector<std::filesystem::path> filesRead(const std::filesystem::path& restart, int rank, int ranks)
 {
     std::vector<std::filesystem::path> files{isInParts(restart) ? restartFile(restart, "base") : restart};
@@ -76,8 +76,8 @@ std::vector<std::filesystem::path> filesRead(const std::filesystem::path& restar
     return files;
 }
 
-/// Measures an insertion's region by random numbers, the same ones that then place the particles: what LIGGGHTS does once in each
-/// process.
+/// Measures the region of an insertion by the random numbers that also place the particles, as LIGGGHTS does once in
+/// each process.
 struct InsertionRegion : lmp::FixInsertPack
 {
     static void measure(lmp::FixInsertPack& fix)
@@ -86,8 +86,8 @@ struct InsertionRegion : lmp::FixInsertPack
     }
 };
 
-/// A fix that has inserted all its particles has no next insertion, which LIGGGHTS writes as step 0. When it is read
-/// again, 0 is taken for "not known", and the fix tries at once and then stands in the way of every `run`.
+/// A fix that has inserted all its particles has no next insertion, which LIGGGHTS writes as step 0. On reading, 0
+/// would mean "not known": the fix would insert at once and then prevent every `run`.
 void keepFinishedInsertionsFinished(const lmp::Modify& modify)
 {
     constexpr lmp::bigint never = lmp::bigint(1) << 52;
@@ -99,7 +99,7 @@ void keepFinishedInsertionsFinished(const lmp::Modify& modify)
     });
 }
 
-/// By the very bytes that the first rank writes to LIGGGHTS' restart files: their number and the state.
+/// Restores a fix from the bytes that the first rank writes to LIGGGHTS' restart files: their number and the state.
 void restartFix(lmp::Fix& fix, MPI_Comm communicator)
 {
     char* text = nullptr;
@@ -119,8 +119,8 @@ void restartFix(lmp::Fix& fix, MPI_Comm communicator)
     }
 }
 
-/// A resumed process gets other random numbers from these fixes and their regions than one that goes on: what is
-/// written is less than the state. So they read it here, too.
+/// LIGGGHTS writes less than the whole state of insertion fixes and their regions, so a resumed process would get other
+/// random numbers than one that continues. The fixes of the continuing process therefore read their written state, too.
 void restartInsertions(const lmp::LAMMPS& program)
 {
     const lmp::Modify& modify = *program.modify;
@@ -146,10 +146,10 @@ void requireUndamagedInput(const LiggghtsProgram& program, const ScriptCommand& 
     {
         return;
     }
-    std::istringstream words(program.withVariables(command.text));
+    std::istringstream tokens(program.withVariables(command.text));
     std::string name;
     std::string file;
-    if (!(words >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
+    if (!(tokens >> name >> file) || name != "read_restart" || file.find('*') != std::string::npos)
     {
         return;
     }
@@ -165,7 +165,7 @@ void requireUndamagedInput(const LiggghtsProgram& program, const ScriptCommand& 
     if (isOtherThanRestart(files.front()))
     {
         throw DemEngineError(command.where + ": '" + command.text + "': " + files.front().string()
-                             + " is no restart file; allowed: what LIGGGHTS' write_restart has written");
+                             + " is no restart file; allowed: a file that LIGGGHTS' write_restart has written");
     }
 }
 
@@ -191,7 +191,7 @@ std::vector<std::filesystem::path> writeRestart(LiggghtsProgram& program, const 
             pipes.emplace_back(file);
         }
     });
-    // All write or none does: the others would wait for one that has no file.
+    // All ranks write or none does, because the others would wait for a rank that has no file.
     int ready = failure ? 0 : 1;
     MPI_Allreduce(MPI_IN_PLACE, &ready, 1, MPI_INT, MPI_MIN, program->world);
     if (ready != 0)

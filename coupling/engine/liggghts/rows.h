@@ -3,7 +3,7 @@
 namespace clepsydra
 {
 
-/// First element of a LIGGGHTS array of rows, which its memory manager allocates in one piece.
+/// First element of a LIGGGHTS array of rows, which LIGGGHTS allocates in one block.
 template<class T>
 T* firstElement(T** rows)
 {

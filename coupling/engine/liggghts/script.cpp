@@ -14,14 +14,14 @@ namespace clepsydra
 namespace
 {
 
-std::string word(const std::string& command, int index)
+std::string token(const std::string& command, int index)
 {
-    std::istringstream words(command);
+    std::istringstream tokens(command);
     std::string found;
     for (int i = 0; i <= index; ++i)
     {
         found.clear();
-        words >> found;
+        tokens >> found;
     }
     return found;
 }
@@ -31,11 +31,11 @@ bool isQuote(char c)
     return c == '"' || c == '\'';
 }
 
-/// What stands in quotes is one word, with its quotes.
-std::vector<std::string> wordsOf(const std::string& command)
+/// Tokens of a command; a text in quotes is one token, with its quotes.
+std::vector<std::string> tokensOf(const std::string& command)
 {
     const auto isSpace = [](unsigned char c) { return std::isspace(c) != 0; };
-    std::vector<std::string> words;
+    std::vector<std::string> tokens;
     for (auto at = command.begin(); (at = std::find_if_not(at, command.end(), isSpace)) != command.end();)
     {
         auto end = std::find_if(at, command.end(), isSpace);
@@ -44,34 +44,36 @@ std::vector<std::string> wordsOf(const std::string& command)
             end = std::find(at + 1, command.end(), *at);
             end += end == command.end() ? 0 : 1;
         }
-        words.emplace_back(at, end);
+        tokens.emplace_back(at, end);
         at = end;
     }
-    return words;
+    return tokens;
 }
 
-/// What `if` makes LIGGGHTS do is not seen line by line: it must be nothing that this program has to know of.
+/// Commands within `if` are executed by LIGGGHTS and not seen line by line here, so commands that this program must
+/// know of are refused.
 void requireHarmless(const std::string& ifCommand, const std::string& where)
 {
     static const std::set<std::string> others = {"run", "rerun", "minimize", "jump", "label", "next", "include"};
-    for (const std::string& found : wordsOf(ifCommand))
+    for (const std::string& found : tokensOf(ifCommand))
     {
         const bool quoted = isQuote(found.front());
         const std::string inside = quoted ? found.substr(1, found.size() - 2) : found;
-        const std::string name = word(inside, 0);
+        const std::string name = token(inside, 0);
         if (quoted && name == "if")
         {
             requireHarmless(inside, where);
         }
         else if (others.count(name) > 0 || makesParticles(name))
         {
-            throw DemEngineError(where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
-                                 + "', for it would be done unseen, and again in a resumed run");
+            throw DemEngineError(
+                where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
+                + "', because the coupling cannot see when it is executed, and a resumed run would repeat it");
         }
     }
 }
 
-/// A file's name with the values of its variables.
+/// The name of a file with the values of its variables.
 std::string withValues(std::string name, const ScriptVariables& variables, const std::string& where)
 {
     for (const auto& [variable, value] : variables)
@@ -91,7 +93,7 @@ std::string withValues(std::string name, const ScriptVariables& variables, const
     return name;
 }
 
-/// By whatever path.
+/// Whether a file is among others, by whatever path.
 bool isAmong(const std::filesystem::path& file, const std::vector<std::filesystem::path>& files)
 {
     std::error_code notThere;
@@ -99,7 +101,7 @@ bool isAmong(const std::filesystem::path& file, const std::vector<std::filesyste
         [&](const auto& other) { return std::filesystem::equivalent(file, other, notThere); });
 }
 
-/// \param open  the files that are being read, each of which includes the next
+/// \param open  files that are being read, each of which includes the next
 std::vector<ScriptCommand> readFile(
     const std::filesystem::path& script, const ScriptVariables& variables, std::vector<std::filesystem::path> open)
 {
@@ -107,7 +109,7 @@ std::vector<ScriptCommand> readFile(
     std::ifstream lines(script);
     if (!lines)
     {
-        throw DemEngineError("cannot read the DEM script " + script.string());
+        throw DemEngineError("cannot read the DEM script " + script.string() + "; allowed: a file that can be read");
     }
     std::vector<ScriptCommand> commands;
     std::string text;
@@ -121,15 +123,16 @@ std::vector<ScriptCommand> readFile(
             continue;
         }
         const std::string where = script.string() + " line " + std::to_string(lineNumber);
-        const std::string name = word(text, 0);
+        const std::string name = token(text, 0);
         if (name == "jump" || name == "label" || name == "next")
         {
-            throw DemEngineError(where + ": '" + name + "' is not supported, the script is run line by line");
+            throw DemEngineError(
+                where + ": '" + name + "' is not supported; allowed: commands that can be executed line by line");
         }
         if (name == "run" || name == "rerun" || name == "minimize")
         {
             throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
-                                 + "', for the coupling runs LIGGGHTS, from interval to interval");
+                                 + "', because the coupling runs LIGGGHTS in every coupling step");
         }
         if (name == "if")
         {
@@ -137,11 +140,11 @@ std::vector<ScriptCommand> readFile(
         }
         if (name == "include")
         {
-            const std::string file = withValues(word(text, 1), variables, where);
+            const std::string file = withValues(token(text, 1), variables, where);
             if (isAmong(file, open))
             {
                 throw DemEngineError(where + ": include '" + file + "'; allowed: a file that does not include "
-                                     + script.string() + " itself, for that would never end");
+                                     + script.string() + " itself, because reading would never end");
             }
             const std::vector<ScriptCommand> included = readFile(file, variables, open);
             commands.insert(commands.end(), included.begin(), included.end());
@@ -154,8 +157,8 @@ std::vector<ScriptCommand> readFile(
     }
     if (!text.empty())
     {
-        throw DemEngineError(
-            script.string() + ": the last line, '" + text + "', ends in '&'; allowed: a line after it");
+        throw DemEngineError(script.string() + ": the last line, '" + text
+                             + "', ends in '&'; allowed: '&' only where another line follows");
     }
     return commands;
 }
@@ -169,45 +172,45 @@ std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const
 
 bool isCommand(const std::string& command, const std::string& name)
 {
-    return word(command, 0) == name;
+    return token(command, 0) == name;
 }
 
 bool writesFiles(const std::string& command)
 {
     static const std::set<std::string> commands = {
         "dump", "dump_modify", "undump", "restart", "write_restart", "write_data", "write_dump", "log", "shell"};
-    return commands.count(word(command, 0)) > 0;
+    return commands.count(token(command, 0)) > 0;
 }
 
 std::string withoutFiles(const std::string& command)
 {
-    std::vector<std::string> words = wordsOf(command);
+    std::vector<std::string> tokens = tokensOf(command);
     const auto writes = [](const std::string& style) {
         return style.rfind("ave/", 0) == 0 || style == "print" || style == "massflow/mesh";
     };
     constexpr std::size_t style = 3; // fix ID group style
-    if (words.size() <= style || words[0] != "fix" || !writes(words[style]))
+    if (tokens.size() <= style || tokens[0] != "fix" || !writes(tokens[style]))
     {
         return command;
     }
-    std::string kept;
-    for (std::size_t i = 0; i < words.size(); ++i)
+    std::string result;
+    for (std::size_t i = 0; i < tokens.size(); ++i)
     {
-        if (i > style && (words[i] == "file" || words[i] == "append"))
+        if (i > style && (tokens[i] == "file" || tokens[i] == "append"))
         {
             ++i;
             continue;
         }
-        kept += words[i] + ' ';
+        result += tokens[i] + ' ';
     }
-    return kept;
+    return result;
 }
 
 bool makesParticles(const std::string& command)
 {
     static const std::set<std::string> commands = {"create_box", "read_data", "read_restart", "create_atoms",
         "delete_atoms", "displace_atoms", "group", "set", "velocity", "reset_timestep"};
-    return commands.count(word(command, 0)) > 0;
+    return commands.count(token(command, 0)) > 0;
 }
 
 } // namespace clepsydra

@@ -10,30 +10,32 @@ namespace clepsydra
 
 using ScriptVariables = std::vector<std::pair<std::string, std::string>>;
 
-/// A command of a LIGGGHTS script and where it stands, for errors.
+/// A command of a LIGGGHTS script, and its place for error messages.
 struct ScriptCommand
 {
     std::string text;
     std::string where; // "DEM/in.filling line 12"
 };
 
-/// The commands of a script in their order: lines joined at `&`, `include`d files in their place.
-/// The commands are given to LIGGGHTS one by one, so that an error can name its line. Hence no `jump`, `label`, `next`.
+/// Reads the commands of a script in order; lines are joined at `&`, and `include`d files are inserted. The commands
+/// are executed by LIGGGHTS one by one, so that an error can name its line; therefore `jump`, `label` and `next` are
+/// not supported.
 /// \param variables  name and value, for the names of included files: `include DEM/in.${sizes}`
-/// \throws DemEngineError where a file cannot be read, ends in `&` or includes itself (or a file that does), a file's name
-/// has another variable, or a command jumps or runs, also one within an `if`, where none may make particles either.
+/// \throws DemEngineError where a file cannot be read, ends in `&` or includes itself (also through another file),
+/// where a file's name has an unknown variable, and where a command jumps or runs. The same applies within an `if`,
+/// which must not create particles either.
 std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
-/// True for the command of this name.
+/// Whether the command has this name.
 bool isCommand(const std::string& command, const std::string& name);
 
-/// True for the commands that write files, now or while LIGGGHTS runs, and do nothing else.
+/// Whether the command only writes files, immediately or while LIGGGHTS runs.
 bool writesFiles(const std::string& command);
 
-/// A `fix` without the file that it would write beside what it does.
+/// The command without the file that a `fix` would write in addition to its effect.
 std::string withoutFiles(const std::string& command);
 
-/// True for the commands whose result a checkpoint holds: those that make, read or change particles.
+/// Whether a checkpoint holds the result of the command: true for commands that create, read or change particles.
 bool makesParticles(const std::string& command);
 
 } // namespace clepsydra

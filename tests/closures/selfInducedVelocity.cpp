@@ -1,7 +1,7 @@
 /// \file
 /// The velocity at a smeared force in its closed-form limits.
 
-#include "closures/gaussianDisturbance.h"
+#include "closures/selfInducedVelocity.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ constexpr double density = 1100;
 constexpr double viscosity = 0.02;
 
 /// Stokes' flow: F/(3 pi^1.5 mu b). Half or twice of it is what a lost factor gives.
-TEST(GaussianDisturbance, IsStokesAtRest)
+TEST(SelfInducedVelocity, IsStokesAtRest)
 {
     const double stokes = 1 / (3 * std::pow(pi, 1.5) * viscosity * bandwidth);
     EXPECT_NEAR(velocityPerForce({bandwidth, density, viscosity, 0, 0}) / stokes, 1, 1e-4);
@@ -25,7 +25,7 @@ TEST(GaussianDisturbance, IsStokesAtRest)
 }
 
 /// Far above Re 1: half of the deficit F/(rho U pi b2) of a wake as wide as the force; b/U instead of b2/nu.
-TEST(GaussianDisturbance, IsHalfTheWakeAtHighReynoldsNumber)
+TEST(SelfInducedVelocity, IsHalfTheWakeAtHighReynoldsNumber)
 {
     const double speed = 1e4 * viscosity / (density * bandwidth);
     const double wake = 1 / (2 * pi * density * speed * bandwidth * bandwidth);
@@ -33,7 +33,7 @@ TEST(GaussianDisturbance, IsHalfTheWakeAtHighReynoldsNumber)
 }
 
 /// Dense neighbours: two thirds of the force per volume at the centre over their resistance (the pressure keeps a third).
-TEST(GaussianDisturbance, IsScreenedByNeighbours)
+TEST(SelfInducedVelocity, IsScreenedByNeighbours)
 {
     const double resistance = 1e5 * viscosity / (bandwidth * bandwidth);
     const double screened = 2.0 / 3 / (std::pow(pi, 1.5) * std::pow(bandwidth, 3) * resistance);
