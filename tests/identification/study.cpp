@@ -520,8 +520,8 @@ TEST(StudySimulator, ReportsEveryFailureAsRepeated)
 }
 
 /// Two orders have the same seeds, as the two sides of a common error do. The one that fails with every seed is
-/// reported as excluded, although the other one succeeds. If failures were distinguished by their seeds alone, the first
-/// failure would be reported as repeated.
+/// reported as excluded, although the other one succeeds. If failures were distinguished by their seeds alone, the
+/// first failure would be reported as repeated.
 TEST(StudySimulator, DistinguishesFailuresOfOrdersWithTheSameSeeds)
 {
     const TemporaryFolder folder;
