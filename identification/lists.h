@@ -8,7 +8,7 @@
 namespace clepsydra::identification
 {
 
-/// What a function makes of each item.
+/// The results of a function for all items.
 template<class Items, class Function>
 auto mapped(const Items& items, Function function)
 {
@@ -18,7 +18,7 @@ auto mapped(const Items& items, Function function)
     return made;
 }
 
-/// Those of the numbers 0, 1, ..., count - 1 for which something is true.
+/// The numbers among 0, 1, ..., count - 1 for which a condition is true.
 template<class Number, class Condition>
 std::vector<Number> numbersWhere(Number count, Condition isTrue)
 {

@@ -1,4 +1,4 @@
-/// From a measured residual to a named effect. See README.md beside this file.
+/// Traces a measured residual to a physical effect. See README.md beside this file.
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
 #include "report/html.h"
@@ -37,7 +37,7 @@ fs::path reportFolder(const Arguments& arguments)
     return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
 }
 
-/// The page of a report whose runs are not stored. A page that is there already may have curves, and stays.
+/// Writes the page of a report whose runs are not stored. An existing page may have curves and is not overwritten.
 void makeMissingPage(const nlohmann::ordered_json& report, const fs::path& page)
 {
     if (fs::exists(page))
@@ -50,29 +50,31 @@ void makeMissingPage(const nlohmann::ordered_json& report, const fs::path& page)
     }
     catch (const nlohmann::json::exception& error)
     {
-        throw std::runtime_error((page.parent_path() / "report.json").string()
-                                 + ": another version of traceResidual has written this report, and this one makes no "
-                                   "page of it ("
-                                 + error.what() + ")");
+        throw std::runtime_error(
+            (page.parent_path() / "report.json").string()
+            + ": another version of traceResidual has written this report, and this version cannot "
+              "make a page from it ("
+            + error.what() + ")");
     }
 }
 
-/// What report.json says, for people.
+/// Prints the results of report.json.
 void showReport(const fs::path& folder)
 {
     std::ifstream file(folder / "report.json");
     const auto report = nlohmann::ordered_json::parse(file, nullptr, false);
     if (!report.is_object() || !report.contains("summary"))
     {
-        throw std::runtime_error((folder / "report.json").string() + (file.is_open() ? ": damaged" : ": not there")
-                                 + "; 'traceResidual run' makes it");
+        throw std::runtime_error((folder / "report.json").string()
+                                 + (file.is_open() ? " is damaged" : " does not exist")
+                                 + "; 'traceResidual run' writes it");
     }
     writeText(report, std::cout);
     makeMissingPage(report, folder / "report.html");
     std::cout << "Curves and tables: " << (folder / "report.html").string() << '\n';
 }
 
-/// Files of a report again, where the runs are still stored.
+/// Writes the files of a report again if all its runs are stored.
 void renewReport(const fs::path& study, const fs::path& folder)
 {
     try
@@ -86,8 +88,8 @@ void renewReport(const fs::path& study, const fs::path& folder)
     catch (const std::exception& error)
     {
         std::cerr
-            << "report.json stays as it is, and report.html, where it is missing, is made of it without curves: the "
-               "report cannot be made again from stored runs: "
+            << "report.json stays as it is, because the report cannot be made from stored runs; if report.html is "
+               "missing, it is made from report.json without curves. The reason: "
             << error.what() << "\n\n";
     }
 }
@@ -97,27 +99,32 @@ void renewReport(const fs::path& study, const fs::path& folder)
 int main(int argc, char** argv)
 {
     Arguments arguments;
-    CLI::App app("From a measured residual to a named effect: what the model lacks, and the error before and after");
+    CLI::App app(
+        "Traces a measured residual to the physical effect that the model lacks, and reports the error on held-out "
+        "conditions before and after that effect is added");
     app.require_subcommand(1);
-    auto* drafting = app.add_subcommand("new", "a commented study file for measured files, with places to fill in");
-    drafting->add_option("case", arguments.caseFolder, "folder of the simulation's case")
+    auto* drafting =
+        app.add_subcommand("new", "draft a commented study file for measured files, with places to fill in");
+    drafting->add_option("case", arguments.caseFolder, "case directory of the simulation")
         ->required()
         ->check(CLI::ExistingDirectory);
-    drafting->add_option("measured", arguments.measured, "CSV files, or folders of them")
+    drafting->add_option("measured", arguments.measured, "CSV files, or folders that contain them")
         ->required()
         ->check(CLI::ExistingPath);
-    drafting->add_option("--output", arguments.study, "file to make; default: study.yaml here");
-    auto* planning =
-        app.add_subcommand("plan", "before any data: what is detectable, what hides behind what, the cost");
+    drafting->add_option("--output", arguments.study, "file to write; default: study.yaml in the current directory");
+    auto* planning = app.add_subcommand(
+        "plan", "before measuring: which effects can be detected and distinguished, and what the runs cost");
     planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
-    planning->add_flag("--time", arguments.time, "where no run has been timed yet, make one, for the cost");
-    auto* running = app.add_subcommand("run", "from study file to report; may be interrupted and started again");
+    planning->add_flag("--time", arguments.time, "make one run to measure its time, if none has been timed yet");
+    auto* running =
+        app.add_subcommand("run", "process a study and write its report; may be interrupted and started again");
     running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
-    auto* reporting = app.add_subcommand("report", "the report of a study that has been run, from its stored runs");
+    running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study file");
+    auto* reporting = app.add_subcommand("report", "print the report of a study again, from its stored runs");
     reporting->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    reporting->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study");
+    reporting->add_option(
+        "--output", arguments.folder, "folder of the reports; default: results beside the study file");
     CLI11_PARSE(app, argc, argv);
 
     try

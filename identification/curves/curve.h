@@ -5,17 +5,17 @@
 namespace clepsydra::identification
 {
 
-/// One observable of one run or one measurement: value against time, in SI units, times increasing.
+/// The observable of one run or one measurement as a function of time, in SI units. Times increase.
 struct Curve
 {
     std::vector<double> time;  // [s]
-    std::vector<double> value; // unit of the observable
+    std::vector<double> value; // in the observable's SI unit
 };
 
-/// When a falling or rising curve first reaches `level`, interpolated linearly; NaN if it never does.
+/// Time at which a falling or rising curve first reaches `level`, interpolated linearly; NaN if it never does.
 double timeAtLevel(const Curve& curve, double level);
 
-/// Value at a time, interpolated linearly, the end values outside.
+/// Value at a time, interpolated linearly. Outside the curve it is the nearest end value.
 double valueAt(const Curve& curve, double time);
 
 } // namespace clepsydra::identification

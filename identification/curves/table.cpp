@@ -17,7 +17,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Put before the text by some spreadsheets.
+/// Some spreadsheets write it at the beginning of the file.
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -34,7 +34,7 @@ struct Title
     std::string unit;
 };
 
-/// "mass [kg]", "mass (kg)" -> "mass", "kg". Other brackets are those of vectors.
+/// Splits "mass [kg]" or "mass (kg)" into "mass" and "kg". Other brackets belong to vectors.
 Title titleOf(std::string text)
 {
     const auto open = text.find_first_of("[(");
@@ -53,13 +53,13 @@ bool holds(const std::string& text, const std::string& part)
     return text.find(part) != std::string::npos;
 }
 
-/// Blank: any white space. A comma beside semicolons is a decimal one.
+/// Separator of a line; a blank stands for any white space. If there are semicolons, commas are decimal commas.
 char separatorOf(const std::string& line)
 {
     return holds(line, ";") ? ';' : holds(line, ",") ? ',' : holds(line, "\t\t") ? '\t' : ' ';
 }
 
-/// Parts of a line. Between commas, semicolons and tabs a part may be empty; between blanks it cannot.
+/// Fields of a line. Between commas, semicolons and tabs a field may be empty.
 std::vector<std::string> split(const std::string& line, char separator)
 {
     std::vector<std::string> parts;
@@ -93,7 +93,7 @@ std::vector<std::string> fields(std::string line)
     return parts;
 }
 
-/// Titles of columns. Between blanks, a unit in brackets of its own belongs to the word before it.
+/// Titles of the columns. If blanks separate the titles, a field in brackets is the unit of the title before it.
 std::vector<Title> titlesOf(const std::string& line)
 {
     const char separator = holds(line, "\t") ? '\t' : separatorOf(line);
@@ -113,10 +113,10 @@ std::vector<Title> titlesOf(const std::string& line)
     return mapped(texts, titleOf);
 }
 
-/// Larger ones are no measurement, and their squares would be no numbers.
+/// Larger numbers are refused, because their squares could overflow.
 constexpr double largest = 1e30;
 
-/// The number that is all of a text, as strtod takes it.
+/// The number that a whole text stands for, as strtod reads it.
 std::optional<double> numberOfAll(const std::string& text)
 {
     char* end = nullptr;
@@ -124,7 +124,8 @@ std::optional<double> numberOfAll(const std::string& text)
     return end == text.c_str() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// NaN for a missing one. Neither inf nor nan, nor a number so large that it must be a mistake; nor hexadecimal.
+/// A number in plain decimal notation, or NaN for a missing value; empty for other texts, as inf, nan and hexadecimal
+/// numbers.
 std::optional<double> numberOf(const std::string& text)
 {
     if (text.empty() || text == "NA" || text == "na" || text == "-")
@@ -136,7 +137,7 @@ std::optional<double> numberOf(const std::string& text)
     return isPlain && number && std::abs(*number) <= largest ? number : std::nullopt;
 }
 
-/// A row of which one field is a number, and every other one or what should have been one: inf, nan, 1e308.
+/// Whether a row of numbers has at least one valid number and others that are refused, as inf, nan or 1e308.
 bool isNearlyNumbers(const std::vector<std::string>& words)
 {
     const auto isFinite = [](const std::string& word) { return std::isfinite(numberOf(word).value_or(missing)); };
@@ -206,7 +207,7 @@ Table readTable(const std::filesystem::path& file)
         const auto words = fields(line);
         const auto row = mapped(words, [](const std::string& word) { return numberOf(word); });
         const auto wrong = words.begin() + (std::find(row.begin(), row.end(), std::nullopt) - row.begin());
-        // Above the numbers there may be names and other text, but no row of numbers of which one is none.
+        // Names and other text may stand above the numbers, but a row with an invalid number is an error.
         if (wrong != words.end() && table.columns.empty() && !isNearlyNumbers(words))
         {
             header = line;
@@ -217,7 +218,7 @@ Table readTable(const std::filesystem::path& file)
         {
             throw std::runtime_error(
                 where + "'" + shortened(*wrong)
-                + "' is no number from -1e30 to 1e30; allowed for a missing one: nothing, NA or -");
+                + "' is no number from -1e30 to 1e30; a missing value is written as nothing, NA or -");
         }
         if (!table.columns.empty() && row.size() != table.columns.size())
         {

@@ -9,34 +9,34 @@
 namespace clepsydra::identification
 {
 
-/// Numbers in named columns. A missing value is NaN.
+/// Numbers in columns. A missing value is NaN.
 struct Table
 {
-    std::vector<std::string> names; // without units; empty where the file names none
-    std::vector<std::string> units; // of each name, from [..] or (..) behind it; empty where there is none
+    std::vector<std::string> names; // without units; no elements if the file has no titles
+    std::vector<std::string> units; // from [..] or (..) behind each name; empty texts if there is none
     std::vector<std::vector<double>> columns;
-    std::vector<int> lines; // of the file, by row
+    std::vector<int> lines; // line number in the file, by row
 
-    /// Index of a column by its name, with its unit or without, or by its number counted from 1.
+    /// Index of a column by its name (with or without its unit) or by its number counted from 1.
     /// \throws std::runtime_error that lists the columns
     std::size_t index(const std::string& column) const;
 };
 
-/// Reads CSV (commas, or semicolons with points or commas in the numbers) and white-space tables; lines that begin with #
-/// are comments, the last one before the numbers may name the columns, as in OpenFOAM's files and most CSV. `(` and `)` of
-/// vectors are ignored.
+/// Reads a table whose columns are separated by commas, semicolons (with decimal points or commas) or white space. The
+/// last text line before the numbers, which may begin with #, names the columns; other lines that begin with # are
+/// comments. Brackets of vectors are ignored, as in OpenFOAM's files.
 /// \throws std::runtime_error with file and line
 Table readTable(const std::filesystem::path& file);
 
-/// Reads one curve of a table that a run has written. A `*` in the path stands for the start times of a resumed run:
-/// where parts overlap, the later one wins.
+/// Reads a curve that a run has written. A `*` in the path stands for the start times of a resumed run; where the parts
+/// overlap, the later one is used.
 /// \throws std::runtime_error if there is no such file or column
 Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn);
 
-/// The files that a path with one folder named `*` stands for, in order of the number that the star stands for.
+/// The files that match a path with folders named `*`, sorted by the number that the star stands for.
 std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pattern);
 
-/// Rows without a number are left out, the rest sorted by time.
+/// The curve without rows that lack a number, sorted by time.
 Curve tidied(Curve curve);
 
 } // namespace clepsydra::identification

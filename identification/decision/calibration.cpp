@@ -14,18 +14,18 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Detected draws of each effect that are wanted, and draws that are made for them at most.
+/// Number of detected draws per effect that is aimed at, and largest number of draws made to obtain them.
 constexpr int wantedDraws = 100;
 constexpr int mostDraws = 200;
 
 constexpr double coverageOfIntervals = 0.95;
 
-/// What a wrong name may cost in right ones.
+/// Range of the price of a wrong name, in right names.
 constexpr double smallestPrice = 0.1;
 constexpr double largestPrice = 1e4;
 constexpr double priceStep = 1.3;
 
-/// How many times as wide an interval must be to hold an amplitude.
+/// Factor by which an interval must be widened to contain an amplitude.
 double widthNeeded(const Fit& fit, double amplitude)
 {
     const double distance = amplitude - fit.amplitude;
@@ -80,7 +80,7 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     Eigen::VectorXd peaks(count + 1);
     for (Eigen::Index e = 0; e < count; ++e)
     {
-        // With its variants: what they share would be its name.
+        // The variants of the left-out effect are left out too, because they share its name.
         const std::size_t effect = e;
         const double weight = effect == without || areVariants(study, effect, without)
                                   ? -std::numeric_limits<double>::infinity()
@@ -134,7 +134,7 @@ std::optional<std::size_t> soleMember(const Study& study, const Calibration& cal
     {
         return std::nullopt;
     }
-    // A name is the likeliest thing, in all its variants together.
+    // The variants together must be more probable than any other effect.
     double inVariants = 0.0;
     double best = 0.0;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
@@ -158,8 +158,8 @@ double Calibration::pValue(const Odds& odds) const
     const auto above =
         nullStatistics.end() - std::lower_bound(nullStatistics.begin(), nullStatistics.end(), odds.statistic);
     const double ofStatistic = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
-    // Two questions. Draws lie anywhere where no run was made, and then look as odd as any data; what the runs at the null fit
-    // leave does not.
+    // Without scatter there is a second test, on the chi-square of the null fit. Draws far from all runs are as unusual
+    // as any data, but the runs at the null fit are exact. The factor 2 corrects for two tests (Bonferroni).
     return odds.chanceOfChiSquare ? std::min(1.0, 2.0 * std::min(ofStatistic, *odds.chanceOfChiSquare)) : ofStatistic;
 }
 
@@ -198,8 +198,8 @@ Calibration Calibrator::calibrate()
 
 void Calibrator::drawNull()
 {
-    // Parameters as they are known beforehand: data that take them far from there are a residual, too (Box, J. R. Stat. Soc.
-    // A 143, 383 (1980)).
+    // The parameters are drawn from their priors: data that move them far from there are a residual too (Box, J. R.
+    // Stat. Soc. A 143, 383 (1980)).
     Fit prior;
     const Eigen::Index parameters = study_.parameters.size();
     prior.parameters = Eigen::VectorXd::Zero(parameters);
@@ -262,7 +262,8 @@ void Calibrator::drawOther()
     }
 }
 
-/// Sets of least mean size for a coverage of each class: Sadinle, Lei & Wasserman, J. Am. Stat. Assoc. 114, 223 (2019).
+/// Sets with the smallest mean size at a given coverage of each class: Sadinle, Lei & Wasserman, J. Am. Stat. Assoc.
+/// 114, 223 (2019).
 void Calibrator::setMembership()
 {
     const auto ofTruth = [&](std::size_t truth, auto valueOf) {
@@ -280,13 +281,14 @@ void Calibrator::setMembership()
         auto own = ofTruth(
             truth, [&](const Odds& odds) { return truth < study_.effects.size() ? odds.effects(truth) : odds.other; });
         std::sort(own.begin(), own.end());
-        // The observed set counts as one more draw.
+        // The observed data count as one more draw.
         const double place = (1.0 - study_.settings.coverage) * (static_cast<double>(own.size()) + 1.0);
-        // Known worlds are a little better known than this one: what is not unlikely belongs to the set, whatever they say.
+        // Draws from the posterior are known slightly better than the real system. Therefore an effect with a
+        // probability of at least 1 - coverage always belongs to the set.
         const double notUnlikely = std::log(1.0 - study_.settings.coverage);
         const double usual =
             place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
-        return evidence_.isExact() ? std::max(usual, -hopeless) : usual;
+        return evidence_.isExact() ? std::max(usual, -negligibleLogOdds) : usual;
     };
     calibration_.membership.resize(study_.effects.size());
     for (std::size_t e = 0; e < study_.effects.size(); ++e)
@@ -308,15 +310,16 @@ void Calibrator::setMembership()
     calibration_.scatterChiSquares = limitsOf(&Odds::scatterChiSquares, scatterStillFits);
 }
 
-/// The thresholds that leave most names of the library's own draws right, for a share of wrong names among detected decoys
-/// that is allowed. Each name has a threshold of its own, all at the same price of a wrong name.
+/// Chooses the naming thresholds that give the most right names among the library's own draws at the allowed share of
+/// wrong names among the detected decoys. Each effect has its own threshold; the price of a wrong name is the same for
+/// all.
 void Calibrator::setNaming()
 {
     struct Candidate
     {
         double margin;
-        double right; // weight among the library's draws, or
-        double wrong; // among the decoys
+        double right; // weight of a right name of a library draw
+        double wrong; // weight of a wrong name of a decoy
     };
     const std::size_t count = study_.effects.size();
     std::vector<std::vector<Candidate>> candidates(count);
@@ -350,7 +353,8 @@ void Calibrator::setNaming()
     {
         std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
     }
-    // At a price of a wrong name, in right ones: the threshold of each name that pays best.
+    // Sets the threshold of each effect that maximises right names minus price times wrong names; returns the wrong
+    // names.
     const auto wrongAt = [&](double price) {
         double wrong = 0.0;
         for (std::size_t e = 0; e < count; ++e)

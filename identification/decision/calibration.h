@@ -9,60 +9,63 @@
 namespace clepsydra::identification
 {
 
-/// What evidences amount to, before any threshold.
+/// Posterior odds and probabilities, before any threshold is applied.
 struct Odds
 {
-    double logOdds = 0.0; // of anything against no effect
-    /// Of the test: the same with each effect at its likeliest amplitude. What an amplitude's range costs hangs on how far an
-    /// effect is from what the parameters do, which errors of its learnt columns enlarge: in draws, whose columns are learnt
-    /// from what was learnt, twice.
+    double logOdds = 0.0; // of any cause against no effect
+    /// The test statistic: as `logOdds`, but with each effect at its most likely amplitude. The average over the
+    /// amplitude's range depends on how far an effect is from collinear with the parameters; errors of the learnt
+    /// effect increase that distance, and they enter the draws twice.
     double statistic = 0.0;
-    Eigen::VectorXd effects;    // log probability of each, given that there is something
-    double other = 0.0;         // the same of something else
-    Eigen::VectorXd chiSquares; // of each effect where it is likeliest, as in `Evidences`
+    Eigen::VectorXd effects;    // log probability of each effect, given that there is a cause
+    double other = 0.0;         // log probability of an unlisted cause
+    Eigen::VectorXd chiSquares; // of each effect at its most likely amplitude, as in `Evidences`
     Eigen::VectorXd scatterChiSquares;
     std::optional<double> chanceOfChiSquare; // as in `Evidences`
 };
 
-/// Thresholds of the decision, from trials in known worlds with this data set's own numbers of repeats: no runs.
+/// Thresholds of the decision. They come from synthetic data with the numbers of repeats of this data set (`Replicas`),
+/// which need no runs of the simulator.
 struct Calibration
 {
-    std::vector<double> nullStatistics; // of draws without any effect, ascending
-    double critical = 0.0;              // of the statistic, at the study's level
+    std::vector<double> nullStatistics; // of draws without effects, ascending
+    double critical = 0.0;              // critical value of the statistic at the study's level
     // By effect:
-    Eigen::VectorXd membership; // the share `coverage` of its detected draws has this log probability or more
-    Eigen::VectorXd widths;     // of intervals that hold the amplitude as often as they say, over those of the fit
-    Eigen::VectorXd chiSquares; // what fits worse than this is not explained by it
+    Eigen::VectorXd membership; // log probability that the share `coverage` of its detected draws reaches
+    Eigen::VectorXd widths;     // factors on the fit's intervals that give them their nominal coverage
+    Eigen::VectorXd chiSquares; // largest chi-square at which the effect still explains the data
     Eigen::VectorXd scatterChiSquares;
-    Eigen::VectorXd naming;       // log odds, as of marginOf, above which it may be a name
-    double otherMembership = 0.0; // as membership, for what is not in the library
-    double wrongNames = 0.0;      // of detected decoys, at these thresholds
+    Eigen::VectorXd naming;       // smallest log odds (as in marginOf) at which the effect may be named
+    double otherMembership = 0.0; // as `membership`, for an unlisted cause
+    double wrongNames = 0.0;      // share of the detected decoys that are named at these thresholds
 
+    /// Probability, without any effect, of a residual at least as large as that of the data.
     double pValue(const Odds& odds) const;
 
-    /// A fit of an effect with the interval that holds its amplitude as often as it says.
+    /// A fit of an effect with its interval widened to its nominal coverage.
     Fit widened(std::size_t effect, Fit fit, const Bounds& bounds) const;
 };
 
-/// What chiSquares, sums of squares, stay below but for chance: standard deviations above the mean of the draws' cube roots,
-/// which are all but normal (Wilson & Hilferty, PNAS 17, 684 (1931)).
+/// Upper limit of a chi-square, a number of standard deviations above the mean. Both are taken of the cube roots of the
+/// draws, which are nearly normal (Wilson & Hilferty, PNAS 17, 684 (1931)).
 double chiSquareLimit(const std::vector<double>& draws, double sds);
 
-/// An effect explains data whose means, and whose scatter, fit it as well as its own draws do, within these [sd]. The scatter
-/// of few repeats has a long tail, behind which an effect that does not raise it would hide.
+/// An effect explains data if their means and their scatter fit it as well as its own draws do, within these numbers of
+/// standard deviations. The limit for the scatter is tighter, because the scatter of few repeats has a long tail.
 constexpr double meansStillFit = 3.0;
 constexpr double scatterStillFits = 2.0;
 
-/// What is less likely than the best by more than this (log odds) gets no runs near its fit. Where runs do not scatter it is in
-/// no set either: draws of it, from where no run was made, would make any probability seem usual.
-constexpr double hopeless = 8.0;
+/// An explanation whose log odds are below those of the best by more than this gets no runs near its fit. If runs do
+/// not scatter, it is in no set either: its draws, far from all runs, would make any probability look usual.
+constexpr double negligibleLogOdds = 8.0;
 
-/// Parameters that a fit leaves possible [prior sd].
+/// Parameters drawn from a fit [prior standard deviations].
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
 
-/// The value that a share of the draws stays below; the observed set counts as one more draw.
+/// The quantile of draws; the observed data count as one more draw.
 double upperQuantile(std::vector<double> values, double share);
 
+/// Finds the thresholds from synthetic data without effects, with each effect, and with an unlisted cause.
 class Calibrator
 {
 public:
@@ -74,9 +77,9 @@ public:
 private:
     struct Draw
     {
-        std::size_t truth; // effect; their number: something else
+        std::size_t truth; // effect; the number of effects stands for an unlisted cause
         Odds odds;
-        Odds without; // the same, with the truth not in the library
+        Odds without; // odds when the truth is left out of the library
     };
 
     void drawNull();
@@ -94,25 +97,26 @@ private:
     Calibration calibration_;
 };
 
-/// Whether there is anything beyond noise.
+/// Whether the data have a residual beyond noise.
 bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds);
 
-/// Log weight of an effect: variants of one thing share it.
+/// Log prior weight of an effect. The variants of a family share the weight of one effect.
 double logPrior(const Study& study, std::size_t e);
 
-/// Whether two effects are variants of one thing.
+/// Whether two effects are variants of one family.
 bool areVariants(const Study& study, std::size_t one, std::size_t other);
 
-/// Log odds of an effect, in all its variants together, against all else.
+/// Log odds of an effect with all its variants against all other causes.
 double marginOf(const Study& study, const Odds& odds, std::size_t effect);
 
-/// Effects that a set holds, most likely first.
+/// Effects that belong to the set, most probable first.
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds);
 
-/// The only member, or the most likely one of a family that all members belong to; none where something else may be it.
+/// The only member of the set, or the most probable one if all members belong to one family; empty if an unlisted cause
+/// belongs to the set too.
 std::optional<std::size_t> soleMember(const Study& study, const Calibration& calibration, const Odds& odds);
 
-/// \param without  an effect that the library is to lack
+/// Odds of all explanations. \param without  an effect that is left out of the library
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without = static_cast<std::size_t>(-1));
 
 } // namespace clepsydra::identification

@@ -23,24 +23,25 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Measurements scatter as simulations do within some 12 %: degrees of freedom of the prior of their common factor.
+/// Degrees of freedom of the prior of the factor between the variances of measurements and of simulations: their
+/// scatters agree within about 12 %.
 constexpr double spreadFreedom = 30.0;
 
-/// Amplitudes that are integrated over, by effect: first from end to end, then where they are not unlikely (log of the
-/// likelihood over its maximum).
+/// Number of amplitudes per effect in the integral: first over the full range, then over the part where the log of the
+/// likelihood is above its maximum plus `unlikely`.
 constexpr Eigen::Index fineSteps = 64;
 constexpr double unlikely = -12.0;
 
-/// Gauss-Newton steps for the parameters at most, how often one is halved, and the fall of the chiSquare that is still
-/// worth one more: the emulator is all but linear in them.
+/// Largest number of Gauss-Newton steps for the parameters and of halvings of one step, and the smallest decrease of
+/// the chi-square that is followed by one more step. The emulator is nearly linear in the parameters.
 constexpr int parameterSteps = 8;
 constexpr int halvings = 6;
-constexpr double worthAStep = 1e-3;
+constexpr double smallestDecrease = 1e-3;
 
-/// How often the place of an effect's fit is found again, where the emulator is no polynomial.
+/// Number of iterations for the fit of an effect if the emulator is not a polynomial.
 constexpr int refinements = 3;
 
-/// Sum of the logs of positive numbers, with few calls of the logarithm.
+/// Sum of the logs of positive numbers. Groups of numbers are multiplied first, since the logarithm is slow.
 double logProduct(const Eigen::ArrayXd& values)
 {
     constexpr Eigen::Index atOnce = 8;
@@ -221,7 +222,7 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
     {
         Eigen::MatrixXd noise = allNoise.block(first, first, size, size);
         const Eigen::MatrixXd extra = allExtra.block(first, first, size, size);
-        // What is exact to the last digit could not be inverted.
+        // The covariance of exact numbers would be singular.
         noise.diagonal() += 1e-9 * (noise + extra).diagonal() + Eigen::VectorXd::Constant(size, 1e-18);
         const Eigen::LLT<Eigen::MatrixXd> factor(noise);
         const Eigen::MatrixXd half = factor.matrixL().solve(Eigen::MatrixXd::Identity(size, size));
@@ -259,7 +260,7 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
 {
     double trace = 0.0;
     double numbers = 0.0;
-    // Of blocks that do not scatter as without effects
+    // Of the blocks whose scatter is changed by an effect
     double otherTrace = 0.0;
     double otherNumbers = 0.0;
     for (std::size_t b = 0; b < layout_.blocks.size(); ++b)
@@ -285,7 +286,7 @@ Evidence::Spread Evidence::spreadOf(const Node& node, const Measured& measured) 
 Evidence::Solution Evidence::solve(const Node& node, double factor, const Measured& measured) const
 {
     const Eigen::Index q = study_.parameters.size();
-    // This runs a million times for one data set: no memory is asked for.
+    // Called a million times for one data set, therefore no memory is allocated here.
     Eigen::VectorXd& y = workspace_.data;
     Eigen::VectorXd& r = workspace_.residual;
     Eigen::ArrayXd& weight = workspace_.weight;
@@ -311,7 +312,7 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
     solution.chiSquare = chiSquareHere();
     FewSquare factored;
     double fall = std::numeric_limits<double>::infinity();
-    for (int step = 0; q > 0 && step < parameterSteps && fall > worthAStep; ++step)
+    for (int step = 0; q > 0 && step < parameterSteps && fall > smallestDecrease; ++step)
     {
         FewNumbers direction(q);
         for (Eigen::Index i = 0; i < q; ++i)
@@ -383,7 +384,7 @@ double Evidence::chanceOfChiSquare(double chiSquare) const
                      : 1.0;
 }
 
-/// The covariance is an estimate: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
+/// Likelihood with an estimated covariance: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).
 double Evidence::logLikelihood(double chiSquare, double logVolume) const
 {
     const double nu = layout_.noiseFreedom;
@@ -430,8 +431,8 @@ Evidence::Posterior Evidence::over(
         }
         logCell += effect.isSwitch ? 0.0 : std::log(cell / (effect.bounds.upper - effect.bounds.lower));
     }
-    // ChiSquares are all but parabolas in the amplitude, which a cubic follows from node to node however narrow the peak of the
-    // likelihood is; the likelihood itself it would not.
+    // The chi-square is interpolated, since it is nearly a parabola in the amplitude; the likelihood may have a peak
+    // that is narrower than the distance between nodes.
     const Eigen::MatrixXd chiSquare = posterior.interpolated(nodes.chiSquares);
     const Eigen::MatrixXd volume = posterior.interpolated(nodes.volumes);
     posterior.logs.resize(chiSquare.rows(), chiSquare.cols());
@@ -456,7 +457,7 @@ std::vector<Bounds> Evidence::likelyPart(const Posterior& posterior, const std::
         const Eigen::VectorXd along = k == 0 ? Eigen::VectorXd(posterior.logs.rowwise().maxCoeff())
                                              : Eigen::VectorXd(posterior.logs.colwise().maxCoeff());
         const Eigen::VectorXd& a = posterior.amplitudes[k];
-        const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // the step beside what is likely, too
+        const double margin = a.size() > 1 ? 1.5 * (a(1) - a(0)) : 0.0; // one step beyond the likely part
         const auto [lower, upper] = ranges[k];
         part.push_back({upper, lower});
         for (Eigen::Index i = 0; i < a.size(); ++i)

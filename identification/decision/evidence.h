@@ -13,68 +13,68 @@
 namespace clepsydra::identification
 {
 
-/// Log evidence of every explanation: marginal over the parameters (normal prior), the amplitude (uniform in its range)
-/// and what the emulator does not know.
+/// Log evidence of each explanation: the likelihood averaged over the parameters (normal prior), the amplitude (uniform
+/// prior in its range) and the emulator's error.
 struct Evidences
 {
     double null = 0.0;
-    Eigen::VectorXd effects; // by effect of the study; -infinity for those that are not known
-    double other = 0.0;      // something that is not in the library
-    // Of each effect at its likeliest amplitude:
+    Eigen::VectorXd effects; // by effect of the study; -infinity if all runs of an effect have failed
+    double other = 0.0;      // of an unlisted cause
+    // Of each effect at its most likely amplitude:
     Eigen::VectorXd chiSquares;        // of the means, as in `Fit`
-    Eigen::VectorXd scatterChiSquares; // of the spread between repeats, where it is not that of runs without effects
+    Eigen::VectorXd scatterChiSquares; // of the spread between repeats, if the effect changes it
     Eigen::VectorXd peaks;             // log likelihood
-    std::optional<double> chanceOfChiSquare =
-        std::nullopt; // of no effect, where runs do not scatter: how often noise alone does it
+    /// Probability that noise alone makes the null fit's chi-square as large; only if runs do not scatter.
+    std::optional<double> chanceOfChiSquare = std::nullopt;
 };
 
-/// Where an explanation fits best, and how well that is known.
+/// Best fit of an explanation, with its uncertainty.
 struct Fit
 {
-    double amplitude = 0.0; // posterior mean; of the most likely one for a switch
-    double sd = 0.0;
-    double lower = 0.0; // 95 % of the posterior
+    double amplitude = 0.0; // posterior mean; 1 for a switch
+    double sd = 0.0;        // posterior standard deviation
+    double lower = 0.0;     // limits of the central 95 % of the posterior
     double upper = 0.0;
-    Eigen::VectorXd parameters; // in prior sd, from the prior's mean
-    Eigen::MatrixXd covariance; // of these, at this amplitude
-    Eigen::MatrixXd marginal;   // the same over all amplitudes: what they take from each other, too
-    double chiSquare = 0.0;     // sum of squares in units of noise, the parameters' priors included
+    Eigen::VectorXd parameters; // standardised with their priors
+    Eigen::MatrixXd covariance; // of the parameters at this amplitude
+    Eigen::MatrixXd marginal;   // of the parameters over all amplitudes
+    double chiSquare = 0.0;     // sum of squares in units of the noise, including the parameters' priors
 };
 
-/// One explanation at one amplitude, with all that does not depend on the measured numbers computed beforehand: in
-/// coordinates in which the noise of the means is 1 and the emulator's uncertainty is diagonal.
+/// One explanation at one amplitude, with all quantities that do not depend on the measured values. They are expressed
+/// in coordinates in which the noise of the means has unit variance and the other covariance is diagonal.
 struct Node
 {
     std::vector<Present> present;
-    std::vector<Eigen::MatrixXd> transform; // by part of the rows
-    std::vector<Eigen::MatrixXd> whiten;    // by block: of single measurements
-    Eigen::VectorXd extra;                  // variances beside the noise
+    std::vector<Eigen::MatrixXd> transform; // into these coordinates, by part of the rows
+    std::vector<Eigen::MatrixXd> whiten;    // inverse Cholesky factor of one measurement's noise, by block
+    Eigen::VectorXd extra;                  // variances in addition to the noise
     Eigen::MatrixXd terms;                  // rows x parameterTerms
-    double logDeterminant = 0.0;            // of the transform's inverse, twice
+    double logDeterminant = 0.0;            // of the noise covariance of the means
     double spreadLogDeterminant = 0.0;      // of the noise of single measurements, times their degrees of freedom
-    std::vector<bool> scatters;    // by block: other scatter than without effects, in the simulations themselves
-    bool scattersAnywhere = false; // the same, or by the measuring chain
+    std::vector<bool> scatters;             // by block: whether the effects change the scatter of simulations
+    bool scattersAnywhere = false;          // whether simulations or measuring chain change the scatter in any block
 };
 
-/// Evidence of explanations for data of one layout, by one emulator.
+/// Evidence of explanations for data of one layout, according to one emulator.
 ///
-/// Noise: measurements scatter as simulations of the same setting do, up to a common factor near 1, whose evidence is
-/// the spread between repeats. That spread is what tells effects which raise the scatter.
+/// Noise: measurements scatter like simulations of the same setting, up to a common factor near 1 that the spread
+/// between repeats determines. The same spread distinguishes the effects that raise the scatter.
 ///
-/// "Something else": a discrepancy over conditions and features of the size that the library's effects have, or
-/// a fraction of it, orthogonal to what the parameters do (Plumlee, J. Am. Stat. Assoc. 112, 1274 (2017)), or repeats that
-/// scatter in a way of their own.
+/// Unlisted cause: a Gaussian discrepancy over conditions and features whose size is a multiple of that of the
+/// library's effects, orthogonal to the parameters (Plumlee, J. Am. Stat. Assoc. 112, 1274 (2017)), or repeats with a
+/// scatter of their own.
 class Evidence
 {
 public:
-    /// \param around  parameters [prior sd] where the emulator's uncertainty is taken
+    /// \param around  parameters [prior standard deviations] at which the emulator's uncertainty is taken
     Evidence(const Study& study, const Emulator& emulator, const Layout& layout, const Eigen::VectorXd& around);
 
-    /// The same questions to another emulator.
+    /// The same explanations according to another emulator.
     Evidence(const Evidence& like, const Emulator& emulator);
 
-    /// Asks the emulator about each effect, or about some that are on together, at the parameters that go with it, which may
-    /// be far from those without any effect.
+    /// Evaluates the emulator for each effect (or for several at once) near the parameters that fit best with it, which
+    /// may be far from those of the null fit.
     void refine(const Measured& measured);
     void refine(const std::vector<std::size_t>& effects, const Measured& measured);
 
@@ -84,70 +84,72 @@ public:
         return !emulator_.scatters();
     }
 
-    /// What the chiSquare of the truth stays below but for chance, this many standard deviations from the mean; where runs do
-    /// not scatter, else infinite. No draw tells more: of what is not known, far from all runs, draws lie anywhere.
+    /// Upper limit of the chi-square of the true explanation, at the tail probability of a number of standard
+    /// deviations of a normal distribution. It is infinite if runs scatter, because then synthetic data give the limit.
     double largestChiSquare(double sds) const;
 
-    /// How often noise alone makes a chiSquare as large as this; where runs scatter 1, for there draws tell.
+    /// Probability that noise alone makes the chi-square as large; 1 if runs scatter, because then synthetic data give
+    /// it.
     double chanceOfChiSquare(double chiSquare) const;
 
     Evidences operator()(const Measured& measured) const;
 
-    /// Log evidence of something that is not in the library.
+    /// Log evidence of an unlisted cause.
     double otherEvidence(const Measured& measured) const;
 
-    /// Most likely parameters without any effect, or with one.
+    /// Best fit without effects, and with one effect.
     Fit fitNull(const Measured& measured) const;
     Fit fit(std::size_t effect, const Measured& measured) const;
 
-    /// One effect or two at once, at amplitudes from end to end of their ranges.
+    /// One or two effects, with nodes at amplitudes over their ranges.
     struct Explanation
     {
         std::vector<std::size_t> effects;
         std::vector<Grid> grids; // by effect
-        std::vector<Node> nodes; // the last effect's amplitude goes first
+        std::vector<Node> nodes; // the last effect's amplitude varies fastest
     };
     Explanation explanationOf(const std::vector<std::size_t>& effects) const;
 
     struct Judgement
     {
         double logEvidence = 0.0;
-        double chiSquare = 0.0; // at the likeliest amplitudes, as in `Evidences`
+        double chiSquare = 0.0; // at the most likely amplitudes, as in `Evidences`
         double scatterChiSquare = 0.0;
-        double peak = 0.0; // log likelihood there
+        double peak = 0.0; // log likelihood at the most likely amplitudes
     };
     Judgement judge(const Explanation& explanation, const Measured& measured) const;
-    /// Fits of its effects, which share parameters.
+    /// Fits of the explanation's effects, by effect. Their parameters are equal.
     std::vector<Fit> fits(const Explanation& explanation, const Measured& measured) const;
 
-    /// Amplitudes at which an effect is looked at; nothing for one that is not known.
+    /// Amplitudes of the nodes of an effect; empty if all its runs have failed.
     std::vector<double> amplitudes(std::size_t effect) const;
 
     Node nodeAt(const std::vector<Present>& present) const;
 
-    /// Parameters within their ranges.
+    /// Parameters clipped to their ranges.
     template<typename Parameters>
     Parameters inRanges(const Parameters& parameters) const
     {
         return parameters.cwiseMax(lower_).cwiseMin(upper_);
     }
 
-    /// Parameters near which the emulator is asked about effects: of two that were not refined the better one's fit.
+    /// Parameters near which the emulator is evaluated for effects. For a pair that was not refined these are the
+    /// parameters of the effect that fits better.
     const Eigen::VectorXd& placeOf(const std::vector<Present>& present) const;
 
-    /// Something else: a discrepancy of a size, as a multiple of the library's effects, to be added to the means.
+    /// Draws the discrepancy of an unlisted cause, to be added to the means. \param size  multiple of the library's
+    /// effects
     Eigen::VectorXd drawOther(double size, std::mt19937_64& random) const;
 
-    /// Sizes of "something else" that are looked at, as multiples of what the library's effects do.
+    /// Sizes of the unlisted cause, as multiples of the library's effects.
     static const std::vector<double>& sizes();
 
 private:
     struct Spread
     {
-        double factor = 1.0; // of the noise's variance
+        double factor = 1.0; // on the noise's variance
         double logLikelihood = 0.0;
-        double chiSquare =
-            0.0; // deviance, too small or too large, where the scatter is not that of runs without effects
+        double chiSquare = 0.0; // deviance of the scatter in the blocks where effects change it
     };
 
     using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, mostParameters, 1>;
@@ -166,10 +168,10 @@ private:
         FewNumbers parameters;
         FewSquare precision;
         double chiSquare = 0.0;
-        double logVolume = 0.0; // of the log likelihood, what is no chiSquare
+        double logVolume = 0.0; // the part of the log likelihood that does not depend on the chi-square
     };
 
-    /// Where an explanation fits.
+    /// Parameters that fit an explanation.
     struct Place
     {
         Eigen::VectorXd parameters;
@@ -178,7 +180,7 @@ private:
 
     struct Discrepancy
     {
-        Eigen::MatrixXd root; // lower triangular, of the covariance in the null's coordinates
+        Eigen::MatrixXd root; // lower Cholesky factor of the covariance, in the coordinates of the null
         double logDeterminant = 0.0;
     };
 
@@ -189,34 +191,35 @@ private:
     Solution solve(const Node& node, double factor, const Measured& measured) const;
     void fitParameters(const Node& node, const Measured& measured, Fit& fit) const;
     double logLikelihood(double chiSquare, double logVolume) const;
-    /// Over amplitudes of the first effect, and of the second if there is one, where they are likely.
+    /// Posterior over the likely amplitudes of the first effect and, if there is one, of the second.
     struct Posterior
     {
-        std::vector<Eigen::VectorXd> amplitudes; // by effect, evenly spaced
-        std::vector<Eigen::MatrixXd> weights;    // of the nodes there
-        Eigen::MatrixXd logs;                    // with the prior
+        std::vector<Eigen::VectorXd> amplitudes; // by effect, equidistant
+        std::vector<Eigen::MatrixXd> weights;    // interpolation weights of the nodes, by effect
+        Eigen::MatrixXd logs;                    // log of the posterior, not normalised
         Judgement judgement;
 
         Eigen::MatrixXd interpolated(const Eigen::MatrixXd& atNodes) const;
     };
 
-    /// What is interpolated between nodes: rows for the second effect's amplitudes, columns for the first's.
+    /// Values at the nodes, which are interpolated: rows by amplitude of the second effect, columns by that of the
+    /// first.
     struct AtNodes
     {
         Eigen::MatrixXd chiSquares;
-        Eigen::MatrixXd volumes; // log likelihood, what is no chiSquare
+        Eigen::MatrixXd volumes; // the part of the log likelihood that does not depend on the chi-square
         Eigen::MatrixXd scatterChiSquares;
-        Eigen::MatrixXd parameters; // by column: a node's
+        Eigen::MatrixXd parameters; // one node per column
     };
     AtNodes atNodes(const Explanation& explanation, const Measured& measured, const Spread& usual) const;
-    /// \param looked  by effect: where
+    /// \param looked  range of amplitudes of each effect
     Posterior over(const Explanation& explanation, const AtNodes& nodes, const std::vector<Bounds>& looked) const;
     Posterior posterior(const Explanation& explanation, const AtNodes& nodes) const;
     static std::vector<Bounds> likelyPart(const Posterior& posterior, const std::vector<Bounds>& ranges);
 
     double otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const;
 
-    /// Rows that errors go across: those of a block, or all.
+    /// Rows with correlated errors: those of one block, or all rows if common errors connect the blocks.
     struct Part
     {
         Eigen::Index first;
@@ -224,7 +227,7 @@ private:
     };
 
     static std::vector<Part> partsOf(const Layout& layout);
-    /// Measured numbers, or what else is stacked like them, in the coordinates of a node.
+    /// Transforms measured values, or values arranged like them, into the coordinates of a node.
     void transformTo(const Node& node, const Eigen::VectorXd& values, Eigen::VectorXd& transformed) const;
 
     const Study& study_;
@@ -232,8 +235,8 @@ private:
     const Layout& layout_;
     std::vector<Part> parts_;
     Eigen::VectorXd around_;
-    std::map<std::vector<std::size_t>, Place> places_; // by effects that are on
-    FewNumbers lower_;                                 // ends of the parameters' ranges
+    std::map<std::vector<std::size_t>, Place> places_; // by the effects that are switched on
+    FewNumbers lower_;                                 // limits of the parameters' ranges
     FewNumbers upper_;
     mutable Workspace workspace_;
     Node null_;
@@ -242,6 +245,7 @@ private:
     Eigen::MatrixXd otherRoot_; // of a discrepancy of size 1
 };
 
+/// Log of the sum of exponentials, without overflow.
 double logSumExp(const Eigen::VectorXd& values);
 
 } // namespace clepsydra::identification

@@ -13,7 +13,8 @@ namespace clepsydra::identification
 namespace
 {
 
-/// What a distribution over evenly spaced amplitudes says. Linear within a step.
+/// Mean, standard deviation and 95 % interval of a distribution over equidistant amplitudes. The cumulative
+/// distribution is interpolated linearly.
 Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
 {
     constexpr double tail = 0.025;
@@ -53,7 +54,7 @@ Fit Evidence::fitNull(const Measured& measured) const
     return fit;
 }
 
-/// All of a fit but its amplitude.
+/// Fills in all members of a fit except those of the amplitude.
 void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fit) const
 {
     const Solution solution = solve(node, spreadOf(node, measured).factor, measured);
@@ -81,7 +82,7 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
             k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
         present.push_back({explanation.effects[k], all.back().amplitude});
     }
-    // How far the amplitudes that are possible move the parameters from their mean, each by what the posterior gives it.
+    // Deviation of the parameters at each amplitude from their posterior mean.
     Eigen::MatrixXd moves(nodes.parameters.rows(), share.size());
     for (Eigen::Index p = 0; p < moves.rows(); ++p)
     {

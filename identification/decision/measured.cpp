@@ -15,10 +15,10 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Noise that is declared counts as known.
+/// Degrees of freedom of a declared error, which counts as known.
 constexpr double asGoodAsKnown = 1e6;
 
-/// Repeats that have all features of a block.
+/// The repeats that have all features of a block.
 Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
 {
     const auto complete =
@@ -26,7 +26,8 @@ Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
     return features(complete, Eigen::all);
 }
 
-/// A number without any error would be exact, and all that differs from it a residual. \param deviations  of all repeats
+/// Requires that each measured feature has an error: without one, every difference from it would be a residual.
+/// \param deviations  of all repeats from their means
 void requireErrors(const Study& study, const MeasuredCondition& data, const std::string& condition,
     const std::vector<Eigen::Index>& features, const Eigen::MatrixXd& deviations)
 {
@@ -37,9 +38,10 @@ void requireErrors(const Study& study, const MeasuredCondition& data, const std:
         const bool scatters = (spread.isFinite() && spread > 1e-12 * std::abs(mean(f))).any();
         if (std::isfinite(mean(f)) && !scatters && data.declaredError(f) == 0.0 && study.modelError(f) == 0.0)
         {
-            throw std::runtime_error("condition '" + condition + "': '" + study.features[f].name
-                                     + "' would count as exact: nowhere do repeats of it differ, and it has no "
-                                       "relativeError, standardError or modelError");
+            throw std::runtime_error(
+                "condition '" + condition + "': '" + study.features[f].name
+                + "' would count as exact: its repeats do not differ in any condition, and it has no "
+                  "relativeError, standardError or modelError");
         }
     }
 }
@@ -62,8 +64,8 @@ std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, cons
     return features;
 }
 
-Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
-    const Eigen::VectorXd& parameters, const Eigen::VectorXd& seenFrom, bool doubted, std::mt19937_64& random)
+Measured draw(const Layout& layout, const Emulator& truth, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters, const Eigen::VectorXd& around, bool withUncertainty, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
     const auto numbers = [&](Eigen::Index rows, Eigen::Index columns) {
@@ -74,16 +76,16 @@ Measured draw(const Layout& layout, const Emulator& world, const std::vector<Pre
     const Eigen::MatrixXd errors = numbers(layout.blocks.front().shared.cols(), 1);
     for (const auto& block : layout.blocks)
     {
-        const ConditionEmulator& here = *world[block.condition];
+        const ConditionEmulator& here = *truth[block.condition];
         const auto& places = block.places;
         const Eigen::MatrixXd single = block.ofOne(here, present);
         Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
-        if (doubted)
+        if (withUncertainty)
         {
-            ofMean += here.uncertainty(seenFrom, present)(places, places);
+            ofMean += here.uncertainty(around, present)(places, places);
         }
         ofMean.diagonal().array() += 1e-18;
-        const Eigen::VectorXd expected = here.mean(present, seenFrom) * parameterTermsAt(parameters);
+        const Eigen::VectorXd expected = here.mean(present, around) * parameterTermsAt(parameters);
         drawn.mean.segment(block.first, block.size()) =
             expected(places) + block.shared * errors + ofMean.llt().matrixL() * numbers(block.size(), 1);
         const Eigen::MatrixXd deviations =
@@ -121,7 +123,7 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
     {
         throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
                                  "(at least two more measurements than conditions are needed, or a relativeError or "
-                                 "standardError of every number measured)");
+                                 "standardError of every measured value)");
     }
     return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
 }

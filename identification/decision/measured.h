@@ -12,30 +12,30 @@
 namespace clepsydra::identification
 {
 
-/// What a data set is made of: conditions, features, how often each was measured, and what repeats do not show.
+/// Structure of a data set: its conditions and features, the numbers of repeats, and the errors that repeats do not
+/// show. The measured values of all conditions are stacked into one vector, one block per condition.
 struct Layout
 {
     struct Block
     {
-        std::size_t condition = 0;        // of the study
-        Eigen::Index first = 0;           // row among those of all blocks
-        std::vector<Eigen::Index> places; // of its features among those of the condition's emulator
-        Eigen::MatrixXd meanShare;        // covariance of the mean over that of one measurement, by element
-        Eigen::MatrixXd
-            common; // covariance of the mean that repeats do not show: declared errors, the simulation's own
-        Eigen::MatrixXd shared; // rows x common errors of the study: by one sd of each
-        Eigen::MatrixXd noise;  // of one measurement, where the simulator's noise does not stand for it; else empty
-        double freedom = 0.0;   // repeats - 1, where their spread can be compared with the simulator's
+        std::size_t condition = 0;        // index in the study
+        Eigen::Index first = 0;           // first row of the block
+        std::vector<Eigen::Index> places; // indices of its features in the condition's emulator
+        Eigen::MatrixXd meanShare;        // covariance of the mean divided by that of one measurement, by element
+        Eigen::MatrixXd common;           // covariance of the declared errors and of the model error
+        Eigen::MatrixXd shared;           // rows x common errors: change by one standard deviation of each error
+        Eigen::MatrixXd noise;            // covariance of one measurement; empty if the simulator's noise stands for it
+        double freedom = 0.0; // number of repeats minus 1, if their spread can be compared with the simulator's
 
         Eigen::Index size() const
         {
             return places.size();
         }
 
-        /// Covariance of one measurement. \param here  emulator of its condition
+        /// Covariance of one measurement. \param here  emulator of the block's condition
         Eigen::MatrixXd ofOne(const ConditionEmulator& here, const std::vector<Present>& present) const;
 
-        /// Covariance of the mean that repeats do not show, common errors included.
+        /// Covariance of all errors of the mean that repeats do not show, including the common errors.
         Eigen::MatrixXd unshown() const
         {
             return common + shared * shared.transpose();
@@ -43,37 +43,41 @@ struct Layout
     };
 
     std::vector<Block> blocks;
-    bool sharesErrors = false; // between blocks, or features of one
+    bool sharesErrors = false; // whether there are common errors
     Eigen::Index rows = 0;
-    double noiseFreedom = 0.0; // degrees of freedom behind the noise
-    Eigen::MatrixXd noise;     // of one measurement, over all features of the study, as it is on average
+    double noiseFreedom = 0.0; // degrees of freedom of the noise
+    Eigen::MatrixXd noise;     // mean covariance of one measurement, over all features of the study
 };
 
-/// The numbers that go with a layout.
+/// The measured values that belong to a layout.
 struct Measured
 {
     Eigen::VectorXd mean;                 // of the repeats
     std::vector<Eigen::MatrixXd> scatter; // by block: sum of squares and products of deviations from the mean
 };
 
-/// Noise of measurements where the simulator has none: from their own repeats, or what was declared. Planned ones have none.
-/// \param learnt  where there is one, the numbers that it has must have errors, too
-/// \throws std::runtime_error where there is neither
+/// Noise of the measurements if the simulator has none: estimated from their repeats, or zero if errors are declared.
+/// Planned measurements are ignored.
+/// \param learnt  if given, each of its features must have an error
+/// \throws std::runtime_error if there are neither repeats nor declared errors
 Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data,
     const std::vector<std::size_t>& conditions, const Emulator* learnt = nullptr);
 
-/// \param data  by condition of the study; only those that the emulator has are looked at
-/// \param errorSlopes  as in Library; empty: there are no common errors
-/// \throws std::runtime_error where there is no noise to be had, or fewer features than parameters
+/// Stacks the measurements of all conditions that the emulator has learnt.
+/// \param data  by condition of the study
+/// \param errorSlopes  as in Library; empty if there are no common errors
+/// \throws std::runtime_error if the noise cannot be estimated or if there are no more features than parameters
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
     const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes = {});
 
-/// Measurements at a setting, in a world that is as an emulator says on average, as it looks from some parameters.
-/// \param doubted  whether the world is only as likely as the emulator says, there
-Measured draw(const Layout& layout, const Emulator& world, const std::vector<Present>& present,
-    const Eigen::VectorXd& parameters, const Eigen::VectorXd& seenFrom, bool doubted, std::mt19937_64& random);
+/// Synthetic measurements at a setting.
+/// \param truth  emulator whose expected features are the true ones
+/// \param around  parameters near which the emulator is linearised
+/// \param withUncertainty  whether the emulator's uncertainty is added to the noise
+Measured draw(const Layout& layout, const Emulator& truth, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters, const Eigen::VectorXd& around, bool withUncertainty, std::mt19937_64& random);
 
-/// Features of the training conditions that measurements have, by condition of the study.
+/// Features that the measurements have, by condition of the study; empty except for training conditions.
 std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, const std::vector<MeasuredCondition>& data);
 
 } // namespace clepsydra::identification

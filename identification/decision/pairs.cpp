@@ -10,22 +10,20 @@ namespace clepsydra::identification
 namespace
 {
 
-/// How many pairs are followed up.
+/// Largest number of pairs that are followed up, and number of synthetic data sets with each.
 constexpr std::size_t mostPairs = 4;
-
-/// Trials with each of them.
 constexpr int trials = 100;
 
-/// A pair has two amplitudes to imitate something else with: it is named only where it fits as well as its own trials do
-/// [sd], and leaves everything else this probability.
+/// A pair can imitate another cause with two amplitudes. Therefore it is named only if it fits as well as its own
+/// synthetic data, within this number of standard deviations, and if all other causes have at most this probability.
 constexpr double fitsWell = 1.0;
-constexpr double roomForElse = 0.01;
+constexpr double largestRest = 0.01;
 
-/// Whether an effect sets an entry to something that does not depend on what it was.
+/// Whether an effect sets an entry to a value that does not depend on the entry's previous value.
 bool replaces(const Effect& effect, const std::string& entry)
 {
     const auto formula = effect.entries.find(entry);
-    return effect.words.count(entry) > 0 || (formula != effect.entries.end() && !formula->second.holds(entry));
+    return effect.textEntries.count(entry) > 0 || (formula != effect.entries.end() && !formula->second.holds(entry));
 }
 
 bool mayGoTogether(const Study& study, const Evidence& evidence, std::size_t one, std::size_t other)
@@ -39,7 +37,7 @@ bool isOrVaries(const Study& study, std::size_t one, std::size_t other)
     return one == other || areVariants(study, one, other);
 }
 
-/// Pairs against each other and something else, by one judge.
+/// Compares the pairs with each other and with an unlisted cause.
 class PairJudge
 {
 public:
@@ -57,7 +55,7 @@ public:
     struct Verdict
     {
         std::vector<Evidence::Judgement> judgements; // by pair
-        Eigen::VectorXd probabilities;               // by pair; last: something else
+        Eigen::VectorXd probabilities;               // by pair; the last is that of an unlisted cause
     };
 
     Verdict operator()(const Measured& data) const
@@ -81,7 +79,7 @@ private:
     std::vector<double> logPriors_;
 };
 
-/// A pair's amplitudes as its fit leaves them possible, within their ranges.
+/// Amplitudes drawn from a pair's fit, clipped to their ranges.
 std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
@@ -131,16 +129,16 @@ bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs)
         }
         together += isVariant ? pair.probability : 0.0;
     }
-    return !pairs.empty() && pairs.front().fitsWell && together >= 1.0 - roomForElse;
+    return !pairs.empty() && pairs.front().fitsWell && together >= 1.0 - largestRest;
 }
 
 bool undoEachOther(const Effect& one, const Effect& other)
 {
     const auto clash = [&](const auto& set) {
-        return (one.words.count(set.first) > 0 || one.entries.count(set.first) > 0)
+        return (one.textEntries.count(set.first) > 0 || one.entries.count(set.first) > 0)
                && (replaces(one, set.first) || replaces(other, set.first));
     };
-    return std::any_of(other.words.begin(), other.words.end(), clash)
+    return std::any_of(other.textEntries.begin(), other.textEntries.end(), clash)
            || std::any_of(other.entries.begin(), other.entries.end(), clash);
 }
 
@@ -182,7 +180,7 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
         }
         judge();
     }
-    while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - hopeless))
+    while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - negligibleLogOdds))
     {
         pairs.pop_back();
     }

@@ -8,38 +8,39 @@
 namespace clepsydra::identification
 {
 
-/// Two effects at once.
+/// Two effects that act together.
 struct PairFinding
 {
     std::vector<std::size_t> effects;
     std::vector<Fit> fits; // by effect
     double logPrior = 0.0;
-    double logOdds = 0.0;     // against no effect, prior weight included
-    double probability = 0.0; // among pairs and something that is not in the library
+    double logOdds = 0.0;     // against no effect, including the prior weight
+    double probability = 0.0; // among the pairs and an unlisted cause
     bool inSet = false;
-    bool fitsWell = false; // as well as its own trials do
+    bool fitsWell = false; // whether it fits as well as its own synthetic data
 };
 
-/// Whether both set an entry of the case such that nothing is left of one: no run has these two on.
+/// Whether both effects set the same entry in such a way that one of them is lost. Such pairs are not simulated.
 bool undoEachOther(const Effect& one, const Effect& other);
 
-/// Pairs of effects, for data that no single effect explains: all pairs together weigh as much as one effect. The likeliest
-/// come first, down to those that are hopeless.
+/// The most likely pairs of effects, for data that no single effect explains, most likely first. Pairs with negligible
+/// odds are left out. All pairs together have the prior weight of one effect.
 std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, const Measured& measured);
 
-/// Which of these pairs belong to the set, by trials in known worlds with each of them in: such as fit as well as their own
-/// trials do, and are as likely as most of them. \return the probability of something that is not in the library, beside them
+/// Decides which of the pairs belong to the set: those that fit as well, and are as probable, as they are for synthetic
+/// data that contain them. \return the probability of an unlisted cause beside the pairs
 double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random);
 
-/// Whether the effects of two pairs are the same or variants of each other.
+/// Whether the effects of two pairs are equal or variants of each other.
 bool areVariants(const Study& study, const PairFinding& one, const PairFinding& other);
 
-/// "effect with family": what all pairs of a set that may be named have in common.
+/// Common name of all pairs in the set: the effects that they share and, for the others, the name of the family.
 std::string sharedName(const Study& study, const std::vector<PairFinding>& pairs);
 
-/// Whether pairs, once judged, leave one name: they are the only one or variants of the likeliest one, which fits well, and they
-/// leave no room for anything else. How often something that is not in the library passes for a pair is not learnt from decoys.
+/// Whether judged pairs may be named: all pairs in the set are variants of the most likely one, which fits well, and
+/// the other causes have a negligible probability. This is strict, because no decoys tell how often an unlisted cause
+/// looks like a pair.
 bool mayBeNamed(const Study& study, const std::vector<PairFinding>& pairs);
 
 } // namespace clepsydra::identification

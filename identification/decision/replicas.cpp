@@ -6,7 +6,7 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr int worlds = 40;
+constexpr int posteriorDraws = 40;
 
 } // namespace
 
@@ -15,11 +15,11 @@ Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidenc
       layout_(layout),
       evidence_(evidence)
 {
-    for (int i = 0; i < (emulator.scatters() ? worlds : 0); ++i)
+    for (int i = 0; i < (emulator.scatters() ? posteriorDraws : 0); ++i)
     {
-        Emulator world = emulator.possibleWorld(random);
-        Emulator learnt = emulator.relearnt(world, random);
-        all_.push_back(std::make_unique<Replica>(Replica{std::move(world), std::move(learnt), nullptr}));
+        Emulator truth = emulator.posteriorDraw(random);
+        Emulator learnt = emulator.regenerated(truth, random);
+        all_.push_back(std::make_unique<Replica>(Replica{std::move(truth), std::move(learnt), nullptr}));
         all_.back()->judge = std::make_unique<Evidence>(evidence, all_.back()->learnt);
     }
 }
@@ -27,14 +27,14 @@ Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidenc
 Replicas::Trial Replicas::draw(
     const std::vector<Present>& present, const Eigen::VectorXd& parameters, std::mt19937_64& random)
 {
-    const Eigen::VectorXd& seenFrom = evidence_.placeOf(present);
+    const Eigen::VectorXd& around = evidence_.placeOf(present);
     const Eigen::VectorXd allowed = evidence_.inRanges(parameters);
     if (all_.empty())
     {
-        return {identification::draw(layout_, emulator_, present, allowed, seenFrom, true, random), evidence_};
+        return {identification::draw(layout_, emulator_, present, allowed, around, true, random), evidence_};
     }
     const Replica& one = *all_[turn_++ % all_.size()];
-    return {identification::draw(layout_, one.world, present, allowed, seenFrom, false, random), *one.judge};
+    return {identification::draw(layout_, one.truth, present, allowed, around, false, random), *one.judge};
 }
 
 Replicas::Trial Replicas::drawOther(double size, const Eigen::VectorXd& parameters, std::mt19937_64& random)

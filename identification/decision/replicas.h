@@ -9,17 +9,19 @@
 namespace clepsydra::identification
 {
 
-/// The whole procedure in worlds that are known: in each the runs are made again, another emulator learns from them, and
-/// judges data drawn of that world. What the emulator gets wrong here it gets wrong there, in the same ways; data drawn of the
-/// emulator itself would find it right. Where runs do not scatter there is one world, as it looks from the fits: the rounds of
-/// runs have gone there, and would go to those of other data; what is not known far from all runs must not pass for chance.
+/// Synthetic data for the calibration. Forty draws from the posterior serve as known truths: for each, library and
+/// emulator are regenerated, and this emulator judges data that follow the draw. The judging emulator has errors like
+/// those of the real one, whereas data that follow the real emulator itself would hide these errors.
+///
+/// If runs do not scatter, the data follow the emulator with its uncertainty near the fits, where the runs have been
+/// made; the large uncertainty far from all runs must not be taken for chance.
 class Replicas
 {
 public:
-    /// \param evidence  of the emulator that is replicated; must live as long as this
+    /// \param evidence  of the same emulator; emulator, layout and evidence must outlive this object
     Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random);
 
-    /// Data of one world after the other, and the judge that goes with it.
+    /// Synthetic data, and the evidence of the emulator that judges them. The posterior draws are used in turn.
     struct Trial
     {
         Measured data;
@@ -31,7 +33,7 @@ public:
 private:
     struct Replica
     {
-        Emulator world;
+        Emulator truth;
         Emulator learnt;
         std::unique_ptr<Evidence> judge;
     };

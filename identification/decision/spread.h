@@ -7,8 +7,8 @@
 namespace clepsydra::identification
 {
 
-/// Log density of sums of squares about a common factor of the variance with an inverse gamma prior; what all
-/// explanations share is left out.
+/// Log density of a sum of squares, averaged over a common factor on the variance with an inverse gamma prior. Terms
+/// that are equal for all explanations are left out.
 inline double logSpread(double trace, double numbers, double freedom)
 {
     return std::lgamma((freedom + numbers) / 2.0) - std::lgamma(freedom / 2.0) + freedom / 2.0 * std::log(freedom / 2.0)

@@ -14,7 +14,7 @@ constexpr int draws = 40; // at each amplitude
 constexpr double usual = 0.8;
 constexpr double mostly = 0.5;
 
-/// The smallest amplitude at which a share is reached, between neighbours linearly. \param shares  by amplitude
+/// The smallest amplitude at which the share `usual` is reached, interpolated linearly. \param shares  by amplitude
 double reached(const std::vector<std::pair<double, double>>& shares)
 {
     double before = 0.0;

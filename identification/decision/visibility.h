@@ -11,13 +11,15 @@
 namespace clepsydra::identification
 {
 
-/// What data of this size could tell, before there are any: from draws of the emulator.
+/// Which effects data with these numbers of repeats can show, from synthetic data.
 struct Visibility
 {
-    Eigen::VectorXd detected; // per effect: amplitude that is seen in 80 % of the cases; infinite if none in its range
-    Eigen::VectorXd named;    // and amplitude that gets its right name in 80 % of the cases
-    Eigen::VectorXd atFullSize;                             // share of right names there
-    std::vector<std::pair<std::size_t, std::size_t>> alike; // the first's sets, at full size, mostly hold the second
+    // By effect:
+    Eigen::VectorXd detected;   // amplitude that is detected in 80 % of the cases; infinite if it is beyond the range
+    Eigen::VectorXd named;      // amplitude that is named correctly in 80 % of the cases; infinite if beyond the range
+    Eigen::VectorXd atFullSize; // share of correct names at the largest amplitude
+    /// Pairs of effects that look alike: at its largest amplitude, most sets of the first effect contain the second.
+    std::vector<std::pair<std::size_t, std::size_t>> alike;
 };
 
 Visibility visibility(const Study& study, const Evidence& evidence, Replicas& replicas, const Calibration& calibration,

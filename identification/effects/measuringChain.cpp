@@ -9,7 +9,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// y' = (v - y)/tau, exact for a curve of straight pieces.
+/// Solution y of y' = (v - y)/tau, exact for a piecewise linear curve v.
 Curve lagged(Curve curve, double tau)
 {
     if (tau <= 0.0)
@@ -27,7 +27,7 @@ Curve lagged(Curve curve, double tau)
     return curve;
 }
 
-/// The derivative over the neighbours: noise of single points would count twice otherwise.
+/// The derivative is the central difference, because a one-sided one would contain the point's own noise.
 Curve led(Curve curve, double seconds)
 {
     const auto original = curve.value;
@@ -41,8 +41,8 @@ Curve led(Curve curve, double seconds)
     return curve;
 }
 
-/// The record's zero of time is `seconds` after the true one. What happened before a positive shift is lost; before a
-/// negative one the first value holds.
+/// The record's time zero is `seconds` after the true one. A positive shift cuts off the beginning; with a negative
+/// shift the first value is extended.
 Curve shifted(Curve curve, double seconds)
 {
     const double begin = curve.time.front();

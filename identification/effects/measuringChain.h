@@ -8,21 +8,21 @@
 namespace clepsydra::identification
 {
 
-/// What the way from the apparatus to the file may do to a curve.
+/// A change of the curve by the measuring chain, from the apparatus to the file.
 struct ChainOperation
 {
-    std::string unit; // of its size; empty: a share, or the curve's own
+    std::string unit; // of `size`; empty if it is dimensionless or has the unit of the curve
     Curve (*apply)(Curve curve, double size);
 };
 
-/// By name:
-///   lag         first-order filter of `size` seconds
-///   lead        value + size dv/dt: momentum of particles that leave, size = their speed over g [s]
+/// All operations by name:
+///   lag         first-order filter with a time constant of `size` seconds
+///   lead        adds size dv/dt: momentum of particles that leave, with size = their speed divided by g [s]
 ///   shift       the record begins `size` seconds late
-///   gain        value times 1 + size
-///   offset      value plus size, SI units
-///   drift       value plus size per second, from the record's first time on
-///   timeFactor  times multiplied by 1 + size
+///   gain        multiplies the value by 1 + size
+///   offset      adds size to the value, SI units
+///   drift       adds size per second since the record's first time
+///   timeFactor  multiplies the times by 1 + size
 const std::map<std::string, ChainOperation>& chainOperations();
 
 } // namespace clepsydra::identification

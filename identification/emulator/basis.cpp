@@ -39,7 +39,7 @@ Waves::Waves(Eigen::Index count, const std::vector<bool>& moves, Eigen::Index ef
       phases(count)
 {
     const Eigen::Index parameters = moves.size();
-    // Lengths over which the function changes: prior sd of parameters, ranges of amplitudes
+    // Correlation lengths of the function, in prior standard deviations of parameters and in units of amplitude
     constexpr double ofParameters = 3.0;
     constexpr double ofAmplitudes = 1.0;
     std::mt19937_64 random(1);

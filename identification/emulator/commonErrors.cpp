@@ -10,13 +10,14 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Both ways from zero [sd]: where runs scatter as far as the error may be, elsewhere as far as it mostly is.
-constexpr double farStep = 2.0;
-constexpr double usualStep = 1.0;
+/// Steps of the central difference, in standard deviations of the error: large if runs scatter, for a better ratio of
+/// signal to noise.
+constexpr double stepWithScatter = 2.0;
+constexpr double stepWithoutScatter = 1.0;
 
 double stepOf(const Study& study)
 {
-    return study.simulator.seedEntry.empty() ? usualStep : farStep;
+    return study.simulator.seedEntry.empty() ? stepWithoutScatter : stepWithScatter;
 }
 
 Setting moved(const StudySimulator& studySimulator, std::size_t error, double z)
@@ -27,7 +28,7 @@ Setting moved(const StudySimulator& studySimulator, std::size_t error, double z)
     return setting;
 }
 
-/// One side's runs of an error in the entries. Both sides have the same seeds.
+/// Runs with an error of z standard deviations in the entries. The seeds do not depend on z.
 std::vector<SimulationOrder> ordersOf(
     const StudySimulator& studySimulator, std::size_t condition, std::size_t error, double z)
 {

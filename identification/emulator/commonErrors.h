@@ -7,12 +7,12 @@
 namespace clepsydra::identification
 {
 
-/// Runs that show what the study's common errors do in a condition: those of entries, moved to either side.
+/// Runs with each common error of the entries at a positive and a negative value, for the slopes of the features.
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition);
 
-/// Change of each feature by one sd of each common error: features x errors, to first order; 0 where a curve lacks the
-/// feature.
-/// \param plain  runs without any effect; what the measuring chain's errors do is seen in the curves of that condition's
+/// Change of each feature per standard deviation of each common error, to first order: features x errors. The slope is
+/// 0 if the curve lacks the feature.
+/// \param plain  runs without effects; errors of the measuring chain are applied to their curves
 Eigen::MatrixXd commonErrorSlopes(
     StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain);
 

@@ -100,7 +100,7 @@ Eigen::MatrixXd ConditionEmulator::mean(const std::vector<Present>& present, con
 Eigen::MatrixXd ConditionEmulator::uncertainty(
     const Eigen::VectorXd& parameters, const std::vector<Present>& present) const
 {
-    // Only the terms that are not zero here.
+    // Most terms are zero and are left out of the products.
     const Eigen::VectorXd all = terms(parameters, present);
     const auto used = numbersWhere(all.size(), [&](Eigen::Index i) { return all(i) != 0.0; });
     const Eigen::VectorXd x = all(used);

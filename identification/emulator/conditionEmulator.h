@@ -11,48 +11,50 @@
 namespace clepsydra::identification
 {
 
-/// Effects that are on, with their amplitudes.
+/// An effect that is switched on, and its amplitude.
 struct Present
 {
     std::size_t effect;
     double amplitude;
 };
 
-/// What the simulator would give in one condition, at any parameters and amplitudes, learnt from runs: Bayesian
-/// regression on the terms of `Basis`, all features at once. In units of one run's noise the features are independent
-/// and all coefficients of a kind have one normal prior. Parameters are counted in sd of their prior, from its mean.
+/// Emulator of the simulator in one condition: predicts the features at any parameters and amplitudes by Bayesian
+/// linear regression on the terms of `Basis`. The features are scaled by the noise of one run, which makes them
+/// independent; all coefficients of one kind share a normal prior. Parameters are standardised: deviation from the
+/// prior's mean in units of its standard deviation.
 class ConditionEmulator
 {
 public:
-    /// What an effect of the measuring chain does to each feature, at amplitudes from end to end: no polynomial follows what
-    /// a late trigger does to a short start. A run's noise goes through the chain, too.
+    /// Change of each feature by an effect of the measuring chain, tabulated over the effect's amplitudes, because a
+    /// late trigger changes a short start in a way that no polynomial describes. The chain changes the noise too.
     struct Chain
     {
         Grid amplitudes;
         Eigen::MatrixXd changes;             // features x amplitudes
-        std::vector<Eigen::MatrixXd> slopes; // of these in each parameter
-        Eigen::MatrixXd logScatter;          // log of the factor on a run's sd
+        std::vector<Eigen::MatrixXd> slopes; // derivative of `changes` with respect to each parameter
+        Eigen::MatrixXd logScatter;          // log of the factor on the standard deviation of a run
     };
 
     Basis basis;
-    std::vector<std::optional<std::size_t>> owners;    // by parameter: the effect of which it is a part
-    std::vector<Eigen::Index> features;                // of the study
-    Eigen::MatrixXd noise;                             // covariance of one run without effects that raise the scatter
-    Eigen::MatrixXd root;                              // lower triangular; root root' = noise, as it was learnt
-    double logSdError = 0.0;                           // of the noise: what is not known of the log of each sd
-    Eigen::VectorXd centre;                            // mean of the runs, from which values are counted
-    Eigen::MatrixXd coefficients;                      // terms x features, in units of `root`
-    std::vector<Eigen::MatrixXd> covariances;          // of these, by feature
-    std::map<std::size_t, Chain> chain;                // by effect
-    std::map<std::size_t, Eigen::VectorXd> logScatter; // by simulated effect: log sd that amplitude 1 adds, by feature
+    std::vector<std::optional<std::size_t>> owners; // for each parameter, the effect that it belongs to
+    std::vector<Eigen::Index> features;             // indices in the study
+    Eigen::MatrixXd noise;                          // covariance of one run without effects that raise the scatter
+    Eigen::MatrixXd root;                           // lower Cholesky factor of the estimated noise
+    double logSdError = 0.0;                        // standard error of the log of each standard deviation in `noise`
+    Eigen::VectorXd centre;                         // mean of the runs, which is subtracted from all values
+    Eigen::MatrixXd coefficients;                   // terms x features, in units of `root`
+    std::vector<Eigen::MatrixXd> covariances;       // posterior covariance of the coefficients of each feature
+    std::map<std::size_t, Chain> chain;             // by effect
+    /// For each simulated effect that raises the scatter: log of the factor on the standard deviations at amplitude 1.
+    std::map<std::size_t, Eigen::VectorXd> logScatter;
 
-    /// Mean of the features at some parameters.
+    /// Expected features.
     Eigen::VectorXd at(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
 
-    /// The same as a polynomial in the parameters, which holds near some: features x parameterTerms.
+    /// Expected features as a quadratic polynomial in the parameters, valid near `around`: features x parameterTerms.
     Eigen::MatrixXd mean(const std::vector<Present>& present, const Eigen::VectorXd& around) const;
 
-    /// Covariance of what the emulator does not know of that mean, at some parameters.
+    /// Covariance of the emulator's error in the expected features.
     Eigen::MatrixXd uncertainty(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
 
     /// Whether an effect changes the scatter of runs.
@@ -61,18 +63,18 @@ public:
         return chain.count(effect) > 0 || logScatter.count(effect) > 0;
     }
 
-    /// Effects of a run that raise its scatter by simulation.
+    /// The simulated effects of a setting that raise the scatter.
     std::vector<Present> scatteringIn(const Setting& setting) const;
 
-    /// Covariance of one run.
+    /// Covariance of one run with these effects.
     Eigen::MatrixXd noiseOf(const std::vector<Present>& present) const;
 
-    /// The terms at a setting. Effects that are not simulated here count as absent.
+    /// Values of the basis' terms. Effects that are not simulated in this condition are ignored.
     Eigen::VectorXd terms(const Eigen::VectorXd& parameters, const std::vector<Present>& present) const;
 
-    Eigen::VectorXd amplitudes(const std::vector<Present>& present) const; // by place in the basis
+    Eigen::VectorXd amplitudes(const std::vector<Present>& present) const; // in the sequence of the basis' effects
 
-    /// By parameter: 1, or the amplitude of the effect of which it is a part.
+    /// Factor on each parameter: the amplitude of the effect that it belongs to, or 1 if it belongs to none.
     Eigen::VectorXd reach(const std::vector<Present>& present) const;
 };
 

@@ -14,7 +14,8 @@ namespace
 
 constexpr double enoughPerFeature = 8.0;
 
-/// Correlations from pairs with gaps need not fit together; the nearest that do.
+/// Correlations that are estimated from different pairs of values need not be consistent with each other: negative
+/// eigenvalues are replaced by a small positive one.
 void makePositiveDefinite(Eigen::MatrixXd& matrix)
 {
     if (matrix.llt().info() == Eigen::Success)
@@ -41,7 +42,7 @@ void Scatter::add(const Eigen::MatrixXd& repeats)
     {
         const double count = static_cast<double>(column.array().isFinite().count());
         const double mean = column.array().isFinite().select(column, 0.0).sum() / std::max(count, 1.0);
-        // An isolated value would count as a repeat without scatter.
+        // A single value has no deviation from its mean and would count as a repeat without scatter.
         const double scale = count > 1.0 ? std::sqrt(count / (count - 1.0)) : std::nan("");
         column = (column.array() - mean) * scale;
         most = std::max(most, count);
@@ -67,8 +68,8 @@ Covariance pooledCovariance(const Eigen::MatrixXd& deviations, double nu)
 {
     const Eigen::Index features = deviations.cols();
     Covariance result{Eigen::MatrixXd::Zero(features, features), nu, 0.0};
-    double variances = 0.0; // of the correlations, summed
-    double squares = 0.0;   // of the correlations
+    double variances = 0.0; // sum of the variances of the correlations
+    double squares = 0.0;   // sum of the squares of the correlations
     Eigen::MatrixXd& s = result.matrix;
     const auto mean = [](const Eigen::ArrayXd& x, double& count) {
         count = static_cast<double>(x.isFinite().count());

@@ -8,15 +8,14 @@
 namespace clepsydra::identification
 {
 
-/// What repeats at one and the same setting tell about noise: deviations from their own mean, so that only the spread
-/// is left, pooled over settings.
+/// Deviations of repeated runs from their means, pooled over settings, from which the noise is estimated.
 class Scatter
 {
 public:
-    /// Adds repeats (one per row, NaN = missing) of one setting. Fewer than two say nothing.
+    /// Adds repeats of one setting (one per row, NaN = missing). Fewer than two are ignored.
     void add(const Eigen::MatrixXd& repeats);
 
-    /// Degrees of freedom: repeats minus settings.
+    /// Degrees of freedom: number of repeats minus number of settings.
     double degreesOfFreedom() const
     {
         return nu_;
@@ -34,14 +33,15 @@ private:
 struct Covariance
 {
     Eigen::MatrixXd matrix;
-    double nu = 0.0;        // degrees of freedom behind it
-    double shrinkage = 0.0; // 0: as pooled; 1: no correlations left
+    double nu = 0.0;        // degrees of freedom of the estimate
+    double shrinkage = 0.0; // 0: correlations as estimated; 1: correlations set to zero
 };
 
-/// Pooled covariance; with fewer than 8 degrees of freedom per feature its correlations are shrunk towards none.
+/// Pooled covariance. With fewer than 8 degrees of freedom per feature its correlations are shrunk towards zero.
 /// Ledoit & Wolf, J. Multivar. Anal. 88, 365 (2004); target and intensity for standardised features as in Schaefer &
 /// Strimmer, Stat. Appl. Genet. Mol. Biol. 4, 32 (2005).
 /// \param deviations  one per row, mean zero; NaN entries are left out pair by pair
+/// \param nu  degrees of freedom of the deviations
 Covariance pooledCovariance(const Eigen::MatrixXd& deviations, double nu);
 
 } // namespace clepsydra::identification

@@ -17,21 +17,22 @@ namespace clepsydra::identification
 namespace
 {
 
-/// A feature is left out where more than this share of the runs lacks it; else the runs that lack it are.
+/// A feature is left out if more than this share of the runs lacks it; otherwise the runs that lack it are left out.
 constexpr double mostGaps = 0.2;
 
-/// Large effects bend, and go on to act otherwise beside others, in proportion to their size (heredity: Chipman, Can. J.
-/// Stat. 24, 17 (1996)). Priors of one scale for all effects would call both impossible. Sd of the squared term, and of what an
-/// effect does in the design's runs beyond what it does alone, as shares of its main effect.
+/// The curvature and the interactions of an effect are expected to be proportional to its size (heredity: Chipman, Can.
+/// J. Stat. 24, 17 (1996)); a prior of one scale for all effects would exclude them for large effects. Prior standard
+/// deviations as shares of the main effect: of the main effect itself, of the squared term, and of the difference
+/// between the design's runs and runs with the effect alone.
 constexpr double mainShare = 3.0;
 constexpr double curvatureShare = 0.4;
 constexpr double curvatureOfCorrections = 0.05;
 constexpr double designShare = 0.1;
 
-/// Where runs do not scatter they show what is no polynomial of second order.
+/// Number of waves if runs do not scatter, so that deviations from the quadratic polynomial can be seen.
 constexpr Eigen::Index waves = 128;
 
-/// The largest scale of a prior, in units of one run's noise, and the smallest.
+/// Limits of the priors' scales, in units of one run's noise.
 constexpr double largestScale = 1e5;
 constexpr double smallestScale = 1e-2;
 
@@ -42,13 +43,13 @@ Eigen::VectorXd priorSds(const Basis& basis, const std::array<double, Basis::kin
 
 } // namespace
 
-//--- Other worlds ---------------------------------------------------------------------------------------------------
+//--- Draws from the posterior ---------------------------------------------------------------------------------------
 
-Emulator Emulator::possibleWorld(std::mt19937_64& random) const
+Emulator Emulator::posteriorDraw(std::mt19937_64& random) const
 {
     std::normal_distribution<double> normal;
-    Emulator world = *this;
-    for (auto& condition : world.conditions_)
+    Emulator draw = *this;
+    for (auto& condition : draw.conditions_)
     {
         for (Eigen::Index f = 0; condition && f < condition->coefficients.cols(); ++f)
         {
@@ -60,22 +61,22 @@ Emulator Emulator::possibleWorld(std::mt19937_64& random) const
         }
         if (condition && condition->logSdError > 0.0)
         {
-            // `root` stays, the unit of the coefficients
+            // `root` does not change, because it is the unit of the coefficients.
             const Eigen::VectorXd factor = Eigen::VectorXd::NullaryExpr(
                 condition->noise.rows(), [&] { return std::exp(condition->logSdError * normal(random)); });
             condition->noise = factor.asDiagonal() * condition->noise * factor.asDiagonal();
         }
     }
-    return world;
+    return draw;
 }
 
-Emulator Emulator::relearnt(const Emulator& world, std::mt19937_64& random) const
+Emulator Emulator::regenerated(const Emulator& truth, std::mt19937_64& random) const
 {
     std::normal_distribution<double> normal;
     Emulator other = *this;
     for (const auto c : learnt_)
     {
-        const ConditionEmulator& here = *world.conditions_[c];
+        const ConditionEmulator& here = *truth.conditions_[c];
         Rows& rows = other.rows_[c];
         Eigen::MatrixXd whitened = rows.terms * here.coefficients;
         for (Eigen::Index row = 0; row < whitened.rows(); ++row)
@@ -133,7 +134,7 @@ Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, con
     }
 }
 
-/// Features and effects of a condition, from what its runs have.
+/// Chooses the features and effects of a condition that its runs contain.
 void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted)
 {
     ConditionEmulator emulator;
@@ -180,7 +181,7 @@ void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const 
     }
     if (!scatters_)
     {
-        // Of parameters of the model itself, polynomials: a fit without any effect must not go where waves say anything
+        // In the model's own parameters the emulator is a polynomial, so that waves cannot distort the null fit.
         const auto isOfEffect = mapped(emulator.owners, [](const auto& owner) { return owner.has_value(); });
         emulator.basis.waves = Waves(waves, isOfEffect, emulator.basis.effects.size());
     }
@@ -218,7 +219,7 @@ void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const
 }
 
 
-/// Variances of the runs in units of the noise, runs x features.
+/// Variances of the runs in units of the noise: runs x features.
 Eigen::ArrayXXd Emulator::variances(std::size_t c) const
 {
     const ConditionEmulator& emulator = *conditions_[c];
@@ -241,7 +242,7 @@ Eigen::ArrayXXd Emulator::variances(std::size_t c) const
     return all;
 }
 
-/// Values of the runs from their centre, in units of the noise, runs x features.
+/// Deviations of the runs from their centre in units of the noise: runs x features.
 Eigen::MatrixXd Emulator::whitened(std::size_t c) const
 {
     const ConditionEmulator& emulator = *conditions_[c];
@@ -249,7 +250,7 @@ Eigen::MatrixXd Emulator::whitened(std::size_t c) const
     return emulator.root.triangularView<Eigen::Lower>().solve(values.transpose()).transpose();
 }
 
-/// Log marginal likelihood of all runs, without constants.
+/// Log marginal likelihood of all runs, up to a constant.
 double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) const
 {
     double sum = 0.0;
@@ -266,7 +267,7 @@ double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) con
     return sum;
 }
 
-/// Scales of largest evidence, one after the other, twice round.
+/// Chooses the scales that maximise the evidence, by two sweeps of searches in one scale at a time.
 void Emulator::chooseScales()
 {
     scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, scatters_ ? 0.0 : 1.0};
@@ -281,31 +282,30 @@ void Emulator::chooseScales()
             {
                 continue;
             }
-            const auto chiSquare = [&](double logScale) {
+            const auto cost = [&](double logScale) {
                 auto scales = scales_;
                 scales[kind] = std::exp(logScale);
                 return -logEvidence(scales);
             };
             std::uintmax_t most = mostEvaluations;
             scales_[kind] = std::exp(boost::math::tools::brent_find_minima(
-                chiSquare, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
+                cost, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
                                          .first);
         }
         if (scatters_)
         {
-            const auto chiSquare = [&](double logSize) {
+            const auto cost = [&](double logSize) {
                 lackOfFit_ = std::exp(logSize);
                 return -logEvidence(scales_);
             };
             std::uintmax_t most = mostEvaluations;
             lackOfFit_ = std::exp(
-                boost::math::tools::brent_find_minima(chiSquare, std::log(smallestScale), std::log(10.0), bits, most)
-                    .first);
+                boost::math::tools::brent_find_minima(cost, std::log(smallestScale), std::log(10.0), bits, most).first);
         }
     }
 }
 
-/// Coefficients and their covariance.
+/// Computes the coefficients of a condition and their covariance.
 void Emulator::solve(std::size_t c)
 {
     ConditionEmulator& emulator = *conditions_[c];
@@ -320,7 +320,7 @@ void Emulator::solve(std::size_t c)
     {
         Eigen::VectorXd own = prior;
         Eigen::MatrixXd inDesign = Eigen::MatrixXd::Zero(rows.terms.rows(), rows.terms.rows());
-        // First without, then with what effects of this size may do beside their main effect.
+        // The second pass adds priors of curvature and interaction in proportion to the main effects of the first.
         for (const bool heredity : {false, true})
         {
             for (Eigen::Index p = 0; heredity && p < emulator.basis.parameters; ++p)

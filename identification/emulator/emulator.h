@@ -12,38 +12,40 @@
 namespace clepsydra::identification
 {
 
-/// Emulators of all training conditions, with scales of the priors and noise that they share.
+/// Emulators of all training conditions. They share the scales of the priors and the correlations of the noise.
 class Emulator
 {
 public:
-    /// \param features  by condition of the study, those that are wanted; of these, what too many runs lack is left out
+    /// \param runs  the effect library and all further runs
+    /// \param features  wanted features of each condition of the study; features that too many runs lack are left out
     Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Run>& runs,
         const std::vector<std::vector<Eigen::Index>>& features);
 
-    /// By condition of the study; none where nothing is wanted or left.
+    /// The emulator of a condition of the study; empty if the condition has no features.
     const std::optional<ConditionEmulator>& operator[](std::size_t condition) const
     {
         return conditions_[condition];
     }
 
-    /// Whether anything is known of an effect: of one whose runs have all failed nothing is.
+    /// False for an effect whose runs have all failed.
     bool knows(std::size_t effect) const
     {
         return known_[effect];
     }
 
+    /// Whether repeated runs differ.
     bool scatters() const
     {
         return scatters_;
     }
 
-    /// Covariance of one run over all features of the study, as it is in the conditions on average; zero without scatter.
+    /// Covariance of one run over all features of the study, averaged over the conditions; zero without scatter.
     const Eigen::MatrixXd& noise() const
     {
         return noise_;
     }
 
-    /// Degrees of freedom behind the noise.
+    /// Degrees of freedom of the noise.
     double degreesOfFreedom() const
     {
         return degreesOfFreedom_;
@@ -59,22 +61,23 @@ public:
         return remarks_;
     }
 
-    /// A world that the runs leave possible: what they do not tell is drawn.
-    Emulator possibleWorld(std::mt19937_64& random) const;
+    /// A draw from the posterior of the coefficients and the noise.
+    Emulator posteriorDraw(std::mt19937_64& random) const;
 
-    /// What would have been learnt from runs at the same settings in such a world.
-    Emulator relearnt(const Emulator& world, std::mt19937_64& random) const;
+    /// The emulator that is obtained when all runs are regenerated at the same settings.
+    /// \param truth  the posterior draw that the regenerated runs follow
+    Emulator regenerated(const Emulator& truth, std::mt19937_64& random) const;
 
 private:
-    /// The runs of one condition, a row each.
+    /// The runs of one condition, one per row.
     struct Rows
     {
         std::vector<Setting> settings;
-        Eigen::MatrixXd values; // of the features that the emulator has
-        Eigen::MatrixXd terms;
+        Eigen::MatrixXd values;                       // of the emulator's features
+        Eigen::MatrixXd terms;                        // of the basis
         std::vector<std::vector<Present>> scattering; // effects of each run that raise its scatter
 
-        /// Whether a run has several effects at once.
+        /// Whether a run has several effects.
         bool hasSeveral(Eigen::Index run) const
         {
             return terms(run, terms.cols() - 1) != 0.0;
@@ -99,9 +102,9 @@ private:
     std::vector<std::optional<ConditionEmulator>> conditions_;
     std::vector<std::size_t> learnt_; // conditions that have an emulator
     std::vector<bool> known_;
-    std::array<double, Basis::kinds> scales_{}; // sd of the coefficients' priors, in units of one run's noise
-    /// Sd of what terms of second order miss where several effects are on, in units of noise: without it the design's
-    /// runs, which are many, would carry the base setting with them.
+    std::array<double, Basis::kinds> scales_{}; // prior sd of the coefficients, in units of one run's noise
+    /// Standard deviation of the error of the quadratic terms in runs with several effects, in units of the noise.
+    /// Without it the many runs of the design would shift the prediction at the base setting.
     double lackOfFit_ = 0.0;
     bool scatters_ = false;
     Eigen::MatrixXd noise_;

@@ -9,7 +9,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Between amplitude 0 and the further end.
+/// Number of steps between amplitude 0 and the end of the range that is farther from it.
 constexpr double steps = 8.0;
 
 } // namespace

@@ -7,7 +7,7 @@
 namespace clepsydra::identification
 {
 
-/// Evenly spaced amplitudes of an effect, 0 among them, from end to end of its range; a switch has one, 1.
+/// Equidistant amplitudes over the range of an effect, 0 among them. A switch has the single amplitude 1.
 class Grid
 {
 public:
@@ -19,7 +19,7 @@ public:
         return amplitudes_;
     }
 
-    /// Of the cubic through the four neighbours of an amplitude: one weight for each of the grid's.
+    /// Weights of the grid's amplitudes for interpolation by a cubic through the four neighbours of an amplitude.
     Eigen::RowVectorXd weightsAt(double amplitude) const;
 
 private:

@@ -9,7 +9,7 @@
 namespace clepsydra::identification
 {
 
-/// The curves of runs without effects, once more through the chain.
+/// Applies the effect of the measuring chain to the curves of runs without effects, at each amplitude of the grid.
 void Emulator::learnChain(
     std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Run*>& runs)
 {

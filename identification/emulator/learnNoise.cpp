@@ -18,20 +18,20 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Without scatter a run is as good as exact: noise of this share of what a feature varies over the runs.
+/// Noise of runs without scatter, as a share of the standard deviation of a feature over all runs.
 constexpr double exactShare = 1e-3;
 
-/// Repeats of an effect that is not declared to raise the scatter do so all the same where chance alone would in fewer
-/// cases than this.
+/// An effect that is not declared to raise the scatter is found to do so if chance alone would give its repeats as
+/// large a scatter with less than this probability.
 constexpr double otherScatter = 1e-2;
 
-/// The variance, between conditions, of the log of a feature's scatter is at least this: 10 %.
+/// Smallest variance, between conditions, of the log of a feature's scatter: 10 % of scatter.
 constexpr double leastBetween = 0.01;
 
-/// Scatter of an effect in one condition counts against that of all conditions as much as this many degrees of freedom.
+/// Weight of the scatter of all conditions beside that of one condition, in degrees of freedom.
 constexpr double sharedScatter = 8.0;
 
-/// The log of a mean square is too small by this on average.
+/// Bias of the log of a mean square.
 double biasOfLog(double degreesOfFreedom)
 {
     return boost::math::digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
@@ -39,7 +39,8 @@ double biasOfLog(double degreesOfFreedom)
 
 } // namespace
 
-/// Effects that raise the scatter without being declared to are found by the noise of runs without effects.
+/// The noise of runs without effects is estimated first, because the effects that raise the scatter are found by
+/// comparison with it.
 void Emulator::learnNoiseAndScatter()
 {
     if (scatters_)
@@ -50,9 +51,9 @@ void Emulator::learnNoiseAndScatter()
     learnNoise(false);
 }
 
-/// Noise from repeats at equal settings, and from nothing else: what a regression leaves is too small by what it has taken
-/// up. Correlations are those of all conditions together; the variances of a condition are drawn towards those of all by as
-/// much as chance explains.
+/// Estimates the noise from repeats at equal settings only, because the residual of a regression underestimates it. The
+/// correlations are pooled over all conditions. The variances of a condition are shrunk towards the pooled ones by the
+/// share of their differences that chance explains.
 void Emulator::learnNoise(bool ofPlainRuns)
 {
     const Eigen::Index features = study_->featureCount();
@@ -95,8 +96,8 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
     const Eigen::VectorXd pooled =
         0.5 * squares.cwiseQuotient(weight.cwiseMax(1e-9)).cwiseMax(1e-30).array().log().matrix();
-    // Variance between conditions beyond that of chance, 1/(2 nu) for the log of a standard deviation. It is that of all
-    // features together: a feature's own would follow the one condition whose few repeats happen to lie close.
+    // Variance between conditions beyond that of chance, which is 1/(2 nu) for the log of a standard deviation. It is
+    // pooled over all features; a single feature's would follow the one condition whose few repeats happen to agree.
     double between = 0.0;
     double count = 0.0;
     degreesOfFreedom_ = 0.0;
@@ -153,14 +154,14 @@ void Emulator::learnNoise(bool ofPlainRuns)
     }
 }
 
-/// How much effects raise the scatter: from repeats of runs with one effect alone.
+/// Estimates how much each effect raises the scatter, from repeats of runs with that effect alone.
 void Emulator::learnScatter()
 {
     for (std::size_t e = 0; e < study_->effects.size(); ++e)
     {
-        Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // over the usual variance
+        Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_->featureCount()); // in units of the noise's variance
         Eigen::VectorXd freedom = squares;
-        std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // by condition: the same, degrees of freedom
+        std::map<std::size_t, std::pair<Eigen::VectorXd, double>> own; // squares and degrees of freedom by condition
         double statistic = 0.0;
         double statisticFreedom = 0.0;
         for (const auto c : learnt_)
@@ -192,7 +193,7 @@ void Emulator::learnScatter()
         {
             continue;
         }
-        // The noise is an estimate itself.
+        // An F distribution, because the noise is an estimate too.
         const boost::math::fisher_f chance(statisticFreedom,
             std::max(
                 1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));

@@ -13,10 +13,10 @@ namespace clepsydra::identification
 namespace
 {
 
-/// The design moves a parameter by this many prior sd to either side: far enough for its fits, which lie within two.
+/// Levels of a parameter in the design, in prior standard deviations. Fits lie within two.
 constexpr double parameterStep = 1.5;
 
-/// Runs without effects at either end of a parameter's prior.
+/// Levels of a parameter in runs without effects, in prior standard deviations, and number of runs at each.
 constexpr double axialStep = 2.5;
 constexpr int axialRepeats = 3;
 
@@ -25,7 +25,8 @@ double moved(const Parameter& parameter, double sds)
     return std::clamp(parameter.mean + sds * parameter.sd, parameter.lower, parameter.upper);
 }
 
-/// Whether an effect runs by itself: what is on or off has no half, and scatter in half of a design's runs hides all else.
+/// Whether an effect is left out of the design: a switch has no lower level, and an effect that raises the scatter in
+/// half of the design's runs would hide all other effects.
 bool runsAlone(const Effect& effect)
 {
     return effect.isSwitch || effect.raisesScatter;
@@ -43,7 +44,7 @@ public:
     std::vector<SimulationOrder> scattering()
     {
         add(studySimulator_.plainSetting(), "base", study_.settings.repeatsBase);
-        // In the design all parameters are at their ends, as are the effects: how a parameter bends is seen without them.
+        // In the design all parameters are at one of two levels; the runs outside of it show the curvature.
         for (std::size_t p = 0; p < study_.parameters.size(); ++p)
         {
             add(at(p, -axialStep), study_.parameters[p].name + " alone", axialRepeats);
@@ -60,7 +61,7 @@ public:
             else
             {
                 designed.push_back(e);
-                // The design has no middle: whether an effect grows as its amplitude is seen where it acts alone.
+                // The design has two levels; a run at half the amplitude shows whether the effect is linear.
                 const auto [lower, upper] = effect.bounds;
                 if (lower >= 0.0)
                 {
@@ -83,7 +84,7 @@ public:
         for (const auto e : simulatedEffects(study_, condition_))
         {
             const auto [lower, upper] = study_.effects[e].bounds;
-            // What goes to one side only is looked at in its middle, too
+            // A one-sided effect is also simulated at half its amplitude.
             const bool hasMiddle = lower == 0.0 && !study_.effects[e].isSwitch;
             for (const double amplitude : {hasMiddle ? upper / 2.0 : lower, upper})
             {
@@ -104,7 +105,7 @@ private:
         return setting;
     }
 
-    /// One parameter moved; one that is a part of an effect, together with this.
+    /// A setting with one parameter changed. If the parameter belongs to an effect, the effect is switched on.
     Setting at(std::size_t parameter, double sds) const
     {
         const Parameter& own = study_.parameters[parameter];
@@ -114,7 +115,7 @@ private:
         return setting;
     }
 
-    /// Numbers go on from order to order of one purpose, so that each has a seed of its own.
+    /// Orders of one purpose are numbered consecutively, so that each has its own seed.
     void add(const Setting& setting, const std::string& purpose, int count)
     {
         const auto before = std::count_if(
@@ -214,7 +215,7 @@ Library makeLibrary(StudySimulator& studySimulator)
 {
     const Study& study = studySimulator.study();
     const auto orders = libraryOrders(studySimulator);
-    // The base runs first: where these fail, the many others would be in vain.
+    // The runs at the base setting come first: if they fail, all other runs would be useless.
     std::vector<SimulationOrder> first;
     std::vector<SimulationOrder> rest;
     for (const auto& order : orders)

@@ -8,41 +8,42 @@
 namespace clepsydra::identification
 {
 
-/// A run of the simulator at a known setting: what the emulators learn from.
+/// A run of the simulator and its setting, from which the emulators learn.
 struct Run
 {
     Setting setting;
     Simulation simulation;
 };
 
-/// The orders and what came of them.
+/// Simulates the orders.
 std::vector<Run> makeRuns(StudySimulator& studySimulator, const std::vector<SimulationOrder>& orders);
 
 /// Runs of one condition that have not failed.
 std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition);
 
-/// Runs of all training conditions. Made once per simulator, used for every data set.
+/// The effect library: runs in all training conditions, made once per simulator and used for every data set.
 ///
-/// Where runs scatter: repeats at the base setting, and with each parameter alone at either end; switches and effects that
-/// raise the scatter alone, at amplitude 1; all others, and the parameters, in a Plackett-Burman design and its foldover (Box
-/// & Wilson 1951; resolution IV: no interaction of two looks like an effect). Without scatter nothing is averaged out: one
-/// thing is changed at a time.
+/// If runs scatter, the library holds repeats at the base setting and with each parameter alone at both ends; runs with
+/// each switch and each effect that raises the scatter alone, at amplitude 1; and, for all other effects and the
+/// parameters, a Plackett-Burman design with its foldover (Box & Wilson 1951; of resolution IV: no interaction of two
+/// effects is confounded with an effect). If runs do not scatter, there is nothing to average, and one effect or
+/// parameter is changed at a time.
 struct Library
 {
     std::vector<Run> runs;
-    std::vector<Eigen::MatrixXd> errorSlopes; // by condition: what the common errors do, as commonErrorSlopes gives it
+    std::vector<Eigen::MatrixXd> errorSlopes; // result of commonErrorSlopes for each condition
 };
 
-/// All runs that makeLibrary asks for.
+/// All runs that makeLibrary makes.
 std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator);
 
-/// \throws std::runtime_error where all runs at the base setting of a condition have failed
+/// Makes the effect library. \throws std::runtime_error if all runs of a condition at the base setting fail
 Library makeLibrary(StudySimulator& studySimulator);
 
-/// The design, a row per run, followed by its mirror image.
+/// The design, one run per row, followed by its mirror image.
 Eigen::MatrixXd foldover(const Eigen::MatrixXd& design);
 
-/// Effects of the study that change the simulation of a condition; those of the measuring chain do not.
+/// Effects of the study that change the simulation of a condition. Those of the measuring chain are not among them.
 std::vector<std::size_t> simulatedEffects(const Study& study, std::size_t condition);
 
 } // namespace clepsydra::identification

@@ -11,7 +11,7 @@ namespace
 
 constexpr Eigen::Index largest = 32;
 
-/// Every row but the last is the generator, turned by one place more.
+/// Each row but the last is the generator, rotated by one more column than the row above.
 Eigen::MatrixXd cyclic(const std::string& generator)
 {
     const Eigen::Index factors = generator.size();
@@ -27,7 +27,7 @@ Eigen::MatrixXd cyclic(const std::string& generator)
     return design;
 }
 
-/// Hadamard matrix of a power of two, without its column of +1.
+/// Hadamard matrix whose order is a power of two, without its column of +1.
 Eigen::MatrixXd sylvester(Eigen::Index runs)
 {
     Eigen::MatrixXd hadamard = Eigen::MatrixXd::Ones(1, 1);
@@ -38,7 +38,7 @@ Eigen::MatrixXd sylvester(Eigen::Index runs)
         next << hadamard, hadamard, hadamard, -hadamard;
         hadamard = next;
     }
-    // Turned, so that the last row is the one without any factor, as in the cyclic designs.
+    // Reversed, so that the last row has all factors at -1, as in the cyclic designs.
     return -hadamard.rightCols(runs - 1).colwise().reverse();
 }
 

@@ -5,13 +5,13 @@
 namespace clepsydra::identification
 {
 
-/// Two-level design with orthogonal columns: entries -1 and +1, one row per run, one column per factor.
-/// Plackett & Burman, Biometrika 33, 305 (1946); the smallest of 4, 8, 12, 16, 20, 24 and 32 runs that holds the factors
-/// (powers of two by Sylvester's doubling); a full column of +1 is left out. More factors: several such designs one after the other, the
-/// factors of the others at -1.
+/// Two-level design with orthogonal columns: entries -1 and +1, one row per run, one column per factor. Plackett &
+/// Burman, Biometrika 33, 305 (1946); powers of two by Sylvester's doubling. The smallest of 4, 8, 12, 16, 20, 24 and
+/// 32 runs that has enough columns is taken. More than 31 factors are split over several designs, in each of which the
+/// factors of the others are at -1.
 Eigen::MatrixXd plackettBurman(Eigen::Index factors);
 
-/// How many rows that has.
+/// Number of runs of that design.
 Eigen::Index plackettBurmanRuns(Eigen::Index factors);
 
 } // namespace clepsydra::identification

@@ -9,17 +9,18 @@
 namespace clepsydra::identification
 {
 
-/// Parameters in sd of their priors, from the priors' means, and back, within their limits.
+/// Parameters standardised with their priors' means and standard deviations; `physical` converts back and clips to the
+/// parameters' ranges.
 Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters);
 Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds);
 
-/// Features of the simulations of one condition, a row each.
+/// Features of the simulations of one condition, one simulation per row.
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features);
 
-/// Repeats of one setting, as lists of numbers in `settings`.
+/// Groups of equal settings, as indices in `settings`.
 std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& settings);
 
-/// What was simulated, before the measuring chain.
+/// Setting and features of a run without the effects of the measuring chain.
 struct BeforeChain
 {
     Setting setting;

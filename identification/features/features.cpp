@@ -22,7 +22,7 @@ double logOfPositive(double value)
     return value > 0.0 ? std::log(value) : none;
 }
 
-//--- Masses that leave ----------------------------------------------------------------------------------------------
+//--- Discharged masses ----------------------------------------------------------------------------------------------
 
 double meanRate(const Curve& curve, double from, double to)
 {
@@ -47,7 +47,7 @@ double rateSlope(const Curve& curve, const Parameters& p)
     return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
 }
 
-//--- Positions of a particle --------------------------------------------------------------------------------------------
+//--- Positions of a particle ----------------------------------------------------------------------------------------
 
 double speedBetweenLevels(const Curve& curve, double from, double to)
 {
@@ -56,7 +56,7 @@ double speedBetweenLevels(const Curve& curve, double from, double to)
     return start < end ? std::abs(slopeBetween(curve, start, end)) : none;
 }
 
-/// Time at which a position is reached; none where the two rows around it lie further apart than `gap`.
+/// Time at which a position is reached; NaN if the two rows around it are farther apart than `gap`.
 double timeAtSeenLevel(const Curve& curve, double level, double gap)
 {
     const double time = timeAtLevel(curve, level);
@@ -65,13 +65,13 @@ double timeAtSeenLevel(const Curve& curve, double level, double gap)
     {
         return time;
     }
-    // the interpolated time may be past the last one by its rounding
+    // By rounding, the interpolated time may lie behind the last one.
     const std::size_t i = std::min(static_cast<std::size_t>(after), curve.value.size() - 1);
     return std::abs(curve.value[i] - curve.value[i - 1]) > gap ? none : time;
 }
 
-/// From the times of the two positions alone: where a track has gaps and the speed changes, a fit would follow the part
-/// that was seen.
+/// Mean speed from the times at the two positions alone. If a track has gaps and the speed changes, a fit would give
+/// the speed of the visible part.
 double logMeanSpeed(const Curve& curve, const Parameters& p)
 {
     const double start = timeAtSeenLevel(curve, p.at("from"), p.at("gap"));
@@ -79,7 +79,8 @@ double logMeanSpeed(const Curve& curve, const Parameters& p)
     return logOfPositive(std::abs(p.at("to") - p.at("from")) / (end - start));
 }
 
-/// Change of speed from the first half of the way to the second, as a logarithm: zero for a particle at terminal velocity.
+/// Log of the ratio of the speeds in the second and the first half of the way: zero for a particle at terminal
+/// velocity.
 double logSpeedRatio(const Curve& curve, const Parameters& p)
 {
     const double middle = (p.at("from") + p.at("to")) / 2;
@@ -87,7 +88,7 @@ double logSpeedRatio(const Curve& curve, const Parameters& p)
         speedBetweenLevels(curve, middle, p.at("to")) / speedBetweenLevels(curve, p.at("from"), middle));
 }
 
-/// Rows of the n-th contact: a minimum of the gap between two maxima. Found on the curve itself, without smoothing.
+/// Rows of all contacts. A contact is a minimum of the gap between two maxima; the curve is not smoothed.
 std::vector<std::size_t> contacts(const Curve& curve, double level)
 {
     std::vector<std::size_t> found;
@@ -105,7 +106,7 @@ std::vector<std::size_t> contacts(const Curve& curve, double level)
         }
         if (after + 1 < gap.size() && gap[after + 1] > gap[i])
         {
-            // Two minima without a rise between them are one contact.
+            // Two minima without a rise of the gap between them belong to one contact.
             const bool same =
                 !found.empty() && *std::max_element(gap.begin() + found.back(), gap.begin() + i) < 2.0 * level;
             if (!same)
@@ -146,7 +147,7 @@ double logBounceHeight(const Curve& curve, const Parameters& p)
     }
     const auto begin = curve.value.begin();
     const auto top = std::max_element(begin + f->begin, begin + f->end + 1);
-    // A rise that the record cuts off has no height.
+    // If the record ends during the rise, the height is unknown.
     return !f->complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
 }
 
@@ -156,7 +157,7 @@ double logBounceDuration(const Curve& curve, const Parameters& p)
     return f && f->complete ? logOfPositive(curve.time[f->end] - curve.time[f->begin]) : none;
 }
 
-/// Of the first contact.
+/// Time of the first contact; NaN if there is none.
 double timeOfImpact(const Curve& curve, double level)
 {
     const auto hits = contacts(curve, level);
@@ -177,8 +178,7 @@ double logReboundSpeed(const Curve& curve, const Parameters& p)
 
 //--- Any curve ------------------------------------------------------------------------------------------------------
 
-/// Time at which the curve passes a share of its largest value on the way to it, or after it; none where it does
-/// not.
+/// Time at which the curve passes a share of its largest value, before or after the maximum; NaN if it does not.
 double timeAtShare(const Curve& curve, double share, bool after)
 {
     const auto top = std::max_element(curve.value.begin(), curve.value.end());
@@ -221,10 +221,10 @@ std::map<std::string, FeatureKind> makeKinds()
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
             }},
-        {"logMeanSpeed", "log of the way between two positions over its time",
-            {start, end, {"gap", 1e30, "of the rows around an end, at most: a larger one has no time, SI units"}},
-            logMeanSpeed},
-        {"logSpeedRatio", "log of speed in the second half of the way over the first", {start, end}, logSpeedRatio},
+        {"logMeanSpeed", "log of the distance between two positions divided by the time between them",
+            {start, end, {"gap", 1e30, "largest distance of the two rows around a position, SI units"}}, logMeanSpeed},
+        {"logSpeedRatio", "log of the ratio of the speeds in the second and first half of the way", {start, end},
+            logSpeedRatio},
         {"logTimeToLevel", "log of the time until a position is reached", {{"level", none, "position, SI units"}},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(timeAtLevel(curve, p.at("level")) - curve.time.front());
@@ -232,10 +232,12 @@ std::map<std::string, FeatureKind> makeKinds()
         {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight},
         {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration},
         {"logImpactSpeed", "log of the speed before the first contact",
-            {level, {"before", none, "begin of the part, before contact [s]"}, {"until", none, "its end [s]"}},
+            {level, {"before", none, "beginning of the fitted part, before the contact [s]"},
+                {"until", none, "its end, before the contact [s]"}},
             logImpactSpeed},
         {"logReboundSpeed", "log of the speed after the first contact",
-            {level, {"from", none, "begin of the part, after contact [s]"}, {"after", none, "its end [s]"}},
+            {level, {"from", none, "beginning of the fitted part, after the contact [s]"},
+                {"after", none, "its end, after the contact [s]"}},
             logReboundSpeed},
         {"logValueAtTime", "log of the value at a time of the record", {{"time", none, "[s]"}},
             [](const Curve& curve, const Parameters& p) {

@@ -9,8 +9,8 @@
 namespace clepsydra::identification
 {
 
-/// A number taken from a curve. Features are of the order of a logarithm (a change by .01 is 1 %), so that one noise
-/// covariance serves all conditions; those that are not say so.
+/// A kind of number that is taken from a curve. Most kinds are logarithms (a change by 0.01 is 1 %), so that the same
+/// noise covariance holds in all conditions.
 struct FeatureKind
 {
     struct Parameter
@@ -25,9 +25,9 @@ struct FeatureKind
     std::string name;
     std::string meaning;
     std::vector<Parameter> parameters;
-    double (*value)(const Curve& curve, const Parameters& parameters); // NaN where the curve does not have it
+    double (*value)(const Curve& curve, const Parameters& parameters); // NaN if the curve does not have the feature
 
-    /// By its name's beginning.
+    /// Whether the feature is a logarithm, which its name begins with.
     bool isLog() const
     {
         return name.rfind("log", 0) == 0;
@@ -37,7 +37,7 @@ struct FeatureKind
 /// All kinds by name.
 const std::map<std::string, FeatureKind>& featureKinds();
 
-/// A feature of a study: a kind with its parameters filled in.
+/// A feature of a study: a kind with values of its parameters.
 struct Feature
 {
     std::string name;

@@ -5,14 +5,15 @@
 namespace clepsydra::identification
 {
 
-/// A smooth function of the conditions' coordinates through noisy residuals: what a discrepancy without a name would
-/// predict (Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 425 (2001)). Squared-exponential kernel, one length for all
-/// coordinates (each scaled by its spread), size and length at their most likely values on a grid.
+/// Gaussian process through noisy residuals as a function of the conditions' coordinates: the prediction of a
+/// discrepancy without a physical cause (Kennedy & O'Hagan, J. R. Stat. Soc. B 63, 425 (2001)). The kernel is squared
+/// exponential with one length for all coordinates, which are scaled by their standard deviations. Variance and length
+/// maximise the likelihood on a grid.
 class GaussianProcess
 {
 public:
-    /// \param coordinates  points by rows
-    /// \param values, noiseVariance  by point
+    /// \param coordinates  one point per row
+    /// \param values, noiseVariance  of each point
     GaussianProcess(
         const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& values, const Eigen::VectorXd& noiseVariance);
 
@@ -27,7 +28,7 @@ private:
     Eigen::RowVectorXd centre_;
     Eigen::RowVectorXd spread_;
     Eigen::MatrixXd points_;
-    Eigen::VectorXd weights_; // inverse covariance times values
+    Eigen::VectorXd weights_; // product of the inverse covariance and the values
     Eigen::MatrixXd inverse_;
     double variance_ = 0.0;
     double length_ = 1.0;

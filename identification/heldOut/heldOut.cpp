@@ -27,7 +27,7 @@ std::vector<Eigen::Index> logFeatures(const Study& study)
     return logs.empty() ? numbersWhere(study.featureCount(), [](Eigen::Index) { return true; }) : logs;
 }
 
-/// The smallest of the values that has at least this share of them at or below it.
+/// Quantile: the smallest of the values that at least this share of them does not exceed.
 double quantile(std::vector<double> values, double share)
 {
     std::sort(values.begin(), values.end());
@@ -45,7 +45,8 @@ Prediction predictionOf(const Eigen::MatrixXd& features, const Study& study, con
     return prediction;
 }
 
-/// Control 1: one operation on the curves with a free size, fitted together with the parameters, as if it were an effect.
+/// Control 1: one operation of the measuring chain, whose size is fitted together with the parameters as if it were an
+/// effect.
 struct FreeOperation
 {
     double size = 0.0;
@@ -84,8 +85,8 @@ Eigen::VectorXd coordinatesOf(const Study& study, std::size_t condition)
     return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 }
 
-/// Control 2: a Gaussian process through what the null leaves, feature by feature, over the conditions' coordinates; none
-/// where these are missing.
+/// Control 2: a Gaussian process through the residual of the null, feature by feature, over the conditions'
+/// coordinates; empty if conditions lack coordinates.
 std::optional<std::vector<Prediction>> withGaussianProcess(const Study& study, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<std::size_t>& conditions,
     std::vector<Prediction> predictions)
@@ -146,7 +147,7 @@ std::optional<std::vector<Prediction>> withGaussianProcess(const Study& study, c
     return predictions;
 }
 
-/// Everything that is scored on the held-out conditions, with the same draws of their noise.
+/// Scores all predictions on the held-out conditions with the same draws of the measurement noise.
 class Comparison
 {
 public:
@@ -256,7 +257,7 @@ private:
         compared_.push_back(predictionsOf(oneMore));
     }
 
-    /// What is compared is compared on the same numbers: those that all predict.
+    /// All predictions are compared on the same features: those that were measured and that all of them predict.
     void findScored()
     {
         for (std::size_t i = 0; i < result_.conditions.size(); ++i)
@@ -304,7 +305,7 @@ private:
         }
     }
 
-    /// What noise alone does to the error of a prediction: one whose mean is what was measured, moved by the draws.
+    /// Error from noise alone: that of a prediction whose mean equals the measured one.
     void findNoise()
     {
         auto right = result_.after ? result_.predictedAfter : result_.predictedBefore;
@@ -333,15 +334,15 @@ private:
         }
         if (!isBeyondItsError(result_.improvement))
         {
-            reasons.emplace_back("the error does not fall beyond chance");
+            reasons.emplace_back("the error does not fall significantly");
         }
         if (!isBeyondItsError(result_.overOneMore))
         {
-            reasons.emplace_back("one more free parameter does as well");
+            reasons.emplace_back("one more free parameter predicts as well");
         }
         if (result_.after->rmsLogError.value > result_.noiseLimit)
         {
-            reasons.emplace_back("the error that is left is more than noise");
+            reasons.emplace_back("the remaining error is larger than noise");
         }
     }
 
@@ -351,7 +352,7 @@ private:
         return estimate.value > sds * estimate.standardError;
     }
 
-    /// Of two rms errors, draw by draw, so that what they share does not count.
+    /// Difference of two rms errors. Its standard error is taken draw by draw, so that noise common to both cancels.
     static Estimate difference(const Scored& larger, const Scored& smaller)
     {
         const auto drawsOf = [](const Scored& one) {
@@ -370,7 +371,7 @@ private:
     std::mt19937_64& random_;
     std::vector<std::vector<Prediction>> compared_; // of the null, the members of the set, control 1
     std::vector<std::vector<Eigen::Index>> scored_; // features, by condition
-    std::vector<std::string> unpredicted_;          // what was measured and is not scored
+    std::vector<std::string> unpredicted_;          // measured features that are not scored
     std::vector<Eigen::MatrixXd> noise_;            // of the measurements
     Scored before_;
     Scored after_;

@@ -13,20 +13,20 @@
 namespace clepsydra::identification
 {
 
-/// Before and after on conditions that no fit has seen.
+/// Errors on held-out conditions, which no fit has seen, without and with the effect.
 struct HeldOutResult
 {
-    HeldOutScore before;               // the null, refitted
-    std::optional<HeldOutScore> after; // the best explanation; none where there is none
-    HeldOutScore oneMoreParameter;     // control 1: the null with one more free parameter
-    /// Control 2: the null with a discrepancy without a name; none where conditions have no coordinates.
+    HeldOutScore before;               // null fit
+    std::optional<HeldOutScore> after; // best explanation, if there is one
+    HeldOutScore oneMoreParameter;     // control 1: null fit with one more free parameter
+    /// Control 2: null fit with a Gaussian process on its residual; empty if conditions lack coordinates.
     std::optional<HeldOutScore> gaussianProcess;
     std::vector<HeldOutScore> members; // of Answer::set
-    Estimate improvement;              // of the rms error, before minus after, with the noise they share
-    Estimate overOneMore;              // the same, control 1 minus after
-    double noiseFloor = 0.0;           // rms error that noise alone would give
-    double noiseLimit = 0.0;           // 99 % of right predictions have a smaller one
-    double oneMoreAmplitude = 0.0;     // what control 1 fitted
+    Estimate improvement;              // rms error before minus after
+    Estimate overOneMore;              // rms error of control 1 minus after
+    double noiseFloor = 0.0;           // expected rms error from noise alone
+    double noiseLimit = 0.0;           // 99 % quantile of the rms error from noise alone
+    double oneMoreAmplitude = 0.0;     // fitted size of control 1
     std::vector<std::string> notAcceptedBecause;
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
@@ -34,16 +34,17 @@ struct HeldOutResult
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
 
-    /// Whether the best explanation may enter the model: it is a name, the error falls and is smaller than with one more
-    /// free parameter, both beyond chance (one-sided, at the study's level), and reaches the noise.
+    /// Whether the effect may enter the model: it is the only explanation, its error is significantly smaller than both
+    /// that of the null and that of one more free parameter (one-sided, at the study's level), and is no larger than
+    /// noise.
     bool accepted() const
     {
         return after && notAcceptedBecause.empty();
     }
 };
 
-/// Simulates the held-out conditions with fresh seeds and holds that against their measurements.
-/// \param training, heldOut  what was measured, by condition of the study
+/// Simulates the held-out conditions with seeds of their own and compares the results with the measurements.
+/// \param training, heldOut  measurements, by condition of the study
 HeldOutResult evaluateHeldOut(StudySimulator& studySimulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,
     std::mt19937_64& random);

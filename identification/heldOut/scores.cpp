@@ -29,7 +29,7 @@ double sdOf(const std::vector<double>& values)
     return std::sqrt((all - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
 }
 
-/// Root mean square error and mean CRPS with the measured and predicted means moved.
+/// Root mean square error and mean CRPS after shifts of the measured and of the predicted means.
 std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
     const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::VectorXd>& dataShift,
     const std::vector<Eigen::VectorXd>& predictionShift)

@@ -13,10 +13,10 @@ namespace clepsydra::identification
 namespace
 {
 
-/// A share of the variance that is worth a run.
+/// Share of the emulator's variance in the variance of the measurements above which a run is made.
 constexpr double worthARun = 0.01;
 
-/// What is expected of the contenders in one condition.
+/// Predictions of the contenders in one condition.
 class Expectation
 {
 public:
@@ -35,7 +35,7 @@ public:
         differences_ = unknown_;
     }
 
-    /// How much the divergences from the others rise by a run of this contender.
+    /// Increase of the divergence from the other contenders by one run of this contender.
     double gain(std::size_t i) const
     {
         const Eigen::MatrixXd after = afterRun(i);
@@ -51,14 +51,15 @@ public:
         return sum;
     }
 
-    /// What is not known of a contender, over the errors of what was measured; variances, the mean of all features.
+    /// Variance of the emulator's error for a contender divided by that of the measurements, averaged over the
+    /// features.
     double openShare(std::size_t i) const
     {
         return data_[i].llt().solve(unknown_[i]).trace() / static_cast<double>(data_[i].rows());
     }
 
-    /// How far features at some setting are from those of a contender, over the errors of what was measured; squares, the
-    /// mean of all features.
+    /// Squared distance of some features from those of a contender in units of the measurements' errors, averaged over
+    /// the features.
     double distance(std::size_t i, const Eigen::VectorXd& mean) const
     {
         const Eigen::VectorXd apart = mean - means_[i];
@@ -76,7 +77,8 @@ private:
         return unknown_[i] - unknown_[i] * (unknown_[i] + runs_[i]).llt().solve(unknown_[i]);
     }
 
-    /// Of data of i against j; the difference of their means is uncertain by what was not known at first.
+    /// Expected divergence of data of contender i from contender j. The uncertainty of the difference of their means is
+    /// the initial one.
     double divergence(std::size_t i, std::size_t j, const Eigen::MatrixXd& unknown) const
     {
         const Eigen::VectorXd difference = means_[i] - means_[j];
@@ -86,14 +88,14 @@ private:
 
     const std::vector<Contender>& contenders_;
     std::vector<Eigen::VectorXd> means_;
-    std::vector<Eigen::MatrixXd> unknown_;     // covariance that the emulator has now
-    std::vector<Eigen::MatrixXd> differences_; // and had at first
-    std::vector<Eigen::MatrixXd> runs_;        // noise of a run
-    std::vector<Eigen::MatrixXd> data_;        // of the mean of the measurements
+    std::vector<Eigen::MatrixXd> unknown_;     // covariance of the emulator's error after the chosen runs
+    std::vector<Eigen::MatrixXd> differences_; // covariance of the emulator's error at first
+    std::vector<Eigen::MatrixXd> runs_;        // noise covariance of one run
+    std::vector<Eigen::MatrixXd> data_;        // covariance of the mean of the measurements
 };
 
-/// Effects of a contender as they are in a run, those of the measuring chain as they are in the contender; none where not the
-/// same effects are on.
+/// The effects of a contender with the amplitudes of a run (those of the measuring chain with the contender's own);
+/// empty if the run has other effects.
 std::optional<std::vector<Present>> simulatedAs(
     const std::vector<Present>& present, const ConditionEmulator& here, const Setting& setting)
 {

@@ -13,10 +13,10 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Runs of one explanation in one condition, each at another draw of what it leaves open.
+/// Number of runs of one explanation in one condition, each with parameters and amplitude drawn from the fit.
 constexpr int draws = 4;
 
-/// A setting that the data allow for an explanation.
+/// A setting drawn from the fit of an explanation.
 Setting drawn(const Study& study, const Explanation& explanation, std::mt19937_64& random)
 {
     std::normal_distribution<double> normal;
@@ -74,7 +74,7 @@ std::vector<NextExperiment> nextExperiments(
     {
         sum += std::exp(explanation.logOdds - left.front().logOdds);
     }
-    Eigen::ArrayXd common = Eigen::ArrayXd::Zero(study.featureCount()); // what repeats do not show, at most
+    Eigen::ArrayXd common = Eigen::ArrayXd::Zero(study.featureCount()); // largest variance that repeats do not show
     for (const auto& block : answer.layout.blocks)
     {
         const auto& features = (*answer.emulator)[block.condition]->features;
@@ -101,7 +101,7 @@ std::vector<NextExperiment> nextExperiments(
             }
             const auto rows = featureRows(studySimulator.run(orders), condition, study.featureCount());
             const Eigen::VectorXd mean = meanFeatures(rows);
-            // The runs differ by their own noise and by what the explanation leaves open; the larger counts.
+            // The spread contains the noise of the runs, which it must not fall below.
             const Eigen::ArrayXd spread =
                 (rows.rowwise() - mean.transpose()).array().square().colwise().sum().transpose() / (draws - 1);
             const Eigen::ArrayXd noise = answer.layout.noise.diagonal().array();

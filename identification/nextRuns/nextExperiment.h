@@ -11,31 +11,31 @@
 namespace clepsydra::identification
 {
 
-/// What an explanation predicts for a condition.
+/// Prediction of one explanation for a condition.
 struct PredictedOutcome
 {
     std::string name;
     double probability = 0.0;
     Eigen::VectorXd features;
-    Eigen::VectorXd sd; // of one measurement and the prediction
+    Eigen::VectorXd sd; // standard deviation of one measurement, including that of the prediction
 };
 
-/// A condition that could be measured next.
+/// A candidate condition for the next measurement.
 struct NextExperiment
 {
     std::size_t condition = 0;
-    double separation = 0.0; // sum over pairs of p_i p_j KL(i, j): how well one measurement would decide
-    double perCost = 0.0;
+    double separation = 0.0; // sum of p_i p_j divergence(i, j) over all pairs of explanations
+    double perCost = 0.0;    // separation divided by the condition's cost
     std::vector<PredictedOutcome> outcomes;
 };
 
-/// Divergence of two normal predictions, feature by feature, the mean of both directions; features that either lacks are
-/// left out.
+/// Kullback-Leibler divergence of two normal predictions, averaged over both directions and summed over the features.
+/// Features that one prediction lacks are left out.
 double divergence(const PredictedOutcome& a, const PredictedOutcome& b);
 
-/// Simulates every candidate condition with each explanation that is left, at draws of what it leaves open of its
-/// amplitude and the parameters, and orders them by what one measurement would decide for its cost, best first. Without a set of at
-/// least two, what is compared is no effect against the best.
+/// Simulates each candidate condition with each explanation of the set, with parameters and amplitudes drawn from the
+/// fits, and sorts the conditions by separation per cost, best first. If the set has fewer than two members, the null
+/// fit is compared with the single member; an empty set gives no candidates.
 std::vector<NextExperiment> nextExperiments(
     StudySimulator& studySimulator, const Answer& answer, std::mt19937_64& random);
 

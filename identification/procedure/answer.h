@@ -12,61 +12,61 @@ namespace clepsydra::identification
 
 enum class Decision
 {
-    noResidual, // nothing beyond noise
-    named,      // one effect, or one family of variants, is left
-    set,        // several that the data cannot distinguish
-    unknown     // a residual that the library does not explain
+    noResidual, // no residual beyond noise
+    named,      // one effect, or one family of variants, explains the residual
+    set,        // several effects explain the residual, and the data cannot distinguish them
+    unknown     // no effect of the library explains the residual
 };
 
 std::string nameOf(Decision decision);
 
-/// What was found about one effect of the library, taken by itself.
+/// Result for one effect of the library by itself.
 struct EffectFinding
 {
     Fit fit;
-    Eigen::VectorXd parameters; // physical values that go with it
-    double logOdds = 0.0;       // against no effect, prior weight included
-    double probability = 0.0;   // given that there is something
-    double threshold = 0.0;     // of the probability, from which it belongs to the set
-    bool known = true;          // otherwise its runs have failed, and nothing is said of it
+    Eigen::VectorXd parameters; // fitted physical values
+    double logOdds = 0.0;       // against no effect, including the prior weight
+    double probability = 0.0;   // given that there is a cause
+    double threshold = 0.0;     // smallest probability at which it belongs to the set
+    bool known = true;          // false if all its runs have failed
     bool inSet = false;
 };
 
-/// One explanation: no effect, one or two, with the setting that predicts with it.
+/// One explanation: no effect, one or two effects, with the setting that fits best.
 struct Explanation
 {
     std::vector<std::size_t> effects;
     Setting setting;
     std::vector<Fit> fits;    // by effect
     double logOdds = 0.0;     // against no effect
-    double probability = 0.0; // given that there is something; of two effects: that no single one explains
+    double probability = 0.0; // given that there is a cause; for a pair, given that no single effect explains the data
     double chiSquare = 0.0;
-    std::vector<Run> runs; // with it switched on, where its fits were, one after the other; empty: it was not simulated
+    std::vector<Run> runs; // runs with these effects, at the fits of all rounds; empty if there are none
 };
 
-/// "effect" or "effect with other effect", or "no effect"
+/// Name of an explanation: "no effect", "effect", or "effect with other effect".
 std::string nameOf(const Study& study, const std::vector<std::size_t>& effects);
 
-/// All that the training data say. Held-out data have no part in it.
+/// Result of the training data. Held-out data do not enter it.
 struct Answer
 {
     Decision decision = Decision::noResidual;
     std::vector<Explanation> set;    // best first
-    bool somethingElseInSet = false; // beside them
-    std::string family;              // where all members are variants of one thing
+    bool unlistedCauseInSet = false; // whether the set also contains an unlisted cause
+    std::string family;              // common family of all members, if there is one
     double pValue = 1.0;
-    double logOdds = 0.0;          // of anything against no effect
-    double otherProbability = 0.0; // beside single effects
-    double otherBesideSet = 0.0;   // among what the set's probabilities are among: the same, or beside pairs
-    double otherThreshold = 0.0;
-    Explanation null;                   // refitted parameters, no effect
-    std::vector<EffectFinding> effects; // as in the study
+    double logOdds = 0.0;          // of any cause against no effect
+    double otherProbability = 0.0; // of an unlisted cause beside single effects
+    double otherBesideSet = 0.0;   // of an unlisted cause beside the kind of the set's members: single effects or pairs
+    double otherThreshold = 0.0;   // smallest probability at which an unlisted cause belongs to the set
+    Explanation null;              // null fit: no effect
+    std::vector<EffectFinding> effects; // in the study's sequence
     Calibration calibration;
-    Visibility visibility; // what these data could have shown
+    Visibility visibility; // effects that these data could have shown
     std::shared_ptr<const Emulator> emulator;
     Layout layout;
     Measured measured;
-    std::vector<std::string> remarks; // what had to be left out or could not be done
+    std::vector<std::string> remarks; // features and effects that were left out, and why
 };
 
 } // namespace clepsydra::identification

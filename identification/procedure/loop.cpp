@@ -22,7 +22,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Repeats that a plan counts on where nothing has been measured yet.
+/// Number of repeats that a plan assumes for conditions that have not been measured yet.
 constexpr Eigen::Index plannedRepeats = 3;
 
 std::vector<MeasuredCondition> measurementsOf(const Study& study, Role role)
@@ -42,13 +42,13 @@ void requireMeasurements(const Study& study)
         if (condition.role != Role::candidate && condition.measured.empty())
         {
             throw std::runtime_error(study.file.string() + ": condition '" + condition.name
-                                     + "' has no 'measured': 'traceResidual plan' is for studies without data, "
-                                       "'role: candidate' for what is not measured yet");
+                                     + "' has no 'measured'; 'traceResidual plan' is for studies without data, "
+                                       "'role: candidate' for a condition that is not measured yet");
         }
     }
 }
 
-/// What would be reported only when the whole library has run.
+/// Finds missing errors before the library runs; without this check they would be found after it.
 void requireNoise(const Study& study, const std::vector<MeasuredCondition>& training)
 {
     const auto conditions = study.conditionsOf(Role::training);
@@ -59,13 +59,14 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
     }
 }
 
-/// Runs after the library: where they decide, held-out conditions, candidates.
-/// \param rounds, ofPairs  where runs do not scatter: each makes, in each condition, a fit and its neighbours
+/// Number of runs for one data set after the library: deciding runs, held-out conditions, candidates.
+/// \param rounds, ofPairs  numbers of rounds for single effects and for pairs if runs do not scatter; each round
+///     simulates, in each condition, a fit and its neighbours
 int runsPerDataSet(const Study& study, int rounds, int ofPairs)
 {
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
-    constexpr int predictions = 3; // of the null, of the best explanation, of one more parameter
-    constexpr int outcomes = 8;    // of two explanations, four draws each
+    constexpr int predictions = 3; // null fit, best explanation, one more parameter
+    constexpr int outcomes = 8;    // four draws for each of two explanations
     const bool isExact = study.simulator.seedEntry.empty();
     const int fit = 2 + static_cast<int>(study.parameters.size());
     const int deciding = study.settings.decidingRuns;
@@ -82,16 +83,17 @@ void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& study
     const int usual = runsPerDataSet(study, 2, 0);
     const int most = runsPerDataSet(study, 8, 4);
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
-        << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s a run"
-        << (simulator.measuredSecondsPerRun() ? "" : ", assumed: 'traceResidual plan --time' makes one and times it")
+        << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s per run"
+        << (simulator.measuredSecondsPerRun() ? "" : ", an assumption: 'traceResidual plan --time' measures it")
         << ")\n"
-        << "each data set: about " << usual << " runs more, " << clockTime(usual * seconds)
-        << (most > usual ? ", up to some " + std::to_string(most) + " where no single effect explains the data" : "")
+        << "each data set: about " << usual << " further runs, " << clockTime(usual * seconds)
+        << (most > usual ? ", up to about " + std::to_string(most) + " if no single effect explains the data" : "")
         << '\n'
         << "budget: " << study.settings.budget << " runs" << std::endl;
 }
 
-/// Data that are not there yet: exactly at the base, as many repeats as there are files, or as are planned.
+/// Data for a plan: their mean is that of the runs at the base setting, and their scatter and number of repeats are
+/// those of the measurements, if there are any.
 std::vector<MeasuredCondition> plannedData(
     const Study& study, const Library& library, const std::vector<MeasuredCondition>& measured)
 {
@@ -114,7 +116,7 @@ std::vector<MeasuredCondition> plannedData(
         data[c].declaredError = isMeasured ? measured[c].declaredError : Eigen::VectorXd::Zero(study.featureCount());
         if (isMeasured)
         {
-            // The scatter that was measured, about the base.
+            // The measured scatter, with the mean of the base setting.
             const Eigen::RowVectorXd mean = meanFeatures(measured[c].features).transpose();
             data[c].features += measured[c].features.rowwise() - mean;
         }
@@ -134,14 +136,15 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     StudySimulator studySimulator(study, simulator);
     if (time && !simulator.measuredSecondsPerRun())
     {
-        // The library needs it anyway.
+        // The run is one of the library's.
         studySimulator.run({libraryOrders(studySimulator).front()});
     }
     sayCost(study, simulator, studySimulator, out);
     checkMagnitudes(studySimulator, measured, execute);
     if (!execute && studySimulator.missing(libraryOrders(studySimulator)) > 0)
     {
-        out << "what is detectable needs the library: 'traceResidual plan --execute' makes its runs" << std::endl;
+        out << "The detectable effects follow from the library; 'traceResidual plan --execute' makes its runs."
+            << std::endl;
         return;
     }
     std::mt19937_64 random(study.settings.seed);
@@ -178,7 +181,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     Findings findings{&study, &answer, nullptr, &next, &studySimulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
     progress << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
-             << (folder / "answer.json").string() << ", held-out values are looked at now" << std::endl;
+             << (folder / "answer.json").string() << "; the held-out measurements are read now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);
     const HeldOutResult heldOut = evaluateHeldOut(studySimulator, library, answer, training, heldOutData, random);

@@ -6,17 +6,20 @@
 namespace clepsydra::identification
 {
 
-/// Says what can be reported from data of this study before there are any, and what it costs.
-/// \param execute  make the runs of the effect library; otherwise only those that are stored are used, and where some are
-///     missing the plan ends with their number and time
-/// \param time  make one run for the cost, where none has been timed
+/// Reports which effects data of this study can show, before there are data, and what the runs cost.
+/// \param execute  make the runs of the effect library; otherwise only stored runs are used, and if some are missing,
+///     only their number and time are reported
+/// \param time  make one run to measure its time, if none has been timed
+/// \throws StudyError or std::runtime_error for a wrong study file, unreadable measurements or failed runs
 void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::ostream& out);
 
-/// From a study file to report.json and report.html in `folder`. The order of the steps is what keeps it honest: the
-/// answer is on disk before the held-out measurements are opened.
+/// Processes a study file and writes report.json and report.html into `folder`. The answer is written to answer.json
+/// before the held-out measurements are read, so that these cannot influence it.
+/// \throws StudyError or std::runtime_error for a wrong study file, unreadable measurements or failed runs
 void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress);
 
-/// The same from the stored runs alone. \throws std::runtime_error where one is missing; the report is as before then
+/// Writes the reports again from stored runs alone. \throws std::runtime_error if a run is missing; the old reports
+/// stay then
 void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder);
 
 } // namespace clepsydra::identification

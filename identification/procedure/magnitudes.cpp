@@ -30,7 +30,7 @@ void compare(const Study& study, const MeasuredCondition& data, const Simulation
                 study.file.string() + ": condition '" + study.conditions[simulation.condition].name + "': " + what
                 + " is " + textOf(measured) + " measured and " + textOf(simulated)
                 + " in the first run of the baseline (SI units). Are unit and column right, in 'measured' and in "
-                  "'observable'? Where so large a difference is meant, give the study a magnitudeLimit above "
+                  "'observable'? If so large a difference is intended, give the study a magnitudeLimit above "
                 + textOf(study.magnitudeLimit));
         }
     };
@@ -43,7 +43,7 @@ void compare(const Study& study, const MeasuredCondition& data, const Simulation
     {
         if (study.features[f].kind->isLog())
         {
-            compareNumbers("feature '" + study.features[f].name + "', its logarithm undone,", std::exp(features(f)),
+            compareNumbers("the exponential of feature '" + study.features[f].name + "'", std::exp(features(f)),
                 std::exp(simulation.features(f)));
         }
     }
@@ -57,7 +57,7 @@ void checkMagnitudes(StudySimulator& studySimulator, const std::vector<MeasuredC
     std::vector<SimulationOrder> orders;
     for (const auto c : study.conditionsOf(Role::training))
     {
-        // The same run as the library's first.
+        // The seed is that of the library's first run, so that the run is made once.
         const SimulationOrder order{c, studySimulator.plainSetting(), checkOfUnits, 0, "base"};
         if (data[c].features.rows() > 0 && (execute || studySimulator.missing({order}) == 0))
         {

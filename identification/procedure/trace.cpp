@@ -15,17 +15,18 @@ namespace clepsydra::identification
 namespace
 {
 
-/// The first round goes to the null fit, the others to the fits of the explanations that lead.
+/// The first round simulates the null fit, the others the fits of the leading explanations.
 constexpr int rounds = 3;
 
-/// Where runs do not scatter, one at each fit is enough, and the next fit is nearer: rounds until nothing is open any more.
+/// If runs do not scatter, one run at each fit is enough, and each round brings the fits closer to the truth. These are
+/// the largest numbers of rounds.
 constexpr int roundsOfExact = 9;
 constexpr int pairRoundsOfExact = 4;
 
-/// How many explanations get runs, beside no effect.
+/// Largest number of explanations that get runs, in addition to no effect.
 constexpr std::size_t mostContenders = 4;
 
-/// Weight of no effect among the contenders: whether there is anything must be decided, too.
+/// Weight of no effect among the contenders, because the runs must also decide whether there is a residual.
 constexpr double nullWeight = 0.3;
 
 class Tracing
@@ -68,7 +69,7 @@ public:
     }
 
 private:
-    /// The emulator of all runs so far.
+    /// Builds the emulator of all runs made so far.
     void learn()
     {
         answer_.emulator = std::make_shared<Emulator>(study_, studySimulator_, runs_, features_);
@@ -142,12 +143,12 @@ private:
         for (std::size_t i = 0; i < std::min(mostContenders, order.size()); ++i)
         {
             const auto& [log, e] = order[i];
-            if (log < order.front().first - hopeless || !std::isfinite(log))
+            if (log < order.front().first - negligibleLogOdds || !std::isfinite(log))
             {
                 break;
             }
             const Fit fit = evidence.fit(e, answer_.measured);
-            // The root of the odds: what is behind by chance must get its runs, too.
+            // The square root of the odds, so that an explanation that is behind by chance gets runs too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
             if (i == 0 && !answer_.emulator->scatters())
             {
@@ -157,8 +158,8 @@ private:
         return simulateAmong(contenders, "deciding, round " + std::to_string(round));
     }
 
-    /// The last contender with each number that was fitted moved by its error: runs there tell the slopes, which the next fit
-    /// needs.
+    /// Adds copies of the last contender, in each of which one fitted quantity is changed by its standard error. Runs
+    /// there give the slopes for the next fit.
     void addNeighbours(std::vector<Contender>& contenders, const std::vector<Fit>& fits) const
     {
         const Contender centre = contenders.back();
@@ -183,7 +184,7 @@ private:
         }
     }
 
-    /// Runs where they distinguish contenders.
+    /// Makes the runs that distinguish the contenders best. \return whether any run has succeeded
     bool simulateAmong(const std::vector<Contender>& contenders, const std::string& purpose)
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
@@ -200,7 +201,7 @@ private:
         return !orders.empty() && simulate(orders);
     }
 
-    /// Two effects at once, where no single one explains the data.
+    /// Tries pairs of effects if no single effect explains the data.
     void tryPairs(const Eigen::VectorXd& around)
     {
         const bool isExact = !answer_.emulator->scatters();
@@ -249,15 +250,15 @@ private:
             {
                 answer_.remarks.push_back(
                     nameOf(study_, found.effects)
-                    + " might make what was measured, but no run near its fit shows it: the runs that were made "
-                      "have led on to other fits");
+                    + " might explain the measurements, but no run near its fit confirms it: each run that was made "
+                      "has moved the fit");
             }
         }
         if (!answer_.set.empty())
         {
             const bool isName = mayBeNamed(study_, pairs);
             answer_.decision = isName ? Decision::named : Decision::set;
-            answer_.somethingElseInSet = !isName;
+            answer_.unlistedCauseInSet = !isName;
             answer_.family = isName && answer_.set.size() > 1 ? sharedName(study_, pairs) : "";
         }
     }
@@ -305,12 +306,11 @@ private:
         }
         if (withVisibility_)
         {
-            // With draws of its own: what is looked at must not change what is decided.
+            // A copy of the random generator, so that the visibility does not change the decision.
             std::mt19937_64 own = random_;
             answer_.visibility = visibility(study_, evidence, replicas, calibration, measured, own);
         }
-        const auto& said = answer_.emulator->remarks();
-        answer_.remarks.insert(answer_.remarks.end(), said.begin(), said.end());
+        append(answer_.remarks, answer_.emulator->remarks());
         if (!isDetected(study_, calibration, odds))
         {
             return;
@@ -322,12 +322,12 @@ private:
             answer_.set.push_back(
                 explanation({{e, finding.fit.amplitude}}, {finding.fit}, finding.logOdds, finding.probability));
         }
-        answer_.somethingElseInSet = odds.other >= calibration.otherMembership;
+        answer_.unlistedCauseInSet = odds.other >= calibration.otherMembership;
         const auto sole = soleMember(study_, calibration, odds);
         if (answer_.set.empty())
         {
             answer_.decision = Decision::unknown;
-            answer_.somethingElseInSet = true;
+            answer_.unlistedCauseInSet = true;
         }
         else if (sole && marginOf(study_, odds, *sole) >= calibration.naming(*sole))
         {
@@ -337,12 +337,12 @@ private:
         else
         {
             answer_.decision = Decision::set;
-            // One member that is no name: others cannot be ruled out.
-            answer_.somethingElseInSet = answer_.somethingElseInSet || sole.has_value();
+            // A single member that may not be named: an unlisted cause cannot be excluded.
+            answer_.unlistedCauseInSet = answer_.unlistedCauseInSet || sole.has_value();
         }
     }
 
-    /// \param fits  which share their parameters
+    /// \param fits  of the effects; their parameters are equal
     Explanation explanation(
         const std::vector<Present>& present, const std::vector<Fit>& fits, double logOdds, double probability) const
     {

@@ -10,9 +10,10 @@
 namespace clepsydra::identification
 {
 
-/// From training data to an answer: emulator, evidence, runs where they decide, calibration, decision.
-/// \param data  by condition; only training conditions are looked at
-/// \param withVisibility  whether to find what these data could have shown, too
+/// Finds the cause of the residual from training data: emulator, evidence, deciding runs, calibration, decision.
+/// \param data  by condition of the study; only training conditions are read
+/// \param withVisibility  whether the answer also says which effects these data could have shown
+/// \throws std::runtime_error if all runs at the null fit fail, or if the noise cannot be estimated
 Answer trace(StudySimulator& studySimulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random, bool withVisibility = false);
 

@@ -9,16 +9,16 @@
 namespace clepsydra::identification
 {
 
-/// Everything that is known when a report is written.
+/// All results that a report is written from.
 struct Findings
 {
     const Study* study = nullptr;
     const Answer* answer = nullptr;
-    const HeldOutResult* heldOut = nullptr; // not there before the answer is written
+    const HeldOutResult* heldOut = nullptr; // null while the answer is written
     const std::vector<NextExperiment>* next = nullptr;
     const StudySimulator* studySimulator = nullptr;
-    const std::vector<MeasuredCondition>* data = nullptr;        // of training conditions
-    const std::vector<MeasuredCondition>* heldOutData = nullptr; // not there before the answer is written
+    const std::vector<MeasuredCondition>* data = nullptr;        // of the training conditions
+    const std::vector<MeasuredCondition>* heldOutData = nullptr; // null while the answer is written
 };
 
 } // namespace clepsydra::identification

@@ -11,7 +11,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// All numbers of a run's entries.
+/// All entries of a run that are numbers.
 Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_t condition, const Setting& setting)
 {
     Entries all = studySimulator.entriesOf(condition, setting);
@@ -20,7 +20,7 @@ Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_
     return numbersOf(all);
 }
 
-/// The first training condition where an effect acts; its entries are shown.
+/// The first training condition in which an effect acts; the entries of that condition are shown.
 std::size_t shownCondition(const Study& study, const Effect* effect)
 {
     const auto trained = study.conditionsOf(Role::training);
@@ -46,13 +46,13 @@ Eigen::VectorXd parameterErrors(const Study& study, const Explanation& explanati
     return errors;
 }
 
-/// An amplitude moved by its error, inwards: formulas hold there.
+/// An amplitude changed by its error towards 0, where the formulas are certainly defined.
 double movedInwards(double amplitude, double error)
 {
     return amplitude > 0.0 ? amplitude - error : amplitude + error;
 }
 
-/// An entry where an explanation fits, its error to first order from those of parameters and amplitudes.
+/// An entry at the fit of an explanation. Its error follows to first order from those of parameters and amplitudes.
 Estimate entryAt(const StudySimulator& studySimulator, std::size_t condition, const std::string& entry,
     const Explanation& explanation)
 {
@@ -138,7 +138,7 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
     return all;
 }
 
-std::string sizeInWords(const Findings& findings, const Explanation& explanation)
+std::string describeSize(const Findings& findings, const Explanation& explanation)
 {
     const Study& study = *findings.study;
     if (explanation.effects.size() != 1 || study.effects[explanation.effects.front()].isSwitch)

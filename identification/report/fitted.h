@@ -10,20 +10,21 @@
 namespace clepsydra::identification
 {
 
-/// A number that the measurements have fixed, in the units of the user's case.
+/// A quantity fitted to the measurements, in the units of the user's case.
 struct FittedNumber
 {
-    std::string name; // of a parameter, of an entry of the case, of an operation of the measuring chain
-    std::string unit; // where it is known
-    std::optional<Estimate> independent; // a parameter's prior
-    Estimate before;                     // without any effect
+    std::string name;                    // of a parameter, an entry of the case, or an operation of the measuring chain
+    std::string unit;                    // empty if it is not known
+    std::optional<Estimate> independent; // independent measurement: the prior of a parameter
+    Estimate before;                     // without an effect
     std::optional<Estimate> after;       // with the best explanation
 };
 
-/// Parameters, what they set by a formula, and what the best explanation sets, in the first condition where it acts.
+/// The parameters, the entries that follow from them by a formula, and the entries that the best explanation sets in
+/// the first condition in which it acts.
 std::vector<FittedNumber> fittedNumbers(const Findings& findings);
 
-/// How large the effect is that a fit has found, in a few words: "particleDiameter 3 % larger"; empty for a switch.
-std::string sizeInWords(const Findings& findings, const Explanation& explanation);
+/// Size of a fitted effect as text: "particleDiameter 3 % larger"; empty for a switch.
+std::string describeSize(const Findings& findings, const Explanation& explanation);
 
 } // namespace clepsydra::identification

@@ -64,7 +64,7 @@ std::string cell(const std::string& text, bool isNumber = false)
 
 //--- Curves ---------------------------------------------------------------------------------------------------------
 
-/// Mean and extent of curves on a common axis of time.
+/// Mean and range of several curves at common times.
 struct Bundle
 {
     std::vector<double> time;
@@ -115,7 +115,8 @@ void draw(Plot& plot, const Bundle& bundle, const char* line, const char* band, 
     }
 }
 
-/// Curves of one condition: measured, without any effect, with the best explanation. Empty where there are none.
+/// Plot of one condition: measured curves, and simulated curves without an effect and with the best explanation. Empty
+/// if there are no curves.
 std::string curvePlot(const Study& study, std::size_t condition, const std::vector<Simulation>& before,
     const std::vector<Simulation>& after, const std::vector<Curve>& measured)
 {
@@ -126,13 +127,13 @@ std::string curvePlot(const Study& study, std::size_t condition, const std::vect
         return "";
     }
     Plot plot(study.conditions[condition].name, "time [s]", study.valueColumn);
-    // The measured curves first: what lies on them must be seen.
+    // The measured curves are drawn first, so that they do not cover the simulated ones.
     for (std::size_t i = 0; i < measured.size(); ++i)
     {
         plot.line(measured[i].time, measured[i].value, measuredStyle, i == 0 ? "measured" : "");
     }
     draw(plot, without, beforeStyle, beforeBand, "without effect");
-    draw(plot, with, afterStyle, afterBand, "with it");
+    draw(plot, with, afterStyle, afterBand, "with effect");
     return plot.svg();
 }
 
@@ -170,10 +171,8 @@ std::string heldOutCurves(const Findings& findings)
 std::string residualTable(const Json& report)
 {
     std::ostringstream html;
-    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured - simulated, without any "
-            "effect</th><th "
-            "class=\"n\">standard "
-            "error</th><th class=\"n\">in standard errors</th></tr>\n";
+    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured minus simulated, without an "
+            "effect</th><th class=\"n\">standard error</th><th class=\"n\">in standard errors</th></tr>\n";
     for (const auto& condition : report.at("residual"))
     {
         for (const auto& [name, value] : condition.at("measuredMinusSimulated").items())
@@ -207,7 +206,7 @@ std::string effectTable(const Json& report)
 {
     std::ostringstream html;
     html << "<table><tr><th>effect</th><th class=\"n\">size (95 %)</th><th class=\"n\">probability</th><th "
-            "class=\"n\">needed for the set</th><th class=\"n\">seen from size</th><th class=\"n\">named from "
+            "class=\"n\">needed for the set</th><th class=\"n\">detected from size</th><th class=\"n\">named from "
             "size</th></tr>\n";
     for (const auto& effect : report.at("effects"))
     {
@@ -221,35 +220,38 @@ std::string effectTable(const Json& report)
              << cell(share(effect.at("probabilityNeeded")), true) << cell(inRange(effect, "smallestDetectable"), true)
              << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
-    html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Highlighted: what the data "
-            "cannot distinguish. Probability, given that anything is missing, of something that the library does not "
-            "hold: "
+    html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Effects that the data "
+            "cannot "
+            "distinguish are highlighted. Probabilities assume that an effect is missing; that of a cause that the "
+            "library "
+            "does not list is "
          << share(report.at("somethingElse").at("probability"))
          << " (needed: " << share(report.at("somethingElse").at("probabilityNeeded")) << ").</p>\n";
     return html.str();
 }
 
-/// What is compared on held-out conditions: key of the report, words, colour.
-constexpr std::array<std::array<const char*, 3>, 4> predictions = {{{"before", "without any effect", "#c0392b"},
+/// Predictions that are compared on held-out conditions: key of the report, label, colour.
+constexpr std::array<std::array<const char*, 3>, 4> predictions = {{{"before", "without an effect", "#c0392b"},
     {"after", "with the effect", "#2a6fa8"}, {"oneMoreParameter", "with one more free parameter instead", "#999"},
-    {"gaussianProcess", "with a smooth correction without a name", "#bbb"}}};
+    {"gaussianProcess", "with a Gaussian process instead", "#bbb"}}};
 
 std::string heldOutBars(const Json& heldOut)
 {
     std::vector<Bar> bars;
-    for (const auto& [key, words, colour] : predictions)
+    for (const auto& [key, label, colour] : predictions)
     {
         const Json& score = heldOut.at(key);
         if (score.is_object() && score.at("rmsLogError").is_number())
         {
-            bars.push_back({words, 100.0 * score.at("rmsLogError").get<double>(),
+            bars.push_back({label, 100.0 * score.at("rmsLogError").get<double>(),
                 196.0 * score.at("standardError").get<double>(), std::string("fill:") + colour});
         }
     }
     return barChart("Error (root mean square) on held-out conditions, 95 % intervals", bars, "%");
 }
 
-/// Words, and numbers with their errors. \param columns  keys of the rows, and titles; what no row has is left out
+/// Table of texts and numbers with errors. \param columns  keys of the rows and titles; columns without values are left
+/// out
 std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& columns)
 {
     const auto isThere = [](const Json& value) {
@@ -279,15 +281,15 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
     return html + "</table>\n";
 }
 
-/// What was measured there, and what was predicted.
+/// Measured and predicted features of the held-out conditions.
 std::string heldOutTable(const Json& heldOut)
 {
     return numberTable(
                heldOut.at("numbers"), {{"condition", "condition"}, {"feature", "feature"}, {"measured", "measured"},
-                                          {"before", "without any effect"}, {"after", "with the effect"}})
-           + "<p class=\"small\">Logarithms are shown as what they are the logarithms of; SI units. Noise "
-             "alone would give an error of "
-           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %, and rarely more than "
+                                          {"before", "without an effect"}, {"after", "with the effect"}})
+           + "<p class=\"small\">Instead of logarithms, the quantities themselves are shown, in SI units. Noise alone "
+             "gives an error of "
+           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %; in 1 % of the cases it is larger than "
            + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n";
 }
 
@@ -296,7 +298,7 @@ std::string heldOutSection(const std::string& curves, const Json& report)
     const Json& heldOut = report.at("heldOut");
     return heldOut.at("before").is_object()
                ? curves + heldOutBars(heldOut) + heldOutTable(heldOut)
-               : "<p>No condition was held out: nothing shows that the answer predicts.</p>\n";
+               : "<p>No condition was held out, so the prediction has not been tested.</p>\n";
 }
 
 std::string fittedTable(const Json& report)
@@ -305,10 +307,10 @@ std::string fittedTable(const Json& report)
     {
         return "<p>Nothing was fitted.</p>\n";
     }
-    return numberTable(
-               report.at("fitted"), {{"name", "number"}, {"unit", "unit"}, {"withEffect", "with the effect"},
-                                        {"withoutEffect", "without any effect"}, {"independent", "measured by itself"}})
-           + "<p class=\"small\">Where no unit is given: that of the case's own entries.</p>\n";
+    return numberTable(report.at("fitted"),
+               {{"name", "quantity"}, {"unit", "unit"}, {"withEffect", "with the effect"},
+                   {"withoutEffect", "without an effect"}, {"independent", "measured independently"}})
+           + "<p class=\"small\">Quantities without a unit have that of the case's entry.</p>\n";
 }
 
 std::string listOf(const Json& sentences)
@@ -324,15 +326,15 @@ std::string listOf(const Json& sentences)
 std::string nextSection(const Json& report)
 {
     std::string html = report.at("measureNext").empty()
-                           ? "<p>Nothing is left to be distinguished, or the study names no candidate conditions.</p>\n"
+                           ? "<p>There is nothing to distinguish, or the study lists no candidate conditions.</p>\n"
                            : listOf(report.at("measureNext"));
     for (const auto& next : report.at("nextExperiment"))
     {
-        html +=
-            "<h3>" + shown(next.at("condition")) + "</h3><p class=\"small\">One measurement decides by "
-            + rounded(next.at("separation").get<double>()) + ", for its cost "
-            + rounded(next.at("perCost").get<double>())
-            + " (expected divergence).</p><table><tr><th>if</th><th class=\"n\">probability</th><th>then</th></tr>\n";
+        html += "<h3>" + shown(next.at("condition"))
+                + "</h3><p class=\"small\">The expected divergence between the explanations after one measurement is "
+                + rounded(next.at("separation").get<double>()) + ", and " + rounded(next.at("perCost").get<double>())
+                + " per unit of cost.</p><table><tr><th>if the cause is</th><th class=\"n\">probability</th>"
+                  "<th>one measurement gives</th></tr>\n";
         for (const auto& outcome : next.at("predicted"))
         {
             std::string features;
@@ -352,9 +354,9 @@ std::string nextSection(const Json& report)
 std::string runsSection(const Json& report)
 {
     const Json& runs = report.at("runs");
-    std::string html = "<p>" + shown(runs.at("used")) + " runs, " + shown(runs.at("executed"))
-                       + " of them executed now (" + shown(runs.at("seconds"))
-                       + " s of computing time), the others from the store (" + shown(runs.at("secondsOfStored"))
+    std::string html = "<p>The answer rests on " + shown(runs.at("used")) + " runs. Of these, "
+                       + shown(runs.at("executed")) + " were made now (" + shown(runs.at("seconds"))
+                       + " s); the others were stored (" + shown(runs.at("secondsOfStored"))
                        + " s when they were made).</p>\n<table>";
     for (const auto& [purpose, count] : runs.at("byPurpose").items())
     {
@@ -363,7 +365,7 @@ std::string runsSection(const Json& report)
     html += "</table>\n";
     if (!runs.at("failures").empty())
     {
-        html += "<p>Failed runs:</p><ul>";
+        html += "<p>These runs failed:</p><ul>";
         for (const auto& failure : runs.at("failures"))
         {
             html += "<li>" + shown(failure.at("purpose")) + ", " + shown(failure.at("condition")) + ", seed "
@@ -381,9 +383,10 @@ std::string lookAlikesOf(const Json& report)
     const Json& pairs = report.at("calibration").at("lookAlikes");
     if (pairs.empty())
     {
-        return "<p>All effects that show in these conditions could be distinguished at full size.</p>\n";
+        return "<p>All effects that these conditions show can be distinguished at full size.</p>\n";
     }
-    std::string html = "<p>Even at full size, sets for the first mostly hold the second:</p><ul>";
+    std::string html =
+        "<p>For these pairs, most data with the first effect at full size also admit the second:</p><ul>";
     for (const auto& pair : pairs)
     {
         html += "<li>" + shown(pair.at(0)) + " and " + shown(pair.at(1)) + "</li>\n";
@@ -392,8 +395,8 @@ std::string lookAlikesOf(const Json& report)
 }
 
 constexpr const char* withoutCurves =
-    "<p class=\"small\">The curves are not drawn: the runs that they come from are not "
-    "stored here. <code>traceResidual run</code> makes them.</p>\n";
+    "<p class=\"small\">The curves are not drawn, because their runs are not stored here. "
+    "<code>traceResidual run</code> makes the runs.</p>\n";
 
 } // namespace
 
@@ -409,19 +412,20 @@ std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
     std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title>\n"
                        + style + "</head><body>\n<h1>" + title + "</h1>\n<p class=\"answer\">"
                        + shown(report.at("summary")) + "</p>\n" + listOf(report.at("details"));
-    html += "<h2>Fitted</h2>\n" + fittedTable(report);
-    html += "<h2>Before and after, on conditions that no fit has seen</h2>\n" + heldOutSection(plots.heldOut, report);
+    html += "<h2>Fitted quantities</h2>\n" + fittedTable(report);
+    html += "<h2>Held-out conditions, without and with the effect</h2>\n" + heldOutSection(plots.heldOut, report);
     html += "<h2>What to measure next</h2>\n" + nextSection(report);
     html += "<h2>Evidence</h2>\n" + effectTable(report);
-    html += "<h2>What could not be distinguished</h2>\n" + lookAlikesOf(report);
-    html += "<h2>Measured and simulated, on conditions that were fitted</h2>\n" + plots.fitted + residualTable(report);
+    html += "<h2>Indistinguishable effects</h2>\n" + lookAlikesOf(report);
+    html += "<h2>Training conditions, measured and simulated</h2>\n" + plots.fitted + residualTable(report);
     html += "<h2>Runs</h2>\n" + runsSection(report);
-    html += "<h2>Assumed</h2>\n" + listOf(report.at("assumptions"));
+    html += "<h2>Assumptions</h2>\n" + listOf(report.at("assumptions"));
     if (!report.at("remarks").empty())
     {
         html += "<h2>Remarks</h2>\n" + listOf(report.at("remarks"));
     }
     html += "<p class=\"small\">" + shown(report.at("program")) + "</p>\n</body></html>\n";
+    // Reports of earlier versions contain "+-".
     for (auto at = html.find("+-"); at != std::string::npos; at = html.find("+-", at))
     {
         html.replace(at, 2, "&plusmn;");

@@ -10,18 +10,18 @@
 namespace clepsydra::identification
 {
 
-/// Pictures of measured and simulated curves, as HTML. They need the runs; everything else on the page is in report.json.
+/// Plots of measured and simulated curves as HTML. They need the runs; all other parts of the page are in report.json.
 struct CurvePlots
 {
-    std::string fitted;  // of the conditions that were fitted
-    std::string heldOut; // of those that no fit has seen
+    std::string fitted;  // of the training conditions
+    std::string heldOut; // of the held-out conditions
 };
 
-/// \param findings  with what was found on the held-out conditions
+/// Draws the curves of a study. \param findings  including the results of the held-out conditions
 CurvePlots curvePlotsOf(const Findings& findings);
 
-/// The report for people: one page without anything outside it. Without the curves where their runs are not stored.
-/// \throws nlohmann::json::exception where the report lacks what the page shows
+/// Content of report.html, a page that refers to no other files. \param curves  empty if the runs are not stored
+/// \throws nlohmann::json::exception if the report lacks a key that the page shows
 std::string htmlOf(const nlohmann::ordered_json& report, const std::optional<CurvePlots>& curves);
 
 } // namespace clepsydra::identification

@@ -5,7 +5,7 @@
 #include "report/fitted.h"
 #include "report/residual.h"
 #include "report/text.h"
-#include "report/words.h"
+#include "report/sentences.h"
 
 #include <clepsydra/version.h>
 
@@ -20,7 +20,7 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/// NaN and infinity do not exist in JSON.
+/// JSON has neither NaN nor infinity; both become null.
 Json number(double value)
 {
     return std::isfinite(value) ? Json(value) : Json(nullptr);
@@ -74,7 +74,7 @@ Json explanationJson(const Study& study, const Explanation& explanation)
         {"chiSquare", explanation.chiSquare}, {"simulated", !explanation.runs.empty()}};
 }
 
-/// What the effect sets at its amplitude, in words that a user can check.
+/// Entries or operation of an effect at an amplitude; formulas are given as text.
 Json entriesAt(const Effect& effect, double amplitude)
 {
     Json json = Json::object();
@@ -86,9 +86,9 @@ Json entriesAt(const Effect& effect, double amplitude)
     {
         json[entry] = formula.text();
     }
-    for (const auto& [entry, word] : effect.words)
+    for (const auto& [entry, text] : effect.textEntries)
     {
-        json[entry] = word;
+        json[entry] = text;
     }
     return json;
 }
@@ -142,7 +142,7 @@ Json fittedJson(const Findings& findings)
     });
 }
 
-/// What was measured on the held-out conditions, and what was predicted: logarithms as what they are of.
+/// Measured and predicted features of the held-out conditions. Logarithms are converted into the quantities themselves.
 Json heldOutNumbers(const Study& study, const HeldOutResult& result)
 {
     Json list = Json::array();
@@ -303,7 +303,7 @@ Json jsonOf(const Findings& findings)
     json["measureNext"] = nextOf(findings);
     json["set"] = mapped(answer.set, [&](const Explanation& each) { return explanationJson(study, each); });
     json["family"] = answer.family;
-    json["somethingElseInSet"] = answer.somethingElseInSet;
+    json["somethingElseInSet"] = answer.unlistedCauseInSet;
     json["somethingElse"] = {
         {"probability", answer.decision == Decision::unknown ? Json(nullptr) : Json(answer.otherProbability)},
         {"probabilityNeeded", answer.otherThreshold}};

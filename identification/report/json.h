@@ -7,7 +7,7 @@
 namespace clepsydra::identification
 {
 
-/// report.json: keys are described in README.md.
+/// Content of report.json, whose keys README.md describes.
 nlohmann::ordered_json jsonOf(const Findings& findings);
 
 } // namespace clepsydra::identification

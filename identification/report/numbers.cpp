@@ -16,7 +16,7 @@ int powerOfTen(double value)
     return static_cast<int>(std::floor(std::log10(std::abs(value))));
 }
 
-/// Whether a number of this size is written without a power of ten.
+/// Whether a number of this magnitude is written without a power of ten.
 bool isPlain(int power)
 {
     return power >= -4 && power <= 6;
@@ -46,7 +46,7 @@ std::string rounded(double value, int digits)
     }
     const double unit = std::pow(10.0, powerOfTen(value) + 1 - digits);
     const double near = std::round(value / unit) * unit;
-    const int power = powerOfTen(near * (1.0 + 1e-9)); // .0999 has become .1
+    const int power = powerOfTen(near * (1.0 + 1e-9)); // rounding may have raised it: 0.0999 has become 0.1
     return isPlain(power) ? withDecimals(near, digits - 1 - power) : scientific(near, digits);
 }
 
@@ -67,10 +67,10 @@ std::string withError(const Estimate& estimate)
     const int decimals = 1 - powerOfTen(error);
     if (isPlain(powerOfTen(error)) || (value != 0.0 && isPlain(powerOfTen(value))))
     {
-        return withDecimals(value, decimals) + " +- " + withDecimals(error, decimals);
+        return withDecimals(value, decimals) + " ± " + withDecimals(error, decimals);
     }
     const int digits = value == 0.0 ? 2 : std::max(1, powerOfTen(value) + decimals + 1);
-    return scientific(value, digits) + " +- " + scientific(error, 2);
+    return scientific(value, digits) + " ± " + scientific(error, 2);
 }
 
 } // namespace clepsydra::identification

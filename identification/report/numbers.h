@@ -7,13 +7,13 @@
 namespace clepsydra::identification
 {
 
-/// Numbers as people read them: two digits are enough for an error and a probability.
+/// A number with a few significant digits.
 std::string rounded(double value, int digits = 2);
 
-/// A share in percent, "<1 %" and ">99 %" at the ends that chance alone does not reach.
+/// A share in percent; "<1 %" and ">99 %" at the ends of the scale.
 std::string percent(double share);
 
-/// "0.173 +- 0.012": as many digits as the error allows.
+/// A value with its standard error, with as many digits as the error allows: "0.173 ± 0.012".
 std::string withError(const Estimate& estimate);
 
 } // namespace clepsydra::identification

@@ -33,8 +33,8 @@ Eigen::VectorXd meanAt(const Emulator& emulator, const Layout& layout, const std
     return mean;
 }
 
-/// What effects that are on leave of themselves when the parameters are fitted without them: the root mean square over
-/// conditions, of the features that are logarithms. \param planned  all but its means
+/// Residual that effects leave when the parameters are fitted without them: root mean square over conditions and over
+/// the features that are logarithms. \param planned  data whose means are replaced
 double residualSize(const Study& study, const Emulator& emulator, const Layout& layout, Measured planned,
     const Evidence& evidence, const std::vector<Present>& present)
 {
@@ -66,7 +66,7 @@ std::string percentOf(double share)
 void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
     const Evidence& evidence, const Calibration& calibration, const Visibility& visibility, std::ostream& out)
 {
-    std::vector<double> sizes; // of residuals that get a name
+    std::vector<double> sizes; // residuals at which the effects are named
     std::ostringstream table;
     bool someShow = false;
     for (std::size_t e = 0; e < study.effects.size(); ++e)
@@ -82,7 +82,7 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
         }
         someShow = someShow || std::isfinite(visibility.detected(e));
         table << std::left << std::setw(24) << effect.name << std::right << std::setw(14)
-              << (emulator.knows(e) ? amplitude(visibility.detected(e), effect) : "its runs failed") << std::setw(14)
+              << (emulator.knows(e) ? amplitude(visibility.detected(e), effect) : "runs failed") << std::setw(14)
               << amplitude(named, effect) << std::setw(16) << percentOf(size) << std::setw(17)
               << std::lround(100.0 * visibility.atFullSize(e)) << " %\n";
     }
@@ -90,29 +90,29 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
     out << '\n';
     if (sizes.empty())
     {
-        out << "no effect, alone and within its range, gets its name from such data\n";
+        out << "Such data name no single effect within its range.\n";
     }
     else
     {
-        out << "a name needs a residual of " << percentOf(sizes.front())
+        out << "An effect is named if its residual is at least " << percentOf(sizes.front())
             << (sizes.size() > 1 ? " to " + percentOf(sizes.back()) + ", depending on the effect" : "")
-            << ": root mean square over conditions, after\nthe parameters have been fitted without it\n";
+            << " (root mean square over\nconditions, with the parameters fitted without the effect).\n";
     }
-    out << "noise of one measurement:";
+    out << "Noise of one measurement:";
     for (Eigen::Index f = 0; f < study.featureCount(); ++f)
     {
         out << ' ' << study.features[f].name << ' ' << rounded(std::sqrt(layout.noise(f, f)));
     }
     out << " (" << layout.noiseFreedom << " degrees of freedom)\n\n"
-        << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "seen from" << std::setw(14)
+        << std::left << std::setw(24) << "effect" << std::right << std::setw(14) << "detected from" << std::setw(14)
         << "named from" << std::setw(16) << "its residual" << std::setw(20) << "named at full size\n"
         << table.str()
-        << "(sizes, 1 is the end of the range, at which 80 % of such data sets show that there is something, and get "
+        << "In 80 % of such data sets, an effect of this size is detected, or named correctly. Size 1 is the end of "
            "the "
-           "right name;\nbefore the runs at the fits, which sharpen both)\n\n"
-        << (!visibility.alike.empty() ? "not distinguished by these conditions, even at full size:\n"
-               : someShow             ? "all effects that show can be distinguished\n"
-                                      : "no effect shows at its full size\n");
+           "effect's range.\nThe runs at the fits, which come later, improve both.\n\n"
+        << (!visibility.alike.empty() ? "These conditions cannot distinguish, even at full size:\n"
+               : someShow             ? "All detectable effects can be distinguished.\n"
+                                      : "No effect is detectable at its full size.\n");
     for (const auto& [i, j] : visibility.alike)
     {
         out << "  " << study.effects[i].name << " from " << study.effects[j].name << '\n';
@@ -121,11 +121,11 @@ void writePlan(const Study& study, const Emulator& emulator, const Layout& layou
     {
         if (!std::isfinite(visibility.named(e)) && !study.effects[e].hint.empty())
         {
-            out << "  to be measured by itself: " << study.effects[e].name << ": " << study.effects[e].hint << '\n';
+            out << "  measure " << study.effects[e].name << " independently: " << study.effects[e].hint << '\n';
         }
     }
-    out << "something that is not in the library would get a wrong name in " << rounded(100.0 * calibration.wrongNames)
-        << " % of the cases (each effect left out in turn, and patterns of any shape)" << std::endl;
+    out << "A cause that the library does not list is given a wrong name in " << rounded(100.0 * calibration.wrongNames)
+        << " % of the cases (each effect left out in turn, and patterns of any shape)." << std::endl;
 }
 
 } // namespace clepsydra::identification

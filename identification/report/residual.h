@@ -9,7 +9,7 @@
 namespace clepsydra::identification
 {
 
-/// What was measured minus what the model gives without any effect, its parameters fitted.
+/// Measured feature minus that of the null fit.
 struct Residual
 {
     std::size_t condition; // of the study

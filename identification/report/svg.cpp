@@ -27,7 +27,7 @@ std::string shown(double value)
     return text.str();
 }
 
-/// 1, 2 or 5 times a power of ten: four to eight parts in the range.
+/// Distance between ticks: 1, 2 or 5 times a power of ten, about six in the range.
 double niceStep(double range)
 {
     const double raw = range / 6.0;

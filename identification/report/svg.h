@@ -6,7 +6,7 @@
 namespace clepsydra::identification
 {
 
-/// A drawing of curves, bands or points with error bars in one frame, as inline SVG.
+/// A plot of curves and bands as inline SVG.
 class Plot
 {
 public:
@@ -39,14 +39,14 @@ struct Bar
 {
     std::string label;
     double value;
-    double error; // half the interval; 0: none
+    double error; // half width of the interval; 0: none
     std::string style;
 };
 
 /// Horizontal bars with intervals; values may be negative.
 std::string barChart(const std::string& title, const std::vector<Bar>& bars, const std::string& unit);
 
-/// Text with <, > and & made harmless.
+/// Text with <, > and & escaped for HTML.
 std::string escaped(const std::string& text);
 
 } // namespace clepsydra::identification

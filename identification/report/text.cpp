@@ -41,15 +41,15 @@ void writeText(const Json& report, std::ostream& out)
         };
         out << "Fitted: " << number["name"].get<std::string>() << ' '
             << (number["withEffect"].is_null() ? with("withoutEffect")
-                                               : with("withEffect") + "; without any effect " + with("withoutEffect"))
-            << (number["independent"].is_null() ? "" : "; measured by itself " + with("independent")) << '\n';
+                                               : with("withEffect") + "; without an effect " + with("withoutEffect"))
+            << (number["independent"].is_null() ? "" : "; measured independently " + with("independent")) << '\n';
     }
     writeList(report, "measureNext", out);
     if (report.contains("runs"))
     {
         for (const auto& failure : report["runs"]["failures"])
         {
-            out << "run failed: " << failure["purpose"].get<std::string>() << ", "
+            out << "Run failed: " << failure["purpose"].get<std::string>() << ", "
                 << failure["condition"].get<std::string>() << ", seed " << failure["seed"]
                 << (failure["repeatedWithAnotherSeed"].get<bool>() ? " (repeated with another seed)" : " (excluded)")
                 << '\n';

@@ -10,13 +10,13 @@
 namespace clepsydra::identification
 {
 
-/// What a report says first: the answer in a sentence, how sure it is, what was fitted, what to measure next.
+/// Writes the main results of a report: the answer, its certainty, the fitted quantities, and what to measure next.
 void writeText(const nlohmann::ordered_json& report, std::ostream& out);
 
-/// A text with paths as they are from the study's folder: a report is read on other machines, too.
+/// A text with paths relative to the study's folder, since a report is read on other machines too.
 std::string fromStudy(const Study& study, std::string text);
 
-/// A number of the report: "0.17 +- 0.01", or "-" where there is none.
+/// A value of the report with its error: "0.17 ± 0.01"; "-" if it is null.
 std::string estimateText(const nlohmann::ordered_json& estimate);
 
 } // namespace clepsydra::identification

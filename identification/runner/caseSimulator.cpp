@@ -47,8 +47,8 @@ std::string endOfLog(const fs::path& file)
     return text;
 }
 
-/// What git would not carry: results of earlier runs in the case are no part of it. Of OpenFOAM's, as folders of a time after
-/// the start: a run that found them would go on from there.
+/// Whether a file of the case is a result of an earlier run. Time directories after the start count as results, because
+/// a run that found them would resume from them.
 bool isOutput(const std::string& name)
 {
     static const std::regex outputs(R"(steps|results|postProcessing|VTK|checkpoints|log\..*|processor\d+|.*\.work)");
@@ -80,14 +80,14 @@ std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
     return sha256(all);
 }
 
-/// A record says of itself whether it is whole: its checksum is over all else in it.
+/// Checksum over all other fields of a record, by which a damaged record is recognised.
 std::string checksumOf(nlohmann::json record)
 {
     record.erase("checksum");
     return sha256(record.dump());
 }
 
-/// Empty where there is no record that is whole.
+/// The record of a stored run; null if there is none or if it is damaged.
 nlohmann::json readRecord(const fs::path& stored)
 {
     std::ifstream file(stored / recordFile);
@@ -96,7 +96,7 @@ nlohmann::json readRecord(const fs::path& stored)
     return whole ? record : nlohmann::json();
 }
 
-/// What is wrong with a stored run, or nothing.
+/// Name of the first file of a stored run that is missing or damaged; empty if there is none.
 std::string damageOf(const fs::path& stored, const nlohmann::json& record)
 {
     if (record.is_null() || record.at("key") != stored.filename().string())
@@ -114,7 +114,7 @@ std::string damageOf(const fs::path& stored, const nlohmann::json& record)
     return "";
 }
 
-/// A link that points elsewhere is replaced: the store may have been made in another checkout.
+/// A link that points elsewhere is replaced, because the store may come from another checkout.
 void link(const fs::path& target, const fs::path& place)
 {
     std::error_code error;
@@ -128,7 +128,7 @@ void link(const fs::path& target, const fs::path& place)
     }
 }
 
-/// A folder that ignores itself, wherever it is.
+/// Writes a .gitignore into the folder that excludes all of its files.
 void ignoreByGit(const fs::path& folder)
 {
     const fs::path file = folder / ".gitignore";
@@ -141,7 +141,7 @@ void ignoreByGit(const fs::path& folder)
     }
     catch (const FileError&)
     {
-        // Another process may have been faster.
+        // Another process may have written it meanwhile.
         if (!fs::exists(file))
         {
             throw;
@@ -216,15 +216,15 @@ bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResul
     {
         if (damaged_.insert(stored).second)
         {
-            progress_ << (stored / damage).string() << ": damaged, or of an older version; the run is made again"
-                      << std::endl;
+            progress_ << (stored / damage).string()
+                      << " is damaged or was written by an older version; the run is repeated" << std::endl;
         }
         return false;
     }
     const auto failures = record.value("failures", nlohmann::json::object());
     if (failures.contains(order.file))
     {
-        // Tried again, but by who may run nothing: a report is made of what there was.
+        // A failed run is repeated. With a budget of 0 nothing may run, and the stored failure is reported.
         if (study_.settings.budget > 0)
         {
             return false;
@@ -266,8 +266,8 @@ void CaseSimulator::prepare(const RunOrder& order, const fs::path& folder) const
     replaceEntries(folder / study_.simulator.entriesFile, order.entries);
 }
 
-/// Into a folder of another name first: a record is there wholly or not at all. What other orders have had stored of an equal
-/// run stays.
+/// The record is written into a folder of another name, which is renamed when it is complete. Files that other orders
+/// have stored of the same run are kept.
 void CaseSimulator::store(const RunOrder& order, const std::map<std::string, std::string>& failures,
     const fs::path& folder, const fs::path& stored, double seconds) const
 {
@@ -343,13 +343,13 @@ std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
     auto toDo = notStored();
     if (!toDo.empty())
     {
-        // What another process was just making is there once the lock is ours.
+        // Another process may have finished some of these runs while this one waited for the lock.
         lock.emplace(study_.work, progress_);
         toDo = notStored();
     }
     std::vector<Job> jobs;
     std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
-    // In the order in which they were asked for, for people who watch.
+    // In the order in which they were requested, so that the progress is easy to follow.
     std::sort(
         wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
     for (const auto& [key, places] : wanted)
@@ -366,9 +366,9 @@ std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
         const auto& [key, places] = wanted[end.job];
         const RunOrder& order = orders[places.front()];
         const fs::path folder = copyOf(key);
-        // Programs seldom look whether what they wrote was written.
+        // Most programs do not notice that a full disk has cut their output.
         requireRoom(tree_, "the run of " + order.purpose + " does not count");
-        // By what orders look at: those that differ by it alone share a run.
+        // By file of the observable: orders that differ in nothing else share a run.
         std::map<std::string, std::string> failures;
         for (const auto place : places)
         {

@@ -15,32 +15,32 @@
 namespace clepsydra::identification
 {
 
-/// A case directory and its command. A run is a copy of the directory with other entries; what it has written is kept
-/// under a key of everything that entered it, and never computed twice:
+/// A case directory and its command. Each run is a copy of the directory with other entries. Its output is stored under
+/// a hash of everything that it depends on, so that no run is computed twice:
 ///
-///     work/cache/<key>/    entries, observable, and how it went, with checksums: what is damaged is made again, and what
-///                          failed, unless the study's budget is 0
-///     work/tree/<...>      copies while they run; those that failed stay for people to look at
+///     work/cache/<key>/  entries, observable and outcome of a run, with checksums. Damaged runs are repeated, and so
+///                        are failed ones unless the study's budget is 0
+///     work/tree/<...>    the copies while they run; copies of failed runs are kept for inspection
 ///
-/// Relative paths that lead out of the case (../../scripts) work in a copy as well: the folders round it are mirrored
-/// with links.
+/// Relative paths that lead out of the case (../../scripts) work in a copy too, because the folders around the case are
+/// mirrored with links.
 class CaseSimulator final : public Simulator
 {
 public:
-    /// \param progress  is reported how far the runs are
+    /// \param progress  stream that the progress of the runs is written to
     CaseSimulator(const Study& study, std::ostream& progress);
 
     Entries defaults() const override;
     std::vector<RunResult> run(const std::vector<RunOrder>& orders) override;
     int missing(const std::vector<RunOrder>& orders) override;
 
-    /// Hash of all that enters a run.
+    /// Hash of everything that a run depends on.
     std::string keyOf(const RunOrder& order) const;
 
-    /// Mean wall-clock seconds of the stored runs; nothing where there are none.
+    /// Mean wall-clock time of the stored runs [s]; empty if there are none.
     std::optional<double> measuredSecondsPerRun() const;
 
-    /// The same, or the study's own estimate.
+    /// Mean wall-clock time of the stored runs [s]; the study's estimate if there are none.
     double secondsPerRun() const
     {
         return measuredSecondsPerRun().value_or(study_.simulator.costPerRun);
@@ -50,7 +50,7 @@ private:
     std::filesystem::path copyOf(const std::string& key) const;
     void prepare(const RunOrder& order, const std::filesystem::path& folder) const;
     bool load(const RunOrder& order, const std::filesystem::path& stored, RunResult& result) const;
-    /// \param failures  by pattern of files that are wanted; empty: there they are
+    /// \param failures  by pattern of the files to store; an empty text means that the files exist
     void store(const RunOrder& order, const std::map<std::string, std::string>& failures,
         const std::filesystem::path& folder, const std::filesystem::path& stored, double seconds) const;
     void mirrorSurroundings() const;
@@ -59,10 +59,10 @@ private:
     std::filesystem::path caseFolder_;
     std::filesystem::path cache_;
     std::filesystem::path tree_;
-    std::string fingerprint_; // of the case's files, what it depends on, and the version
+    std::string fingerprint_; // hash of the case's files, of its dependencies and of its version
     std::unique_ptr<Executor> executor_;
     std::ostream& progress_;
-    mutable std::set<std::filesystem::path> damaged_; // stored runs that people have been reported
+    mutable std::set<std::filesystem::path> damaged_; // damaged runs that have been reported
 };
 
 } // namespace clepsydra::identification

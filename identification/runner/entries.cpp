@@ -17,10 +17,10 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Parts of a line `name value; anything`.
+/// Parts of a line `name value; rest`.
 struct EntryLine
 {
-    std::string before; // blanks, name, blanks
+    std::string before; // name and the blanks around it
     std::string name;
     std::string value;
     std::string after; // from the semicolon on
@@ -34,7 +34,7 @@ std::string stripped(const std::string& text)
     return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
-/// Character by character: std::regex dies of a line of some 100 kB, by a call for each character.
+/// Parsed without std::regex, whose recursion overflows the stack on a line of about 100 kB.
 std::optional<EntryLine> entryLine(const std::string& line)
 {
     const auto isOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };

@@ -9,20 +9,20 @@
 namespace clepsydra::identification
 {
 
-/// Lines `name value;` of a case's file of parameters, by name. A value may be a number, a word, or $name.
+/// Entries `name value;` of a case's parameter file, by name. A value may be a number, a word, or $name.
 using Entries = std::map<std::string, std::string>;
 
 /// \throws std::runtime_error if the file cannot be read
 Entries readEntries(const std::filesystem::path& file);
 
-/// Replaces values in a file of parameters, comments and all else kept.
-/// \throws std::runtime_error if one of the entries is not in the file: a run must not ignore what it was asked for
+/// Replaces values in a parameter file; comments and all other text stay.
+/// \throws std::runtime_error if the file cannot be read or lacks one of the entries
 void replaceEntries(const std::filesystem::path& file, const Entries& changes);
 
-/// Those of the entries that are numbers, $name followed; for formulas.
+/// The entries that are numbers, for use in formulas. A reference $name is replaced by the value of that entry.
 Expression::Variables numbersOf(const Entries& entries);
 
-/// Text of a number that reads back as the same to nine digits.
+/// A number as text with nine significant digits.
 std::string textOf(double number);
 
 } // namespace clepsydra::identification

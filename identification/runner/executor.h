@@ -11,7 +11,7 @@
 namespace clepsydra::identification
 {
 
-/// A command to be run in a folder, its output in `log` there.
+/// A command to be run in a folder. Its output goes to the file `jobLog` there.
 struct Job
 {
     std::filesystem::path folder;
@@ -22,7 +22,7 @@ struct Job
 struct JobEnd
 {
     std::size_t job = 0;
-    int status = 0; // exit status; 124: above the time limit; 125: Slurm's task left none; 128 + signal
+    int status = 0; // exit status; 124: time limit exceeded; 125: a Slurm task reported none; 128 + signal number
     double seconds = 0.0;
 };
 
@@ -35,18 +35,18 @@ public:
     Executor(const Executor&) = delete;
     Executor& operator=(const Executor&) = delete;
 
-    /// Returns when all have ended. \param onEnd  is called after each, in this thread
+    /// Returns when all jobs have ended. \param onEnd  is called after each job, in the caller's thread
     virtual void run(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd) = 0;
 
     virtual int atOnce() const = 0;
 };
 
-/// `pool`: processes of this machine; `slurm`: a job array.
-/// \param timeLimit  of a job [s]; 0: none
+/// Executor of the kind that the study asks for: `pool` (processes on this machine) or `slurm` (a job array).
+/// \param timeLimit  wall-clock limit of one job [s]; 0: no limit
 std::unique_ptr<Executor> makeExecutor(
     const ExecutorSpecification& specification, const std::filesystem::path& work, double timeLimit);
 
-/// The name of the file that a job's output goes to.
+/// Name of the file that receives a job's output.
 inline constexpr const char* jobLog = "traceResidual.out";
 
 } // namespace clepsydra::identification

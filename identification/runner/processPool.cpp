@@ -15,8 +15,8 @@ namespace
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds betweenLooks{20};
-constexpr int statusOfTimeLimit = 124; // as of timeout(1)
+constexpr std::chrono::milliseconds pollInterval{20};
+constexpr int statusOfTimeLimit = 124; // like timeout(1)
 
 struct Running
 {
@@ -46,7 +46,7 @@ struct Running
     bool ending = false;
 };
 
-/// Where an error leaves runs behind, all of them are asked to end before any is waited for.
+/// After an error, all remaining runs are told to end before the first of them is waited for.
 struct AllRunning : std::list<Running>
 {
     AllRunning() = default;
@@ -108,7 +108,7 @@ void ProcessPool::runUntilStopped(const std::vector<Job>& jobs, const std::funct
                 onEnd(end);
             }
         }
-        std::this_thread::sleep_for(betweenLooks);
+        std::this_thread::sleep_for(pollInterval);
     }
 }
 

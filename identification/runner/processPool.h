@@ -7,14 +7,15 @@
 namespace clepsydra::identification
 {
 
-/// Up to so many runs at a time, each with all the processes that it starts (ProcessTree). SIGINT, SIGTERM and SIGHUP end
-/// them and then this program; where the signal's action does not end it, `run` throws std::runtime_error, for a run that
-/// was stopped has not failed.
+/// Runs a limited number of jobs at a time; each owns all processes that it starts (ProcessTree). SIGINT, SIGTERM and
+/// SIGHUP end the jobs and then this program. If the signal does not end the program, `run` throws std::runtime_error,
+/// because a stopped job has not failed.
 class ProcessPool final : public Executor
 {
 public:
-    /// \param processes  0: one per core
-    /// \param grace  between SIGTERM and SIGKILL, for a run that is to end
+    /// \param processes  number of jobs at a time; 0: one per core
+    /// \param timeLimit  wall-clock limit of one job [s]; 0: no limit
+    /// \param grace  time between SIGTERM and SIGKILL when a job is ended
     ProcessPool(int processes, double timeLimit, std::chrono::milliseconds grace = std::chrono::seconds(5));
 
     void run(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd) override;

@@ -21,7 +21,7 @@ namespace
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr timespec betweenLooks{0, 20'000'000};
+constexpr timespec pollInterval{0, 20'000'000};
 constexpr int statusOfNoProgram = 127;
 constexpr int statusOfSignal = 128;
 
@@ -30,7 +30,7 @@ int statusOf(int waited)
     return WIFEXITED(waited) ? WEXITSTATUS(waited) : statusOfSignal + WTERMSIG(waited);
 }
 
-/// Parent of each process of this machine. What ends meanwhile is left out.
+/// Parent of each process on this machine.
 std::map<pid_t, pid_t> parents()
 {
     std::map<pid_t, pid_t> found;
@@ -42,7 +42,7 @@ std::map<pid_t, pid_t> parents()
         {
             continue;
         }
-        // "pid (name) state parent ...", where the name may hold anything.
+        // The line is "pid (name) state parent ...", where the name may contain blanks and brackets.
         std::ifstream file(entry.path() / "stat");
         std::string line;
         std::getline(file, line);
@@ -60,7 +60,7 @@ void signalDescendants(pid_t ancestor, int signal)
     const auto parentOf = parents();
     for (const auto& [process, parent] : parentOf)
     {
-        // As many steps as there are processes: what is read while processes come and go might go in circles.
+        // The number of steps is limited: a table that is read while processes come and go may contain a cycle.
         auto above = parentOf.find(process);
         for (std::size_t step = 0; step < parentOf.size() && above != parentOf.end(); ++step)
         {
@@ -74,12 +74,12 @@ void signalDescendants(pid_t ancestor, int signal)
     }
 }
 
-[[noreturn]] void becomeProgram(const std::vector<std::string>& words, const fs::path& folder, const fs::path& log)
+[[noreturn]] void becomeProgram(const std::vector<std::string>& command, const fs::path& folder, const fs::path& log)
 {
     std::vector<char*> arguments;
-    for (const auto& word : words)
+    for (const auto& argument : command)
     {
-        arguments.push_back(const_cast<char*>(word.c_str())); // NOLINT: execvp's signature is older than const
+        arguments.push_back(const_cast<char*>(argument.c_str())); // NOLINT: execvp's signature is older than const
     }
     arguments.push_back(nullptr);
     if (chdir(folder.c_str()) == 0)
@@ -94,13 +94,13 @@ void signalDescendants(pid_t ancestor, int signal)
     _exit(statusOfNoProgram);
 }
 
-/// The life of the watching process.
-[[noreturn]] void watch(pid_t parent, const std::vector<std::string>& words, const fs::path& folder,
+/// Main loop of the watching process.
+[[noreturn]] void watch(pid_t parent, const std::vector<std::string>& command, const fs::path& folder,
     const fs::path& log, std::chrono::milliseconds grace) noexcept
 {
     setpgid(0, 0);
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    // Ignored ones would never be seen.
+    // Signals that are ignored would not be delivered to sigtimedwait.
     std::signal(SIGTERM, SIG_DFL);
     std::signal(SIGCHLD, SIG_DFL);
     sigset_t waitedFor;
@@ -120,7 +120,7 @@ void signalDescendants(pid_t ancestor, int signal)
     if (program == 0)
     {
         sigprocmask(SIG_SETMASK, &before, nullptr);
-        becomeProgram(words, folder, log);
+        becomeProgram(command, folder, log);
     }
     int status = statusOfNoProgram;
     bool ending = false;
@@ -142,7 +142,7 @@ void signalDescendants(pid_t ancestor, int signal)
         {
             _exit(status);
         }
-        const int signal = programEnded ? 0 : sigtimedwait(&waitedFor, nullptr, &betweenLooks);
+        const int signal = programEnded ? 0 : sigtimedwait(&waitedFor, nullptr, &pollInterval);
         if (!ending && (programEnded || (signal > 0 && signal != SIGCHLD)))
         {
             ending = true;
@@ -158,8 +158,8 @@ void signalDescendants(pid_t ancestor, int signal)
 
 } // namespace
 
-ProcessTree::ProcessTree(
-    const std::vector<std::string>& words, const fs::path& folder, const fs::path& log, std::chrono::milliseconds grace)
+ProcessTree::ProcessTree(const std::vector<std::string>& command, const fs::path& folder, const fs::path& log,
+    std::chrono::milliseconds grace)
 {
     const pid_t self = getpid();
     watcher_ = fork();
@@ -169,7 +169,7 @@ ProcessTree::ProcessTree(
     }
     if (watcher_ == 0)
     {
-        watch(self, words, folder, log, grace);
+        watch(self, command, folder, log, grace);
     }
 }
 
@@ -178,7 +178,7 @@ ProcessTree::~ProcessTree()
     end();
     while (!status())
     {
-        nanosleep(&betweenLooks, nullptr);
+        nanosleep(&pollInterval, nullptr);
     }
 }
 

@@ -11,29 +11,32 @@
 namespace clepsydra::identification
 {
 
-/// A program with all that it starts: a child that has left its process group, or whose parent has gone, belongs to it.
+/// A program with all processes that it starts, including children that have left its process group or lost their
+/// parent.
 ///
-/// A process of its own watches over it, which inherits every orphan (PR_SET_CHILD_SUBREAPER). When the program ends, is
-/// to end, or when the process that asked for it is gone (be it by SIGKILL), whatever is left gets SIGTERM, after a time of
-/// grace SIGKILL, and is waited for.
+/// A separate process watches the program and inherits every orphan (PR_SET_CHILD_SUBREAPER). When the program ends,
+/// when it is told to end, or when the calling process has died (even by SIGKILL), all remaining processes receive
+/// SIGTERM and, after a grace period, SIGKILL.
 class ProcessTree
 {
 public:
-    /// \param words  program and arguments; no shell reads them \param log  takes what the program writes
-    /// \throws std::runtime_error where no process can be started
-    ProcessTree(const std::vector<std::string>& words, const std::filesystem::path& folder,
+    /// \param command  program and arguments; they are not interpreted by a shell
+    /// \param log  file that receives the program's output
+    /// \param grace  time between SIGTERM and SIGKILL
+    /// \throws std::runtime_error if no process can be started
+    ProcessTree(const std::vector<std::string>& command, const std::filesystem::path& folder,
         const std::filesystem::path& log, std::chrono::milliseconds grace);
 
-    /// Ends what still runs, and waits for it.
+    /// Ends all processes that still run, and waits for them.
     ~ProcessTree();
 
     ProcessTree(const ProcessTree&) = delete;
     ProcessTree& operator=(const ProcessTree&) = delete;
 
-    /// The program's status, 128 + signal for one that a signal ended; nothing while any of its processes is left.
+    /// The program's exit status (128 + signal number if a signal ended it); empty while any of its processes runs.
     std::optional<int> status();
 
-    /// Asks all its processes to end; returns at once.
+    /// Tells all processes to end, and returns immediately.
     void end();
 
 private:

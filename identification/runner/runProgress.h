@@ -7,11 +7,11 @@
 namespace clepsydra::identification
 {
 
-/// A line per run that has ended: how many, how long still.
+/// Writes one line per finished run with the number of runs and the remaining time.
 class RunProgress
 {
 public:
-    /// \param secondsPerRun  a first guess
+    /// \param secondsPerRun  first estimate of the wall-clock time of a run [s]
     RunProgress(std::ostream& out, std::size_t runs, int atOnce, double secondsPerRun);
 
     void ended(const std::string& purpose, const std::string& failure);
@@ -23,7 +23,7 @@ private:
     std::chrono::steady_clock::time_point since_;
 };
 
-/// 00:03:48
+/// Seconds as hours, minutes and seconds: "00:03:48".
 std::string clockTime(double seconds);
 
 } // namespace clepsydra::identification

@@ -1,6 +1,8 @@
 #include "runner/seeds.h"
 
+#include <array>
 #include <cstdint>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -13,7 +15,7 @@ constexpr long range = 99000000; // primes below 1e8: nine digits fit into any i
 
 std::uint64_t hashed(std::uint64_t state, const std::string& text)
 {
-    // FNV-1a; it need not be secure, only spread out and the same everywhere.
+    // FNV-1a: fast, evenly spread, and equal on all machines.
     for (const char c : text)
     {
         state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
@@ -21,12 +23,28 @@ std::uint64_t hashed(std::uint64_t state, const std::string& text)
     return (state ^ 0xffULL) * 0x100000001b3ULL;
 }
 
-/// SplitMix64's finaliser: all bits count.
+/// Finaliser of SplitMix64, which makes every bit of the result depend on every bit of the argument.
 std::uint64_t mixed(std::uint64_t x)
 {
     x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9ULL;
     x = (x ^ (x >> 27U)) * 0x94d049bb133111ebULL;
     return x ^ (x >> 31U);
+}
+
+/// Effects that were renamed keep the seeds of their former names, from which the runs of committed results were made.
+std::string withFormerNames(std::string purpose)
+{
+    constexpr std::array<std::pair<const char*, const char*>, 3> renamed = {{{"particleDiameter", "beadDiameter"},
+        {"particleDensity", "beadDensity"}, {"momentumOfLeavingParticles", "momentumOfLeavingBeads"}}};
+    for (const auto& [name, former] : renamed)
+    {
+        const std::string current = name;
+        for (auto at = purpose.find(current); at != std::string::npos; at = purpose.find(current, at))
+        {
+            purpose.replace(at, current.size(), former);
+        }
+    }
+    return purpose;
 }
 
 bool isPrime(long number)
@@ -50,7 +68,7 @@ bool isPrime(long number)
 long seedOf(unsigned studySeed, const std::string& purpose, const std::string& condition, int number)
 {
     std::uint64_t state = hashed(0xcbf29ce484222325ULL, std::to_string(studySeed));
-    state = hashed(hashed(hashed(state, purpose), condition), std::to_string(number));
+    state = hashed(hashed(hashed(state, withFormerNames(purpose)), condition), std::to_string(number));
     long seed = smallest + static_cast<long>(mixed(state) % static_cast<std::uint64_t>(range));
     while (!isPrime(seed))
     {

@@ -5,7 +5,7 @@
 namespace clepsydra::identification
 {
 
-/// Seed of a run: always the same for the same words, else another. A prime above 10000, as LIGGGHTS asks for.
+/// Seed of a run, a hash of the arguments: a prime above 10000, as LIGGGHTS requires.
 long seedOf(unsigned studySeed, const std::string& purpose, const std::string& condition, int number);
 
 } // namespace clepsydra::identification

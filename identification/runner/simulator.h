@@ -9,25 +9,26 @@
 namespace clepsydra::identification
 {
 
-/// One run that is wanted.
+/// Order for one run.
 struct RunOrder
 {
     std::string command;
-    std::string file; // of the observable, relative to the case
-    Entries entries;  // all that differ from the case's own
+    std::string file; // the observable's file, relative to the case
+    Entries entries;  // entries that differ from those of the case
     long seed = 0;
-    std::string purpose; // for people
+    std::string purpose; // for progress messages and records
 };
 
 struct RunResult
 {
     Curve curve;
-    std::string failure; // empty: none
+    std::string failure; // message; empty if the run succeeded
     double seconds = 0.0;
-    bool cached = false; // from the store, or the run of an equal order
+    bool cached = false; // taken from the store or from an equal order
 };
 
-/// Something that makes a curve of entries and a seed: a case directory with a program, or a formula in a test.
+/// Simulator of the experiment: from entries and a seed it computes the curve of the observable. It is a case directory
+/// with its solver, or a formula in a test.
 class Simulator
 {
 public:
@@ -36,13 +37,13 @@ public:
     Simulator(const Simulator&) = delete;
     Simulator& operator=(const Simulator&) = delete;
 
-    /// What the case's file of parameters holds.
+    /// Entries of the case's parameter file.
     virtual Entries defaults() const = 0;
 
-    /// Executes all orders, in any order; a failure is a result, not an exception.
+    /// Executes all orders and returns their results in the same sequence. A failed run is a result, not an exception.
     virtual std::vector<RunResult> run(const std::vector<RunOrder>& orders) = 0;
 
-    /// How many of the orders would have to be executed, not being stored yet.
+    /// Number of the orders whose results are not stored yet.
     virtual int missing(const std::vector<RunOrder>& orders) = 0;
 };
 

@@ -22,9 +22,9 @@ namespace
 {
 
 constexpr const char* statusFile = "status.run";
-constexpr int statusOfNoReport = 125; // the task never came to its end
-constexpr std::chrono::milliseconds betweenLooks{200};
-constexpr int looksBetweenReports = 5;
+constexpr int statusOfNoReport = 125; // the task did not reach its end
+constexpr std::chrono::milliseconds pollInterval{200};
+constexpr int pollsBetweenReports = 5;
 constexpr std::chrono::seconds grace{5};
 
 std::string quoted(const std::string& text)
@@ -37,7 +37,7 @@ std::string quoted(const std::string& text)
     return result + "'";
 }
 
-/// Each task reads its folder and its command from a list, and leaves its status and seconds beside its log.
+/// Each task takes its folder and its command from a list, and writes its status and its seconds beside its log.
 void writeScript(const std::filesystem::path& script, const std::vector<Job>& jobs, double timeLimit)
 {
     std::ostringstream text;
@@ -57,24 +57,25 @@ void writeScript(const std::filesystem::path& script, const std::vector<Job>& jo
     writeWhole(script, text.str());
 }
 
-/// Waits for a command of Slurm. No shell reads its words. \param meanwhile  is done now and then until it has ended or this
-/// program is to stop; without it, nothing stops the waiting \return its status
-int waitFor(const std::vector<std::string>& words, const std::filesystem::path& log,
+/// Waits for a command of Slurm and returns its status.
+/// \param meanwhile  is called repeatedly until the command ends or a signal stops this program; without it, signals do
+///     not interrupt the wait
+int waitFor(const std::vector<std::string>& command, const std::filesystem::path& log,
     const std::function<void()>& meanwhile = nullptr)
 {
-    ProcessTree command(words, log.parent_path(), log, grace);
-    for (int look = 0; !command.status() && !(meanwhile && StopSignals::noted() != 0); ++look)
+    ProcessTree processes(command, log.parent_path(), log, grace);
+    for (int poll = 0; !processes.status() && !(meanwhile && StopSignals::noted() != 0); ++poll)
     {
-        if (meanwhile && look % looksBetweenReports == 0)
+        if (meanwhile && poll % pollsBetweenReports == 0)
         {
             meanwhile();
         }
-        std::this_thread::sleep_for(betweenLooks);
+        std::this_thread::sleep_for(pollInterval);
     }
-    return command.status().value_or(statusOfNoReport);
+    return processes.status().value_or(statusOfNoReport);
 }
 
-/// How a job says that it has ended, where it has said so to the end of the line.
+/// The outcome that a job has written; empty until its line is complete.
 std::optional<JobEnd> reportOf(const std::vector<Job>& jobs, std::size_t job)
 {
     std::ifstream file(jobs[job].folder / statusFile);
@@ -82,12 +83,12 @@ std::optional<JobEnd> reportOf(const std::vector<Job>& jobs, std::size_t job)
     return file >> end.status >> end.seconds && file.get() == '\n' ? std::optional(end) : std::nullopt;
 }
 
-/// The array that sbatch has reported, if it came that far.
+/// Cancels the job array whose number sbatch has printed, if there is one.
 void cancel(const std::filesystem::path& logOfSbatch)
 {
-    const std::string said = textOf(logOfSbatch);
+    const std::string output = textOf(logOfSbatch);
     std::smatch parts;
-    if (std::regex_search(said, parts, std::regex(R"(Submitted batch job (\d+))")))
+    if (std::regex_search(output, parts, std::regex(R"(Submitted batch job (\d+))")))
     {
         waitFor({"scancel", parts[1]}, logOfSbatch.string() + ".scancel");
     }
@@ -111,14 +112,14 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     const auto script = work_ / "slurmArray";
     writeScript(script, jobs, timeLimit_);
     const std::filesystem::path log = script.string() + ".log";
-    std::vector<std::string> words = {"sbatch", "--wait",
+    std::vector<std::string> command = {"sbatch", "--wait",
         "--array=0-" + std::to_string(jobs.size() - 1) + (processes_ > 0 ? "%" + std::to_string(processes_) : "")};
-    words.insert(words.end(), options_.begin(), options_.end());
-    words.push_back(script.string());
+    command.insert(command.end(), options_.begin(), options_.end());
+    command.push_back(script.string());
     StopSignals signals;
-    // What has ended is reported at once: what stops this program loses only what still runs.
+    // Finished jobs are reported immediately, so that stopping this program loses only the jobs that still run.
     auto open = numbersWhere(jobs.size(), [](std::size_t) { return true; });
-    const auto tell = [&] {
+    const auto reportFinished = [&] {
         const auto isReported = [&](std::size_t job) {
             const auto end = reportOf(jobs, job);
             if (end)
@@ -132,8 +133,8 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     int status = 0;
     try
     {
-        // sbatch --wait ends with the largest status of all tasks: each task's own tells more.
-        status = waitFor(words, log, tell);
+        // The status of sbatch --wait is the largest of all tasks; those of the single tasks are used instead.
+        status = waitFor(command, log, reportFinished);
     }
     catch (...)
     {
@@ -145,7 +146,7 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
         cancel(log);
         signals.passOn();
     }
-    tell();
+    reportFinished();
     const bool anyReport = open.size() < jobs.size();
     for (const auto job : open)
     {
@@ -153,7 +154,7 @@ void SlurmArray::run(const std::vector<Job>& jobs, const std::function<void(cons
     }
     if (status != 0 && !anyReport)
     {
-        throw std::runtime_error("sbatch failed: see " + log.string());
+        throw std::runtime_error("sbatch failed; its output is in " + log.string());
     }
 }
 

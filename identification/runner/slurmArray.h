@@ -5,16 +5,17 @@
 namespace clepsydra::identification
 {
 
-/// All jobs as one array of Slurm; returns when the array has ended. Needs a work folder that the nodes share. What stops
-/// this program (SIGINT, SIGTERM, SIGHUP) cancels the array.
+/// Runs all jobs as one Slurm job array and returns when the array has ended. The work folder must be on a file system
+/// that the nodes share. A signal that stops this program (SIGINT, SIGTERM, SIGHUP) cancels the array.
 class SlurmArray final : public Executor
 {
 public:
-    /// \param processes  tasks at a time; 0: as many as Slurm gives
-    /// \param options  further words for sbatch
+    /// \param processes  number of tasks at a time; 0: no limit
+    /// \param options  further options of sbatch
+    /// \param timeLimit  wall-clock limit of one job [s]; 0: no limit
     SlurmArray(int processes, std::vector<std::string> options, std::filesystem::path work, double timeLimit);
 
-    /// \throws std::runtime_error if sbatch itself fails
+    /// \throws std::runtime_error if sbatch fails and no task has reported
     void run(const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd) override;
 
     int atOnce() const override

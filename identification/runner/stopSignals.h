@@ -6,8 +6,8 @@
 namespace clepsydra::identification
 {
 
-/// While it lives, SIGINT, SIGTERM and SIGHUP are noted instead of ending the program; one that is ignored stays so, as of
-/// a program in the background of a script.
+/// During its lifetime, SIGINT, SIGTERM and SIGHUP are recorded instead of ending the program. Signals that are ignored
+/// stay ignored, as in a background job of a script.
 class StopSignals
 {
 public:
@@ -16,11 +16,11 @@ public:
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    /// The signal that came, or 0.
+    /// The signal that was received, or 0.
     static int noted();
 
-    /// As if the signal came only now; where that does not end the program, runs that were stopped are no failures.
-    /// \throws std::runtime_error if a signal was noted
+    /// Raises the recorded signal again with its original action.
+    /// \throws std::runtime_error if that does not end the program
     void passOn();
 
 private:

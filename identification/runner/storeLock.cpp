@@ -12,7 +12,7 @@ namespace clepsydra::identification
 {
 
 StoreLock::StoreLock(const std::filesystem::path& store, std::ostream& progress)
-    // Closed on exec: a run must not hold the lock on. Those that watch over runs (ProcessTree) do until these have ended.
+    // Closed on exec, so that the runs do not hold the lock. The processes that watch the runs hold it until these end.
     : file_(open((store / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
 {
     if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0)
@@ -21,7 +21,7 @@ StoreLock::StoreLock(const std::filesystem::path& store, std::ostream& progress)
     }
     if (file_ >= 0 && errno == EWOULDBLOCK)
     {
-        progress << "another process makes runs in " << store.string() << "; waiting for it" << std::endl;
+        progress << "Another process makes runs in " << store.string() << "; waiting for it" << std::endl;
         if (flock(file_, LOCK_EX) == 0)
         {
             return;

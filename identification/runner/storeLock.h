@@ -6,14 +6,14 @@
 namespace clepsydra::identification
 {
 
-/// While it lives, this process alone makes runs in a store; another one that wants to waits until it has gone. Two that
-/// make the same run would write into the same copy of the case.
-///
-/// The lock is flock(2) on <store>/lock; the system drops it when the process ends, however that is.
+/// During its lifetime no other process makes runs in the same store; two processes that made the same run would write
+/// into the same copy of the case. The lock is flock(2) on <store>/lock, which the system releases when the process
+/// ends.
 class StoreLock
 {
 public:
-    /// \param progress  is reported the wait \throws std::runtime_error where the file cannot be locked
+    /// Waits until the lock is free. \param progress  stream that receives a message if the lock is taken
+    /// \throws std::runtime_error if the file cannot be locked
     StoreLock(const std::filesystem::path& store, std::ostream& progress);
     ~StoreLock();
 

@@ -49,7 +49,7 @@ std::string textOf(const fs::path& file)
     std::ifstream in(file, std::ios::binary);
     std::ostringstream all;
     all << in.rdbuf();
-    // An empty file gives no character, which a stream takes for a failure to write.
+    // An empty file sets the output stream's failbit too, which is no error.
     if (!in || (all.fail() && (!fs::is_regular_file(file) || fs::file_size(file) > 0)))
     {
         throw FileError::ofSystem("Cannot read", file);
@@ -74,7 +74,7 @@ void requireRoom(const fs::path& folder, const std::string& doing)
 {
     if (fs::space(folder).available < leastRoom)
     {
-        throw FileError("The disk of " + folder.string() + " is full; " + doing + ". Make room and start again");
+        throw FileError("The disk of " + folder.string() + " is full; " + doing + ". Free some space and start again");
     }
 }
 

@@ -9,22 +9,24 @@
 namespace clepsydra::identification
 {
 
-/// SHA-256 of a file's content, or of names and contents of all files in a folder. Links count by where they point.
-/// \param leaveOut  names of files and folders that do not count
-/// \throws FileError
+/// SHA-256 of a file's content, or of the names and contents of all files in a folder. A link enters with its target's
+/// name.
+/// \param leaveOut  name of files and folders that are left out
+/// \throws FileError if a file cannot be read
 std::string sha256OfPath(const std::filesystem::path& path, const std::string& leaveOut = "");
 
-/// \throws FileError where it cannot be read to its end
+/// Content of a file. \throws FileError if it cannot be read to its end
 std::string textOf(const std::filesystem::path& file);
 
-/// Gives a folder, whose files have been written wholly, its name. An older one of that name is replaced.
-/// \throws FileError
+/// Gives a completely written folder its final name. An older folder of that name is replaced.
+/// \throws FileError if it cannot be renamed
 void renameWhole(const std::filesystem::path& folder, const std::filesystem::path& name);
 
-/// Less room on a disk than this, and whatever is written there may have been cut short [bytes].
+/// With less free space on a disk than this, a file written there may be incomplete [bytes].
 constexpr std::uintmax_t leastRoom = 256 * 1024;
 
-/// \throws FileError where less than leastRoom is left on the disk of a folder \param doing  what is in doubt then
+/// \param doing  main clause for the message: what becomes of the current work
+/// \throws FileError if less than `leastRoom` is left on the folder's disk
 void requireRoom(const std::filesystem::path& folder, const std::string& doing);
 
 } // namespace clepsydra::identification

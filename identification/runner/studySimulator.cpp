@@ -23,7 +23,7 @@ void assign(Entries& entries, const std::map<std::string, std::string>& changes)
     }
 }
 
-/// All formulas see the entries as they were before any of them.
+/// All formulas are evaluated with the entries as they were before the first of them was assigned.
 void assign(Entries& entries, const Entries& defaults, const std::map<std::string, Expression>& formulas,
     const std::string& variable, double value)
 {
@@ -103,7 +103,7 @@ Entries StudySimulator::entriesOf(std::size_t condition, const Setting& setting)
         {
             throw std::runtime_error("effect '" + effect.name + "': " + error.what());
         }
-        assign(entries, effect.words);
+        assign(entries, effect.textEntries);
     }
     for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
     {
@@ -152,7 +152,7 @@ Eigen::VectorXd StudySimulator::featuresOf(const Curve& curve) const
     return features;
 }
 
-/// The observable in the measurement's own scale and zero.
+/// The observable with the factor and the offset that its condition states.
 Curve StudySimulator::observed(Curve curve, std::size_t condition, const Entries& entries) const
 {
     Entries all = entries;
@@ -194,10 +194,10 @@ int StudySimulator::missing(const std::vector<SimulationOrder>& orders)
 std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& orders)
 {
     std::vector<Simulation> done(orders.size());
-    // Not by seeds, which orders of other settings share. Indices in effort_.failures.
+    // Indices in effort_.failures, by order: orders of different settings may share a seed.
     std::vector<std::vector<std::size_t>> failuresOf(orders.size());
     auto open = numbersWhere(orders.size(), [](std::size_t) { return true; });
-    // Without a seed a second attempt would fail in the same way.
+    // Without a seed, a second attempt would fail in the same way.
     const int attempts = study_.simulator.seedEntry.empty() ? 1 : study_.settings.attempts;
     for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
     {

@@ -12,15 +12,15 @@
 namespace clepsydra::identification
 {
 
-/// Where in the space of parameters and effects a simulation stands.
+/// Values of all parameters and effects of a simulation.
 struct Setting
 {
     Eigen::VectorXd parameters;  // physical values
-    Eigen::VectorXd amplitudes;  // of all effects, those of the measuring chain too
-    Eigen::VectorXd errors = {}; // z of the study's common errors; empty: all zero
+    Eigen::VectorXd amplitudes;  // of all effects, including those of the measuring chain
+    Eigen::VectorXd errors = {}; // of the study's common errors, in standard deviations; empty: all zero
 };
 
-/// A simulation that is wanted; its seed follows from seeds (or, where that is empty, purpose), condition and number.
+/// Order for one simulation. Its seed is a hash of `seeds` (of `purpose`, if that is empty), condition and number.
 struct SimulationOrder
 {
     std::size_t condition = 0;
@@ -33,14 +33,14 @@ struct SimulationOrder
 struct Simulation
 {
     std::size_t condition = 0;
-    Eigen::VectorXd features; // NaN where the curve does not have it, all of them where the run has failed
-    Curve curve;              // as the measuring chain shows it
-    Curve plain;              // as simulated, in the observable's scale
+    Eigen::VectorXd features; // NaN where the curve lacks a feature; all NaN if the run has failed
+    Curve curve;              // behind the measuring chain
+    Curve plain;              // before the measuring chain
     long seed = 0;
     bool failed = false;
 };
 
-/// A run that failed, with all that was tried.
+/// A failed run.
 struct Failure
 {
     std::string purpose;
@@ -50,41 +50,43 @@ struct Failure
     bool repeated = false; // a later attempt with another seed succeeded
 };
 
-/// What simulations took.
+/// Number, seeds, failures and computing time of the simulations made so far.
 struct Effort
 {
     std::map<std::string, int> runsByPurpose;
     std::map<std::string, std::vector<long>> seedsByPurpose;
     std::vector<Failure> failures;
-    int executed = 0; // of the runs; the others were stored
-    double seconds = 0.0;
-    double secondsOfStored = 0.0; // what they took when they were made
+    int executed = 0;             // runs that were made; the others were taken from the store
+    double seconds = 0.0;         // of the executed runs
+    double secondsOfStored = 0.0; // of the stored runs, when they were made
 };
 
-/// Turns settings into entries of the case, lets the simulator run them, applies the measuring chain and takes the features.
+/// The simulator as the study describes it: translates settings into entries of the case, runs the simulator, applies
+/// the measuring chain to the curves and evaluates the features.
 class StudySimulator
 {
 public:
     StudySimulator(const Study& study, Simulator& simulator);
 
-    /// A setting without any effect. \param parameters  physical values; empty: the priors' means
+    /// A setting without effects. \param parameters  physical values; empty: the priors' means
     Setting plainSetting(const Eigen::VectorXd& parameters = {}) const;
 
-    /// All orders, in their order. Failed runs are repeated with other seeds as the study's settings say.
-    /// \throws std::runtime_error above the budget, or on a failed run where the study says `onFailure: stop`
+    /// Results of all orders, in the same sequence. Failed runs are repeated with other seeds, as often as the study
+    /// allows.
+    /// \throws std::runtime_error if the budget is exceeded, or if a run fails and the study says `failures.then: stop`
     std::vector<Simulation> run(const std::vector<SimulationOrder>& orders);
 
-    /// `repeats` runs of one setting in each of the conditions. \param seeds  as in SimulationOrder
+    /// Makes `repeats` runs of one setting in each of the conditions. \param seeds  as in SimulationOrder
     std::vector<Simulation> repeats(const std::vector<std::size_t>& conditions, const Setting& setting,
         const std::string& purpose, int repeats, const std::string& seeds = {});
 
-    /// Entries of a run. \throws std::runtime_error that names the effect whose formula fails
+    /// Entries of a run. \throws std::runtime_error naming the effect whose formula gives no number
     Entries entriesOf(std::size_t condition, const Setting& setting) const;
 
     Curve throughChain(Curve curve, std::size_t condition, const Setting& setting) const;
     Eigen::VectorXd featuresOf(const Curve& curve) const;
 
-    /// How many of the orders are not stored yet.
+    /// Number of the orders whose results are not stored yet.
     int missing(const std::vector<SimulationOrder>& orders);
 
     Simulator& simulator() const

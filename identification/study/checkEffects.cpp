@@ -14,7 +14,7 @@ namespace clepsydra::identification
 namespace
 {
 
-/// An effect that asks for a tag acts nowhere where the tag is misspelt, and nobody would be reported.
+/// An effect whose tag is misspelt acts in no condition, which would remain unnoticed.
 void checkTags(const YamlPlace& root, const Study& study)
 {
     std::map<std::string, std::set<std::string>> asked;
@@ -40,11 +40,11 @@ void checkTags(const YamlPlace& root, const Study& study)
         if (!without.empty() && without.size() < study.conditions.size())
         {
             root.at("conditions")
-                .fail("effects act by the tag '" + tag + "', which some conditions have, but not " + listed(without));
+                .fail("some effects depend on the tag '" + tag + "', which these conditions lack: " + listed(without));
         }
         if (const std::string near = without.empty() ? "" : didYouMean(tag, known); !near.empty())
         {
-            root.at("conditions").fail("effects act by the tag '" + tag + "', which no condition has" + near);
+            root.at("conditions").fail("some effects depend on the tag '" + tag + "', which no condition has" + near);
         }
     }
     for (const auto& condition : study.conditions)
@@ -56,14 +56,14 @@ void checkTags(const YamlPlace& root, const Study& study)
             if (!near.empty())
             {
                 root.at("conditions")
-                    .fail("condition '" + condition.name + "': no effect acts where the tag '" + tag + "' is '" + value
-                          + "'" + near);
+                    .fail("condition '" + condition.name + "': no effect acts in conditions whose tag '" + tag
+                          + "' is '" + value + "'" + near);
             }
         }
     }
 }
 
-/// A misspelt family would keep its effect apart from the other variants, and nobody would be reported.
+/// A misspelt family would separate its effect from the other variants, which would remain unnoticed.
 void checkFamilies(const YamlPlace& root, const Study& study)
 {
     std::map<std::string, int> members;
@@ -84,12 +84,12 @@ void checkFamilies(const YamlPlace& root, const Study& study)
         const bool isAlone = !effect.family.empty() && members[effect.family] == 1;
         if (const std::string near = isAlone ? didYouMean(effect.family, others) : ""; !near.empty())
         {
-            root.fail("effect '" + effect.name + "' is alone in the family '" + effect.family + "'" + near);
+            root.fail("effect '" + effect.name + "' is the only one of the family '" + effect.family + "'" + near);
         }
     }
 }
 
-/// Names in formulas that are no entries would be found only when the first run starts.
+/// Without this check, unknown names in formulas would be found only when the first run starts.
 void checkFormulas(const YamlPlace& root, const Study& study)
 {
     Entries all = plainEntries(study.simulator, {});
@@ -128,7 +128,7 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     }
 }
 
-/// Parameters come after what the simulator and conditions set.
+/// A parameter sets its entries after the simulator and the condition, whose values would be lost.
 void checkOverridden(const YamlPlace& root, const Study& study)
 {
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
@@ -136,7 +136,7 @@ void checkOverridden(const YamlPlace& root, const Study& study)
         const Parameter& parameter = study.parameters[p];
         for (const auto& [entry, formula] : parameter.entries)
         {
-            // Where entry and parameter have one name, it means the parameter.
+            // If entry and parameter have the same name, the name in the formula means the parameter.
             const bool keeps = entry != parameter.name && formula.holds(entry);
             const auto refuse = [&, &entry = entry](const Entries& set, const std::string& whose) {
                 if (!keeps && set.count(entry) > 0)
@@ -145,8 +145,8 @@ void checkOverridden(const YamlPlace& root, const Study& study)
                         .list()[p]
                         .at("set")
                         .at(entry)
-                        .fail(
-                            "what " + whose + " sets for the entry would do nothing, for the formula does not hold it");
+                        .fail("the value that " + whose
+                              + " sets for the entry would be lost, because the formula does not contain it");
                 }
             };
             refuse(study.simulator.entries, "simulator.set");

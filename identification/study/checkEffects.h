@@ -6,9 +6,9 @@
 namespace clepsydra::identification
 {
 
-/// What would be found only when runs have begun, or never: names in formulas of effects and parameters that are no
-/// entries, entries that a parameter overrides, tags and families that are misspelt.
-/// \throws StudyError
+/// Checks for mistakes that would otherwise be found only when runs have started, or never: unknown names in formulas
+/// of effects and parameters, entries that a parameter overrides, misspelt tags and families.
+/// \throws StudyError naming file, line and what is allowed
 void checkEffects(const YamlPlace& root, const Study& study);
 
 } // namespace clepsydra::identification

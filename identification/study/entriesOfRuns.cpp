@@ -23,8 +23,8 @@ Entries plainEntries(const SimulatorSpecification& simulator, const Condition& c
 std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
 {
     std::vector<std::string> missing = namesOf(effect.entries);
-    const auto words = namesOf(effect.words);
-    missing.insert(missing.end(), words.begin(), words.end());
+    const auto texts = namesOf(effect.textEntries);
+    missing.insert(missing.end(), texts.begin(), texts.end());
     missing.erase(std::remove_if(
                       missing.begin(), missing.end(), [&](const std::string& entry) { return known.count(entry) > 0; }),
         missing.end());
@@ -36,7 +36,7 @@ void requireEntry(const YamlPlace& place, const std::string& entry, const Simula
     const Entries known = ownEntries(simulator);
     if (known.count(entry) == 0)
     {
-        place.fail("'" + entry + "' is no such entry of " + (simulator.caseFolder / simulator.entriesFile).string()
+        place.fail("'" + entry + "': no such entry in " + (simulator.caseFolder / simulator.entriesFile).string()
                    + didYouMean(entry, namesOf(known)));
     }
 }
@@ -48,7 +48,7 @@ void requireEntryValue(const YamlPlace& value)
     if (text.find_first_of(forbidden) != std::string::npos || text.find("$(") != std::string::npos)
     {
         value.fail("'" + text
-                   + "' is no value of an entry; allowed is a number, words, or $name, without ; { } # ` | & < > "
+                   + "' is no value of an entry; allowed are numbers, words, or $name, without ; { } # ` | & < > "
                      "$( quotes, backslashes or line breaks");
     }
 }

@@ -9,23 +9,24 @@
 namespace clepsydra::identification
 {
 
-/// The case's own entries.
+/// Entries of the case's parameter file.
 Entries ownEntries(const SimulatorSpecification& simulator);
 
-/// Entries of a run of a condition without any parameter or effect: the condition's, else the simulator's, else the case's own.
+/// Entries of a run without parameters and effects. The condition's values take precedence over the simulator's, and
+/// these over the case's.
 Entries plainEntries(const SimulatorSpecification& simulator, const Condition& condition);
 
-/// Entries that an effect needs and the case does not have.
+/// Entries that an effect sets and the case does not have.
 std::vector<std::string> missingEntries(const Effect& effect, const Entries& known);
 
-/// \throws StudyError where the case has no such entry: a run must not ignore what it was asked for
+/// \throws StudyError if the case has no such entry
 void requireEntry(const YamlPlace& place, const std::string& entry, const SimulatorSpecification& simulator);
 
-/// A value of an entry goes into a file that the case reads: more than a value would be code there.
-/// \throws StudyError if it holds what ends an entry or begins a command
+/// Checks a value that is written into the case's parameter file, where more than a value would be executed.
+/// \throws StudyError if the value contains characters that end an entry or begin a command
 void requireEntryValue(const YamlPlace& value);
 
-/// Values of entries that the case has.
+/// Reads values of entries. \throws StudyError if the case lacks an entry, or if a value is not allowed
 Entries readValues(const YamlPlace& place, const SimulatorSpecification& simulator);
 
 } // namespace clepsydra::identification

@@ -28,7 +28,7 @@ constexpr const char* allowed =
         "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowed);
 }
 
-/// muParser's other operators (assignment, comparison, a choice by ?) and text are none of ours.
+/// Refuses muParser's other operators (assignment, comparison, conditional) and text.
 void refuseOtherCharacters(const std::string& formula)
 {
     const auto isOurs = [](unsigned char c) {
@@ -44,7 +44,7 @@ void refuseOtherCharacters(const std::string& formula)
 
 } // namespace
 
-/// The parser, and the values of the names in the formula, which it points to.
+/// The parser, and the values of the formula's names, to which the parser has pointers.
 struct Expression::Parsed
 {
     explicit Parsed(const std::string& formula)
@@ -88,12 +88,12 @@ struct Expression::Parsed
         {
             throw mu::ParserError("'" + std::string(name) + "' is neither a number nor a name");
         }
-        // A neutral value until there is one.
+        // A placeholder for the first evaluation.
         return &static_cast<Parsed*>(self)->values.emplace(name, 1.0).first->second;
     }
 
     mu::Parser parser;
-    mutable Variables values; // a map, so that pointers to its values stay good
+    mutable Variables values; // a map, so that pointers to its values stay valid
 };
 
 Expression::Expression(std::string text)

@@ -7,20 +7,20 @@
 namespace clepsydra::identification
 {
 
-/// A formula as users write it in a study file: "particleDiameter*(1 + 0.05*a)". Knows + - * / ^, brackets, numbers,
-/// names, and exp, log, sqrt, abs, round, min, max, sin, cos (angles in radians).
+/// A formula of a study file, as "particleDiameter*(1 + 0.05*a)". It may contain + - * / ^, brackets, numbers, names,
+/// and the functions exp, log, sqrt, abs, round, min, max, sin, cos (angles in radians).
 class Expression
 {
 public:
     using Variables = std::map<std::string, double>;
 
-    /// \throws std::invalid_argument that shows where the text cannot be understood
+    /// \throws std::invalid_argument naming the position at which the text cannot be parsed
     explicit Expression(std::string text);
 
-    /// \throws std::invalid_argument if a name is not among the variables
+    /// Value of the formula. \throws std::invalid_argument if a name is not among the variables
     double operator()(const Variables& variables) const;
 
-    /// Whether a name stands in the formula.
+    /// Whether the formula contains a name.
     bool holds(const std::string& name) const;
 
     const std::string& text() const

@@ -45,7 +45,7 @@ void requireOrder(const Table& table, const std::vector<double>& time)
     }
 }
 
-/// Of a training condition: what people look at to see that columns and units are right.
+/// Number of rows and ranges of a measured curve, by which users can check columns and units.
 std::string rangesOf(const Curve& curve)
 {
     const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
@@ -53,7 +53,7 @@ std::string rangesOf(const Curve& curve)
            + textOf(curve.time.back()) + " s, value " + textOf(*lowest) + " to " + textOf(*highest) + " (SI units)";
 }
 
-/// \return whether the curve has any of the features
+/// Writes the features of a curve. \return whether the curve has any of them
 bool sayFeatures(const Study& study, const Curve& curve, std::ostream& out)
 {
     bool any = false;
@@ -102,7 +102,7 @@ void checkMeasurements(const Study& study, std::ostream& out)
             out << condition.name << ", " << file.filename().string() << ": ";
             if (condition.role == Role::heldOut)
             {
-                out << "can be read (held out: its values are not looked at yet)" << std::endl;
+                out << "can be read (held out: its values are not evaluated yet)" << std::endl;
                 any = true;
                 continue;
             }

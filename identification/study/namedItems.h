@@ -18,7 +18,7 @@ std::vector<std::string> namesOfItems(const std::vector<Item>& items)
     return mapped(items, [](const Item& item) { return item.name; });
 }
 
-/// Which item a place names. \throws StudyError that lists them
+/// Index of the item that a place names. \throws StudyError listing the items if there is no such item
 template<class Item>
 std::size_t indexOf(const YamlPlace& place, const std::vector<Item>& items)
 {
@@ -26,7 +26,8 @@ std::size_t indexOf(const YamlPlace& place, const std::vector<Item>& items)
     return std::find(names.begin(), names.end(), place.oneOf(names)) - names.begin();
 }
 
-/// \throws StudyError where an item before the last has the last one's name. \param kind  as "effects"
+/// \param kind  of the items, in the plural, for the message: "effects"
+/// \throws StudyError if another item has the same name as the last one
 template<class Item>
 void requireOwnName(const YamlPlace& place, const std::vector<Item>& items, const std::string& kind)
 {
@@ -34,11 +35,11 @@ void requireOwnName(const YamlPlace& place, const std::vector<Item>& items, cons
     if (std::any_of(items.begin(), items.end() - 1, [&](const Item& item) { return item.name == name; }))
     {
         (place.has("name") ? place.at("name") : place)
-            .fail("there are two " + kind + " named '" + name + "': give them names of their own");
+            .fail("there are two " + kind + " named '" + name + "'; give them different names");
     }
 }
 
-/// The items of a list, each with a name of its own. \param read  makes one item of its place
+/// Reads the items of a list, whose names must differ. \param read  function that reads one item from its place
 template<class Read>
 auto readNamed(const YamlPlace& list, const std::string& kind, Read read)
 {

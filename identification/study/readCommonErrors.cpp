@@ -27,7 +27,7 @@ std::vector<std::size_t> readConditions(const YamlPlace& place, const Study& stu
         chosen.push_back(indexOf(each, study.conditions));
         if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
         {
-            each.fail("names the condition '" + each.text() + "' twice");
+            each.fail("lists the condition '" + each.text() + "' twice");
         }
     }
     if (chosen.empty())
@@ -37,7 +37,7 @@ std::vector<std::size_t> readConditions(const YamlPlace& place, const Study& stu
     return chosen;
 }
 
-/// z = 0 is the run itself, and z = 1 is not.
+/// Requires that a formula gives the unchanged value at z = 0 and another one at z = 1.
 void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself)
 {
     constexpr double tolerance = 1e-9;
@@ -48,12 +48,12 @@ void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::
     const double there = at(0.0);
     if (!(std::abs(there - itself) <= tolerance * std::abs(itself)))
     {
-        place.fail("gives " + textOf(there) + " where the error z is 0, but must give " + textOf(itself)
-                   + " there: \"particleDiameter*(1 + 0.01*z)\"");
+        place.fail("gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
+                   + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
     }
     if (at(1.0) == there)
     {
-        place.fail("must hold z, the error in standard deviations: \"particleDiameter*(1 + 0.01*z)\"");
+        place.fail("must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
     }
 }
 
@@ -119,7 +119,7 @@ CommonError readError(const YamlPlace& place, const Study& study)
     }
     if (error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero())
     {
-        place.fail("changes nothing; 'set' and 'features' need something in them");
+        place.fail("changes nothing; 'set' and 'features' need at least one key");
     }
     return error;
 }

@@ -42,7 +42,7 @@ double unitOf(const YamlPlace& place)
     return checkedAt(place.at("unit"), [&] { return siUnitsPer(place.at("unit").text()); });
 }
 
-/// The unit must be stated; `factor` (of sign or scale) and `offset`, in SI units, come after it.
+/// Values are converted to SI units first, then multiplied by `factor`, then shifted by `offset` (SI units).
 ColumnSpecification readColumn(const YamlPlace& place)
 {
     place.allow({"column", "unit", "factor", "offset", "valid"});
@@ -71,7 +71,8 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
         isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * unitOf(place);
     if (place.has(isLog ? "standardError" : "relativeError"))
     {
-        place.fail(isLog ? "the feature is a logarithm: state a relativeError" : "state a standardError");
+        place.fail(isLog ? "the feature is a logarithm; its error must be given as relativeError"
+                         : "the feature is no logarithm; its error must be given as standardError");
     }
     return number;
 }
@@ -103,7 +104,7 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
         measured.numbers.push_back(readNumber(number, study));
         if (!features.insert(measured.numbers.back().feature).second)
         {
-            number.at("feature").fail("given twice: one entry holds all values of a feature");
+            number.at("feature").fail("given twice; all values of a feature belong into one item");
         }
     }
     if (measured.empty())
@@ -115,11 +116,12 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
 
 Role roleOf(const YamlPlace& place)
 {
-    const std::string word = place.oneOf({"training", "heldOut", "candidate"});
-    return word == "training" ? Role::training : word == "heldOut" ? Role::heldOut : Role::candidate;
+    const std::string role = place.oneOf({"training", "heldOut", "candidate"});
+    return role == "training" ? Role::training : role == "heldOut" ? Role::heldOut : Role::candidate;
 }
 
-/// The condition's own, else that of all; tried with the condition's entries.
+/// Factor and offset of the condition itself or, without these, of the study. Both are evaluated with the condition's
+/// entries as a check.
 ObservableScale readScale(
     const YamlPlace& root, const YamlPlace& place, const SimulatorSpecification& simulator, const Condition& condition)
 {
@@ -167,15 +169,15 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
         if (condition.role == Role::candidate)
         {
             place.at("measured")
-                .fail("is unknown it: a candidate is not measured yet; with role: training or heldOut "
-                      "it would be read");
+                .fail("is not allowed, because a candidate has not been measured yet; allowed with role: training or "
+                      "heldOut");
         }
         condition.measured = readMeasurement(place.at("measured"), study, root);
     }
     return condition;
 }
 
-/// The same numbers twice would halve the noise, or be held out and seen.
+/// The same measurement must not count twice, and must not be both training and held-out.
 void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
 {
     std::map<std::tuple<std::filesystem::path, std::string, double>, std::string> owners;
@@ -194,13 +196,13 @@ void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
                     .at("measured")
                     .at("files")
                     .fail("condition '" + name + "' has " + file.string() + " with its column " + measured.value.column
-                          + ", which condition '" + owner->second + "' has already: a measurement counts once");
+                          + ", which condition '" + owner->second + "' has already; a measurement may be given once");
             }
         }
     }
 }
 
-/// Control 2 compares them number by number.
+/// The Gaussian process of control 2 needs the same coordinates in all conditions.
 void requireEqualCoordinates(const YamlPlace& root, const Study& study)
 {
     const auto first = std::find_if(study.conditions.begin(), study.conditions.end(),
@@ -212,7 +214,8 @@ void requireEqualCoordinates(const YamlPlace& root, const Study& study)
         {
             root.at("conditions")
                 .fail("condition '" + condition.name + "' has the coordinates " + listed(names) + ", condition '"
-                      + first->name + "' " + listed(namesOf(first->coordinates)) + "; allowed are the same in all");
+                      + first->name + "' " + listed(namesOf(first->coordinates))
+                      + "; all conditions must have the same coordinates");
         }
     }
 }

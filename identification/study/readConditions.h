@@ -6,11 +6,12 @@
 namespace clepsydra::identification
 {
 
-/// Columns and features of a study's `observable`; scale and file belong to its conditions.
+/// Reads columns and features of a study's `observable`. Its file, factor and offset are read with the conditions.
 void readObservable(const YamlPlace& place, Study& study);
 
-/// The conditions of a study file with what was measured in each. \param study  with its simulator and features
-/// \throws StudyError that names file, line and what is allowed
+/// Reads the conditions of a study file with the descriptions of their measurements.
+/// \param study  with its simulator and features
+/// \throws StudyError naming file, line and what is allowed
 void readConditions(const YamlPlace& root, Study& study);
 
 } // namespace clepsydra::identification

@@ -13,24 +13,24 @@ namespace clepsydra::identification
 namespace
 {
 
-/// A word of a switch that is meant as a formula would reach the case as it stands, and every run with it would fail.
+/// A formula in a switch would be written into the case as text, and all runs with it would fail.
 void refuseFormula(const YamlPlace& place)
 {
-    const std::string word = place.text();
+    const std::string text = place.text();
     bool isFormula = false;
     try
     {
-        isFormula = word != "a" && Expression(word).holds("a");
+        isFormula = text != "a" && Expression(text).holds("a");
     }
     catch (const std::invalid_argument&)
     {
-        // a word
+        // The text is no formula.
     }
     if (isFormula)
     {
-        place.fail("'" + word
-                   + "' is a formula in the amplitude a, which a switch does not have; allowed: the value "
-                     "that the entry is to have");
+        place.fail(
+            "'" + text
+            + "' is a formula in the amplitude a, which a switch does not have; allowed is the value of the entry");
     }
 }
 
@@ -42,7 +42,7 @@ void readEntries(const YamlPlace& place, Effect& effect)
         {
             refuseFormula(value);
             requireEntryValue(value);
-            effect.words[entry] = value.text();
+            effect.textEntries[entry] = value.text();
         }
         else
         {
@@ -61,7 +61,7 @@ Bounds readBounds(const YamlPlace& place)
     const Bounds bounds{ends[0].number(), ends[1].number()};
     if (!(bounds.lower <= 0.0 && bounds.upper > 0.0))
     {
-        place.fail("must hold 0, where the effect is absent, and something above it");
+        place.fail("must hold 0, where the effect is absent, and end above 0");
     }
     return bounds;
 }
@@ -92,14 +92,14 @@ Effect readEffect(const YamlPlace& place)
     }
     if (effect.raisesScatter && effect.isOfChain())
     {
-        place.at("scatter").fail("the measuring chain is computed from each curve and does not scatter; allowed: an "
+        place.at("scatter").fail("the measuring chain is applied to each curve and does not scatter; allowed for an "
                                  "effect with 'set'");
     }
     if (place.has("amplitude"))
     {
         if (effect.isSwitch)
         {
-            place.at("amplitude").fail("a switch has none: it is on or off");
+            place.at("amplitude").fail("a switch has no amplitude; it is on or off");
         }
         effect.bounds = readBounds(place.at("amplitude"));
     }

@@ -29,7 +29,7 @@ std::pair<std::string, Expression> readChain(const YamlPlace& place)
     if (operations.size() != 1 || chainOperations().count(operations.front().first) == 0)
     {
         place.fail("needs one operation, " + listed(namesOf(chainOperations()))
-                   + ", with the formula of its size: { gain: \"0.01*a\" }");
+                   + ", with the formula of its size, as in { gain: \"0.01*a\" }");
     }
     return {operations.front().first, readFormula(operations.front().second)};
 }

@@ -10,7 +10,7 @@
 namespace clepsydra::identification
 {
 
-/// What a function gives; what it finds wrong with its argument is reported with file and line.
+/// Result of a function. An std::invalid_argument that it throws becomes a StudyError with file and line.
 template<class Function>
 auto checkedAt(const YamlPlace& place, Function function)
 {
@@ -24,13 +24,14 @@ auto checkedAt(const YamlPlace& place, Function function)
     }
 }
 
-/// \throws StudyError with file and line, like the others
+/// Reads a formula. \throws StudyError naming file and line
 Expression readFormula(const YamlPlace& place);
 
-/// The value of the formula that stands at a place.
+/// Value of a formula. \param place  of the formula, for the message \throws StudyError if the value is not finite
 double valueOf(const YamlPlace& place, const Expression& formula, const Expression::Variables& variables);
 
-/// An operation of the measuring chain with the formula of its size: { gain: "0.01*a" }.
+/// Reads an operation of the measuring chain with the formula of its size: { gain: "0.01*a" }.
+/// \throws StudyError naming file, line and the known operations
 std::pair<std::string, Expression> readChain(const YamlPlace& place);
 
 } // namespace clepsydra::identification

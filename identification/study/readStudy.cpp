@@ -72,7 +72,7 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     return parameter;
 }
 
-/// A library is for many cases: what this one cannot switch on is left out, and said.
+/// A library serves many cases. Effects that this case has no entries for are left out, and the report lists them.
 std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
 {
     const Entries known = ownEntries(study.simulator);
@@ -92,7 +92,7 @@ std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
     return kept;
 }
 
-/// The study's own effects come last and replace those of a library that have the same name.
+/// Reads the effects of the libraries and of the study. The study's own effects replace those of the same name.
 void readAllEffects(const YamlPlace& root, Study& study)
 {
     std::vector<Effect> all;
@@ -142,8 +142,8 @@ void readAllEffects(const YamlPlace& root, Study& study)
     study.effects = std::move(all);
 }
 
-/// Of an effect that acts in no training condition, and of its parameters, the data say nothing: it would take its share of
-/// every probability, and enter sets.
+/// Leaves out effects that act in no training condition, together with their parameters. The data contain no
+/// information on them, and they would keep their prior probability and enter the set.
 void leaveOutIdle(Study& study)
 {
     const auto trained = study.conditionsOf(Role::training);
@@ -194,18 +194,18 @@ void readSettings(const YamlPlace& root, Study& study)
         const double value = inference.positiveOr(key, byDefault);
         if (value >= 1.0)
         {
-            inference.at(key).fail("must be below 1, not " + inference.at(key).text() + ": " + example);
+            inference.at(key).fail("must be below 1, not " + inference.at(key).text() + "; for example " + example);
         }
         return value;
     };
-    settings.level = share("level", settings.level, ".05 for 5 %");
-    settings.coverage = share("coverage", settings.coverage, ".9 for 90 %");
-    settings.wrongNames = share("wrongNames", settings.wrongNames, ".05 for 5 %");
+    settings.level = share("level", settings.level, "0.05 for 5 %");
+    settings.coverage = share("coverage", settings.coverage, "0.9 for 90 %");
+    settings.wrongNames = share("wrongNames", settings.wrongNames, "0.05 for 5 %");
     settings.draws = inference.countOr("draws", settings.draws, 100);
     if (!study.simulator.seedEntry.empty() && settings.level * (settings.draws + 1) <= 1.0)
     {
         inference.at("level").fail(
-            "of " + std::to_string(settings.draws) + " draws no data are that rare: raise level or draws");
+            std::to_string(settings.draws) + " draws cannot resolve so small a level; raise 'level' or 'draws'");
     }
     if (inference.has("oneMoreParameter"))
     {
@@ -219,13 +219,13 @@ ExecutorSpecification readExecutor(const YamlPlace& place)
     ExecutorSpecification executor;
     executor.kind = place.has("kind") ? place.at("kind").oneOf({"pool", "slurm"}) : executor.kind;
     executor.processes = place.countOr("processes", 0, 1);
-    for (const auto& word : place.optional("options").oneOrMore())
+    for (const auto& option : place.optional("options").oneOrMore())
     {
-        executor.options.push_back(word.text());
+        executor.options.push_back(option.text());
         if (executor.options.back().find_first_of(" \t\n") != std::string::npos)
         {
-            word.fail("holds blanks; allowed: a list of words, each given to sbatch as it is: "
-                      "[--partition=short, --mem=4G]");
+            option.fail("contains blanks; allowed is a list of options without blanks, which are passed to sbatch: "
+                        "[--partition=short, --mem=4G]");
         }
     }
     return executor;
@@ -250,7 +250,7 @@ Study readStudy(const std::filesystem::path& file)
     if (study.parameters.size() > mostParameters)
     {
         root.at("parameters")
-            .fail("there are " + std::to_string(study.parameters.size()) + "; allowed: up to "
+            .fail("there are " + std::to_string(study.parameters.size()) + " parameters; allowed are up to "
                   + std::to_string(mostParameters));
     }
     readAllEffects(root, study);

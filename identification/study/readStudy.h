@@ -8,11 +8,11 @@
 namespace clepsydra::identification
 {
 
-/// Reads and checks a study file (README.md describes every key). Measurements are not read here.
-/// \throws StudyError that names file, line, key and what is allowed
+/// Reads and checks a study file, whose keys README.md describes. The measured files are not read here.
+/// \throws StudyError naming file, line, key and what is allowed
 Study readStudy(const std::filesystem::path& file);
 
-/// The effects of a library file, in its order.
+/// Reads a list of effects. \throws StudyError naming file, line, key and what is allowed
 std::vector<Effect> readEffects(const YamlPlace& list);
 
 } // namespace clepsydra::identification

@@ -23,60 +23,61 @@ struct Bounds
     double lower = 0.0;
     double upper = 1.0;
 
-    /// The largest size, to either side.
+    /// Largest magnitude in the range.
     double reach() const
     {
         return std::max(upper, -lower);
     }
 };
 
-/// A case that can be run.
+/// The simulator: a case that can be run.
 struct SimulatorSpecification
 {
     std::filesystem::path caseFolder;
     std::string command = "./Allrun";
     std::string entriesFile = "parameters";
-    Entries entries;                              // set in every run
-    std::string seedEntry;                        // empty: runs do not scatter
-    std::vector<std::filesystem::path> dependsOn; // files beside the case whose content enters the key of a run
-    std::string version;                          // text that enters it as well
-    double costPerRun = 60.0;                     // [s], until runs have been timed
-    double timeLimit = 0.0;                       // [s]; 0: none
+    Entries entries;                              // set in all runs
+    std::string seedEntry;                        // entry of the seed; empty: repeated runs do not differ
+    std::vector<std::filesystem::path> dependsOn; // files outside the case that its results depend on
+    std::string version;                          // any text; when it changes, stored runs are not used any more
+    double costPerRun = 60.0;                     // estimated time of a run until one has been measured [s]
+    double timeLimit = 0.0;                       // of a run [s]; 0: no limit
 };
 
-/// A parameter that all conditions share and that is fitted.
+/// A fitted parameter, which has one value in all conditions.
 struct Parameter
 {
     std::string name;
-    std::string unit;                          // for people
+    std::string unit;                          // for the report
     std::map<std::string, Expression> entries; // formulas in the parameter's name
-    double mean = 0.0;                         // of its prior, an independent measurement
+    double mean = 0.0;                         // of the prior, which is an independent measurement
     double sd = 0.0;
-    double lower = 0.0; // limits of what is physical; simulations stay within
+    double lower = 0.0; // physical limits, which simulations keep
     double upper = 0.0;
-    std::optional<std::size_t>
-        effect; // of which it is a part, as the height of a layer's edge: without it, it does nothing
+    /// Effect that it belongs to, as the height of a layer's edge does; without the effect, the parameter has no
+    /// influence.
+    std::optional<std::size_t> effect;
 };
 
-/// Vectors of them need no memory of their own.
+/// Largest number of parameters, so that vectors of parameters need no memory allocation.
 constexpr int mostParameters = 12;
 
-/// What the model may lack, or the measuring chain may add. Data, not code.
+/// An effect that the model may lack or that the measuring chain may add. It is defined in the study file.
 struct Effect
 {
     std::string name;
     std::string meaning;
-    std::string hint;                                       // how to measure it by itself
-    std::string family;                                     // shared by variants of one physical effect; empty: none
-    std::map<std::string, Expression> entries;              // formulas in the entries and the amplitude a
-    std::map<std::string, std::string> words;               // of a switch: entries as text
-    std::string chainOperation;                             // empty: an effect of the simulator
-    std::optional<Expression> chainSize;                    // formula in a
-    Bounds bounds;                                          // of the amplitude; a switch keeps 0 and 1
-    bool isSwitch = false;                                  // on or off
-    bool raisesScatter = false;                             // between runs, beside or instead of moving their mean
-    double prior = 1.0;                                     // relative weight
-    std::map<std::string, std::vector<std::string>> actsIn; // tag -> values; empty: everywhere
+    std::string hint;                               // how to measure it independently
+    std::string family;                             // common to variants of one physical effect; may be empty
+    std::map<std::string, Expression> entries;      // formulas in the entries and the amplitude a
+    std::map<std::string, std::string> textEntries; // values that a switch sets, as text
+    std::string chainOperation;          // operation of the measuring chain; empty: an effect of the simulator
+    std::optional<Expression> chainSize; // formula in a
+    Bounds bounds;                       // of the amplitude; [0, 1] for a switch
+    bool isSwitch = false;               // on or off
+    bool raisesScatter = false;          // whether it raises the scatter of runs
+    double prior = 1.0;                  // relative prior weight
+    std::map<std::string, std::vector<std::string>> actsIn; // values by tag; empty: it acts in all conditions
 
     bool isOfChain() const
     {
@@ -91,27 +92,27 @@ enum class Role
     candidate
 };
 
-/// A column of a measured file, and how it becomes SI.
+/// A column of a measured file, and its conversion to SI units.
 struct ColumnSpecification
 {
     std::string column;
     double factor = 1.0;
     double offset = 0.0;
-    double lowest = 0.0; // rows outside are missing; equal limits: none
+    double lowest = 0.0; // valid range; values outside are missing. Equal limits: all values are valid
     double highest = 0.0;
 };
 
-/// Repeats of one feature that was measured as a number, not as a curve.
+/// Measured values of a feature, for measurements that give no curve.
 struct MeasuredNumber
 {
     std::size_t feature;
-    std::vector<double> values; // on the feature's own scale (logs already taken)
-    double standardError = 0.0; // of each value, beyond the scatter of repeats
+    std::vector<double> values; // repeats, as the feature defines them (logarithms taken)
+    double standardError = 0.0; // of each value, in addition to the scatter of repeats
 };
 
 struct Measurement
 {
-    std::vector<std::filesystem::path> files; // a repeat each
+    std::vector<std::filesystem::path> files; // one repeat per file
     ColumnSpecification time;
     ColumnSpecification value;
     std::vector<MeasuredNumber> numbers;
@@ -122,8 +123,8 @@ struct Measurement
     }
 };
 
-/// The observable of a run: what the simulation writes, times the factor, plus the offset (SI units). Formulas in the
-/// entries of that run, with its parameters and effects: "-particleDiameter/2" for the gap below a particle.
+/// Scale of the observable: the output of the simulation is multiplied by the factor, and the offset is added (SI
+/// units). Both are formulas in the entries of the run: "-particleDiameter/2" gives the gap below a particle.
 struct ObservableScale
 {
     Expression factor{"1"};
@@ -137,63 +138,62 @@ struct Condition
     Entries entries;
     std::map<std::string, std::string> tags;
     std::map<std::string, double> coordinates; // for the Gaussian process of control 2
-    std::string command;                       // empty: the simulator's
-    std::string file;                          // of the observable
+    std::string command;                       // empty: that of the simulator
+    std::string file;                          // the observable's file, relative to the case
     ObservableScale observable;
     Measurement measured;
-    double cost = 1.0; // of a measurement, for the next experiment
+    double cost = 1.0; // relative cost of a measurement, for the choice of the next experiment
 };
 
+/// Whether an effect acts in a condition, according to the condition's tags.
 bool acts(const Effect& effect, const Condition& condition);
 
-/// One unknown number behind all numbers of one or several conditions, which repeats do not show: a particle whose diameter was
-/// measured once, a scale that was calibrated once, what a law leaves open. No explanation of a residual and no parameter:
-/// it has no name to be given and is not reported, and is known before any data.
+/// A common (systematic) error, which repeats do not show: the diameter of a particle that was measured once, a scale
+/// that was calibrated once, the uncertainty of a law. It is not fitted, cannot be named as a cause, and enters the
+/// covariance only.
 ///
-/// The number, z, is standard normal a priori, independent of parameters, effects, noise, model errors and every other z.
-/// It is one and the same in all its conditions (held-out ones and candidates as well as training ones), and in all
-/// features and repeats of each: more repeats do not average it out. Given z, what was measured is
-///     entries        what a run shows whose entries are these formulas of z and of the entries that the run has with its
-///                    parameters and effects (z = 0: those entries themselves)
-///     chain          what the curve shows after the operation, of a size that is a formula of z (0 at z = 0), behind the
-///                    operations of effects
-///     featureErrors  each feature of the run plus its error times z: standard deviations in the feature's own unit, so
-///                    relative ones for a logarithm
-/// One of the three is there. To first order, with g = d(feature)/dz stacked over features and conditions, the covariance
-/// of the measured means is that of noise and declared errors plus g g^T for each common error, blocks between conditions
-/// included.
+/// The error is z times its standard deviation, where z is standard normal a priori and independent of parameters,
+/// effects, noise, model errors and all other common errors. The value of z is the same in all conditions of the error
+/// (training, held-out and candidate), features and repeats, so that repeats do not average it out. An error has one of
+/// three forms:
+///     entries        formulas in z and in the entries of the run; z = 0 gives the entries themselves
+///     chain          an operation of the measuring chain, applied after those of effects; its size is a formula in z
+///                    that gives 0 at z = 0
+///     featureErrors  standard deviation of each feature in the feature's own unit (relative for a logarithm)
+/// To first order, with g = d(feature)/dz stacked over features and conditions, each common error adds g g^T to the
+/// covariance of the measured means, including the blocks between conditions.
 struct CommonError
 {
     std::string name;
     std::string meaning;
     std::vector<std::size_t> conditions;
     std::map<std::string, Expression> entries;
-    std::string chainOperation; // empty: none
+    std::string chainOperation; // empty if the error is not of the measuring chain
     std::optional<Expression> chainSize;
-    Eigen::VectorXd featureErrors; // by feature; 0: none
+    Eigen::VectorXd featureErrors; // by feature of the study; 0: no error
 };
 
 struct ExecutorSpecification
 {
     std::string kind = "pool";        // or slurm
-    int processes = 0;                // 0: one per core
-    std::vector<std::string> options; // words for sbatch
+    int processes = 0;                // number of jobs at a time; 0: one per core
+    std::vector<std::string> options; // further options of sbatch
 };
 
 struct Settings
 {
-    int budget = 1000; // runs
+    int budget = 1000; // largest number of runs
     unsigned seed = 1;
     int repeatsBase = 6;  // runs at the base setting of a condition
-    int repeatsAlone = 5; // and of an effect that runs alone
-    int decidingRuns = 9; // in each training condition on average, for one data set; 0: the library alone decides
+    int repeatsAlone = 5; // runs with an effect alone, in each condition
+    int decidingRuns = 9; // mean number per training condition for one data set; 0: the library alone decides
     int repeatsHeldOut = 3;
-    int attempts = 3; // of a run that fails, each with another seed
-    double level = 0.05;
-    int draws = 1000;                            // of the test's null distribution
-    double coverage = 0.9;                       // of sets, for each effect
-    double wrongNames = 0.05;                    // of what is detected and not in the library
-    std::string oneMoreParameter = "timeFactor"; // control 1: this operation on the curve
+    int attempts = 3;                            // at a run that fails, each with another seed
+    double level = 0.05;                         // significance level of the test for a residual
+    int draws = 1000;                            // from the null distribution of the test
+    double coverage = 0.9;                       // probability that the set contains the true effect
+    double wrongNames = 0.05;                    // allowed share of wrong names among detected unlisted causes
+    std::string oneMoreParameter = "timeFactor"; // control 1: operation of the measuring chain
     std::string onFailure = "exclude";           // or stop
 };
 
@@ -205,7 +205,8 @@ struct Study
     SimulatorSpecification simulator;
     std::string timeColumn;
     std::string valueColumn;
-    double magnitudeLimit = 30.0; // by which factor measured and simulated may differ before units are doubted
+    double magnitudeLimit =
+        30.0; // largest factor between measured and simulated values; a larger one means wrong units
     std::vector<Feature> features;
     Eigen::VectorXd modelError; // by feature
     std::vector<Condition> conditions;
@@ -214,9 +215,10 @@ struct Study
     std::vector<CommonError> commonErrors;
     ExecutorSpecification executor;
     Settings settings;
-    std::vector<std::string> assumptions; // the user's own words, repeated in the report
-    std::vector<std::string> leftOut; // effects that the case has no entries for, or that act in no training condition
+    std::vector<std::string> assumptions; // sentences of the user, which the report repeats
+    std::vector<std::string> leftOut;     // effects that are left out, each with the reason
 
+    /// Indices of the conditions with a role.
     std::vector<std::size_t> conditionsOf(Role role) const;
     Eigen::Index featureCount() const
     {

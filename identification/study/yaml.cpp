@@ -15,7 +15,8 @@ namespace clepsydra::identification
 namespace
 {
 
-/// A line `---` or `...` ends a document wherever it stands. YAML::LoadAll never returns from some texts, as `,a`.
+/// Lines `---` or `...` separate documents. They are searched for here, because YAML::LoadAll never returns from some
+/// texts, as `,a`.
 void refuseMoreDocuments(const std::filesystem::path& file)
 {
     std::ifstream lines(file);
@@ -59,7 +60,7 @@ std::string YamlPlace::placesToFillIn(const std::filesystem::path& file)
     return parsed(file).toBeFilledIn();
 }
 
-/// Its depth has been checked.
+/// The recursion ends, because checkKeys has checked the depth.
 std::string YamlPlace::toBeFilledIn() const
 {
     std::string places;
@@ -100,12 +101,12 @@ YamlPlace YamlPlace::parsed(const std::filesystem::path& file)
 
 void YamlPlace::checkKeys(int depth, int& places) const
 {
-    // Anchors can make a place hold itself, or a few lines a file of any size.
+    // With anchors, a place can contain itself, and a few lines can expand to any size.
     constexpr int deepest = 50;
     constexpr int most = 100000;
     if (depth > deepest || ++places > most)
     {
-        fail("the file is nested too deeply, too large, or holds itself by way of an anchor");
+        fail("the file is nested too deeply, is too large, or holds itself by way of an anchor");
     }
     for (const auto& each : node_.IsSequence() ? list() : std::vector<YamlPlace>{})
     {

@@ -12,38 +12,38 @@
 namespace clepsydra::identification
 {
 
-/// Bad input. The text begins with "file:line: ".
+/// Error in a study file. The message begins with "file:line: ".
 class StudyError : public std::runtime_error
 {
 public:
     using std::runtime_error::runtime_error;
 };
 
-/// A place in a YAML file. Every look at it is checked; errors name file, line, key and what is allowed.
+/// A place in a YAML file. All accesses are checked; errors name file, line, key and what is allowed.
 class YamlPlace
 {
 public:
-    /// How a value begins that is still to be given, as `traceResidual new` writes it, with what to do behind it.
+    /// Beginning of a value that the user still has to fill in, as `traceResidual new` writes it.
     static constexpr const char* toFillIn = "FILL IN";
 
-    /// \throws StudyError if the file cannot be read, is no YAML, has a key twice or without a value anywhere, or values
-    /// that are still to be filled in, all of which it lists
+    /// Reads a file. \throws StudyError if the file cannot be read or is no YAML, if a key is given twice or has no
+    /// value, or if values are still to be filled in, which the message lists
     static YamlPlace fileAt(const std::filesystem::path& file);
 
-    /// A line for each value that is still to be filled in: file, line, key, and what to do.
+    /// One line for each value that is still to be filled in: file, line, key, and what to fill in.
     static std::string placesToFillIn(const std::filesystem::path& file);
 
-    /// \throws StudyError naming the line of the first key that is not among `allowed`, or if this is no map
+    /// \throws StudyError naming the line of the first key that is not among `allowed`, or if the place is no map
     void allow(const std::vector<std::string>& allowed) const;
 
     bool has(const std::string& key) const;
-    /// \throws StudyError if there is no such key
+    /// Place of a key. \throws StudyError if there is no such key
     YamlPlace at(const std::string& key) const;
-    /// The same; where there is no such key, a place that holds nothing: an empty list and an empty map.
+    /// Place of a key; if there is no such key, an empty place, which is an empty list and an empty map.
     YamlPlace optional(const std::string& key) const;
 
     std::vector<YamlPlace> list() const;
-    /// A list, or an isolated value as a list of one.
+    /// A list; a single value counts as a list of one.
     std::vector<YamlPlace> oneOrMore() const;
     std::vector<std::pair<std::string, YamlPlace>> map() const;
 
@@ -52,11 +52,11 @@ public:
     double positive() const;
     int count(int smallest) const;
     bool flag() const;
-    /// One of a few words.
+    /// The text, which must be one of `words`.
     std::string oneOf(const std::vector<std::string>& words) const;
-    /// Two numbers, the second above the first. \param what  they must be, for the error
+    /// Two numbers, the second above the first. \param what  description of the two numbers for the message
     std::pair<double, double> range(const std::string& what) const;
-    /// Relative to the file's folder.
+    /// A path, relative to the file's folder.
     std::filesystem::path path() const;
 
     std::string textOr(const std::string& key, const std::string& byDefault) const;

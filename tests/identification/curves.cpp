@@ -35,7 +35,8 @@ Curve sampled(double end, int points, Function function)
     return curve;
 }
 
-/// An OpenFOAM table of a run that was resumed at t = 2: the later part wins, and names lose their units.
+/// An OpenFOAM table of a run that was resumed at t = 2: the later part replaces the earlier one, and names have no
+/// units.
 TEST(Curves, ResumedRunIsOneCurve)
 {
     const TemporaryFolder folder;
@@ -43,7 +44,7 @@ TEST(Curves, ResumedRunIsOneCurve)
     folder.write("post/2/m.dat", "# time [s]\tmass [kg]\tparticles\n2\t.8\t7\n3\t.6\t6\n");
     const Curve curve = readCurve(folder.path() / "post/*/m.dat", "time", "mass");
     EXPECT_EQ(curve.time, (std::vector<double>{0, 1, 2, 3}));
-    EXPECT_EQ(curve.value, (std::vector<double>{1, .9, .8, .6}));
+    EXPECT_EQ(curve.value, (std::vector<double>{1, 0.9, 0.8, 0.6}));
 }
 
 TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
@@ -57,7 +58,7 @@ TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
     try
     {
         readTable(broken);
-        FAIL() << "a row with a column too many was accepted";
+        FAIL() << "a row with an additional column was accepted";
     }
     catch (const std::runtime_error& error)
     {
@@ -65,11 +66,11 @@ TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
     }
 }
 
-/// What spreadsheets write: a mark before the text, decimal commas between semicolons, tabs round empty cells, \r\n.
+/// Peculiarities of spreadsheets: a byte order mark, decimal commas with semicolons, tabs around empty cells, \r\n.
 TEST(Curves, TablesOfSpreadsheets)
 {
     const TemporaryFolder folder;
-    const Curve expected{{0, .5, 1.5}, {10, 9.25, 7}};
+    const Curve expected{{0, 0.5, 1.5}, {10, 9.25, 7}};
     for (const std::string text : {"\xEF\xBB\xBFt [s];m [g]\r\n0;10\r\n0,5;9,25\r\n1;\r\n1,5;7\r\n",
              "t [s]\tnote\tm [g]\n0\t\t10\n.5\t\t9.25\n1.5\t\t7\n", "t;m;\n0;10;\n0,5;9,25;\n1,5;7;\n",
              "\"t [s]\", \"m [g]\"\n0, 10\n.5, 9.25\n1.5, 7\n"})
@@ -80,7 +81,7 @@ TEST(Curves, TablesOfSpreadsheets)
     }
 }
 
-/// Units in any brackets, with a blank before them or none, are no part of the name, but may be given with it.
+/// Units in any brackets, with or without a blank before them, are not part of the name, but may be given with it.
 TEST(Curves, UnitsInTitles)
 {
     const TemporaryFolder folder;
@@ -98,108 +99,113 @@ TEST(Curves, UnitsInTitles)
     EXPECT_EQ(readTable(folder.write("v", "t,U (x),U (y)\n0,1,2\n")).index("U (y)"), 2U);
 }
 
-/// m = 1 - .1 t: the rate is .1 in every window; with m0 = 1, 95 % have left after 9.5 s.
+/// m = 1 - 0.1 t: the rate is 0.1 in all windows, and 95 % are discharged after 9.5 s.
 TEST(Features, OfASteadyDischarge)
 {
-    const Curve curve = sampled(10, 201, [](double t) { return 1 - .1 * t; });
-    EXPECT_NEAR(feature("logMeanRate", curve, {{"from", .9}, {"to", .3}}), std::log(.1), 1e-12);
-    EXPECT_NEAR(feature("logTimeToDischarge", curve, {{"share", .95}}), std::log(9.5), 1e-12);
-    EXPECT_NEAR(feature("rateSlope", curve, {{"from", .9}, {"to", .3}}), 0, 1e-9);
+    const Curve curve = sampled(10, 201, [](double t) { return 1 - 0.1 * t; });
+    EXPECT_NEAR(feature("logMeanRate", curve, {{"from", 0.9}, {"to", 0.3}}), std::log(0.1), 1e-12);
+    EXPECT_NEAR(feature("logTimeToDischarge", curve, {{"share", 0.95}}), std::log(9.5), 1e-12);
+    EXPECT_NEAR(feature("rateSlope", curve, {{"from", 0.9}, {"to", 0.3}}), 0, 1e-9);
     EXPECT_NEAR(feature("residue", curve, {}), 0, 1e-12);
 }
 
-/// Torricelli: m = (1 - t/20)^2 has W = (1 - t/20)/10 = sqrt(m)/10, so d(ln W)/dm = 1/(2 m); where the window is narrow
-/// round m = .5 that is 1. A feature that knew only the mean rate would give 0.
+/// Torricelli: m = (1 - t/20)^2 has the rate W = (1 - t/20)/10 = sqrt(m)/10, so d(ln W)/dm = 1/(2 m), which is 1 in a
+/// narrow window around m = 0.5. A feature of the mean rate alone would give 0.
 TEST(Features, SlopeOfTheRateOverTheMass)
 {
     const Curve curve = sampled(19, 2001, [](double t) { return std::pow(1 - t / 20, 2); });
-    EXPECT_NEAR(feature("rateSlope", curve, {{"from", .55}, {"to", .45}}), 1, 1e-2);
+    EXPECT_NEAR(feature("rateSlope", curve, {{"from", 0.55}, {"to", 0.45}}), 1, 1e-2);
 }
 
-/// A time of the record has a value; beyond it there is none, not the last one.
+/// There is a value at a time within the record, and NaN beyond it instead of the last value.
 TEST(Features, ValueAtATime)
 {
-    const Curve curve = sampled(5, 501, [](double t) { return 1 + .03 * t; });
+    const Curve curve = sampled(5, 501, [](double t) { return 1 + 0.03 * t; });
     EXPECT_NEAR(feature("logValueAtTime", curve, {{"time", 5}}), std::log(1.15), 1e-12);
     EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", 5.01}})));
-    EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", -.01}})));
+    EXPECT_TRUE(std::isnan(feature("logValueAtTime", curve, {{"time", -0.01}})));
 }
 
 TEST(Features, OfAFallingParticle)
 {
-    const Curve curve = sampled(5, 501, [](double t) { return .03 * t; });
-    EXPECT_NEAR(feature("logSpeed", curve, {{"from", .02}, {"to", .12}}), std::log(.03), 1e-9);
-    EXPECT_NEAR(feature("logSpeedRatio", curve, {{"from", .02}, {"to", .12}}), 0, 1e-6);
-    EXPECT_TRUE(std::isnan(feature("logSpeed", curve, {{"from", .02}, {"to", 1}}))) << "never got there";
+    const Curve curve = sampled(5, 501, [](double t) { return 0.03 * t; });
+    EXPECT_NEAR(feature("logSpeed", curve, {{"from", 0.02}, {"to", 0.12}}), std::log(0.03), 1e-9);
+    EXPECT_NEAR(feature("logSpeedRatio", curve, {{"from", 0.02}, {"to", 0.12}}), 0, 1e-6);
+    EXPECT_TRUE(std::isnan(feature("logSpeed", curve, {{"from", 0.02}, {"to", 1}}))) << "the position is not reached";
 }
 
-/// Half as fast in the second half of the way, which the camera missed: .1 m in 2.5 + 5 s. A fit to the points seen gives
-/// .02 and not .1/7.5.
+/// The speed is halved in the second half of the way, which the camera did not see: 0.1 m in 2.5 + 5 s. A fit to the
+/// visible points would give 0.02 instead of 0.1/7.5.
 TEST(Features, MeanSpeedOfATrackWithAGap)
 {
-    Curve curve = sampled(2.4, 25, [](double t) { return .02 * t; });
+    Curve curve = sampled(2.4, 25, [](double t) { return 0.02 * t; });
     curve.time.push_back(7.5);
-    curve.value.push_back(.1);
-    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .1}, {"gap", 1}}), std::log(.1 / 7.5), 1e-9);
-    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .04}, {"gap", .01}}), std::log(.02), 1e-9);
-    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", 0}, {"to", .07}, {"gap", .01}}))) << "not seen";
-    EXPECT_GT(feature("logSpeed", curve, {{"from", 0}, {"to", .1}}), std::log(.1 / 7.5) + 0.05);
-    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", .02}, {"to", 1}, {"gap", 1}})))
-        << "never got there";
-    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", .05}, {"to", .02}, {"gap", 1}})))
-        << "the other way";
+    curve.value.push_back(0.1);
+    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", 0.1}, {"gap", 1}}), std::log(0.1 / 7.5), 1e-9);
+    EXPECT_NEAR(feature("logMeanSpeed", curve, {{"from", 0}, {"to", 0.04}, {"gap", 0.01}}), std::log(0.02), 1e-9);
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", 0}, {"to", 0.07}, {"gap", 0.01}})))
+        << "the position lies in the gap";
+    EXPECT_GT(feature("logSpeed", curve, {{"from", 0}, {"to", 0.1}}), std::log(0.1 / 7.5) + 0.05);
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", 0.02}, {"to", 1}, {"gap", 1}})))
+        << "the position is not reached";
+    EXPECT_TRUE(std::isnan(feature("logMeanSpeed", curve, {{"from", 0.05}, {"to", 0.02}, {"gap", 1}})))
+        << "the opposite direction";
 }
 
-/// Rises as 1 - exp(-t) up to t = 5, falls as exp(-2 (t - 5)): from .3 to .8 of the top in ln((1 - .3 q)/(1 - .8 q)) with
-/// q = 1 - exp(-5), from .8 to .2 in ln(4)/2, above a half from -ln(1 - q/2) to 5 + ln(2)/2. Levels that are looked for on
-/// the wrong side of the top, or shares of the last value, give other times.
+/// The speed rises as 1 - exp(-t) up to t = 5 and falls as exp(-2 (t - 5)). With q = 1 - exp(-5), it rises from 0.3 to
+/// 0.8 of its maximum in ln((1 - 0.3 q)/(1 - 0.8 q)), falls from 0.8 to 0.2 in ln(4)/2, and is above one half from
+/// -ln(1 - q/2) to 5 + ln(2)/2. Levels on the wrong side of the maximum, or shares of the last value, would give other
+/// times.
 TEST(Features, OfASpeedThatRisesAndFalls)
 {
     const double q = 1 - std::exp(-5.0);
     const Curve curve =
         sampled(8, 8001, [&](double t) { return t < 5 ? 1 - std::exp(-t) : q * std::exp(-2 * (t - 5)); });
-    const double rise = std::log((1 - .3 * q) / (1 - .8 * q));
-    EXPECT_NEAR(feature("logRiseTime", curve, {{"from", .3}, {"to", .8}}), std::log(rise), 1e-5);
-    EXPECT_NEAR(feature("logFallTime", curve, {{"from", .8}, {"to", .2}}), std::log(std::log(4.0) / 2), 1e-5);
+    const double rise = std::log((1 - 0.3 * q) / (1 - 0.8 * q));
+    EXPECT_NEAR(feature("logRiseTime", curve, {{"from", 0.3}, {"to", 0.8}}), std::log(rise), 1e-5);
+    EXPECT_NEAR(feature("logFallTime", curve, {{"from", 0.8}, {"to", 0.2}}), std::log(std::log(4.0) / 2), 1e-5);
     EXPECT_NEAR(
-        feature("logTimeAbove", curve, {{"share", .5}}), std::log(5 + std::log(2.0) / 2 + std::log(1 - q / 2)), 1e-5);
-    EXPECT_TRUE(std::isnan(feature("logFallTime", curve, {{"from", .8}, {"to", .001}}))) << "never got there";
+        feature("logTimeAbove", curve, {{"share", 0.5}}), std::log(5 + std::log(2.0) / 2 + std::log(1 - q / 2)), 1e-5);
+    EXPECT_TRUE(std::isnan(feature("logFallTime", curve, {{"from", 0.8}, {"to", 0.001}})))
+        << "the share is not reached";
 }
 
-/// A ball without air: falls from .1 m, bounces with e = .5: height e^2 h, flight 2 e sqrt(2 h/g).
+/// A ball falls from 0.1 m in vacuum and bounces with e = 0.5: the height is e^2 h, the flight time 2 e sqrt(2 h/g).
 TEST(Features, OfABounce)
 {
     const double g = 9.81;
-    const double impact = std::sqrt(2 * .1 * g);
+    const double impact = std::sqrt(2 * 0.1 * g);
     const double hit = impact / g;
-    const double flight = impact / g; // 2 (e v)/g with e = .5
-    const Curve curve = sampled(hit + flight + .05, 4001, [&](double t) {
+    const double flight = impact / g; // 2 (e v)/g with e = 0.5
+    const Curve curve = sampled(hit + flight + 0.05, 4001, [&](double t) {
         if (t < hit)
         {
-            return .1 - g * t * t / 2;
+            return 0.1 - g * t * t / 2;
         }
         const double s = t - hit;
         if (s < flight)
         {
-            return .5 * impact * s - g * s * s / 2;
+            return 0.5 * impact * s - g * s * s / 2;
         }
-        return .25 * impact * (s - flight) - g * std::pow(s - flight, 2) / 2;
+        return 0.25 * impact * (s - flight) - g * std::pow(s - flight, 2) / 2;
     });
-    EXPECT_NEAR(feature("logBounceHeight", curve, {{"bounce", 1}}), std::log(.025), 1e-4);
+    EXPECT_NEAR(feature("logBounceHeight", curve, {{"bounce", 1}}), std::log(0.025), 1e-4);
     EXPECT_NEAR(feature("logBounceDuration", curve, {{"bounce", 1}}), std::log(flight), 1e-2);
-    EXPECT_NEAR(feature("logImpactSpeed", curve, {{"before", .02}, {"until", .01}}), std::log(impact - .015 * g), 1e-3);
+    EXPECT_NEAR(
+        feature("logImpactSpeed", curve, {{"before", 0.02}, {"until", 0.01}}), std::log(impact - 0.015 * g), 1e-3);
     EXPECT_TRUE(std::isnan(feature("logBounceHeight", curve, {{"bounce", 3}})));
 }
 
-/// A ramp through a first-order filter: y = s (t - tau (1 - exp(-t/tau))), exact for straight pieces.
+/// A first-order filter turns a ramp into y = s (t - tau (1 - exp(-t/tau))); the filter is exact for piecewise linear
+/// curves.
 TEST(MeasuringChain, LagOfARamp)
 {
     const Curve ramp = sampled(2, 21, [](double t) { return 3 * t; });
-    const Curve lagged = chainOperations().at("lag").apply(ramp, .4);
+    const Curve lagged = chainOperations().at("lag").apply(ramp, 0.4);
     for (std::size_t i = 0; i < ramp.time.size(); ++i)
     {
         const double t = ramp.time[i];
-        EXPECT_NEAR(lagged.value[i], 3 * (t - .4 * (1 - std::exp(-t / .4))), 1e-12);
+        EXPECT_NEAR(lagged.value[i], 3 * (t - 0.4 * (1 - std::exp(-t / 0.4))), 1e-12);
     }
 }
 
@@ -209,19 +215,19 @@ TEST(MeasuringChain, OthersOnARamp)
     const auto at = [&](const std::string& name, double size, double time) {
         return valueAt(chainOperations().at(name).apply(ramp, size), time);
     };
-    EXPECT_NEAR(at("gain", .1, 1), 3.3, 1e-12);
-    EXPECT_NEAR(at("offset", .1, 1), 3.1, 1e-12);
-    EXPECT_NEAR(at("drift", .1, 1.5), 4.65, 1e-12);
-    EXPECT_NEAR(at("shift", .3, 1), 3.9, 1e-12);
-    EXPECT_NEAR(at("shift", -.3, 1), 2.1, 1e-12);
-    EXPECT_NEAR(at("shift", -.3, .1), 0, 1e-12) << "before the record the first value holds";
-    EXPECT_NEAR(at("timeFactor", .25, 1.25), 3, 1e-12);
-    EXPECT_NEAR(at("lead", .2, 1), 3.6, 1e-12);
+    EXPECT_NEAR(at("gain", 0.1, 1), 3.3, 1e-12);
+    EXPECT_NEAR(at("offset", 0.1, 1), 3.1, 1e-12);
+    EXPECT_NEAR(at("drift", 0.1, 1.5), 4.65, 1e-12);
+    EXPECT_NEAR(at("shift", 0.3, 1), 3.9, 1e-12);
+    EXPECT_NEAR(at("shift", -0.3, 1), 2.1, 1e-12);
+    EXPECT_NEAR(at("shift", -0.3, 0.1), 0, 1e-12) << "before the record, the first value is used";
+    EXPECT_NEAR(at("timeFactor", 0.25, 1.25), 3, 1e-12);
+    EXPECT_NEAR(at("lead", 0.2, 1), 3.6, 1e-12);
 }
 
-/// Numbers that are none, or none of a measurement, are errors that name line and field: above 1e30 squares overflow, and
-/// inf or nan would be rows that are silently left out.
-TEST(Table, RefusesWhatIsNoNumber)
+/// Invalid numbers are errors that name line and field. Squares of numbers above 1e30 may overflow, and rows with inf
+/// or nan would be left out without a message.
+TEST(Table, RefusesInvalidNumbers)
 {
     const TemporaryFolder folder;
     for (const std::string bad : {"inf", "-inf", "nan", "1e308", "1e999", "0x1p3", "1..2", "mm", "infinity"})

@@ -1,4 +1,4 @@
-/// What a decision promises, held against data of known worlds: fresh ones, not those that set the thresholds.
+/// Rates of the decision on synthetic data with known truth, which are independent of those that set the thresholds.
 #include "decision/pairs.h"
 #include "decision/visibility.h"
 #include "effectOf.h"
@@ -21,7 +21,7 @@ namespace clepsydra::identification::tests
 namespace
 {
 
-/// The surrogate with its library, and three repeats measured without any effect.
+/// The surrogate with its library, and data of three repeats without effects.
 struct Bench
 {
     Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
@@ -56,9 +56,10 @@ struct Bench
 
 const Eigen::VectorXd atPrior = Eigen::VectorXd::Zero(1);
 
-/// Thresholds without a calibration would miss one of these: p-values are uniform without any effect, sets hold the truth
-/// as often as they say for each effect, and what has been left out of the library seldom gets a name.
-TEST(Decision, KeepsWhatItPromises)
+/// Without effects, p-values are uniform; for each effect, sets contain the truth with their nominal coverage; an
+/// effect that is left out of the library is seldom given a wrong name. Thresholds without a calibration would fail in
+/// one of these.
+TEST(Decision, HasItsNominalRates)
 {
     Bench bench;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
@@ -74,7 +75,7 @@ TEST(Decision, KeepsWhatItPromises)
         const Odds odds = oddsOf(bench.study, judge(data));
         alarms += isDetected(bench.study, calibration, odds) ? 1 : 0;
     }
-    EXPECT_NEAR(alarms / (4. * draws), .05, .035);
+    EXPECT_NEAR(alarms / (4. * draws), 0.05, 0.035);
     double wrong = 0;
     double decoys = 0;
     for (const std::string name : {"addedMass", "cohesion", "rollingFriction", "viscosity", "scaleLag"})
@@ -108,13 +109,13 @@ TEST(Decision, KeepsWhatItPromises)
                     ? 1
                     : 0;
         }
-        EXPECT_GT(held / detected, .8) << name << ": " << held << " of " << detected;
+        EXPECT_GT(held / detected, 0.8) << name << ": " << held << " of " << detected;
     }
-    EXPECT_LT(wrong / decoys, .15) << wrong << " of " << decoys;
+    EXPECT_LT(wrong / decoys, 0.15) << wrong << " of " << decoys;
 }
 
-/// Cohesion changes the spread between repeats much and the means little: it is reported by the former. With the spread of the
-/// base, the same means say nothing.
+/// Cohesion changes the spread between repeats more than their means, and is detected by the spread. The same means
+/// with the spread of the base setting do not show it.
 TEST(Decision, SpreadIsADatum)
 {
     Bench bench;
@@ -138,11 +139,11 @@ TEST(Decision, SpreadIsADatum)
     EXPECT_GT(logOdds(), before + 4);
 }
 
-/// What a common error does to all conditions alike is no residual, however small the noise of each.
+/// A shift of all conditions that a common error explains is no residual, however small the noise of each is.
 TEST(Decision, CommonErrorsExplain)
 {
     Bench bench;
-    const double shift = .08;
+    const double shift = 0.08;
     for (auto& condition : bench.data)
     {
         condition.features.leftCols(3).array() += shift; // the rates
@@ -163,8 +164,8 @@ TEST(Decision, CommonErrorsExplain)
     EXPECT_LT(statistic(), before / 3);
 }
 
-/// A pattern that no effect makes, many times its noise, is something else.
-TEST(Decision, SomethingElseIsSeen)
+/// A pattern far above the noise that no effect explains is attributed to an unlisted cause.
+TEST(Decision, UnlistedCauseIsDetected)
 {
     Bench bench;
     const Evidence evidence(bench.study, *bench.emulator, bench.layout, atPrior);
@@ -182,7 +183,7 @@ TEST(Decision, SomethingElseIsSeen)
     EXPECT_LT(own.other, own.effects(static_cast<Eigen::Index>(bench.effect("addedMass"))));
 }
 
-/// Variants of one thing share its weight: three times the same effect is as likely, all together, as once.
+/// The variants of a family share the weight of one effect: three copies of an effect are together as probable as one.
 TEST(Decision, VariantsShareTheirWeight)
 {
     Study study;
@@ -196,19 +197,20 @@ TEST(Decision, VariantsShareTheirWeight)
     const Eigen::VectorXd ones = Eigen::VectorXd::Ones(4);
     const Odds odds = oddsOf(study, {0, 5 * ones, -100, ones, ones, 7 * ones});
     EXPECT_NEAR(odds.logOdds, 5 + std::log(2.), 1e-9);
-    EXPECT_NEAR(odds.statistic, 7 + std::log(2.), 1e-9) << "the test does not ask how wide an amplitude's range is";
-    EXPECT_NEAR(odds.effects(0), std::log(.5), 1e-9);
-    EXPECT_NEAR(odds.effects(2), std::log(.5 / 3), 1e-9);
+    EXPECT_NEAR(odds.statistic, 7 + std::log(2.), 1e-9)
+        << "the test does not depend on the width of the amplitude's range";
+    EXPECT_NEAR(odds.effects(0), std::log(0.5), 1e-9);
+    EXPECT_NEAR(odds.effects(2), std::log(0.5 / 3), 1e-9);
     Calibration calibration;
     calibration.chiSquares = Eigen::Vector4d::Constant(2);
     calibration.scatterChiSquares = calibration.chiSquares;
     calibration.membership = Eigen::Vector4d(0, -9, -9, 0);
-    EXPECT_EQ(soleMember(study, calibration, odds), 1U) << "two variants are one name";
+    EXPECT_EQ(soleMember(study, calibration, odds), 1U) << "two variants have one name";
     calibration.membership(0) = -9;
     EXPECT_FALSE(soleMember(study, calibration, odds));
 }
 
-/// Where a parameter's range ends within its prior, a draw from beyond would be a residual in data without any effect.
+/// If a parameter's range ends within its prior, a draw from beyond the range would appear as a residual.
 TEST(Decision, NothingIsDrawnFromBeyondARange)
 {
     Bench bench;
@@ -219,11 +221,11 @@ TEST(Decision, NothingIsDrawnFromBeyondARange)
     Replicas replicas(*bench.emulator, bench.layout, evidence, bench.random);
     const Calibration calibration =
         Calibrator(bench.study, evidence, replicas, bench.measured, bench.random).calibrate();
-    EXPECT_LT(calibration.critical, 10) << "36 with draws from beyond";
+    EXPECT_LT(calibration.critical, 10) << "it would be 36 with draws from beyond the range";
 }
 
-/// A layered liquid with either law for the walls is one name; with a drift of the temperature beside them it is a set, and a
-/// likeliest pair that does not fit well is no name.
+/// A layered liquid with either of two wall laws has one name. If a third pair, with a drift of the temperature, is in
+/// the set too, or if the most likely pair does not fit well, there is no name.
 TEST(Decision, PairsOfVariantsAreOneName)
 {
     Study study;
@@ -240,26 +242,26 @@ TEST(Decision, PairsOfVariantsAreOneName)
         pair.inSet = pair.fitsWell = true;
         return pair;
     };
-    std::vector<PairFinding> pairs = {judged(0, 1, .6), judged(2, 0, .395)};
+    std::vector<PairFinding> pairs = {judged(0, 1, 0.6), judged(2, 0, 0.395)};
     EXPECT_TRUE(mayBeNamed(study, pairs));
     EXPECT_EQ(sharedName(study, pairs), "layers with walls");
-    pairs.push_back(judged(0, 3, .004));
+    pairs.push_back(judged(0, 3, 0.004));
     EXPECT_FALSE(mayBeNamed(study, pairs)) << "another pair is in the set";
     pairs.pop_back();
-    pairs.back().probability = .1;
-    EXPECT_FALSE(mayBeNamed(study, pairs)) << "there is room for something else";
-    pairs = {judged(0, 1, .999)};
+    pairs.back().probability = 0.1;
+    EXPECT_FALSE(mayBeNamed(study, pairs)) << "other causes are not negligible";
+    pairs = {judged(0, 1, 0.999)};
     EXPECT_TRUE(mayBeNamed(study, pairs));
     pairs.front().fitsWell = false;
     EXPECT_FALSE(mayBeNamed(study, pairs));
 }
 
-/// Two explanations that differ in wet conditions only: runs go there; and to both of them, once the one that the library
-/// knows less of has caught up.
-TEST(NextRuns, GoWhereTheyDecide)
+/// Two explanations differ in wet conditions only. All runs are made there, first for the explanation that the library
+/// knows less about and then for both.
+TEST(NextRuns, AreMadeWhereTheyDecide)
 {
     Bench bench;
-    const std::vector<Contender> contenders = {{{}, atPrior, .5}, {{{bench.effect("addedMass"), .5}}, atPrior, .5}};
+    const std::vector<Contender> contenders = {{{}, atPrior, 0.5}, {{{bench.effect("addedMass"), 0.5}}, atPrior, 0.5}};
     constexpr int runs = 60;
     int wet = 0;
     int null = 0;

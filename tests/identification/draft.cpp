@@ -1,4 +1,4 @@
-/// `traceResidual new`: study files for measured files, accepted once their marked places are filled.
+/// `traceResidual new` drafts study files, which are accepted when their marked values have been filled in.
 #include "study/draft/columns.h"
 #include "study/draft/conditions.h"
 #include "study/draft/draftStudy.h"
@@ -27,7 +27,7 @@ namespace
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-/// Rows every .02 s for six seconds, numbers as %.4f writes them.
+/// Rows every 0.02 s for six seconds, numbers as %0.4f writes them.
 std::string table(
     const std::string& head, const std::string& separator, char decimal, const std::function<double(double)>& value)
 {
@@ -36,14 +36,14 @@ std::string table(
     rows.precision(4);
     for (int i = 0; i < 300; ++i)
     {
-        rows << .02 * i << separator << value(.02 * i) << '\n';
+        rows << 0.02 * i << separator << value(0.02 * i) << '\n';
     }
     std::string text = rows.str();
     std::replace(text.begin(), text.end(), '.', decimal);
     return head + '\n' + text;
 }
 
-/// A folder with a way to the program.
+/// A folder in which the program is run.
 class Bench
 {
 public:
@@ -52,7 +52,7 @@ public:
         folder_.write(name, text);
     }
 
-    /// The program in this folder.
+    /// Runs the program in this folder.
     int run(const std::string& arguments)
     {
         const std::string line =
@@ -71,7 +71,7 @@ public:
         return folder_.path() / name;
     }
 
-    /// What people do with the marked places: the apparatus is the case's own, sizes in names are mm.
+    /// Fills in the marked values: the apparatus is that of the case, and sizes in names are in mm.
     void fill(const std::string& name) const
     {
         std::string study = text(name);
@@ -121,9 +121,9 @@ void writeHopperFiles(const Bench& bench)
     bench.write("measured/notes.txt", "Sunday: nothing measured.\n");
 }
 
-/// A scale under a hopper, as a spreadsheet writes it. Everything that names and titles tell is in the file, it is refused
-/// with the lines of what they do not tell, and is accepted with these filled. A program that wrote one and the same file for
-/// all would have another unit, other files, or no water.
+/// Masses of a hopper, as a spreadsheet writes them. The draft contains everything that follows from names and titles;
+/// it is refused with the lines of all missing values, and accepted when these have been filled in. A program that
+/// always wrote the same draft would have another unit, other files, or no water.
 TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
 {
     Bench bench;
@@ -146,22 +146,22 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     const auto conditions = byName(read);
     ASSERT_EQ(conditions.size(), 5U);
     EXPECT_EQ(conditions.at("dry10").role, Role::training);
-    EXPECT_EQ(conditions.at("dry12").role, Role::heldOut) << "inside the range of dry ones";
+    EXPECT_EQ(conditions.at("dry12").role, Role::heldOut) << "inside the range of dry conditions";
     EXPECT_EQ(conditions.at("wet12").role, Role::heldOut) << "at the end of the other range";
     EXPECT_EQ(conditions.at("wet10").tags.at("medium"), "water");
-    EXPECT_EQ(conditions.at("wet10").command, "./Allrun mesh pour submerged");
+    EXPECT_EQ(conditions.at("wet10").command, "./Allrun mesh filling submerged");
     EXPECT_EQ(conditions.at("wet10").file, "steps/submerged/postProcessing/massInHopper/*/massInHopper.dat");
     EXPECT_EQ(conditions.at("dry14").entries.at("orificeDiameter"), "14e-3");
     EXPECT_EQ(conditions.at("dry14").measured.files.size(), 3U);
     EXPECT_GT(read.effects.size(), 25U);
     const auto features = readMeasurements(read, 0).features;
     EXPECT_NEAR(features(0, 0), std::log(13e-3), 1e-3);
-    EXPECT_TRUE(features.array().isFinite().all()) << "windows that every file passes";
+    EXPECT_TRUE(features.array().isFinite().all()) << "all files must pass through the windows";
     EXPECT_EQ(read.features.back().name, "residue");
 }
 
-/// Nothing that is measured in a held-out condition changes what is proposed.
-TEST(Draft, HeldOutValuesAreNotLookedAt)
+/// The values of a held-out condition do not influence the draft.
+TEST(Draft, DoesNotDependOnHeldOutValues)
 {
     Bench bench;
     writeHopperFiles(bench);
@@ -174,7 +174,7 @@ TEST(Draft, HeldOutValuesAreNotLookedAt)
     EXPECT_NE(bench.text("a.yaml"), bench.text("c.yaml")) << "a training file that ends at half of the fill";
 }
 
-/// A camera that counts downwards and writes 0 while it sees nothing.
+/// Positions of a camera that are positive downwards and 0 while it sees nothing.
 TEST(Draft, OfFallingParticlesIsAcceptedOnceFilled)
 {
     Bench bench;
@@ -184,7 +184,7 @@ TEST(Draft, OfFallingParticlesIsAcceptedOnceFilled)
         {
             bench.write(name + "_trial_" + trial + ".txt",
                 table("28 Feb 2023, 3:30 PM\nTime(sec)\tPosition(mm)", "\t", '.',
-                    [&, speed = speed](double t) { return t < .5 || t > 5 ? 0 : 10 + speed * t; }));
+                    [&, speed = speed](double t) { return t < 0.5 || t > 5 ? 0 : 10 + speed * t; }));
         }
     }
     const std::string files = " bead_1.5_trial_1.txt bead_1.5_trial_2.txt bead_2_trial_1.txt bead_2_trial_2.txt";
@@ -205,7 +205,7 @@ TEST(Draft, OfFallingParticlesIsAcceptedOnceFilled)
     EXPECT_EQ(study.conditions[0].observable.offset(numbers), numbers.at("releaseHeight"));
 }
 
-/// Of a case that writes something unknown, the observable is a place to fill in.
+/// If a case writes no known table, the observable must be filled in.
 TEST(Draft, OfAnUnknownCase)
 {
     Bench bench;
@@ -214,13 +214,13 @@ TEST(Draft, OfAnUnknownCase)
     ASSERT_EQ(bench.run("new case rises.csv"), 0) << bench.output;
     EXPECT_THAT(bench.output, HasSubstr("observable.file: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr("measured.value.offset: FILL IN"))
-        << "what has left is no measure of what is there";
+        << "the mass in the hopper does not follow from the discharged mass alone";
     bench.fill("study.yaml");
     ASSERT_EQ(bench.run("plan study.yaml"), 0) << bench.output;
     EXPECT_EQ(readStudy(bench.path("study.yaml")).conditions.front().measured.value.factor, -1e-3);
 }
 
-/// Nothing is written where there is nothing to write about, and nothing that is there is written over.
+/// After an error nothing is written, and an existing file is never overwritten.
 TEST(Draft, RefusesAndWritesNothing)
 {
     Bench bench;
@@ -239,8 +239,8 @@ TEST(Draft, RefusesAndWritesNothing)
         {"settlingParticle fall.csv late.csv", "late.csv: in line 4 the time goes back"},
         {"hopperQuick one.csv", "no column beside the time"},
         {"hopperQuick nowhere.csv", "nowhere.csv"},
-        {"validation fall.csv", "is no case"},
-        {"settlingParticle fall.csv --output mine.yaml", "mine.yaml: is there already"},
+        {"../validation fall.csv", "is no case"},
+        {"settlingParticle fall.csv --output mine.yaml", "mine.yaml exists already"},
         {"settlingParticle fall.csv --output no/such/folder.yaml", "folder.yaml"},
     };
     for (const auto& [arguments, reported] : refused)
@@ -252,7 +252,7 @@ TEST(Draft, RefusesAndWritesNothing)
     EXPECT_FALSE(fs::exists(bench.path("study.yaml")));
 }
 
-/// By name; "1" and "2" behind a word are repeats, "10" and "12" are not.
+/// Conditions follow from file names: "1" and "2" behind a word number repeats, "10" and "12" do not.
 TEST(Draft, RepeatsAndConditions)
 {
     const auto drafted = [](const std::vector<std::string>& names) {

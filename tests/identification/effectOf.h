@@ -8,7 +8,7 @@
 namespace clepsydra::identification::tests
 {
 
-/// Its place in the study.
+/// Index of an effect in the study, by its name.
 inline std::size_t effectOf(const Study& study, const std::string& name)
 {
     const auto names = namesOfItems(study.effects);

@@ -1,4 +1,4 @@
-/// What the emulator learns from runs: coefficients with intervals that cover, noise, and which effects raise it.
+/// The emulator learns coefficients with correct intervals, the noise, and the effects that raise it.
 #include "emulator/covariance.h"
 #include "emulator/emulator.h"
 #include "linearSimulator.h"
@@ -39,18 +39,18 @@ std::vector<std::vector<Eigen::Index>> allFeatures(const Study& study)
     return features;
 }
 
-/// Two groups with very different means: only the spread within them counts, with n - 1 in each.
+/// Two groups have very different means. Only the spread within each group counts, with n - 1 degrees of freedom.
 TEST(Noise, PoolsSpreadWithinSettings)
 {
     Scatter scatter;
     scatter.add((Eigen::MatrixXd(3, 1) << 1, 2, 3).finished());
     scatter.add((Eigen::MatrixXd(2, 1) << 100, 104).finished());
     EXPECT_EQ(scatter.degreesOfFreedom(), 3);
-    // sums of squares: 2 and 8; per group s^2 = 1 and 8, averaged over 3 + 2 scaled rows: (3*1 + 2*8)/5
+    // The sums of squares are 2 and 8, and s^2 is 1 and 8; the mean over 3 + 2 scaled rows is (3*1 + 2*8)/5.
     EXPECT_NEAR(pooledCovariance(scatter.deviations(), 3).matrix(0, 0), 19. / 5, 1e-12);
 }
 
-/// With ample repeats nothing is shrunk; with few, true correlations are kept in part and false ones fall.
+/// With many repeats nothing is shrunk; with few, true correlations are kept in part and spurious ones decrease.
 TEST(Noise, ShrinksCorrelationsOnlyWhereRepeatsAreFew)
 {
     std::mt19937_64 random(1);
@@ -71,7 +71,8 @@ TEST(Noise, ShrinksCorrelationsOnlyWhereRepeatsAreFew)
     EXPECT_LT(after, 0.5 * before) << "the true correlations are zero";
 }
 
-/// Three repeats, one lacks the second feature: variances over 1/3 and 1/2, covariance over 2/(3*2).
+/// One of three repeats lacks the second feature: the factors are 1/3 and 1/2 for variances and 2/(3*2) for the
+/// covariance.
 TEST(Noise, MeansWithGaps)
 {
     const Eigen::MatrixXd repeats = (Eigen::MatrixXd(3, 2) << 1, 10, 2, nan, 3, 14).finished();
@@ -82,7 +83,7 @@ TEST(Noise, MeansWithGaps)
     EXPECT_NEAR(share(0, 1), 1. / 3, 1e-12);
 }
 
-/// Products of parameters and of effects each have a place of their own.
+/// Each product of parameters and effects has its own term.
 TEST(Basis, TermsAreEachThere)
 {
     const Basis basis{2, {3, 5, 8}, {}};
@@ -104,7 +105,7 @@ TEST(Basis, TermsAreEachThere)
     EXPECT_EQ(basis.placeOf(4), 3U);
 }
 
-/// Parameters as they are known beforehand.
+/// Parameters at the means of their priors.
 const Eigen::VectorXd none = Eigen::VectorXd::Zero(1);
 
 TEST(Emulator, FindsLinearEffects)
@@ -119,19 +120,19 @@ TEST(Emulator, FindsLinearEffects)
         const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
         const ConditionEmulator& both = *emulator[0];
         const Eigen::VectorXd base = both.at(none, {});
-        EXPECT_NEAR(base(0), std::log(.1), 1e-3);
-        EXPECT_NEAR(both.at(Eigen::VectorXd::Ones(1), {})(0) - base(0), .04, 1e-3);
-        EXPECT_NEAR(both.at(none, {{0, 1.}})(0) - base(0), .06, 1e-3);
-        EXPECT_NEAR(both.at(none, {{0, -.5}})(0) - base(0), -.03, 1e-3);
-        EXPECT_NEAR(both.at(none, {{1, 1.}})(0) - base(0), .2, 1e-3);
+        EXPECT_NEAR(base(0), std::log(0.1), 1e-3);
+        EXPECT_NEAR(both.at(Eigen::VectorXd::Ones(1), {})(0) - base(0), 0.04, 1e-3);
+        EXPECT_NEAR(both.at(none, {{0, 1.}})(0) - base(0), 0.06, 1e-3);
+        EXPECT_NEAR(both.at(none, {{0, -0.5}})(0) - base(0), -0.03, 1e-3);
+        EXPECT_NEAR(both.at(none, {{1, 1.}})(0) - base(0), 0.2, 1e-3);
         EXPECT_NEAR(both.at(none, {{2, 1.}})(0) - base(0), -std::log(1.01), 1e-3);
         EXPECT_NEAR(emulator[1]->at(none, {{1, 1.}})(0), emulator[1]->at(none, {})(0), 1e-12) << "y acts in water only";
-        EXPECT_FALSE(emulator[2]) << "held out";
+        EXPECT_FALSE(emulator[2]) << "the condition is held out";
     }
 }
 
-/// What is a part of an effect does nothing without it, and half as much at half its amplitude. A library that moved it
-/// without its effect would know nothing of it.
+/// A parameter of an effect has no influence without the effect, and half its influence at half the amplitude. A
+/// library that changed the parameter without the effect would learn nothing about it.
 TEST(Emulator, ParameterOfAnEffect)
 {
     for (const std::string seed : {"seed", "none"})
@@ -153,14 +154,14 @@ TEST(Emulator, ParameterOfAnEffect)
                 1e-12);
             return (mean * moved)(0) - mean(0, 0);
         };
-        EXPECT_NEAR(effectOfEdge({{0, 1.}}), .06 * .2, 1e-3);
-        EXPECT_NEAR(effectOfEdge({{0, .5}}), .03 * .2, 1e-3);
+        EXPECT_NEAR(effectOfEdge({{0, 1.}}), 0.06 * 0.2, 1e-3);
+        EXPECT_NEAR(effectOfEdge({{0, 0.5}}), 0.03 * 0.2, 1e-3);
         EXPECT_EQ(effectOfEdge({}), 0);
         EXPECT_EQ(effectOfEdge({{1, 1.}}), 0);
     }
 }
 
-/// An effect that bends strongly leaves the others as they are.
+/// The strong curvature of one effect does not change the estimates of the others.
 TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
 {
     const TemporaryFolder folder;
@@ -171,13 +172,13 @@ TEST(Emulator, CurvatureOfOneEffectIsNoOtherEffect)
     const Library library = makeLibrary(studySimulator);
     const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
     const double base = emulator[0]->at(none, {})(0);
-    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - base, .06 + .08, 2e-3);
-    EXPECT_NEAR(emulator[0]->at(none, {{0, -1.}})(0) - base, -.06 + .08, 2e-3);
-    EXPECT_NEAR(emulator[0]->at(none, {{1, 1.}})(0) - base, .2, 2e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - base, 0.06 + 0.08, 2e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, -1.}})(0) - base, -0.06 + 0.08, 2e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{1, 1.}})(0) - base, 0.2, 2e-3);
 }
 
-/// A run that fails is tried again with other seeds, then excluded, and both is reported. An effect of which nothing is left is
-/// not judged: as one without any influence, or with any, it would lead sets.
+/// A failed run is repeated with other seeds, then excluded, and both are reported. An effect whose runs have all
+/// failed is not judged: with an unknown influence it would be the first member of sets.
 TEST(Emulator, FailedRunsAreReportedAndExcluded)
 {
     const TemporaryFolder folder;
@@ -189,14 +190,14 @@ TEST(Emulator, FailedRunsAreReportedAndExcluded)
     const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
     EXPECT_FALSE(emulator.knows(1));
     EXPECT_TRUE(emulator.knows(0));
-    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - emulator[0]->at(none, {})(0), .06, 1e-3);
+    EXPECT_NEAR(emulator[0]->at(none, {{0, 1.}})(0) - emulator[0]->at(none, {})(0), 0.06, 1e-3);
     ASSERT_EQ(emulator.remarks().size(), 1U);
     EXPECT_NE(emulator.remarks().front().find('y'), std::string::npos);
     ASSERT_EQ(studySimulator.effort().failures.size(), 2U);
     EXPECT_EQ(studySimulator.effort().failures.back().reason, "y is not possible");
 }
 
-/// Emulators learnt from runs with known coefficients and noise of .1, other noise each time.
+/// Emulators of runs with known coefficients and a noise of 0.1, which differs from emulator to emulator.
 struct NoisyBench
 {
     const TemporaryFolder folder;
@@ -211,12 +212,12 @@ struct NoisyBench
         std::vector<identification::Run> runs;
         for (const auto& order : libraryOrders(studySimulator))
         {
-            const double t = (order.setting.parameters(0) - .15) / .02;
+            const double t = (order.setting.parameters(0) - 0.15) / 0.02;
             const Eigen::VectorXd& a = order.setting.amplitudes;
             identification::Run run{order.setting, {}};
             run.simulation.condition = order.condition;
             run.simulation.features =
-                Eigen::VectorXd::Constant(1, .3 * t + .5 * a(0) - .4 * a(1) + .1 * normal(random));
+                Eigen::VectorXd::Constant(1, 0.3 * t + 0.5 * a(0) - 0.4 * a(1) + 0.1 * normal(random));
             run.simulation.plain.time = {0, 1};
             run.simulation.plain.value = {1, 0};
             runs.push_back(run);
@@ -225,7 +226,7 @@ struct NoisyBench
     }
 };
 
-/// What the emulator says of its own errors holds.
+/// The errors of the emulator agree with its own estimates of them.
 TEST(Emulator, IntervalsCover)
 {
     NoisyBench bench;
@@ -234,34 +235,36 @@ TEST(Emulator, IntervalsCover)
     for (int trial = 0; trial < 60; ++trial)
     {
         const Emulator emulator = bench.learn();
-        const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, .5);
-        const std::vector<Present> present = {{0, .7}};
-        const double error = emulator[0]->at(at, present)(0) - .15 - .35;
+        const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, 0.5);
+        const std::vector<Present> present = {{0, 0.7}};
+        const double error = emulator[0]->at(at, present)(0) - 0.15 - 0.35;
         squares += error * error / emulator[0]->uncertainty(at, present)(0, 0);
         count += 1;
     }
-    EXPECT_GT(squares / count, .4);
+    EXPECT_GT(squares / count, 0.4);
     EXPECT_LT(squares / count, 2.);
 }
 
-/// The noise was learnt from few repeats: draws that took it for known would call data without any effect a residual.
-TEST(Emulator, WorldsHaveNoiseOfTheirOwn)
+/// The noise is estimated from few repeats. If posterior draws took it as known, data without effects would too often
+/// show a residual.
+TEST(Emulator, PosteriorDrawsVaryTheNoise)
 {
     NoisyBench bench;
     const Emulator emulator = bench.learn();
     const double error = emulator[0]->logSdError;
-    ASSERT_GT(error, .02);
+    ASSERT_GT(error, 0.02);
     double squares = 0;
-    constexpr int worlds = 400;
-    for (int i = 0; i < worlds; ++i)
+    constexpr int draws = 400;
+    for (int i = 0; i < draws; ++i)
     {
-        const Emulator world = emulator.possibleWorld(bench.random);
-        squares += std::pow(.5 * std::log(world[0]->noise(0, 0) / emulator[0]->noise(0, 0)), 2);
+        const Emulator draw = emulator.posteriorDraw(bench.random);
+        squares += std::pow(0.5 * std::log(draw[0]->noise(0, 0) / emulator[0]->noise(0, 0)), 2);
     }
-    EXPECT_NEAR(std::sqrt(squares / worlds), error, .15 * error);
+    EXPECT_NEAR(std::sqrt(squares / draws), error, 0.15 * error);
 }
 
-/// Repeats with y on scatter four times as much: seen without being declared, and the noise of all others stays as it is.
+/// Repeats with y scatter four times as much. This is found without a declaration, and the noise without y does not
+/// change.
 TEST(Emulator, FindsEffectsThatRaiseTheScatter)
 {
     const TemporaryFolder folder;
@@ -278,19 +281,20 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
         const double y = order.setting.amplitudes(1);
         identification::Run run{order.setting, {}};
         run.simulation.condition = order.condition;
-        run.simulation.features = Eigen::VectorXd::Constant(1, y + .1 * (1 + 3 * y) * normal(random));
+        run.simulation.features = Eigen::VectorXd::Constant(1, y + 0.1 * (1 + 3 * y) * normal(random));
         run.simulation.plain.time = {0, 1};
         run.simulation.plain.value = {1, 0};
         runs.push_back(run);
     }
     const Emulator emulator(study, studySimulator, runs, allFeatures(study));
     ASSERT_EQ(emulator[0]->logScatter.count(1), 1U);
-    EXPECT_GT(emulator[0]->logScatter.at(1)(0), .7);
-    EXPECT_LT(std::sqrt(emulator[0]->noise(0, 0)), .2);
+    EXPECT_GT(emulator[0]->logScatter.at(1)(0), 0.7);
+    EXPECT_LT(std::sqrt(emulator[0]->noise(0, 0)), 0.2);
     EXPECT_EQ(emulator[0]->logScatter.count(0), 0U);
 }
 
-/// ln W = 3 x + ...: an error of .01 in x is one of .03; a scale's gain of 2 % is one of .02; what is stated is taken.
+/// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, a gain of 2 % gives 0.02, and errors of features are taken as
+/// stated.
 TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
 {
     const TemporaryFolder folder;
@@ -304,14 +308,14 @@ TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
     study.commonErrors[0].entries.emplace("x", Expression("x + 0.01*z"));
     study.commonErrors[1].chainOperation = "gain";
     study.commonErrors[1].chainSize = Expression("0.02*z");
-    study.commonErrors[2].featureErrors(0) = .05;
+    study.commonErrors[2].featureErrors(0) = 0.05;
     LinearSimulator simulator;
     StudySimulator studySimulator(study, simulator);
     const Library library = makeLibrary(studySimulator);
-    EXPECT_NEAR(library.errorSlopes[0](0, 0), .03, 1e-6);
-    EXPECT_NEAR(library.errorSlopes[0](0, 1), .02, 1e-4);
-    EXPECT_EQ(library.errorSlopes[0](0, 2), .05);
-    EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors are the other condition's";
+    EXPECT_NEAR(library.errorSlopes[0](0, 0), 0.03, 1e-6);
+    EXPECT_NEAR(library.errorSlopes[0](0, 1), 0.02, 1e-4);
+    EXPECT_EQ(library.errorSlopes[0](0, 2), 0.05);
+    EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors belong to the other condition";
 }
 
 } // namespace

@@ -9,8 +9,8 @@ namespace clepsydra::identification::tests
 namespace
 {
 
-/// A folder takes the place of another, whole.
-TEST(StoredFiles, FoldersTakeTheirPlace)
+/// A folder replaces another one completely.
+TEST(StoredFiles, FoldersReplaceEachOther)
 {
     const TemporaryFolder folder;
     folder.write("new/a", "1");
@@ -25,7 +25,7 @@ TEST(StoredFiles, FoldersTakeTheirPlace)
     EXPECT_EQ(textOf(folder.path() / "empty"), "");
 }
 
-/// FIPS 180-4's own examples; the hash of a folder is that of names and contents, and changes with each.
+/// The examples of FIPS 180-4. The hash of a folder depends on names and contents.
 TEST(StoredFiles, Digests)
 {
     EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");

@@ -12,8 +12,8 @@
 namespace clepsydra::identification::tests
 {
 
-/// m = 1 - W t with ln W = ln(.1) + 2 (friction - .15) + 3 x (1 + edge) + 5 y + curvature x^2: linear in the feature, where there is no
-/// curvature, so that the library must find the columns exactly.
+/// m = 1 - W t with ln W = ln(0.1) + 2 (friction - 0.15) + 3 x (1 + edge) + 5 y + curvature x^2. Without curvature the
+/// feature is linear, and the library must find its coefficients exactly.
 class LinearSimulator final : public Simulator
 {
 public:
@@ -51,10 +51,10 @@ public:
                 results.push_back({{}, failsAlways ? "the power is off" : "y is not possible", 1.0, false});
                 continue;
             }
-            double rate = .1
-                          * std::exp(2 * (p.at("friction") - .15) + 3 * p.at("x") * (1 + p.at("edge")) + 5 * p.at("y")
+            double rate = 0.1
+                          * std::exp(2 * (p.at("friction") - 0.15) + 3 * p.at("x") * (1 + p.at("edge")) + 5 * p.at("y")
                                      + curvature * p.at("x") * p.at("x"));
-            rate *= scatters ? 1 + .01 * std::sin(static_cast<double>(order.seed)) : 1;
+            rate *= scatters ? 1 + 0.01 * std::sin(static_cast<double>(order.seed)) : 1;
             Curve curve;
             for (int i = 0; i <= 200; ++i)
             {
@@ -67,7 +67,7 @@ public:
     }
 };
 
-/// \param moreParameters  a line for each
+/// \param moreParameters  one line per parameter
 inline Study linearStudy(const TemporaryFolder& folder, const std::string& seed, const std::string& moreParameters = "")
 {
     folder.write("case/parameters", "friction 0.15;\nx 0;\ny 0;\nedge 0;\nseed 1;\n");

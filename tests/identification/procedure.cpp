@@ -1,4 +1,4 @@
-/// From data to an answer, and from an answer to the held-out conditions.
+/// The procedure from data to an answer, and the test of the answer on held-out conditions.
 #include "decision/pairs.h"
 #include "effectOf.h"
 #include "emulator/settings.h"
@@ -26,7 +26,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// The linear simulator with its effect library. \param scatters  whether its runs do
+/// The linear simulator with its effect library. \param scatters  whether repeated runs differ
 struct Bench
 {
     explicit Bench(bool scatters = true)
@@ -42,29 +42,29 @@ struct Bench
     std::mt19937_64 random{1};
 };
 
-/// Held-out measurements may be in memory, as in checkIdentification: whatever they are, the answer is the same.
-TEST(Trace, HeldOutDataTellNothing)
+/// Held-out measurements may be in memory, as in checkIdentification, but must not change the answer.
+TEST(Trace, HeldOutDataDoNotChangeTheAnswer)
 {
     const auto answerWith = [](double heldOut) {
         Bench bench;
         std::vector<MeasuredCondition> data(bench.study.conditions.size());
         for (std::size_t c = 0; c < data.size(); ++c)
         {
-            const double scatter = bench.study.conditions[c].role == Role::heldOut ? heldOut : .01;
+            const double scatter = bench.study.conditions[c].role == Role::heldOut ? heldOut : 0.01;
             data[c].features = (Eigen::MatrixXd(3, 1) << -2.3 - scatter, -2.3, -2.3 + scatter).finished();
             data[c].declaredError = Eigen::VectorXd::Zero(1);
         }
         return trace(bench.studySimulator, bench.library, data, bench.random);
     };
-    const Answer one = answerWith(.01);
+    const Answer one = answerWith(0.01);
     const Answer other = answerWith(1);
     EXPECT_EQ(one.pValue, other.pValue);
     EXPECT_EQ(one.logOdds, other.logOdds);
     EXPECT_EQ(one.layout.noise(0, 0), other.layout.noise(0, 0));
 }
 
-/// What the data could have shown is found beside the answer and changes nothing of it.
-TEST(Trace, LookingChangesNothing)
+/// The visibility of effects is computed with the answer and must not change it.
+TEST(Trace, VisibilityDoesNotChangeTheAnswer)
 {
     const auto answerWith = [](bool withVisibility) {
         Bench bench;
@@ -82,7 +82,7 @@ TEST(Trace, LookingChangesNothing)
     EXPECT_EQ(answerWith(false), std::tuple(0, logOdds, next));
 }
 
-/// Where every run at the null fit fails nothing is left to be compared, and "no residual" would be a lie.
+/// If all runs at the null fit fail, data and model cannot be compared, and "no residual" would be wrong.
 TEST(Trace, NoAnswerWithoutSimulations)
 {
     Bench bench;
@@ -97,7 +97,7 @@ TEST(Trace, NoAnswerWithoutSimulations)
     try
     {
         trace(bench.studySimulator, bench.library, data, bench.random);
-        FAIL() << "an answer from nothing";
+        FAIL() << "an answer without simulations";
     }
     catch (const std::runtime_error& error)
     {
@@ -106,7 +106,8 @@ TEST(Trace, NoAnswerWithoutSimulations)
     }
 }
 
-/// Where runs do not scatter draws may be as odd as any data: then a chiSquare of 470 in a few numbers was called "no residual".
+/// If runs do not scatter, synthetic data may be as unusual as any data; without the second test, a chi-square of 470
+/// of a few features was "no residual".
 TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
 {
     for (const std::string seed : {"none", "seed"})
@@ -128,20 +129,21 @@ TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
         EXPECT_DOUBLE_EQ(evidence.chanceOfChiSquare(0), 1);
         if (seed == "none")
         {
-            EXPECT_NEAR(evidence.chanceOfChiSquare(2), 0.4, 0.05) << "as large as there are numbers: nothing odd";
+            EXPECT_NEAR(evidence.chanceOfChiSquare(2), 0.4, 0.05)
+                << "a chi-square near the number of features is usual";
             EXPECT_LT(evidence.chanceOfChiSquare(470), 1e-6);
 
-            // The same by the answer and by what could have been seen, whatever draws without any effect look like.
+            // Answer and visibility apply the same test, whatever the null statistics are.
             Calibration calibration;
             calibration.nullStatistics.assign(99, 1e9);
             calibration.critical = 1e9;
             calibration.membership = calibration.chiSquares = calibration.scatterChiSquares = calibration.naming =
                 Eigen::VectorXd::Zero(static_cast<Eigen::Index>(study.effects.size()));
             Odds odds;
-            odds.chanceOfChiSquare = .02;
+            odds.chanceOfChiSquare = 0.02;
             EXPECT_TRUE(isDetected(study, calibration, odds));
-            odds.chanceOfChiSquare = .03;
-            EXPECT_FALSE(isDetected(study, calibration, odds)) << "of two questions";
+            odds.chanceOfChiSquare = 0.03;
+            EXPECT_FALSE(isDetected(study, calibration, odds)) << "the p-value is corrected for two tests";
             std::mt19937_64 random(1);
             const Measured measured = arrange(study, emulator, data).second;
             Replicas replicas(emulator, layout, evidence, random);
@@ -150,12 +152,13 @@ TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
         }
         else
         {
-            EXPECT_DOUBLE_EQ(evidence.chanceOfChiSquare(470), 1) << "left to draws, which have the runs' noise";
+            EXPECT_DOUBLE_EQ(evidence.chanceOfChiSquare(470), 1) << "synthetic data with the runs' noise decide";
         }
     }
 }
 
-/// Where runs do not scatter, noise is that of repeats: what was measured once beside others that have repeats is not exact.
+/// If runs do not scatter, the noise is that of repeats. A feature that was measured once is not exact if others have
+/// repeats.
 TEST(Trace, NothingMeasuredIsExact)
 {
     const TemporaryFolder folder;
@@ -176,28 +179,28 @@ TEST(Trace, NothingMeasuredIsExact)
     try
     {
         arrange(study, emulator, data);
-        FAIL() << "a number without an error";
+        FAIL() << "a feature without an error was accepted";
     }
     catch (const std::runtime_error& error)
     {
         EXPECT_THAT(error.what(), HasSubstr("condition 'both': 'once'"));
     }
-    study.modelError(1) = .01;
+    study.modelError(1) = 0.01;
     const double noise = arrange(study, emulator, data).first.noise(0, 0);
     EXPECT_NEAR(noise, 1e-4, 1e-9);
-    // What is planned has no scatter of its own, and must not make less of the others'.
+    // Planned measurements have no scatter and must not reduce that of the others.
     data[1].features.setConstant(-2.3);
     data[1].isPlanned = true;
     EXPECT_NEAR(arrange(study, emulator, data).first.noise(0, 0), noise, 1e-9);
 }
 
-/// What an effect does friction does as well: how far it is open is friction's error, too. Of a standard normal number between
-/// -1.5 and 1.5, which is what an amplitude between 1 and -1 leaves of friction.
-TEST(Trace, ParametersKnowLessBesideTheirLike)
+/// An effect that is collinear with friction increases friction's error. The expected error is that of a standard
+/// normal variable between -1.5 and 1.5, which corresponds to amplitudes between 1 and -1.
+TEST(Trace, CollinearEffectIncreasesTheErrorOfAParameter)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
-    study.modelError = Eigen::VectorXd::Constant(1, .001);
+    study.modelError = Eigen::VectorXd::Constant(1, 0.001);
     LinearSimulator simulator;
     StudySimulator studySimulator(study, simulator);
     const Library library = makeLibrary(studySimulator);
@@ -211,8 +214,8 @@ TEST(Trace, ParametersKnowLessBesideTheirLike)
     const auto [layout, measured] = arrange(study, emulator, data);
     const Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
     const Fit fit = evidence.fit(effectOf(study, "x"), measured);
-    EXPECT_LT(std::sqrt(fit.covariance(0, 0)), .05) << "at one amplitude";
-    EXPECT_NEAR(std::sqrt(fit.marginal(0, 0)), .743, .05);
+    EXPECT_LT(std::sqrt(fit.covariance(0, 0)), 0.05) << "at one amplitude";
+    EXPECT_NEAR(std::sqrt(fit.marginal(0, 0)), 0.743, 0.05);
     EXPECT_EQ(evidence.fitNull(measured).marginal, evidence.fitNull(measured).covariance);
 }
 
@@ -226,8 +229,9 @@ Explanation explanationBy(std::size_t effect, const Setting& setting)
     return explanation;
 }
 
-/// Two kernels of one force are no pair, for only one of them can be on; two factors on one entry are, for they multiply.
-TEST(Trace, NoPairOfWhatUndoesEachOther)
+/// Two kernels of one force are no pair, because only one of them can be on; two factors on one entry are a pair,
+/// because they multiply.
+TEST(Trace, NoPairOfEffectsThatUndoEachOther)
 {
     const auto setting = [](const std::string& formula) {
         Effect effect;
@@ -236,7 +240,7 @@ TEST(Trace, NoPairOfWhatUndoesEachOther)
     };
     const auto named = [](const std::string& kernel) {
         Effect effect;
-        effect.words["historyForce"] = kernel;
+        effect.textEntries["historyForce"] = kernel;
         return effect;
     };
     EXPECT_TRUE(undoEachOther(named("Basset"), named("MeiAdrian")));
@@ -246,12 +250,12 @@ TEST(Trace, NoPairOfWhatUndoesEachOther)
     EXPECT_FALSE(undoEachOther(named("Basset"), setting("1000*a")));
 }
 
-/// Pairs with variants of one thing share the weight of one pair, all of them that of one effect.
+/// Pairs with variants of one effect share the weight of one pair; all pairs together have the weight of one effect.
 TEST(Trace, PairsOfVariantsShareTheirWeight)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
-    study.modelError = Eigen::VectorXd::Constant(1, .01);
+    study.modelError = Eigen::VectorXd::Constant(1, 0.01);
     study.effects.push_back(study.effects.back()); // another clock
     study.effects[0].family = study.effects[2].family = "rate";
     LinearSimulator simulator;
@@ -266,7 +270,7 @@ TEST(Trace, PairsOfVariantsShareTheirWeight)
     const Emulator emulator(study, studySimulator, library.runs, measuredFeatures(study, data));
     const auto [layout, measured] = arrange(study, emulator, data);
     Evidence evidence(study, emulator, layout, Eigen::VectorXd::Zero(1));
-    // x or clock with y or the other clock, or the latter two.
+    // Possible pairs: x or clock with y or the other clock, and y with the other clock.
     const auto pairs = leadingPairs(study, evidence, measured);
     EXPECT_FALSE(pairs.empty());
     for (const auto& pair : pairs)
@@ -276,7 +280,7 @@ TEST(Trace, PairsOfVariantsShareTheirWeight)
     }
 }
 
-/// The mean start is late and the scale drifts: neither alone explains both, and the two are found together.
+/// The record starts late and the scale drifts. Neither effect alone explains the data, and the pair is found.
 TEST(Trace, TwoEffectsAtOnce)
 {
     Study study = readStudy(std::filesystem::path(SURROGATE) / "study.yaml");
@@ -288,7 +292,7 @@ TEST(Trace, TwoEffectsAtOnce)
     Setting setting = studySimulator.plainSetting();
     for (const auto e : truth)
     {
-        setting.amplitudes(static_cast<Eigen::Index>(e)) = .8;
+        setting.amplitudes(static_cast<Eigen::Index>(e)) = 0.8;
     }
     std::vector<MeasuredCondition> data(study.conditions.size());
     for (std::size_t c = 0; c < data.size(); ++c)
@@ -305,15 +309,15 @@ TEST(Trace, TwoEffectsAtOnce)
     {
         likely += member.probability;
     }
-    EXPECT_LE(likely + answer.otherBesideSet, 1 + 1e-9) << "these are said together";
+    EXPECT_LE(likely + answer.otherBesideSet, 1 + 1e-9) << "the report states these probabilities together";
     for (const auto& fit : answer.set.front().fits)
     {
-        EXPECT_NEAR(fit.amplitude, .8, .3);
+        EXPECT_NEAR(fit.amplitude, 0.8, 0.3);
     }
 }
 
-/// Data made by one effect at full size, predicted with it switched on, as a name or as a set. \param edgeFails  whether there
-/// is another held-out condition, where something else acts as well and no run with y succeeds
+/// Held-out result for data with one effect at full size, which the answer names or has in its set. \param edgeFails
+/// whether there is another held-out condition, in which another effect acts too and no run with y succeeds
 HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFails = false)
 {
     Bench bench;
@@ -336,7 +340,7 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
     }
     if (edgeFails)
     {
-        data.back().features.array() += .3;
+        data.back().features.array() += 0.3;
         bench.simulator.failsWithYAtEdge = true;
     }
     Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
@@ -345,8 +349,9 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
     return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
 }
 
-/// What acts under water only, no factor of all times imitates: it may enter the model, but only as a name.
-TEST(HeldOut, AcceptsANameThatNothingElseImitates)
+/// A factor on all times cannot imitate an effect that acts under water only. The effect may enter the model, but only
+/// if it is named.
+TEST(HeldOut, AcceptsANameThatTheControlCannotImitate)
 {
     const HeldOutResult named = heldOutOf("y", Decision::named);
     EXPECT_THAT(named.notAcceptedBecause, IsEmpty());
@@ -358,16 +363,16 @@ TEST(HeldOut, AcceptsANameThatNothingElseImitates)
     EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
 }
 
-/// Where the effect's runs fail nothing is predicted: no gain, and the error before is that of the numbers that are left.
-TEST(HeldOut, ComparesTheSameNumbers)
+/// In a condition where the runs with the effect fail there is no prediction; its features enter neither error.
+TEST(HeldOut, ComparesTheSameFeatures)
 {
     const HeldOutResult result = heldOutOf("y", Decision::named, true);
     EXPECT_THAT(result.notAcceptedBecause, ElementsAre("no prediction of logMeanRate in edged"));
-    EXPECT_NEAR(result.before.rmsLogError.value, .1, .02) << ".29 with the number that y does not predict";
+    EXPECT_NEAR(result.before.rmsLogError.value, 0.1, 0.02) << "0.29 with the feature that is not predicted with y";
 }
 
-/// Control 1 learns from each run what was set in it: where the last fit lies does not matter where all is linear.
-TEST(HeldOut, OneMoreParameterKnowsWhatRunsWere)
+/// Control 1 uses the setting of each run. In a linear problem the position of the last fit must not matter.
+TEST(HeldOut, OneMoreParameterUsesTheSettingsOfRuns)
 {
     Bench bench(false);
     bench.study.simulator.seedEntry = "";
@@ -384,11 +389,11 @@ TEST(HeldOut, OneMoreParameterKnowsWhatRunsWere)
         return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random).oneMoreAmplitude;
     };
     const double size = sizeOfOneMore();
-    answer.null.setting.parameters(0) -= .02;
-    EXPECT_NEAR(sizeOfOneMore(), size, .01 * std::abs(size));
+    answer.null.setting.parameters(0) -= 0.02;
+    EXPECT_NEAR(sizeOfOneMore(), size, 0.01 * std::abs(size));
 }
 
-/// A study may have no held-out measurements: nothing is simulated, nothing accepted.
+/// Without held-out measurements nothing is simulated and nothing is accepted.
 TEST(HeldOut, NothingWithoutMeasurements)
 {
     Bench bench(false);
@@ -403,8 +408,9 @@ TEST(HeldOut, NothingWithoutMeasurements)
     EXPECT_EQ(bench.studySimulator.effort().executed, before);
 }
 
-/// What makes everything faster by the same factor is no better than a free factor of all times, however well it does.
-TEST(HeldOut, AcceptsNothingThatOneMoreParameterDoesAsWell)
+/// An effect that changes all times by the same factor is no better than a free factor on all times, however well it
+/// predicts.
+TEST(HeldOut, RefusesAnEffectThatOneMoreParameterReplaces)
 {
     const HeldOutResult result = heldOutOf("x", Decision::named);
     EXPECT_FALSE(result.accepted());

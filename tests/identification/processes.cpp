@@ -1,4 +1,4 @@
-/// Runs as processes: what ends them, and what no process survives.
+/// Runs as processes: how they end, and that no process is left.
 #include "runner/processPool.h"
 #include "runner/slurmArray.h"
 #include "temporaryFolder.h"
@@ -24,8 +24,8 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// A run that starts a child that ignores SIGTERM, one more that has left its group and session and whose parent is gone,
-/// and then waits for ever itself, ignoring SIGTERM. All write down who they are.
+/// A run that starts a child that ignores SIGTERM and another one that has left its group and session and has lost its
+/// parent. The run itself ignores SIGTERM too and waits forever. All write their process numbers.
 const std::string stubborn = "trap '' TERM\n"
                              "sleep 1000 & echo $! >> pids\n"
                              "(setsid sh -c 'sleep 1000 & echo $! >> pids; echo $$ >> pids; wait' &)\n"
@@ -53,7 +53,7 @@ std::size_t alive(const std::vector<pid_t>& processes)
     }));
 }
 
-/// Waits, but not for ever.
+/// Waits for a condition for a limited time.
 template<class Condition>
 bool soon(const Condition& condition)
 {
@@ -64,8 +64,8 @@ bool soon(const Condition& condition)
     return condition();
 }
 
-/// What is over its time limit is gone with all its children when the run is reported to have ended. Signals to the shell or
-/// its group alone leave the sleepers.
+/// When a run that exceeded its time limit is reported as ended, all its children have ended too. Signals to the shell
+/// or its group alone would leave the sleeping children.
 TEST(Processes, NoneOutlivesTheTimeLimit)
 {
     const TemporaryFolder folder;
@@ -80,7 +80,7 @@ TEST(Processes, NoneOutlivesTheTimeLimit)
     EXPECT_EQ(left, 0U);
 }
 
-/// What a run leaves in the background ends with it, and its status stays its own.
+/// Background processes of a run end with it, and its status is kept.
 TEST(Processes, NoneOutlivesItsRun)
 {
     const TemporaryFolder folder;
@@ -95,8 +95,8 @@ TEST(Processes, NoneOutlivesItsRun)
     EXPECT_EQ(alive(processesOf(folder.path())), 0U);
 }
 
-/// However the program itself ends, by a signal that it sees, by one that it does not, or by an error while it takes in
-/// another run's result, no process of its runs is left.
+/// No process of a run is left, whether the program ends by a signal that it can handle, by SIGKILL, or by an error
+/// while it processes the result of another run.
 TEST(Processes, NoneOutlivesTheProgram)
 {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGKILL, 0})
@@ -133,8 +133,8 @@ TEST(Processes, NoneOutlivesTheProgram)
     }
 }
 
-/// A signal ends what is running, and that is no failed run: taken for one, an interrupted study would go on to an answer
-/// without any simulation. One that is ignored, as in the background of a script, is left ignored.
+/// A signal ends the runs, which does not count as a failure: otherwise an interrupted study would continue to an
+/// answer without simulations. A signal that is ignored, as in a background job of a script, stays ignored.
 TEST(Processes, StoppedIsNotFailed)
 {
     const TemporaryFolder folder;
@@ -167,11 +167,11 @@ TEST(Processes, StoppedIsNotFailed)
     EXPECT_EQ(runWhileSignalled(SIGINT, SIG_IGN, "sleep 0.5"), std::vector<int>{0});
 }
 
-/// Slurm, played by scripts that are found before it.
+/// Scripts in place of Slurm's commands, at the beginning of the path.
 class PlayedSlurm
 {
 public:
-    /// \param sbatch, scancel  what these do, as shell
+    /// \param sbatch, scancel  shell commands that these scripts execute
     PlayedSlurm(const TemporaryFolder& folder, const std::string& sbatch, const std::string& scancel = "")
         : path_(std::getenv("PATH") ? std::getenv("PATH") : "")
     {
@@ -193,7 +193,7 @@ private:
     std::string path_;
 };
 
-/// Options reach sbatch word by word; a shell that read them would make the file.
+/// Options are passed to sbatch as they are; a shell that interpreted them would create the file.
 TEST(Slurm, OptionsAreNoShell)
 {
     const TemporaryFolder folder;
@@ -205,9 +205,9 @@ TEST(Slurm, OptionsAreNoShell)
     EXPECT_FALSE(fs::exists("executed"));
 }
 
-/// A run of an array that has ended is reported while another still runs, once: this one ends when the first has been reported. An
-/// error while it is reported cancels the array.
-TEST(Slurm, TellsWhatHasEndedAtOnce)
+/// A finished task is reported once, while another one still runs, which ends when the first has been reported. An
+/// error during the report cancels the array.
+TEST(Slurm, ReportsFinishedTasksImmediately)
 {
     const TemporaryFolder folder;
     const PlayedSlurm slurm(folder,
@@ -231,7 +231,7 @@ TEST(Slurm, TellsWhatHasEndedAtOnce)
     EXPECT_EQ(contentOf(folder.path() / "cancelled"), "4711\n");
 }
 
-/// A job array does not go on when nobody waits for it any more.
+/// A job array is cancelled when the program that waits for it is stopped.
 TEST(Slurm, IsCancelledWhenStopped)
 {
     const TemporaryFolder folder;

@@ -1,4 +1,4 @@
-/// The program from the outside: study file to report, on the surrogate run as a program.
+/// The program from study file to report, with the surrogate as the program of the case.
 #include "curves/table.h"
 #include "runner/caseSimulator.h"
 #include "runner/storedFiles.h"
@@ -39,7 +39,7 @@ std::string replaced(std::string text, const std::string& old, const std::string
     return text.replace(text.find(old), old.size(), by);
 }
 
-/// The text without all parts that begin and end so.
+/// A text without all parts that begin with `begin` and end with `end`.
 std::string without(std::string text, const std::string& begin, const std::string& end)
 {
     for (auto at = text.find(begin); at != std::string::npos; at = text.find(begin, at))
@@ -49,7 +49,7 @@ std::string without(std::string text, const std::string& begin, const std::strin
     return text;
 }
 
-/// A copy of the surrogate's case and study, with measurements made by the surrogate itself.
+/// A copy of the surrogate's case and study, with synthetic measurements.
 class Workshop
 {
 public:
@@ -57,19 +57,19 @@ public:
     {
         fs::copy(fs::path(SURROGATE) / "case", folder_.path() / "case");
         study_ = contentOf(fs::path(SURROGATE) / "study.yaml");
-        // The program of the case is in the build folder, wherever that is.
+        // The program of the case is in the build folder.
         folder_.write("case/Allrun", "#!/bin/sh\nexec " SURROGATE_PROGRAM "\n");
         fs::permissions(folder_.path() / "case/Allrun", fs::perms::owner_all);
     }
 
-    /// Another effect of the library, as a line of the study.
+    /// Adds an effect to the study. \param effect  line of the study file
     void offer(const std::string& effect)
     {
         const std::string begin = "\neffects:\n";
         study_.insert(study_.find(begin) + begin.size(), effect);
     }
 
-    /// Three measured repeats of every condition, in g, with an effect in them. \param late  [s] that the record starts
+    /// Writes three repeats of each condition, in g, with an effect. \param late  delay of the record [s]
     void measure(const Entries& effect, double late = 0.0)
     {
         folder_.write("study.yaml", study_);
@@ -140,8 +140,8 @@ private:
     std::string study_;
 };
 
-/// An effect that was put into the data is named (or is in the set), the error on conditions that no fit saw falls, and a
-/// second time nothing is run again. A program that named the same effect always would fail the next test.
+/// An effect in the data is named (or is in the set), the error on held-out conditions falls, and a second call makes
+/// no runs. A program that always named the same effect would fail the next test.
 TEST(Program, FindsTheEffectThatWasPutIn)
 {
     Workshop workshop;
@@ -150,9 +150,9 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     const auto report = workshop.json("report.json");
     EXPECT_THAT(report["decision"].get<std::string>(), testing::AnyOf("named", "set"));
     EXPECT_EQ(report["set"][0]["name"], "addedMass");
-    EXPECT_LT(report["pValue"].get<double>(), .01);
+    EXPECT_LT(report["pValue"].get<double>(), 0.01);
     EXPECT_LT(report["heldOut"]["after"]["rmsLogError"].get<double>(),
-        .6 * report["heldOut"]["before"]["rmsLogError"].get<double>());
+        0.6 * report["heldOut"]["before"]["rmsLogError"].get<double>());
     EXPECT_TRUE(report["heldOut"]["accepted"].get<bool>());
     for (const std::string key : {"before", "after", "oneMoreParameter", "gaussianProcess"})
     {
@@ -163,7 +163,7 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     {
         used += count.get<int>();
     }
-    EXPECT_EQ(report["runs"]["used"], used - 6) << "the first runs, with which units are checked, are the library's";
+    EXPECT_EQ(report["runs"]["used"], used - 6) << "the first runs, which check the units, belong to the library";
     for (const std::string key : {"effects", "runs", "seeds", "assumptions", "calibration", "emulator", "residual"})
     {
         EXPECT_FALSE(report[key].empty()) << key;
@@ -174,7 +174,7 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     const auto summary = report["summary"].get<std::string>();
     EXPECT_THAT(summary, HasSubstr("falls from"));
     EXPECT_LT(page.find(summary), page.find("<svg")) << "the sentence comes first";
-    EXPECT_THAT(page, HasSubstr("aria-label=\"wetBeyond\"")) << "curves of the held-out conditions, too";
+    EXPECT_THAT(page, HasSubstr("aria-label=\"wetBeyond\"")) << "curves of the held-out conditions";
     if (std::system("command -v chromium > /dev/null") == 0)
     {
         const std::string seen = (workshop.path() / "seen").string();
@@ -190,7 +190,7 @@ TEST(Program, FindsTheEffectThatWasPutIn)
         report["fitted"].begin(), report["fitted"].end(), [](const auto& one) { return one["name"] == "addedMass"; });
     ASSERT_NE(fitted, report["fitted"].end());
     const auto& size = (*fitted)["withEffect"];
-    EXPECT_NEAR(size["value"].get<double>(), .7, 4 * size["standardError"].get<double>());
+    EXPECT_NEAR(size["value"].get<double>(), 0.7, 4 * size["standardError"].get<double>());
 
     ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
     const auto again = workshop.json("report.json");
@@ -198,10 +198,10 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_EQ(again["set"], report["set"]);
 
     ASSERT_EQ(workshop.run("report", "exec 2>&-;"), 0);
-    EXPECT_EQ(workshop.output.substr(0, workshop.output.find('\n')), summary) << "the first line of what it prints";
+    EXPECT_EQ(workshop.output.substr(0, workshop.output.find('\n')), summary) << "the first line of the output";
     EXPECT_THAT(workshop.output, HasSubstr("Fitted: friction"));
 
-    // In a checkout there is neither a page nor a stored run: report.json gives the page again, all but its curves.
+    // A checkout has neither a page nor stored runs; the page is made from report.json without the curves.
     std::string drawn = contentOf(workshop.path() / "results/report.html");
     const std::string plots = "<div class=\"plots\">";
     const std::string note = "<p class=\"small\">The curves are not drawn";
@@ -214,7 +214,7 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_THAT(made, HasSubstr(summary));
     EXPECT_EQ(without(made, note, "</p>\n"), without(drawn, plots, "</div>\n"));
 
-    // A report that another version has written, which lacks what the page shows.
+    // A report of another version lacks a key that the page shows.
     auto old = workshop.json("report.json");
     old.erase("fitted");
     std::ofstream(workshop.path() / "results/report.json") << old;
@@ -224,8 +224,8 @@ TEST(Program, FindsTheEffectThatWasPutIn)
     EXPECT_FALSE(fs::exists(workshop.path() / "results/report.html"));
 }
 
-/// Particles so light that the wet flow is half as fast drive the null's friction far from where the library was made, and
-/// back takes more steps than a small effect needs. Without them the program calls an effect of its own library unknown.
+/// With particles so light that the wet flow is half as fast, the null fit moves friction far from the base setting,
+/// and the way back takes more steps than a small effect needs. With too few steps the program answers "unknown".
 TEST(Program, FollowsALargeEffectToItsEnd)
 {
     Workshop workshop;
@@ -235,12 +235,12 @@ TEST(Program, FollowsALargeEffectToItsEnd)
     const auto report = workshop.json("report.json");
     ASSERT_EQ(report["decision"], "named") << report["summary"];
     EXPECT_EQ(report["name"], "lightParticles");
-    EXPECT_NEAR(report["set"][0]["parameters"]["friction"].get<double>(), .15, .03);
-    EXPECT_GT(report["null"]["parameters"]["friction"].get<double>(), .25) << "not as far as this test wants it";
+    EXPECT_NEAR(report["set"][0]["parameters"]["friction"].get<double>(), 0.15, 0.03);
+    EXPECT_GT(report["null"]["parameters"]["friction"].get<double>(), 0.25) << "too near for this test";
 }
 
-/// Nothing put in: nothing found, at this seed; the rate of false alarms is what checkIdentification measures.
-TEST(Program, FindsNothingWhereNothingIs)
+/// Without an effect in the data, none is found with this seed; checkIdentification measures the rate of false alarms.
+TEST(Program, FindsNothingWithoutAnEffect)
 {
     Workshop workshop;
     workshop.measure({});
@@ -249,9 +249,9 @@ TEST(Program, FindsNothingWhereNothingIs)
     EXPECT_TRUE(workshop.json("report.json")["name"].is_null());
 }
 
-/// Values of held-out files do not change the answer, which is on disk before they are looked at, and are not reported; their
-/// form is looked at before anything is run. The three kinds of bad files: text, a time that goes back, a number that is none.
-TEST(Program, DoesNotLookAtHeldOutValuesFirst)
+/// The values of held-out files do not change the answer, which is on disk before they are read, and they are not
+/// reported. Their form is checked before the first run: text, times that go back and invalid numbers are errors.
+TEST(Program, ReadsHeldOutValuesAfterTheAnswer)
 {
     Workshop workshop;
     workshop.measure({});
@@ -266,7 +266,7 @@ TEST(Program, DoesNotLookAtHeldOutValuesFirst)
         EXPECT_THAT(workshop.output, HasSubstr("dryBetween0.csv"));
         EXPECT_THAT(workshop.output, HasSubstr(reported));
         EXPECT_NE(workshop.run("plan"), 0);
-        EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work/cache")) << "not before anything is run";
+        EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work/cache")) << "runs were made before the check";
     }
     std::ofstream(file) << good;
     for (int time = 0; time < 2; ++time)
@@ -282,9 +282,9 @@ TEST(Program, DoesNotLookAtHeldOutValuesFirst)
     EXPECT_THAT(workshop.output, testing::Not(HasSubstr("7777")));
 }
 
-/// A wrong unit is reported after one run of each condition, not after all of them, and a limit above the difference lets it
-/// pass; `plan` says so where those runs are there.
-TEST(Program, DoubtsUnitsAfterTheFirstRuns)
+/// A wrong unit is reported after one run of each condition, not after all runs. A magnitudeLimit above the difference
+/// allows it, and `plan` reports it if these runs are stored.
+TEST(Program, ChecksUnitsAfterTheFirstRuns)
 {
     Workshop workshop;
     workshop.measure({});
@@ -303,8 +303,8 @@ TEST(Program, DoubtsUnitsAfterTheFirstRuns)
     EXPECT_EQ(workshop.run("plan"), 0) << workshop.output;
 }
 
-/// Training files without any of the features are reported before a run is made.
-TEST(Program, DoubtsFilesWithoutFeatures)
+/// Training files that have none of the features are reported before a run is made.
+TEST(Program, RefusesFilesWithoutFeatures)
 {
     Workshop workshop;
     workshop.measure({});
@@ -317,8 +317,9 @@ TEST(Program, DoubtsFilesWithoutFeatures)
     EXPECT_FALSE(fs::exists(workshop.path() / "surrogate.work"));
 }
 
-/// A condition that is held out and has no measurements is reported before a run is made, not as "none was held out" after all.
-TEST(Program, WantsMeasurementsOfWhatIsHeldOut)
+/// A held-out condition without measurements is reported before a run is made, not after all runs as "none was held
+/// out".
+TEST(Program, RequiresHeldOutMeasurements)
 {
     Workshop workshop;
     workshop.measure({});
@@ -331,7 +332,7 @@ TEST(Program, WantsMeasurementsOfWhatIsHeldOut)
     EXPECT_EQ(workshop.run("plan"), 0) << workshop.output;
 }
 
-/// A plan names its cost and runs nothing unless reported to; then it says what can be seen.
+/// A plan reports its cost and makes no runs; with --execute it makes them and reports the detectable effects.
 TEST(Program, PlansBeforeItRuns)
 {
     Workshop workshop;
@@ -342,32 +343,32 @@ TEST(Program, PlansBeforeItRuns)
     EXPECT_TRUE(fs::is_empty(workshop.path() / "surrogate.work/cache"));
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("named from"));
-    EXPECT_THAT(workshop.output, HasSubstr("a name needs a residual of "));
+    EXPECT_THAT(workshop.output, HasSubstr("An effect is named if its residual is at least "));
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
-/// What a run takes is assumed, and said to be, until one has been timed, which is kept. The surrogate takes far less than the
-/// 60 s that a study assumes by itself.
+/// The time of a run is stated as an assumption until one run has been timed, and is stored then. The surrogate takes
+/// far less than the 60 s that a study assumes by default.
 TEST(Program, PlansByTheTimeOfOneRun)
 {
     Workshop workshop;
     workshop.measure({});
     ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
-    EXPECT_THAT(workshop.output, HasSubstr("s a run, assumed"));
+    EXPECT_THAT(workshop.output, HasSubstr("s per run, an assumption"));
     ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
     std::smatch found;
-    const std::regex said(R"(effect library: (\d+) runs, (\d+) of them not made yet.*\((\S+) s a run\))");
+    const std::regex said(R"(effect library: (\d+) runs, (\d+) of them not made yet.*\((\S+) s per run\))");
     ASSERT_TRUE(std::regex_search(workshop.output, found, said)) << workshop.output;
     EXPECT_EQ(std::stoi(found[2]), std::stoi(found[1]) - 1);
     EXPECT_LT(std::stod(found[3]), 30);
     const fs::directory_iterator stored(workshop.path() / "surrogate.work/cache");
     EXPECT_EQ(std::distance(begin(stored), end(stored)), 1);
-    // Not another one.
+    // No further run is made.
     ASSERT_EQ(workshop.run("plan --time"), 0) << workshop.output;
     EXPECT_TRUE(std::regex_search(workshop.output, found, said) && found[2] == std::to_string(std::stoi(found[1]) - 1));
 }
 
-/// A study whose case writes one and the same table always. \param condition  what it is beside its name, role and commas
+/// A study whose case always writes the same table. \param condition  further keys of the condition
 struct QuietStudy
 {
     explicit QuietStudy(const std::string& condition)
@@ -399,18 +400,19 @@ struct QuietStudy
     std::string output;
 };
 
-/// Where nothing scatters and no effect does anything, a plan says that nothing shows; it ended with SIGSEGV.
-TEST(Program, PlansWhereNothingShows)
+/// If nothing scatters and no effect has an influence, a plan reports that no effect is detectable; it once ended with
+/// SIGSEGV.
+TEST(Program, PlansWithoutDetectableEffects)
 {
     QuietStudy study("");
     EXPECT_EQ(study.run("plan --execute"), 0) << study.output;
-    EXPECT_THAT(study.output, HasSubstr("each data set: about 5 runs more"));
-    EXPECT_THAT(study.output, HasSubstr("up to some 29 where")) << "8 rounds of a fit and a neighbour, 4 of pairs";
-    EXPECT_THAT(study.output, HasSubstr("no effect shows"));
+    EXPECT_THAT(study.output, HasSubstr("each data set: about 5 further runs"));
+    EXPECT_THAT(study.output, HasSubstr("up to about 29 if")) << "8 rounds of a fit and a neighbour, 4 rounds of pairs";
+    EXPECT_THAT(study.output, HasSubstr("No effect is detectable"));
 }
 
-/// A number without repeats or a declared error, where runs do not scatter either, is reported before a run is made.
-TEST(Program, WantsNoiseBeforeItRuns)
+/// If runs do not scatter, a value without repeats and without a declared error is reported before a run is made.
+TEST(Program, RequiresNoiseBeforeItRuns)
 {
     QuietStudy study(", measured: { numbers: [ { feature: logMeanRate, unit: g/s, values: [0.5] } ] }");
     for (const std::string command : {"run", "plan"})
@@ -432,8 +434,8 @@ TEST(Program, SaysWhatIsWrongAndWritesNothing)
     EXPECT_FALSE(fs::exists(workshop.path() / "results"));
 }
 
-/// A disk that is full when the reports are written: the old ones stay whole, the error names the file, and both `run` and
-/// `report` say so with their status. Written unchecked, half a report would take the old one's place.
+/// If the disk is full when the reports are written, the old reports stay complete, the error names the file, and `run`
+/// and `report` fail. Without a check, half a report would replace the old one.
 TEST(Program, FullDiskLeavesTheOldReports)
 {
     Workshop workshop;
@@ -450,11 +452,11 @@ TEST(Program, FullDiskLeavesTheOldReports)
     std::ofstream(workshop.path() / "results/report.json") << R"({ "summary": "half)";
     workshop.append("nonsense: 1\n");
     EXPECT_NE(workshop.run("report"), 0);
-    EXPECT_THAT(workshop.output, HasSubstr("report.json: damaged"));
+    EXPECT_THAT(workshop.output, HasSubstr("report.json is damaged"));
 }
 
-/// A stored run that is damaged in any of its parts is not believed: it is reported, and made again with the same result.
-/// Without checksums all of these but the empty record give another curve without a word.
+/// A stored run with any damaged part is reported and repeated with the same result. Without checksums, all of these
+/// damages but the empty record would give another curve without a message.
 TEST(Runner, DamagedStore)
 {
     Workshop workshop;
@@ -499,9 +501,9 @@ TEST(Runner, DamagedStore)
     }
 }
 
-/// Orders that differ by the file of the observable alone share a run, and each gets its own file's curve; another study of
-/// the store that wants a third file makes the run again and takes none away. Reported apart by nothing, the second order got
-/// the first one's curve.
+/// Orders that differ only in the file of the observable share a run, and each gets the curve of its own file. Another
+/// study with the same store that needs a third file repeats the run and keeps the stored files. Before orders were
+/// distinguished by their files, the second order got the curve of the first.
 TEST(Runner, SeveralFilesOfOneRun)
 {
     const TemporaryFolder folder;
@@ -527,8 +529,8 @@ TEST(Runner, SeveralFilesOfOneRun)
     EXPECT_EQ(simulator.missing({orderOf("a"), orderOf("b"), orderOf("c")}), 0);
 }
 
-/// Two studies of one store that want the same run at the same time: one makes it, the other waits and finds it there.
-/// Without a lock both make it in the same folder, each under the other's feet.
+/// Two studies with the same store need the same run at the same time: one makes it, and the other waits and finds it
+/// stored. Without a lock, both would make it in the same folder and disturb each other.
 TEST(Runner, TwoAtOnceInOneStore)
 {
     Workshop workshop;
@@ -554,8 +556,8 @@ TEST(Runner, TwoAtOnceInOneStore)
     EXPECT_EQ(results[0].curve.value, results[1].curve.value);
 }
 
-/// A run that fails with its seed is repeated with another, and reported. The same through Slurm, played by a script that
-/// runs the tasks of the array one after the other.
+/// A run that fails with its seed is repeated with another one, and the failure is reported. The same holds with Slurm,
+/// which is replaced by a script that runs the tasks of the array one after the other.
 TEST(Runner, FailuresCacheAndSlurm)
 {
     Workshop workshop;
@@ -571,7 +573,7 @@ TEST(Runner, FailuresCacheAndSlurm)
         const auto results = simulator.run({orderOf(10007), orderOf(10007)});
         EXPECT_EQ(results[0].curve.value, results[1].curve.value);
         EXPECT_FALSE(results[0].cached);
-        EXPECT_TRUE(results[1].cached) << "asked for twice, made and counted once";
+        EXPECT_TRUE(results[1].cached) << "requested twice, made and counted once";
         EXPECT_EQ(simulator.missing({orderOf(10007)}), 0);
         RunOrder failing = orderOf(10009);
         failing.entries["failWithSeed"] = "10009";
@@ -581,24 +583,24 @@ TEST(Runner, FailuresCacheAndSlurm)
         Study reported = study;
         reported.settings.budget = 0;
         CaseSimulator reports(reported, progress);
-        EXPECT_EQ(reports.missing({failing}), 0) << "but it is reported once more, without a run";
+        EXPECT_EQ(reports.missing({failing}), 0) << "with a budget of 0 the stored failure is reported";
         EXPECT_EQ(reports.run({failing})[0].failure, failed[0].failure);
         RunOrder strange = orderOf(10037);
         strange.command = "true";
         EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("has not written"));
-        // as a case that begins with its Allclean does
+        // As a case does that begins with its Allclean.
         strange.command = "rm -f log.*; echo 'the valve is stuck'; exit 3";
         EXPECT_THAT(simulator.run({strange})[0].failure, HasSubstr("the valve is stuck"));
     }
-    // What an earlier run of the case has left, fields of a later time and checkpoints, is no part of it: a copy that had
-    // them would go on from there.
+    // Results of an earlier run of the case, as fields of a later time and checkpoints, are not copied: a run would
+    // resume from them.
     for (const char* left : {"case/0.36", "case/2", "case/checkpoints", "case/processor12"})
     {
         fs::create_directories(workshop.path() / left);
         std::ofstream(workshop.path() / left / "U") << "fields\n";
     }
     EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 0);
-    // Nor is the study, however its file is called; all else is, whatever it begins with.
+    // The study is not copied either, whatever its file is called; all other files are.
     writeWhole(workshop.path() / "case/study.yaml", "study: s\n");
     {
         Study within = study;
@@ -610,14 +612,14 @@ TEST(Runner, FailuresCacheAndSlurm)
     writeWhole(workshop.path() / "case/processors", "2\n");
     EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 1);
     fs::remove(workshop.path() / "case/processors");
-    // A store that was made in a checkout that is no more: its runs' surroundings are those of this one.
+    // The store was made in a checkout that does not exist any more; the links must point into this one.
     const auto sibling = study.work / "tree" / workshop.path().filename() / "study.yaml";
     fs::remove(sibling);
     fs::create_symlink("/of/another/checkout/study.yaml", sibling);
     ASSERT_FALSE(fs::exists(sibling));
     EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 0);
     EXPECT_TRUE(fs::exists(sibling));
-    // Any change of the case's files is another run.
+    // After any change of the case's files the run is made again.
     std::ofstream(workshop.path() / "case/parameters", std::ios::app) << "// changed\n";
     EXPECT_EQ(CaseSimulator(study, progress).missing({orderOf(10007)}), 1);
 

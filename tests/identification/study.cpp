@@ -25,7 +25,7 @@ namespace
 TEST(Expression, Formulas)
 {
     const auto value = [](const std::string& text) {
-        return Expression(text)({{"a", .5}, {"particleDiameter", 2e-3}});
+        return Expression(text)({{"a", 0.5}, {"particleDiameter", 2e-3}});
     };
     EXPECT_DOUBLE_EQ(value("particleDiameter*(1 + 0.05*a)"), 2.05e-3);
     EXPECT_DOUBLE_EQ(value("-2^2 + 3*4/6 - 1e-1"), -2.1);
@@ -54,7 +54,7 @@ TEST(Expression, Formulas)
     }
 }
 
-/// What is nested without end is an error, not the end of the stack.
+/// Very deep nesting is an error and must not overflow the stack.
 TEST(Expression, ManyBrackets)
 {
     const auto nested = [](std::size_t times, const std::string& open, const std::string& close) {
@@ -85,7 +85,7 @@ TEST(Units, AreFactorsOfSi)
     EXPECT_THROW(siUnitsPer("grams"), std::invalid_argument);
 }
 
-/// Comments, alignment and all other lines stay; a value that is asked for and not there is an error.
+/// Comments, alignment and all other lines stay; a change of an entry that the file lacks is an error.
 TEST(Entries, AreReplacedInPlace)
 {
     const TemporaryFolder folder;
@@ -93,7 +93,7 @@ TEST(Entries, AreReplacedInPlace)
         folder.write("parameters", "// particles\nfriction      0.15;   // between particles\nwall $friction;\n");
     replaceEntries(file, {{"friction", "0.2"}});
     EXPECT_EQ(contentOf(file), "// particles\nfriction      0.2;   // between particles\nwall $friction;\n");
-    EXPECT_DOUBLE_EQ(numbersOf(readEntries(file)).at("wall"), .2);
+    EXPECT_DOUBLE_EQ(numbersOf(readEntries(file)).at("wall"), 0.2);
     EXPECT_THROW(replaceEntries(file, {{"cohesion", "1"}}), std::runtime_error);
 }
 
@@ -116,7 +116,19 @@ TEST(Seeds, ArePrimesAndDiffer)
     EXPECT_EQ(seedOf(1, "repeats", "dry", 7), seedOf(1, "repeats", "dry", 7));
 }
 
-/// In a design and its mirror image no product of two columns goes with any column: interactions do not look like effects.
+/// Seeds of runs in committed reports, in which three effects had other names. If the names in the purpose were used as
+/// they are, the committed runs could not be repeated.
+TEST(Seeds, OfCommittedRuns)
+{
+    EXPECT_EQ(seedOf(1, "sizeSpread alone", "drySmall", 0), 13204447);
+    EXPECT_EQ(seedOf(1, "deciding, round 1: particleDiameter", "drySmall", 0), 86589571);
+    EXPECT_EQ(seedOf(1, "deciding, round 1: particleDensity", "dryLarge", 0), 10831391);
+    EXPECT_EQ(seedOf(1, "deciding, round 1: momentumOfLeavingParticles", "wetLarge", 0), 11217737);
+    EXPECT_EQ(seedOf(1, "deciding between pairs: particleDiameter with sizeSpread", "drySmall", 0), 2082439);
+}
+
+/// In a design and its mirror image no product of two columns correlates with any column: interactions do not look like
+/// effects.
 TEST(PlackettBurman, FoldoverKeepsInteractionsApart)
 {
     for (const Eigen::Index factors : {6, 11, 14})
@@ -136,7 +148,7 @@ TEST(PlackettBurman, FoldoverKeepsInteractionsApart)
     EXPECT_FALSE((plain.transpose() * product).isZero()) << "a design without its mirror image must fail this";
 }
 
-/// Orthogonal columns, each with as many + as -: then effects do not mix and have variance sigma^2 4/N.
+/// Orthogonal columns with as many + as - each, so that the estimates are independent and have variance sigma^2 4/N.
 TEST(PlackettBurman, IsOrthogonalAndBalanced)
 {
     for (const Eigen::Index factors : {1, 3, 5, 7, 11, 12, 16, 19, 22, 23, 30})
@@ -234,7 +246,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"set: { friction: 0.2 }", "measuring: {}", "study.yaml:9:", "did you mean 'measured'?"},
         {"study: s", "study: s\nmagnitudeLimit: 0.5", "study.yaml:", "above 1"},
         {"study: s", "study: s\nexecutor: { kind: slurm, options: '--mem=4G; touch executed' }",
-            "study.yaml:2:", "list of words"},
+            "study.yaml:2:", "list of options"},
         {"study: s", "study: s\nmeasured: { tme: { column: t, unit: s } }", "study.yaml:2:", "did you mean 'time'?"},
         {"parameters:\n", "---\nparameters:\n", "study.yaml", "several documents"},
         {"effects:\n", "effects:\n  - { name: late, chain: { shift: a }, scatter: true }\n",
@@ -255,7 +267,7 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"study: s", "study: s\ncommonErrors: [ { name: e, set: { friction: 0.01*z } } ]",
             "study.yaml:2:", "must give 0.2 there"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, set: { friction: friction } } ]",
-            "study.yaml:2:", "must hold z"},
+            "study.yaml:2:", "must contain z"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, set: { fricton: z } } ]",
             "study.yaml:2:", "did you mean 'friction'?"},
         {"study: s", "study: s\ncommonErrors: [ { name: e, conditions: [wet], chain: { gain: z } } ]",
@@ -294,7 +306,7 @@ TEST(StudyFile, MistakesNameTheirLine)
     }
 }
 
-/// More parameters than the vectors of the evidence hold.
+/// More parameters than the fixed-size vectors of the evidence can store are an error.
 TEST(StudyFile, TooManyParameters)
 {
     const TemporaryFolder folder;
@@ -308,8 +320,8 @@ TEST(StudyFile, TooManyParameters)
     EXPECT_THROW(studyOf(folder, replaced(goodStudy, "parameters:\n", more)), StudyError);
 }
 
-/// A column of a file is one measurement: not two repeats, and not one that a fit has seen and one that it has not. Another
-/// column, or another part of the record, is another measurement.
+/// A column of a file is one measurement. It must not count as two repeats, and must not be both training and held-out.
+/// Another column, or another part of the record, is another measurement.
 TEST(StudyFile, MeasurementsGivenTwice)
 {
     const TemporaryFolder folder;
@@ -340,7 +352,7 @@ TEST(StudyFile, MeasurementsGivenTwice)
     EXPECT_NO_THROW(studyOf(folder, studyWith("a.csv", ", time: { column: t, unit: s, valid: [1, 2] }")));
 }
 
-/// A standard error is in the unit of the values: 1 % of a residue of 12 %, not 100 %.
+/// A standard error has the unit of the values: for a residue of 12 % it is 1 %, not 100 %.
 TEST(StudyFile, StandardErrorInTheUnitOfTheValues)
 {
     const TemporaryFolder folder;
@@ -348,11 +360,11 @@ TEST(StudyFile, StandardErrorInTheUnitOfTheValues)
         replaced(replaced(goodStudy, "kind: logMeanRate, from: 0.9, to: 0.3", "kind: residue"), "role: training",
             "role: training, measured: { numbers: [ { feature: residue, values: [12], unit: '%', standardError: 1 } ] "
             "}"));
-    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].values[0], .12);
-    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].standardError, .01);
+    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].values[0], 0.12);
+    EXPECT_DOUBLE_EQ(study.conditions[0].measured.numbers[0].standardError, 0.01);
 }
 
-/// A misspelt tag would switch an effect off without a word.
+/// A misspelt tag would switch an effect off without a message.
 TEST(StudyFile, MisspeltTags)
 {
     const std::string effect = "  - { name: drag, set: { friction: friction + a }, actsIn: { medium: air } }\n";
@@ -372,8 +384,8 @@ TEST(StudyFile, MisspeltTags)
     }
 }
 
-/// A formula holds in all conditions, each with its own entries; a condition's own factor or offset replaces one of the
-/// two. A study that had one number for all would give the second condition the first one's.
+/// A formula is evaluated in each condition with the condition's entries; a condition's own factor or offset replaces
+/// that of the study. With one number for all, the second condition would have that of the first.
 TEST(StudyFile, ScaleOfTheObservableByCondition)
 {
     const TemporaryFolder folder;
@@ -392,7 +404,7 @@ TEST(StudyFile, ScaleOfTheObservableByCondition)
     EXPECT_EQ(scale(2), std::pair(2., -1e-3));
 }
 
-/// One unknown number for several conditions, one for each, and one that the simulator does not know.
+/// One error for several conditions, one error for each condition, and one of the measuring chain.
 TEST(StudyFile, CommonErrors)
 {
     const TemporaryFolder folder;
@@ -404,7 +416,7 @@ TEST(StudyFile, CommonErrors)
 )");
     ASSERT_EQ(study.commonErrors.size(), 4U);
     EXPECT_EQ(study.commonErrors[0].conditions, (std::vector<std::size_t>{0, 1}));
-    EXPECT_EQ(study.commonErrors[0].featureErrors(0), .03);
+    EXPECT_EQ(study.commonErrors[0].featureErrors(0), 0.03);
     EXPECT_EQ(study.commonErrors[1].name, "diameter of dry");
     EXPECT_EQ(study.commonErrors[1].conditions, std::vector<std::size_t>{1});
     EXPECT_EQ(study.commonErrors[2].conditions, std::vector<std::size_t>{0});
@@ -412,10 +424,10 @@ TEST(StudyFile, CommonErrors)
         study.commonErrors[2].entries.at("particleDiameter")({{"particleDiameter", 2e-3}, {"z", -1}}), 1.99e-3);
     EXPECT_TRUE(study.commonErrors[2].featureErrors.isZero());
     EXPECT_EQ(study.commonErrors[3].chainOperation, "gain");
-    EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), .004);
+    EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), 0.004);
 }
 
-/// The shipped libraries can be read, and hold what the project promises.
+/// The shipped libraries can be read and contain the documented numbers of effects and families.
 TEST(StudyFile, ShippedLibraries)
 {
     const std::filesystem::path folder = EFFECTS_FOLDER;
@@ -443,7 +455,7 @@ TEST(StudyFile, ShippedLibraries)
     EXPECT_EQ(family(settlingParticle, "history"), (std::set<std::string>{"historyForce", "historyForceCreeping"}));
 }
 
-/// A library is for many cases: what this case has no entries for is left out and said, not an error.
+/// A library serves many cases: effects that this case has no entries for are left out and listed, which is no error.
 TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
 {
     const TemporaryFolder folder;
@@ -455,7 +467,8 @@ TEST(StudyFile, LibraryEffectsWithoutEntriesAreLeftOut)
     EXPECT_NE(study.leftOut.front().find("roll"), std::string::npos);
 }
 
-/// Effects of the water in a study of dry conditions, with what is a part of them; what is left keeps its own part.
+/// Effects of the water are left out of a study of dry conditions, with their parameters; the other effects keep
+/// theirs.
 TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
 {
     const TemporaryFolder folder;
@@ -477,8 +490,7 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
 
 //--- The budget ------------------------------------------------------------------------------------------------------
 
-/// The simulated curve in the measurement's scale and zero, which are those of the run's own entries: an effect on what the
-/// formula holds moves the zero, too.
+/// Factor and offset are formulas in the entries of the run; an effect on these entries changes the offset too.
 TEST(StudySimulator, ScaleOfTheObservable)
 {
     const TemporaryFolder folder;
@@ -489,12 +501,12 @@ TEST(StudySimulator, ScaleOfTheObservable)
     Setting setting = studySimulator.plainSetting();
     setting.amplitudes(0) = 1;
     const auto done = studySimulator.run({{0, setting, "plain"}, {1, setting, "scaled"}});
-    EXPECT_DOUBLE_EQ(done[1].curve.value[3], .5 + .02 - 2 * done[0].curve.value[3]);
+    EXPECT_DOUBLE_EQ(done[1].curve.value[3], 0.5 + 0.02 - 2 * done[0].curve.value[3]);
     EXPECT_EQ(done[1].plain.value, done[1].curve.value);
 }
 
-/// The third attempt succeeds: both that failed are reported as repeated, not as excluded.
-TEST(StudySimulator, TellsEveryFailureAsRepeated)
+/// The third attempt succeeds; both failures before it are reported as repeated, not as excluded.
+TEST(StudySimulator, ReportsEveryFailureAsRepeated)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");
@@ -507,9 +519,10 @@ TEST(StudySimulator, TellsEveryFailureAsRepeated)
     EXPECT_TRUE(studySimulator.effort().failures[1].repeated);
 }
 
-/// Two orders with the same seeds, as those of the two sides of a common error: the one that fails at every seed is reported as
-/// excluded, though the other one succeeds with a seed of its own. By seeds alone its first failure is reported as repeated.
-TEST(StudySimulator, TellsFailuresOfOrdersWithTheSameSeedsApart)
+/// Two orders have the same seeds, as the two sides of a common error do. The one that fails with every seed is
+/// reported as excluded, although the other one succeeds. If failures were distinguished by their seeds alone, the
+/// first failure would be reported as repeated.
+TEST(StudySimulator, DistinguishesFailuresOfOrdersWithTheSameSeeds)
 {
     const TemporaryFolder folder;
     const Study study = linearStudy(folder, "seed");

@@ -10,7 +10,7 @@
 namespace clepsydra::identification::tests
 {
 
-/// A folder of this test's own, removed at its end.
+/// A folder that belongs to one test and is removed at its end.
 class TemporaryFolder
 {
 public:

@@ -24,7 +24,7 @@ struct Meaning
     std::string quantity;
 };
 
-std::string quantityOfWords(std::string name)
+std::string quantityOfTitle(std::string name)
 {
     static const std::map<std::string, std::set<std::string>> words = {
         {"time", {"t", "time"}},
@@ -49,7 +49,7 @@ std::string quantityOfWords(std::string name)
     return "";
 }
 
-/// Of "t_s", "velocity_m_s", "mass g", "mass" with "g" in brackets, or a title that is a unit and nothing else.
+/// Unit and quantity of a column with a title such as "t_s", "velocity_m_s", "mass g", "mass (g)", or only a unit.
 Meaning meaningOf(const std::string& name, const std::string& bracketed)
 {
     std::string unit = unitMeant(bracketed);
@@ -61,7 +61,7 @@ Meaning meaningOf(const std::string& name, const std::string& bracketed)
         unit = unitMeant(name.substr(at + 1));
         word = name.substr(0, at);
     }
-    const std::string byWord = quantityOfWords(unit.empty() ? name : word);
+    const std::string byWord = quantityOfTitle(unit.empty() ? name : word);
     if (unit.empty() && byWord.empty())
     {
         unit = unitMeant(name);

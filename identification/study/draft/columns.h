@@ -7,27 +7,27 @@
 namespace clepsydra::identification
 {
 
-/// A column as `column` and `unit` of a study file name it.
+/// Keys `column` and `unit` of a column in a study file.
 struct GuessedColumn
 {
     std::string column;
-    std::string unit; // empty: the file does not name one that is known
+    std::string unit; // empty: unknown
 
-    /// How many SI units its unit is; 1 where that is not known.
+    /// Size of the unit in SI units; 1 if the unit is unknown.
     double siUnits() const;
 };
 
-/// What the titles of a measured file say of its columns.
+/// Columns of a measured file.
 struct GuessedColumns
 {
     GuessedColumn time;
     GuessedColumn value;
-    std::string quantity; // of the value: mass, length, speed, share; empty: nobody knows
+    std::string quantity; // of the value: mass, length, speed or share; empty: unknown
 };
 
-/// By units and words in the titles; where they say nothing, time is the first column that never falls, and value the next
-/// one that is not always the same.
-/// \throws std::runtime_error where no two columns can be time and value
+/// Guesses the columns of time and value from units and words in the titles. Without these, the time is the first
+/// column that never falls, and the value is the next one that is not constant.
+/// \throws std::runtime_error if there are no two such columns
 GuessedColumns guessColumns(const Table& table);
 
 } // namespace clepsydra::identification

@@ -30,7 +30,7 @@ enum class MarkKind
     letter
 };
 
-/// The end of a name that may say which repeat it is.
+/// The end of a file name that may number a repeat.
 struct Mark
 {
     std::string stem;
@@ -42,7 +42,7 @@ std::optional<Mark> markOf(const std::string& name)
 {
     static const std::regex numbered("(|.*[^0-9.])([0-9]{1,4})");
     static const std::regex lettered("(.*[^a-z])([a-z])", std::regex::icase);
-    // "bead3_trial" and "bead3t" end with a word that says that a repeat's number follows.
+    // A word such as "trial" in "bead3_trial" or "t" in "bead3t" shows that the number of a repeat follows.
     static const std::regex before("(|.*[^a-z])(trial|repeat|test|take|run|rep|try|no|nr|t|r|n)", std::regex::icase);
     std::smatch parts;
     if (std::regex_match(name, parts, numbered))
@@ -60,7 +60,7 @@ std::optional<Mark> markOf(const std::string& name)
     return {};
 }
 
-/// Numbers and letters are marks where they count: 0 or 1 (or a), and none is missing.
+/// Numbers and letters number repeats if they begin with 0 or 1 (or a) and none is missing.
 bool count(MarkKind kind, std::vector<int> ordinals)
 {
     std::sort(ordinals.begin(), ordinals.end());
@@ -69,7 +69,7 @@ bool count(MarkKind kind, std::vector<int> ordinals)
     return kind == MarkKind::word || (ordinals.size() > 1 && begins && gap == ordinals.end());
 }
 
-/// "dry10mm" is 10 in the family "dry*mm".
+/// Position of a name in a series: "dry10mm" has the number 10 in the family "dry*mm".
 struct Place
 {
     std::string family;

@@ -29,7 +29,7 @@ std::string fillIn(const std::string& what)
     return '"' + std::string(YamlPlace::toFillIn) + ": " + what + '"';
 }
 
-/// A word as YAML takes it for one, also between brackets.
+/// A text as a YAML value, quoted if necessary.
 std::string yamlWord(const std::string& word)
 {
     static const std::regex plain("[a-z][a-z0-9_./-]*", std::regex::icase);
@@ -42,7 +42,7 @@ std::string yamlWord(const std::string& word)
     return emitter.c_str();
 }
 
-/// To two digits.
+/// A number rounded to two digits.
 std::string rounded(double number)
 {
     std::ostringstream text;
@@ -126,9 +126,9 @@ Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, 
 
 void Draft::writeHead()
 {
-    text_ << "# Drafted by `traceResidual new`. What is not marked otherwise was guessed: look at each line. Places \""
+    text_ << "# Drafted by `traceResidual new`. All values are guesses; check each line. Values \""
           << YamlPlace::toFillIn
-          << "\" could\n# not be guessed; nothing is run before they are replaced. All keys: identification/README.md\n"
+          << "\"\n# could not be guessed; no run starts before they are replaced. All keys: identification/README.md\n"
           << "study: " << yamlWord(name_) << "\n\n";
 }
 
@@ -136,12 +136,12 @@ void Draft::writeSimulator()
 {
     text_ << "simulator:\n  case: " << relative(simulator_.folder)
           << "\n  seed: " << (simulator_.has("seed") ? "seed" : "none")
-          << (simulator_.has("seed") ? "          # the entry that makes another packing\n"
-                                     : "          # no entry for it: runs do not scatter\n");
+          << (simulator_.has("seed") ? "          # this entry changes the packing\n"
+                                     : "          # the case has no such entry; repeated runs do not differ\n");
     const std::vector<std::pair<std::string, std::string>> apparatus = {
         {"particleDiameter", "m"},
         {"particleDensity", "kg/m3"},
-        {"particleCount", "how many lie in the hopper"},
+        {"particleCount", "number of particles in the hopper"},
         {"hopperDiameter", "m"},
         {"orificeDiameter", "m"},
         {"fluidDensity", "kg/m3"},
@@ -150,22 +150,22 @@ void Draft::writeSimulator()
         {"tankHeight", "m"},
         {"releaseHeight", "m, of the particle's centre above the floor"},
     };
-    // A particle in a tank, one-way: see the second study file of README.md.
+    // A particle in a tank with one-way coupling: see the second study file of README.md.
     const std::vector<std::pair<std::string, std::string>> falling = {
-        {"stopBelow", fillIn("m above the floor, below all that is measured; a run ends there")},
-        {"smoothingBandwidth", fillIn("m, twice the tank's diameter leaves the liquid at rest on any mesh")},
+        {"stopBelow", fillIn("m above the floor, below all measured positions; a run ends there")},
+        {"smoothingBandwidth", fillIn("m; with twice the tank's diameter the liquid stays at rest on any mesh")},
         {"cellsCore", "2"},
         {"cellsRing", "2"},
         {"cellsHigh", "8"},
         {"couplingTimeStep", "5e-3"},
-        {"demStep", "1e-4             # nothing is touched"},
+        {"demStep", "1e-4             # there are no contacts"},
         {"maxRayleighFraction", "100"},
     };
-    text_ << "  set:                  # your apparatus; an entry that is left out keeps the case's own value\n";
+    text_ << "  set:                  # your apparatus; an entry that is left out keeps the value of the case\n";
     const bool isParticle = simulator_.observable == "particleHeight";
     if (isParticle && simulator_.has("vessel"))
     {
-        text_ << "    vessel: tank        # or box: see the case's parameters\n";
+        text_ << "    vessel: tank        # or box; see the case's file parameters\n";
     }
     const bool isWet = isParticle || !simulator_.hasSteps
                        || std::any_of(measured_.conditions.begin(), measured_.conditions.end(),
@@ -207,7 +207,7 @@ void Draft::writeObservable()
         text_ << "  file: " << fillIn("the table that a run writes, as post/*/m.dat; a folder * stands for start times")
               << '\n'
               << "  value: " << fillIn("its column") << '\n';
-        say("observable: it is not known what the case writes");
+        say("observable: unknown, because the case writes no known table");
     }
     else
     {
@@ -221,23 +221,23 @@ void Draft::writeObservable()
               << '\n';
         if (isSpeed)
         {
-            text_ << "  factor: -1            # the case counts speeds upwards\n";
+            text_ << "  factor: -1            # in the case, upward speeds are positive\n";
         }
         if (measured_.columns.quantity == "length" && measured_.shape.bounces > 0)
         {
-            text_ << "  offset: -particleDiameter/2       # gap below the particle; without it the height of its "
+            text_ << "  offset: -particleDiameter/2       # gives the gap below the particle instead of the height of "
+                     "its "
                      "centre\n";
         }
         if (measured_.columns.quantity == "length" && !measured_.shape.falls)
         {
-            text_ << "  # The measured position grows while the particle falls: the way since its release\n"
+            text_ << "  # The measured position grows while the particle falls: it is the distance from the release\n"
                   << "  factor: -1\n  offset: releaseHeight\n";
         }
         say("observable: " + simulator_.observable + ", which the case writes");
     }
-    text_
-        << "  # modelError: 0.01    # standard deviation of the simulation's own error (mesh, steps) on every feature\n"
-        << "  features:\n";
+    text_ << "  # modelError: 0.01    # standard deviation of the model error (mesh, time steps) of each feature\n"
+          << "  features:\n";
     writeFeatures();
 }
 
@@ -262,7 +262,7 @@ void Draft::writeFeatures()
     }
 }
 
-/// Three windows of the fill that every curve passes.
+/// Three windows of the mass that all curves pass through.
 void Draft::writeWindows(double last)
 {
     constexpr double from = 0.95;
@@ -274,7 +274,7 @@ void Draft::writeWindows(double last)
         return;
     }
     const std::vector<std::string> names = {"early", "middle", "late"};
-    text_ << "    # Mean rates while the fill goes from one share to the other; every training file gets so far\n";
+    text_ << "    # Mean rates between two shares of the fill, which all training files pass through\n";
     for (std::size_t i = 0; i < names.size(); ++i)
     {
         const auto share = [&](std::size_t end) {
@@ -285,7 +285,7 @@ void Draft::writeWindows(double last)
     }
     if (measured_.shape.endsFlat)
     {
-        text_ << "    - { kind: residue }   # all training files end flat\n";
+        text_ << "    - { kind: residue }   # all training files end with a constant mass\n";
     }
 }
 
@@ -309,7 +309,7 @@ void Draft::writePositions()
         return;
     }
     const bool isKnown = way > 0.0 && !measured_.columns.value.unit.empty();
-    text_ << "    # Speeds between two positions [m] that every training file passes\n";
+    text_ << "    # Speeds between two positions [m], which all training files pass through\n";
     const auto position = [&](double share) {
         const double at = measured_.shape.falls ? measured_.shape.highest * unit - share * way
                                                 : measured_.shape.lowest * unit + share * way;
@@ -348,7 +348,7 @@ void Draft::writeMeasured()
     }
     if (isRising)
     {
-        text_ << ", offset: " << fillIn(fill + "; the files hold what has left it");
+        text_ << ", offset: " << fillIn(fill + "; the files contain the discharged mass");
     }
     const bool isValidKnown =
         measured_.shape.hasBlanks && measured_.shape.smallestSeen > 0.0 && !measured_.columns.value.unit.empty();
@@ -361,18 +361,18 @@ void Draft::writeMeasured()
     text_ << " }\n";
     if (isValidKnown)
     {
-        text_ << "  # valid [m]: rows of 0 before or after all others are taken as \"not seen\"\n";
-        say("valid: rows of 0 at the ends of files are taken as 'not seen'");
+        text_ << "  # valid [m]: rows of 0 before or after all others count as missing\n";
+        say("valid: rows of 0 at the ends of files count as missing");
     }
 }
 
 void Draft::writeConditions()
 {
     text_ << R"(
-# One entry for each condition; its files are repeats. Files whose names differ in a mark at the end (10a and 10b, _1 and _2)
-# are taken as repeats, all others as conditions; move a file to correct that. `role: heldOut`: no fit sees the condition,
-# and the answer is tested on it. PROPOSED by the names alone, one inside and one at the end of the range: decide now, before
-# any value of those files or any result has been looked at, and leave it so.
+# One item per condition; its files are repeats. Files whose names differ in a mark at the end (10a and 10b, _1 and _2)
+# are taken for repeats, all others for conditions; move a file to correct that. A condition with `role: heldOut` enters
+# no fit, and the answer is tested on it. Roles are PROPOSED by the names alone, one condition inside the range and one
+# at its end: decide now, before any of these values or any result has been seen, and do not change the roles later.
 conditions:
 )";
     for (const auto& condition : measured_.conditions)
@@ -382,7 +382,7 @@ conditions:
     if (std::none_of(
             measured_.conditions.begin(), measured_.conditions.end(), [](const auto& c) { return c.isHeldOut; }))
     {
-        say("held out: none, for there are fewer than three conditions; an answer cannot be tested on others");
+        say("held out: none, because there are fewer than three conditions; the prediction cannot be tested");
     }
 }
 
@@ -404,7 +404,7 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
     {
         text_ << "    set: { " << entry << ": "
               << fillIn("m" + (condition.number.empty() ? "" : "; the name has " + condition.number)
-                        + "; or what else differs in this condition")
+                        + "; or replace the entry by one that differs in this condition")
               << " }\n";
     }
     text_ << "    measured:\n      files:\n";
@@ -415,25 +415,26 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
         names += ' ' + file.filename().string();
     }
     say("condition " + condition.name + (condition.isHeldOut ? ", proposed to be held out:" : ":") + names
-        + (condition.files.size() > 1 ? " (repeats)" : " (one only: noise is taken from repeats)"));
+        + (condition.files.size() > 1 ? " (repeats)" : " (one file; the noise is estimated from repeats)"));
 }
 
 void Draft::writeParameters()
 {
-    text_ << "\n# What all conditions share and is fitted; the prior is an independent measurement, never this study's "
+    text_ << "\n# Fitted parameters have one value in all conditions; the prior is an independent measurement, never "
+             "these "
              "data\n"
           << "parameters:\n";
     if (simulator_.has("friction"))
     {
         text_ << "  - name: friction\n    set: { friction: friction }\n    prior: { mean: "
-              << fillIn("of particle on particle, as measured by itself on a tilted plate")
+              << fillIn("friction between particles, measured independently on a tilted plate")
               << ", sd: " << fillIn("its standard error") << " }\n    range: [0.02, 0.8]\n";
     }
     else if (simulator_.has("fluidViscosity"))
     {
         text_ << "  - name: logViscosity  # relative to fluidViscosity above\n"
               << "    set: { fluidViscosity: \"fluidViscosity*exp(logViscosity)\" }\n    prior: { mean: 0, sd: "
-              << fillIn("relative standard error of the viscosity, .05 for 5 %") << " }\n    range: [-1, 1]\n";
+              << fillIn("relative standard error of the viscosity, 0.05 for 5 %") << " }\n    range: [-1, 1]\n";
     }
     else
     {
@@ -447,18 +448,17 @@ void Draft::writeParameters()
 void Draft::writeEnd()
 {
     text_
-        << "\n# What the model may lack. Narrow the ranges to what you know; add effects of your own below `effects:`\n"
+        << "\n# Effects that the model may lack. Narrow their ranges to your knowledge; add your own below `effects:`\n"
         << "effectsFrom: "
         << (simulator_.library.empty() ? fillIn("a library, as identification/effects/hopper.yaml")
                                        : relative(simulator_.library))
-        << "\n# withoutEffects: [what you have measured or excluded]\n"
-        << "# commonErrors: what all numbers of a condition share, as the diameter of a particle that was measured "
-           "once\n"
+        << "\n# withoutEffects: [effects that you have measured or excluded]\n"
+        << "# commonErrors: errors common to all repeats, as that of a particle's diameter that was measured once\n"
         << "\nbudget: { runs: 300 }\n";
     if (!simulator_.library.empty())
     {
-        say("effects: " + simulator_.library.filename().string() + ", of whose " + std::to_string(simulator_.effects)
-            + " effects " + std::to_string(simulator_.fitting) + " fit the case");
+        say("effects: " + simulator_.library.filename().string() + "; the case has the entries of "
+            + std::to_string(simulator_.fitting) + " of its " + std::to_string(simulator_.effects) + " effects");
     }
 }
 
@@ -469,17 +469,18 @@ void draftStudy(
 {
     if (fs::exists(fs::symlink_status(study)))
     {
-        throw std::runtime_error(study.string() + ": is there already, and stays; --output names another file");
+        throw std::runtime_error(
+            study.string() + " exists already and is not overwritten; --output chooses another file");
     }
     const Draft draft(caseFolder, measured, study);
     writeWhole(study, draft.text());
-    out << study.string() << ": written. Guessed, to be corrected there:\n";
+    out << study.string() << " has been written. Please check these guesses:\n";
     for (const auto& each : draft.said())
     {
         out << "  " << each << '\n';
     }
-    out << "to be filled in:\n"
-        << YamlPlace::placesToFillIn(study) << "then: traceResidual plan " << study.string() << '\n';
+    out << "Please fill in these values:\n"
+        << YamlPlace::placesToFillIn(study) << "Then run: traceResidual plan " << study.string() << '\n';
 }
 
 } // namespace clepsydra::identification

@@ -7,15 +7,15 @@
 namespace clepsydra::identification
 {
 
-/// Writes a study file for measured files, with comments that tell what was guessed and how to correct it. What cannot be
-/// guessed stands in it as "FILL IN: what to do", which the study's reader refuses. Tells the same to `out`.
+/// Drafts a study file for measured files. Comments explain the guesses; values that cannot be guessed are marked as
+/// "FILL IN: what to do", which readStudy refuses. The guesses are also written to `out`.
 ///
-/// Of files of conditions that are proposed to be held out no value is looked at.
-/// \param caseFolder  of the simulation: hoppers that write massInHopper and particles that write particleHeight are known
+/// The values of conditions that are proposed to be held out do not influence the draft.
+/// \param caseFolder  case of the simulation; known are cases that write massInHopper or particleHeight
 /// \param measured  files, and folders of files (.csv, .txt, .dat, .tsv)
-/// \param study  is made; its folder must be there
-/// \throws std::runtime_error, with nothing written, where the study is there already, where nothing can be read, or where
-/// the files do not fit each other or the case
+/// \param study  file to write; its folder must exist
+/// \throws std::runtime_error, without writing, if the study exists already, if no file can be read, or if the files do
+/// not agree with each other or with the case
 void draftStudy(const std::filesystem::path& caseFolder, const std::vector<std::filesystem::path>& measured,
     const std::filesystem::path& study, std::ostream& out);
 

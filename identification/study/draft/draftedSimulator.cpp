@@ -25,7 +25,7 @@ bool holds(const fs::path& file, const std::string& word)
     return text.find(word) != std::string::npos;
 }
 
-/// The function object is named where the case is set up: in its own files, or in those of system/.
+/// The observable that the case writes. Its function object is named in the case's own files or in those of system/.
 std::string observableOf(const fs::path& folder)
 {
     for (const char* observable : {"massInHopper", "particleHeight"})
@@ -48,7 +48,7 @@ std::string observableOf(const fs::path& folder)
     return "";
 }
 
-/// identification/effects of the checkout round the case, else of that round the program.
+/// Folder identification/effects of the checkout that contains the case or, without one, the program.
 fs::path effectsFolder(const fs::path& caseFolder)
 {
     for (fs::path folder : {caseFolder, fs::read_symlink("/proc/self/exe")})
@@ -115,7 +115,7 @@ DraftedSimulator draftSimulator(const fs::path& folder)
     if (!fs::is_regular_file(simulator.folder / "parameters") || !fs::is_regular_file(simulator.folder / "Allrun"))
     {
         throw std::runtime_error(folder.string()
-                                 + ": is no case; it needs a file 'parameters' of lines 'name value;' and "
+                                 + " is no case: it needs a file 'parameters' of lines 'name value;' and "
                                    "a program 'Allrun' that reads it");
     }
     simulator.entries = readEntries(simulator.folder / "parameters");

@@ -10,17 +10,17 @@
 namespace clepsydra::identification
 {
 
-/// What a case's own files tell about it.
+/// Properties of a case that follow from its files.
 struct DraftedSimulator
 {
     std::filesystem::path folder;
     Entries entries;
-    std::string observable;        // that it writes: massInHopper, particleHeight; empty: none that is known
-    bool hasSteps = false;         // step.dry and step.submerged, as cases/tutorials/hopperQuick
-    std::filesystem::path library; // the effects that fit it best; empty: none is near
-    std::size_t fitting = 0;       // of its effects, those that the case has entries for
-    std::size_t effects = 0;
-    std::vector<std::string> tagValues; // of `medium`, that effects of the library ask for
+    std::string observable;             // massInHopper or particleHeight; empty: unknown
+    bool hasSteps = false;              // whether it has the steps dry and submerged, as cases/tutorials/hopperQuick
+    std::filesystem::path library;      // library of effects that fits best; empty if none was found
+    std::size_t fitting = 0;            // number of the library's effects that the case has entries for
+    std::size_t effects = 0;            // number of the library's effects
+    std::vector<std::string> tagValues; // values of the tag `medium` that the library's effects refer to
 
     bool has(const std::string& entry) const
     {
@@ -28,7 +28,7 @@ struct DraftedSimulator
     }
 };
 
-/// \throws std::runtime_error where the folder is no case
+/// Reads the properties of a case. \throws std::runtime_error if the folder is no case
 DraftedSimulator draftSimulator(const std::filesystem::path& folder);
 
 } // namespace clepsydra::identification

@@ -49,10 +49,10 @@ std::vector<fs::path> tablesOf(const std::vector<fs::path>& places, std::vector<
         }
         if (tables.size() == before)
         {
-            throw std::runtime_error(
-                place.string()
-                + ": holds no table of numbers; looked for are files .csv, .txt, .dat and .tsv with a column "
-                  "of times and one of values");
+            throw std::runtime_error(place.string()
+                                     + ": holds no table of numbers; expected are files .csv, .txt, .dat or .tsv with "
+                                       "a column of times and one "
+                                       "of values");
         }
     }
     return {tables.begin(), tables.end()};
@@ -70,7 +70,7 @@ GuessedColumns columnsOf(const fs::path& file)
     }
 }
 
-/// Of a file that must have the columns of the first one.
+/// Curve of a file, which must have the columns of the first file.
 Curve curveOf(const fs::path& file, const fs::path& first, const GuessedColumns& columns)
 {
     try
@@ -80,7 +80,7 @@ Curve curveOf(const fs::path& file, const fs::path& first, const GuessedColumns&
     catch (const std::runtime_error& error)
     {
         throw std::runtime_error(std::string(error.what()) + " (the study has the columns of " + first.string()
-                                 + "; files of other kinds need one of their own)");
+                                 + "; files with other columns need another study)");
     }
 }
 

@@ -12,7 +12,7 @@
 namespace clepsydra::identification
 {
 
-/// What names, titles and curves of measured files tell.
+/// Conditions, columns and curve shapes of measured files.
 struct MeasuredFiles
 {
     std::vector<DraftedCondition> conditions;
@@ -21,9 +21,9 @@ struct MeasuredFiles
     std::vector<std::string> remarks;
 };
 
-/// \param places  files, which must be tables, and folders, of which those are taken that are
-/// \throws std::runtime_error that names the file, where there is no table, where files have other columns than the first
-/// training file, or where they hold another quantity than the case writes
+/// Reads measured files. \param places  files, which must be tables, and folders, from which all tables are taken
+/// \throws std::runtime_error naming the file if it is no table, if its columns differ from those of the first training
+/// file, or if it contains another quantity than the case writes
 MeasuredFiles readMeasuredFiles(const std::vector<std::filesystem::path>& places, const DraftedSimulator& simulator);
 
 } // namespace clepsydra::identification

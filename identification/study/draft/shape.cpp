@@ -13,7 +13,8 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Where three or more rows of exactly 0 stand before or after all others, 0 means that nothing was seen.
+/// Removes rows of exactly 0 if three or more of them stand before or after all others: 0 then means that the camera
+/// saw nothing.
 bool dropBlanks(Curve& curve)
 {
     constexpr std::ptrdiff_t fewest = 3;
@@ -30,7 +31,7 @@ bool dropBlanks(Curve& curve)
     return true;
 }
 
-/// How often a falling curve turns and rises again by more than its scatter.
+/// Number of times that a falling curve turns and rises by more than its scatter.
 int bouncesOf(const Curve& curve)
 {
     const auto [lowest, highest] = std::minmax_element(curve.value.begin(), curve.value.end());
@@ -71,7 +72,7 @@ Shape shapeOf(std::vector<Curve> curves, bool mayHaveBlanks)
         const double range = *highest - *lowest;
         const double first = curve.value.front();
         const double last = curve.value.back();
-        // A particle that bounces has its largest height at the start.
+        // A bouncing particle is highest at the start.
         const bool falls = first - *lowest > 0.5 * range;
         falling += falls ? 1 : -1;
         shape.bounces = std::min(shape.bounces, falls ? bouncesOf(curve) : 0);

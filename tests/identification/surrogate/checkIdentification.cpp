@@ -1,7 +1,8 @@
-/// The statistics of the whole procedure, on the surrogate: libraries, and many data sets for each, with a truth that the
-/// procedure does not see. Prints and writes what came out.
+/// Error rates of the whole procedure with the surrogate: several libraries, and for each of them many synthetic data
+/// sets whose truth is hidden from the procedure. Prints the rates and writes them as JSON.
 #include "surrogate/surrogate.h"
 
+#include "lists.h"
 #include "procedure/trace.h"
 #include "study/readStudy.h"
 
@@ -28,18 +29,19 @@ struct Options
     std::string study;
     std::string output;
     int libraries = 10;
-    int nulls = 20;   // of each library, as all that follow
-    int effects = 14; // data sets with one effect, each effect in turn
-    int decoys = 0;   // the same, with that effect not in the library
-    int unknowns = 0; // with an effect that no library has, for each of three sizes
-    int pairs = 0;
-    int again = 0; // of the data sets with one effect: the same once more, with other seeds of the program's runs
+    // Numbers of data sets for each library:
+    int nulls = 20;
+    int effects = 14; // with one effect, all effects in turn
+    int decoys = 0;   // of these, answered also without that effect in the library
+    int unknowns = 0; // with an effect that is not in the library, for each of three sizes
+    int pairs = 0;    // with two effects
+    int again = 0;    // of those with one effect, answered again with other seeds of the runs
     unsigned seed = 1;
     int draws = 1000;
     bool check = false;
 };
 
-/// Share with its 95 % Wilson interval.
+/// A share with its 95 % Wilson interval.
 Json share(double count, double of)
 {
     const double z = 1.96;
@@ -53,7 +55,7 @@ Json share(double count, double of)
     return {{"share", p}, {"wilson95", {middle - half, middle + half}}, {"count", count}, {"of", of}};
 }
 
-/// Effects that exist in the world of the surrogate but in no library.
+/// Effects of the surrogate that are not in the library.
 std::vector<Effect> outsideLibrary()
 {
     std::vector<Effect> effects;
@@ -70,7 +72,7 @@ std::vector<Effect> outsideLibrary()
 
 struct Truth
 {
-    std::vector<std::size_t> effects; // of the world
+    std::vector<std::size_t> effects; // indices in the study with all effects
     std::vector<double> amplitudes;
 };
 
@@ -81,9 +83,8 @@ struct Outcome
     bool topOne = false;
     bool inSet = false;
     std::size_t setSize = 0;
-    bool somethingElse = false;
+    bool unlistedCause = false;
     bool covered = false;
-    double rank = 0.0; // in which the truth lies: 0 below the interval's middle half, ...
     std::vector<std::vector<std::size_t>> set;
 };
 
@@ -97,7 +98,7 @@ struct Tally
     double named = 0;
     double namedRight = 0;
     double unknown = 0;
-    double open = 0; // unknown, or a set with something else
+    double open = 0; // unknown, or a set with an unlisted cause
     double covered = 0;
 
     void add(const Outcome& outcome)
@@ -115,7 +116,7 @@ struct Tally
         named += isName ? 1 : 0;
         namedRight += isName && outcome.inSet ? 1 : 0;
         unknown += outcome.decision == Decision::unknown ? 1 : 0;
-        open += outcome.decision == Decision::unknown || outcome.somethingElse ? 1 : 0;
+        open += outcome.decision == Decision::unknown || outcome.unlistedCause ? 1 : 0;
         covered += outcome.covered ? 1 : 0;
     }
 
@@ -131,13 +132,14 @@ struct Tally
     }
 };
 
-/// One library, and data sets made for it.
-class Rigged
+/// One library, and synthetic data sets for it.
+class SyntheticStudy
 {
 public:
-    Rigged(const Study& study, const Study& world, const Entries& defaults, unsigned seed)
+    /// \param allEffects  the study with the effects that are not in the library
+    SyntheticStudy(const Study& study, const Study& allEffects, const Entries& defaults, unsigned seed)
         : study_(study),
-          world_(world),
+          allEffects_(allEffects),
           simulator_(defaults),
           seed_(seed)
     {
@@ -148,31 +150,31 @@ public:
 
     std::vector<MeasuredCondition> measure(const Truth& truth, unsigned number)
     {
-        world_.settings.seed = seed_ * 4099U + number;
-        StudySimulator world(world_, simulator_);
-        std::mt19937_64 random(world_.settings.seed);
+        allEffects_.settings.seed = seed_ * 4099U + number;
+        StudySimulator simulator(allEffects_, simulator_);
+        std::mt19937_64 random(allEffects_.settings.seed);
         std::normal_distribution<double> normal;
-        Setting setting = world.plainSetting();
+        Setting setting = simulator.plainSetting();
         setting.parameters(0) += study_.parameters.front().sd * normal(random);
         for (std::size_t k = 0; k < truth.effects.size(); ++k)
         {
             setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
         }
-        std::vector<MeasuredCondition> all(world_.conditions.size());
+        std::vector<MeasuredCondition> all(allEffects_.conditions.size());
         for (std::size_t c = 0; c < all.size(); ++c)
         {
-            const auto simulations = world.repeats({c}, setting, "measured", repeats);
-            all[c].features.resize(repeats, world_.featureCount());
+            const auto simulations = simulator.repeats({c}, setting, "measured", repeats);
+            all[c].features.resize(repeats, allEffects_.featureCount());
             for (Eigen::Index row = 0; row < repeats; ++row)
             {
                 all[c].features.row(row) = simulations[static_cast<std::size_t>(row)].features.transpose();
             }
-            all[c].declaredError = Eigen::VectorXd::Zero(world_.featureCount());
+            all[c].declaredError = Eigen::VectorXd::Zero(allEffects_.featureCount());
         }
         return all;
     }
 
-    /// \param without  effect that the library is to lack, or none
+    /// \param without  effect that is left out of the library
     Outcome answer(const std::vector<MeasuredCondition>& data, const Truth& truth, unsigned runSeed,
         std::size_t without = static_cast<std::size_t>(-1))
     {
@@ -181,7 +183,7 @@ public:
         Library library = library_;
         if (without < study.effects.size())
         {
-            // The library that would have been made without it: its runs with the effect on are of no use.
+            // Its runs stay in the library, but the effect cannot be found.
             study.effects[without].prior = 1e-300;
         }
         StudySimulator studySimulator(study, simulator_);
@@ -191,7 +193,7 @@ public:
         outcome.decision = answer.decision;
         outcome.pValue = answer.pValue;
         outcome.setSize = answer.set.size();
-        outcome.somethingElse = answer.somethingElseInSet;
+        outcome.unlistedCause = answer.unlistedCauseInSet;
         for (std::size_t member = 0; member < answer.set.size(); ++member)
         {
             outcome.set.push_back(answer.set[member].effects);
@@ -206,7 +208,7 @@ public:
             const EffectFinding& finding = answer.effects[truth.effects.front()];
             outcome.covered =
                 finding.fit.lower <= truth.amplitudes.front() && truth.amplitudes.front() <= finding.fit.upper;
-            // The best one, whatever the set holds.
+            // The most probable effect, whether it is in the set or not.
             outcome.topOne = std::all_of(answer.effects.begin(), answer.effects.end(),
                 [&](const EffectFinding& other) { return other.probability <= finding.probability; });
         }
@@ -217,7 +219,7 @@ private:
     static constexpr int repeats = 3;
 
     Study study_;
-    Study world_;
+    Study allEffects_;
     SurrogateSimulator simulator_;
     unsigned seed_;
     Library library_;
@@ -227,21 +229,18 @@ Json check(const Options& options)
 {
     Study study = readStudy(options.study);
     study.settings.draws = options.draws;
-    Study world = study;
-    for (const auto& effect : outsideLibrary())
-    {
-        world.effects.push_back(effect);
-    }
+    Study allEffects = study;
+    append(allEffects.effects, outsideLibrary());
     const Entries defaults = readEntries(study.simulator.caseFolder / study.simulator.entriesFile);
     std::mt19937_64 random(options.seed);
     const auto anyOf = [&](std::size_t count) {
         return std::uniform_int_distribution<std::size_t>(0, count - 1)(random);
     };
     const auto signedAmplitude = [&](std::size_t e, double size) {
-        return world.effects[e].bounds.lower < 0.0 && anyOf(2) == 0 ? -size : size;
+        return allEffects.effects[e].bounds.lower < 0.0 && anyOf(2) == 0 ? -size : size;
     };
     const auto size = [&] { return std::uniform_real_distribution<double>(0.25, 1.0)(random); };
-    constexpr unsigned perKind = 500; // more than data sets of one kind for one library
+    constexpr unsigned perKind = 500; // more than the number of data sets of one kind for one library
 
     Tally nulls;
     Tally effects;
@@ -250,19 +249,19 @@ Json check(const Options& options)
     std::map<std::string, Tally> byEffect;
     std::map<std::string, Tally> bySize;
     std::map<std::string, Tally> outside;
-    std::map<std::string, int> wrongNames; // "truth at its size: name"
-    double oneOfTwo = 0;                   // pairs of which one is named by itself
+    std::map<std::string, int> wrongNames; // by "truth size: name"
+    double oneOfTwo = 0;                   // pairs of which one effect is named alone
     double sameAnswer = 0;
     double askedAgain = 0;
     double below = 0;
     std::size_t turn = 0;
     for (int l = 0; l < options.libraries; ++l)
     {
-        Rigged rigged(study, world, defaults, options.seed * 1000U + static_cast<unsigned>(l));
+        SyntheticStudy synthetic(study, allEffects, defaults, options.seed * 1000U + static_cast<unsigned>(l));
         unsigned number = 1;
         for (int i = 0; i < options.nulls; ++i, ++number)
         {
-            const Outcome outcome = rigged.answer(rigged.measure({}, number), {}, number);
+            const Outcome outcome = synthetic.answer(synthetic.measure({}, number), {}, number);
             nulls.add(outcome);
             below += outcome.pValue < 0.5 ? 1 : 0;
         }
@@ -272,14 +271,14 @@ Json check(const Options& options)
             const std::size_t e = turn++ % study.effects.size();
             const double large = size();
             const Truth truth{{e}, {signedAmplitude(e, large)}};
-            const auto data = rigged.measure(truth, number);
-            const Outcome outcome = rigged.answer(data, truth, number);
+            const auto data = synthetic.measure(truth, number);
+            const Outcome outcome = synthetic.answer(data, truth, number);
             effects.add(outcome);
             byEffect[study.effects[e].name].add(outcome);
             bySize[large < 0.5 ? "0.25-0.5" : large < 0.75 ? "0.5-0.75" : "0.75-1"].add(outcome);
             if (i < options.again)
             {
-                const Outcome second = rigged.answer(data, truth, number + 3 * perKind);
+                const Outcome second = synthetic.answer(data, truth, number + 3 * perKind);
                 askedAgain += 1;
                 sameAnswer += second.decision == outcome.decision
                                       && (outcome.decision != Decision::named || second.set == outcome.set)
@@ -288,7 +287,7 @@ Json check(const Options& options)
             }
             if (i < options.decoys)
             {
-                decoys.add(rigged.answer(data, truth, number, e));
+                decoys.add(synthetic.answer(data, truth, number, e));
             }
         }
         number = 2 * perKind;
@@ -296,14 +295,15 @@ Json check(const Options& options)
         {
             for (int i = 0; i < options.unknowns; ++i, ++number)
             {
-                const std::size_t e = study.effects.size() + number % (world.effects.size() - study.effects.size());
+                const std::size_t e =
+                    study.effects.size() + number % (allEffects.effects.size() - study.effects.size());
                 const Truth truth{{e}, {part}};
-                const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+                const Outcome outcome = synthetic.answer(synthetic.measure(truth, number), truth, number);
                 const std::string label = std::to_string(part).substr(0, 4);
                 outside[label].add(outcome);
                 if (outcome.decision == Decision::named)
                 {
-                    ++wrongNames[world.effects[e].name + ' ' + label + ": "
+                    ++wrongNames[allEffects.effects[e].name + ' ' + label + ": "
                                  + study.effects[outcome.set.front().front()].name];
                 }
             }
@@ -313,17 +313,18 @@ Json check(const Options& options)
             const auto a = anyOf(study.effects.size() - 1);
             const auto b = a + 1 + anyOf(study.effects.size() - a - 1);
             const Truth truth{{a, b}, {signedAmplitude(a, 0.8), signedAmplitude(b, 0.8)}};
-            const Outcome outcome = rigged.answer(rigged.measure(truth, number), truth, number);
+            const Outcome outcome = synthetic.answer(synthetic.measure(truth, number), truth, number);
             pairs.add(outcome);
             const bool isOne = outcome.decision == Decision::named && outcome.set.front().size() == 1
                                && (outcome.set.front().front() == a || outcome.set.front().front() == b);
             oneOfTwo += isOne ? 1 : 0;
         }
         std::cerr << "library " << l + 1 << ": false alarms " << nulls.detected << " of " << nulls.trials
-                  << ", detected " << effects.detected << " of " << effects.trials << ", best is the truth "
-                  << effects.topOne << ", in the set " << effects.inSet << ", named " << effects.named << ", rightly "
-                  << effects.namedRight << ", sizes " << effects.setSize << ", amplitude covered " << effects.covered
-                  << ", same " << sameAnswer << " of " << askedAgain << std::endl;
+                  << "; detected " << effects.detected << " of " << effects.trials << "; of these, truth most probable "
+                  << effects.topOne << ", truth in the set " << effects.inSet << ", named " << effects.named
+                  << ", named correctly " << effects.namedRight << ", sum of set sizes " << effects.setSize
+                  << ", amplitude in its interval " << effects.covered << "; same answer with other seeds "
+                  << sameAnswer << " of " << askedAgain << std::endl;
     }
     const auto all = [](const std::map<std::string, Tally>& tallies) {
         Json json = Json::object();
@@ -341,24 +342,26 @@ Json check(const Options& options)
         {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}};
 }
 
-/// The 95 % Wilson interval of the false alarms must hold the nominal level; the other limits lie far below what the
-/// full study measured (identification/results), and far above what an answer drawn by chance would give.
-bool asSpecified(const Json& result, double level)
+/// The 95 % Wilson interval of the false alarms must contain the nominal level. The other limits lie far below the
+/// rates of the full study (identification/results) and far above those of an answer by chance.
+bool meetsLimits(const Json& result, double level)
 {
     bool good = true;
     const auto require = [&](bool held, const std::string& what) {
         if (!held)
         {
-            std::cerr << "not as promised: " << what << '\n';
+            std::cerr << "This requirement is not met: " << what << '\n';
             good = false;
         }
     };
     const Json& alarms = result["falseAlarms"]["wilson95"];
-    require(alarms[0].get<double>() <= level && level <= alarms[1].get<double>(), "false alarms at the nominal level");
+    require(alarms[0].get<double>() <= level && level <= alarms[1].get<double>(),
+        "the rate of false alarms agrees with the nominal level");
     const Json& effects = result["effects"];
     require(effects["detected"]["share"].get<double>() > 0.7, "more than 70 % of the effects are detected");
-    require(effects["truthInSetWhenDetected"]["share"].get<double>() > 0.8, "the truth is in the set in 80 %");
-    require(effects["meanSetSize"].get<double>() < 2.0, "sets have fewer than 2 members");
+    require(
+        effects["truthInSetWhenDetected"]["share"].get<double>() > 0.8, "more than 80 % of the sets contain the truth");
+    require(effects["meanSetSize"].get<double>() < 2.0, "sets have fewer than 2 members on average");
     return good;
 }
 
@@ -369,21 +372,22 @@ bool asSpecified(const Json& result, double level)
 int main(int argc, char** argv)
 {
     clepsydra::identification::tests::Options options;
-    CLI::App app("Checks the statistics of traceResidual from end to end on a surrogate for the solver");
+    CLI::App app("Measures the error rates of the whole procedure of traceResidual with a surrogate simulator");
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     app.add_option("study", options.study, "study file of the surrogate")->required();
-    app.add_option("--libraries", options.libraries, "libraries; all other numbers are for each of them");
-    app.add_option("--nulls", options.nulls, "data sets without any effect");
-    app.add_option("--effects", options.effects, "data sets with one effect of the library");
-    app.add_option("--decoys", options.decoys, "of these, answered with that effect not in the library, too");
-    app.add_option("--again", options.again, "of these, answered with other seeds of the program's runs, too");
+    app.add_option("--libraries", options.libraries, "number of libraries; the numbers of data sets are per library");
+    app.add_option("--nulls", options.nulls, "number of data sets without an effect");
+    app.add_option("--effects", options.effects, "number of data sets with one effect of the library");
     app.add_option(
-        "--unknowns", options.unknowns, "data sets with an effect that no library has, for each of three sizes");
-    app.add_option("--pairs", options.pairs, "data sets with two effects");
-    app.add_option("--seed", options.seed, "of everything");
-    app.add_option("--draws", options.draws, "of the test's null distribution");
+        "--decoys", options.decoys, "number of these that are also answered without that effect in the library");
+    app.add_option("--again", options.again, "number of these that are also answered with other seeds of the runs");
+    app.add_option("--unknowns", options.unknowns,
+        "number of data sets with an effect that is not in the library, for each of three sizes");
+    app.add_option("--pairs", options.pairs, "number of data sets with two effects");
+    app.add_option("--seed", options.seed, "seed of all random numbers");
+    app.add_option("--draws", options.draws, "number of draws from the null distribution of the test");
     app.add_option("--output", options.output, "JSON file to write");
-    app.add_flag("--check", options.check, "fail where the result is worse than the procedure promises");
+    app.add_flag("--check", options.check, "fail if the rates are outside of wide limits");
     CLI11_PARSE(app, argc, argv);
     try
     {
@@ -393,7 +397,7 @@ int main(int argc, char** argv)
         {
             std::ofstream(options.output) << result.dump(1) << '\n';
         }
-        return !options.check || clepsydra::identification::tests::asSpecified(result, 0.05) ? 0 : 1;
+        return !options.check || clepsydra::identification::tests::meetsLimits(result, 0.05) ? 0 : 1;
     }
     catch (const std::exception& error)
     {

@@ -16,7 +16,7 @@ constexpr double gravity = 9.81;
 constexpr double water = 1000.0;
 constexpr double step = 0.05;          // [s]
 constexpr double longest = 400.0;      // [s]
-constexpr double memoryOfNoise = 0.08; // share of the fill over which the rate forgets
+constexpr double memoryOfNoise = 0.08; // correlation length of the rate, as a share of the fill
 
 using Numbers = Expression::Variables;
 
@@ -34,7 +34,7 @@ double terminalVelocity(const Numbers& p)
     return speed;
 }
 
-/// Rate while the hopper is full and the flow is steady.
+/// Rate of the steady flow out of a full hopper.
 double steadyRate(const Numbers& p)
 {
     const double d = p.at("particleDiameter");
@@ -56,13 +56,20 @@ double steadyRate(const Numbers& p)
     return rate * 0.5 * density * terminalVelocity(p) * d * d * openings * openings;
 }
 
-/// With chaos, as grains have it, the slightest change of any entry makes another run of the same seed.
+/// With `chaos`, as in granular flow, the slightest change of any entry changes the noise of a run with the same seed.
+/// The particle's entries are placed between airDrag and chaos, their place in the committed statistics, which the
+/// order affects.
 std::size_t startOfNoise(const Numbers& p)
 {
     auto start = static_cast<std::size_t>(p.at("seed"));
     if (p.at("chaos") > 0.5)
     {
+        Numbers ordered;
         for (const auto& [name, value] : p)
+        {
+            ordered[(name.rfind("particle", 0) == 0 ? "b" : "") + name] = value;
+        }
+        for (const auto& [name, value] : ordered)
         {
             start = start * 31 + std::hash<double>{}(value);
         }

@@ -7,12 +7,13 @@
 namespace clepsydra::identification::tests
 {
 
-/// A hopper as an ordinary differential equation, in place of the real solver where hundreds of studies are made: the
-/// mass in it against time, with a rate that wanders from run to run as grains' does. Made up, but with the signs and
-/// sizes that the real one has (dry and submerged, particle size, orifice, friction of several kinds).
+/// Surrogate of the hopper for statistics over hundreds of studies: an ordinary differential equation for the mass in
+/// the hopper, with a rate that fluctuates from run to run. The equation is synthetic, but its effects have the signs
+/// and sizes of the real ones (dry and submerged, particle size, orifice, friction of several kinds).
+/// \return the mass [kg] as a function of time [s]
 Curve discharge(const Entries& entries);
 
-/// The same without a program: for the statistics.
+/// The surrogate as a simulator that needs no case and no processes.
 class SurrogateSimulator final : public Simulator
 {
 public:

@@ -1,5 +1,5 @@
-/// The surrogate as a program that obeys the contract of a case: reads `parameters` in the folder it is started in and
-/// writes postProcessing/massInHopper/0/massInHopper.dat. With `failWithSeed` equal to its seed it fails.
+/// The surrogate as the program of a case: it reads `parameters` in the current directory and writes
+/// postProcessing/massInHopper/0/massInHopper.dat. It fails if `failWithSeed` equals its seed.
 #include "surrogate/surrogate.h"
 
 #include <exception>

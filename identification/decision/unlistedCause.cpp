@@ -14,12 +14,12 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Each condition scatters by itself: degrees of freedom of the prior of its factor, and how likely something else is to scatter
-/// in a way of its own.
+/// Degrees of freedom of the prior of each condition's own noise factor, and probability that an unlisted cause changes
+/// the scatter.
 constexpr double otherSpreadFreedom = 3.0;
 constexpr double otherSpreadShare = 0.3;
 
-/// Something else acts on features of one condition, and on one feature in all conditions, in like ways to this extent.
+/// Correlations of the discrepancy between the features of one condition, and between the conditions for one feature.
 constexpr double alikeFeatures = 0.5;
 constexpr double alikeConditions = 0.3;
 
@@ -29,7 +29,7 @@ void Evidence::prepareOther()
 {
     const Eigen::Index n = layout_.rows;
     const Eigen::Index q = study_.parameters.size();
-    // What the library's effects do to each feature at full size, root mean square over effects and conditions.
+    // Change of each feature by the library's effects at full size, root mean square over effects and conditions.
     Eigen::VectorXd squares = Eigen::VectorXd::Zero(study_.featureCount());
     Eigen::VectorXd counts = squares;
     const Eigen::VectorXd prior = Eigen::VectorXd::Zero(study_.parameters.size());
@@ -100,14 +100,14 @@ void Evidence::prepareOther()
 double Evidence::otherEvidence(const Measured& measured, const Spread& usual, const Solution& null) const
 {
     const Eigen::Index q = study_.parameters.size();
-    // Linear in the parameters from where the null fits.
+    // The emulator is linearised in the parameters at the null fit.
     Eigen::VectorXd& r = workspace_.data;
     transformTo(null_, measured.mean, r);
     r -= null_.terms * parameterTermsAt(Eigen::VectorXd(null.parameters));
     r += null_.terms.middleCols(1, q) * Eigen::VectorXd(null.parameters);
     const double nu = layout_.noiseFreedom;
     const double rows = static_cast<double>(layout_.rows);
-    // A set that scatters in a way of its own has a noise of its own; the means are then known as well as its repeats say.
+    // Discrepancy of the means and change of the scatter are independent.
     Eigen::VectorXd logs(other_.size());
     for (Eigen::Index i = 0; i < logs.size(); ++i)
     {

@@ -8,19 +8,19 @@
 namespace clepsydra::identification
 {
 
-/// What was found, in one sentence for people who know nothing of the procedure.
+/// The answer in one sentence, for readers who do not know the procedure.
 std::string sentenceOf(const Findings& findings);
 
-/// How sure that is, how well it predicts, and whether it may enter the model, in sentences.
+/// Sentences on how certain the answer is, how well it predicts, and whether the effect may enter the model.
 std::vector<std::string> detailsOf(const Findings& findings);
 
-/// What to measure next, and what it would tell, in sentences.
+/// Sentences on what to measure next, and which result is expected.
 std::vector<std::string> nextOf(const Findings& findings);
 
-/// The effect, or the family, that was named.
+/// Name of the effect or family that was found.
 std::string namedBy(const Study& study, const Answer& answer);
 
-/// What the report takes for granted, in sentences.
+/// Sentences on the assumptions behind the answer.
 std::vector<std::string> assumptionsOf(const Findings& findings);
 
 } // namespace clepsydra::identification

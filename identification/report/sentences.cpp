@@ -1,4 +1,4 @@
-#include "report/words.h"
+#include "report/sentences.h"
 
 #include "lists.h"
 #include "report/fitted.h"
@@ -14,7 +14,7 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr const char* notInLibrary = "something that the library does not hold";
+constexpr const char* unlistedCause = "a cause that the library does not list";
 constexpr const char* unseen = "the error on measurements that no fit has seen";
 
 /// "this, that and those"
@@ -28,7 +28,7 @@ std::string joined(const std::vector<std::string>& parts, const std::string& las
     return all;
 }
 
-/// What it does, in the library's own words, and how much of it there is.
+/// Meaning of an explanation as the library states it, with its fitted size.
 std::string meaningOf(const Findings& findings, const Explanation& explanation)
 {
     const auto meanings = mapped(explanation.effects, [&](std::size_t e) {
@@ -37,7 +37,7 @@ std::string meaningOf(const Findings& findings, const Explanation& explanation)
         return own.erase(own.find_last_not_of(" \n.") + 1);
     });
     const std::string meaning = joined(meanings, ", together with ");
-    const std::string size = sizeInWords(findings, explanation);
+    const std::string size = describeSize(findings, explanation);
     return size.empty() ? meaning : size.rfind(meaning + ' ', 0) == 0 ? size : meaning + " (" + size + ')';
 }
 
@@ -46,7 +46,7 @@ std::vector<std::string> membersOf(const Findings& findings)
     return mapped(findings.answer->set, [&](const Explanation& each) { return meaningOf(findings, each); });
 }
 
-/// Differences of logarithms are shares, which people read in percent.
+/// Differences of logarithms are relative, and are given in percent.
 struct Scale
 {
     explicit Scale(bool isLog)
@@ -95,7 +95,7 @@ bool isHeldOut(const HeldOutResult* heldOut)
     return heldOut != nullptr && !heldOut->conditions.empty();
 }
 
-/// What the model without any effect makes of the held-out conditions.
+/// Error on the held-out conditions without an effect.
 std::string errorWithout(const Findings& findings)
 {
     return isHeldOut(findings.heldOut)
@@ -118,7 +118,7 @@ const Condition* bestCandidate(const Findings& findings)
 }
 
 /// "; to distinguish them, measure wetWide"
-std::string toTellApart(const Findings& findings)
+std::string howToDistinguish(const Findings& findings)
 {
     if (const Condition* candidate = bestCandidate(findings))
     {
@@ -132,11 +132,11 @@ std::string toTellApart(const Findings& findings)
             return "; to distinguish them: " + effect.hint;
         }
     }
-    return "; these measurements do not tell which";
+    return "; these measurements cannot distinguish them";
 }
 
-/// Parameters that the fit without any effect takes far from what was measured by itself: "friction, 5.9 standard deviations".
-std::vector<std::string> strained(const Findings& findings)
+/// Parameters that the null fit moves far from their independent measurements: "friction 5.9 standard deviations".
+std::vector<std::string> strainedParameters(const Findings& findings)
 {
     constexpr double far = 3.0; // standard deviations
     const Study& study = *findings.study;
@@ -154,34 +154,33 @@ std::vector<std::string> strained(const Findings& findings)
     return names;
 }
 
-std::string chanceInWords(const Answer& answer)
+std::string chanceSentence(const Answer& answer)
 {
-    return "Chance alone gives a difference as large as this in " + percent(answer.pValue)
+    return "Noise alone gives a residual as large as this in " + percent(answer.pValue)
            + " of such data (p = " + rounded(answer.pValue, answer.pValue < 0.1 ? 1 : 2) + ").";
 }
 
-std::string probabilitiesInWords(const Findings& findings)
+std::string probabilitySentence(const Findings& findings)
 {
     const Answer& answer = *findings.answer;
     auto shares = mapped(answer.set,
         [&](const Explanation& each) { return meaningOf(findings, each) + ' ' + percent(each.probability); });
-    shares.push_back(std::string(notInLibrary) + ' ' + percent(answer.otherBesideSet));
-    return "How likely: " + joined(shares, ", ") + '.';
+    shares.push_back(std::string(unlistedCause) + ' ' + percent(answer.otherBesideSet));
+    return "The probabilities are: " + joined(shares, ", ") + '.';
 }
 
-std::string heldOutInWords(const Findings& findings)
+std::string heldOutSentence(const Findings& findings)
 {
     const Study& study = *findings.study;
     const HeldOutResult& heldOut = *findings.heldOut;
     std::string text =
-        "On the held-out conditions the error is " + errorOf(study, heldOut.before) + " without any effect, ";
+        "On the held-out conditions the error is " + errorOf(study, heldOut.before) + " without an effect, ";
     if (heldOut.after)
     {
-        text += errorOf(study, *heldOut.after) + " with the likeliest effect, ";
+        text += errorOf(study, *heldOut.after) + " with the most likely effect, ";
     }
-    return text + errorOf(study, heldOut.oneMoreParameter)
-           + " with one more free parameter in its place; noise alone gives " + scaleOf(study)(heldOut.noiseFloor)
-           + '.';
+    return text + "and " + errorOf(study, heldOut.oneMoreParameter)
+           + " with one more free parameter instead; noise alone gives " + scaleOf(study)(heldOut.noiseFloor) + '.';
 }
 
 } // namespace
@@ -197,59 +196,61 @@ std::string sentenceOf(const Findings& findings)
     switch (answer.decision)
     {
         case Decision::noResidual:
-            return (strained(findings).empty()
-                           ? "Nothing is missing that these measurements could show"
-                           : "The model fits, but only with " + joined(strained(findings), " and ")
-                                 + " from its own measurement: that is wrong, or something is missing that it takes up")
+            return (strainedParameters(findings).empty()
+                           ? "The model agrees with these measurements within their noise"
+                           : "The model fits, but only with " + joined(strainedParameters(findings), " and ")
+                                 + " from the independent measurement: either that measurement is wrong, or the fit "
+                                   "compensates for a missing effect")
                    + errorWithout(findings) + '.';
         case Decision::unknown:
-            return "There is " + std::string(notInLibrary) + ": none of its "
-                   + std::to_string(findings.study->effects.size()) + " effects makes what was measured"
+            return "The residual has " + std::string(unlistedCause) + ": none of its "
+                   + std::to_string(findings.study->effects.size()) + " effects explains the measurements"
                    + errorWithout(findings) + '.';
         case Decision::named:
-            return "Found: " + joined(membersOf(findings), ", or ")
-                   + (answer.family.empty() ? "" : ", variants of one thing") + errorWith(findings) + '.';
+            return "The residual is explained by: " + joined(membersOf(findings), ", or ")
+                   + (answer.family.empty() ? "" : ", variants of one effect") + errorWith(findings) + '.';
         case Decision::set:
             break;
     }
     std::vector<std::string> members = membersOf(findings);
     if (members.size() == 1)
     {
-        return "Perhaps " + members.front() + ", perhaps " + notInLibrary + errorWith(findings) + '.';
+        return "The residual has one of these causes: " + members.front() + ", or " + unlistedCause
+               + errorWith(findings) + '.';
     }
-    if (answer.somethingElseInSet)
+    if (answer.unlistedCauseInSet)
     {
-        members.emplace_back(notInLibrary);
+        members.emplace_back(unlistedCause);
     }
-    return "Either " + joined(members, ", or ") + toTellApart(findings) + '.';
+    return "The residual has one of these causes: " + joined(members, ", or ") + howToDistinguish(findings) + '.';
 }
 
 std::vector<std::string> detailsOf(const Findings& findings)
 {
     const Answer& answer = *findings.answer;
     const HeldOutResult* heldOut = findings.heldOut;
-    std::vector<std::string> all = {chanceInWords(answer)};
-    if (answer.decision != Decision::noResidual && !strained(findings).empty())
+    std::vector<std::string> all = {chanceSentence(answer)};
+    if (answer.decision != Decision::noResidual && !strainedParameters(findings).empty())
     {
-        all.push_back(
-            "Without any effect the fit takes " + joined(strained(findings), " and ") + " from its own measurement.");
+        all.push_back("Without an effect the fit moves " + joined(strainedParameters(findings), " and ")
+                      + " from the independent measurement.");
     }
     if (answer.decision == Decision::noResidual)
     {
-        all.emplace_back("This does not show that nothing is missing: report.html says from which size on each effect "
-                         "would have been seen.");
+        all.emplace_back("This does not show that no effect is missing; report.html lists the size from which on each "
+                         "effect would have been detected.");
     }
     else if (answer.decision != Decision::unknown)
     {
-        // What is likely among explanations that all chiSquare is no explanation.
-        all.push_back(probabilitiesInWords(findings));
+        // If no explanation fits, their relative probabilities mean nothing.
+        all.push_back(probabilitySentence(findings));
     }
     if (!isHeldOut(heldOut))
     {
-        all.emplace_back("No condition was held out: nothing shows that the answer predicts.");
+        all.emplace_back("No condition was held out, so the prediction has not been tested.");
         return all;
     }
-    all.push_back(heldOutInWords(findings));
+    all.push_back(heldOutSentence(findings));
     if (heldOut->after)
     {
         all.push_back(heldOut->accepted()
@@ -266,7 +267,7 @@ std::vector<std::string> nextOf(const Findings& findings)
     if (const Condition* candidate = bestCandidate(findings))
     {
         const auto& outcomes = findings.next->front().outcomes;
-        // The feature by which the two that are most likely differ most.
+        // The feature in which the two most likely explanations differ most.
         Eigen::Index best = 0;
         const Eigen::ArrayXd apart = (outcomes[0].features - outcomes[1].features).array()
                                      / (outcomes[0].sd.array().square() + outcomes[1].sd.array().square()).sqrt();
@@ -274,9 +275,9 @@ std::vector<std::string> nextOf(const Findings& findings)
         const Feature& feature = study.features[best];
         const double difference = outcomes[0].features(best) - outcomes[1].features(best);
         const Scale scale(feature.kind->isLog());
-        all.push_back("Measure " + candidate->name + ": '" + feature.name + "' there is " + scale(std::abs(difference))
+        all.push_back("Measure " + candidate->name + ": there, '" + feature.name + "' is " + scale(std::abs(difference))
                       + (difference > 0.0 ? " larger" : " smaller") + " with " + outcomes[0].name + " than with "
-                      + outcomes[1].name + "; one measurement is good to "
+                      + outcomes[1].name + "; one measurement has a standard error of "
                       + scale(std::max(outcomes[0].sd(best), outcomes[1].sd(best))) + '.');
     }
     if (findings.answer->decision == Decision::unknown)
@@ -288,8 +289,9 @@ std::vector<std::string> nextOf(const Findings& findings)
                        < std::abs(b.estimate.value) / b.estimate.standardError;
             });
         const Feature& feature = study.features[largest->feature];
-        all.push_back("It shows most in " + study.conditions[largest->condition].name + ", '" + feature.name
-                      + "': measured minus simulated is " + Scale(feature.kind->isLog())(largest->estimate) + '.');
+        all.push_back("The residual is largest in condition " + study.conditions[largest->condition].name
+                      + ", feature '" + feature.name + "': measured minus simulated is "
+                      + Scale(feature.kind->isLog())(largest->estimate) + '.');
     }
     for (const auto& explanation : findings.answer->set)
     {
@@ -297,7 +299,7 @@ std::vector<std::string> nextOf(const Findings& findings)
         {
             if (!study.effects[e].hint.empty())
             {
-                all.push_back("To measure " + study.effects[e].name + " by itself: " + study.effects[e].hint + '.');
+                all.push_back(study.effects[e].name + " can be measured independently: " + study.effects[e].hint + '.');
             }
         }
     }
@@ -316,28 +318,28 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
                       + " with a standard deviation of " + textOf(parameter.sd) + ".");
     }
     all.push_back("Only the " + std::to_string(study.effects.size())
-                  + " effects of the study can be named, with amplitudes within their stated ranges; all amplitudes in "
-                    "a range are "
-                    "equally likely beforehand.");
+                  + " effects of the study can be named, with amplitudes within their stated ranges; a priori, all "
+                    "amplitudes within a range are equally likely.");
     all.emplace_back(
         answer.emulator->scatters()
-            ? "Measurements scatter as simulations of the same setting do, up to a common factor near 1, and "
-              "close to normal."
-            : "The scatter of measurements is that of their own repeats, or what is declared.");
-    all.push_back("Thresholds hold for data as the emulator draws them; wrong names are held below "
-                  + textOf(100.0 * study.settings.wrongNames)
-                  + " % for decoys of two kinds: effects of the library left out in turn, and patterns of any shape.");
+            ? "Measurements scatter like simulations of the same setting, up to a common factor near 1, and their "
+              "distribution is nearly normal."
+            : "The scatter of the measurements is that of their repeats, or is declared in the study.");
+    all.push_back(
+        "The thresholds are derived from synthetic data that follow the emulator. They give a wrong name to at most "
+        + textOf(100.0 * study.settings.wrongNames)
+        + " % of the decoys, which are effects of the library, left out in turn, and patterns of any shape.");
     if (study.modelError.maxCoeff() > 0.0)
     {
-        all.emplace_back("The simulation's own error (mesh, steps) is as large as the study's modelError states.");
+        all.emplace_back("The model error (mesh, time steps) is as large as the study's modelError states.");
     }
     for (const auto& effect : study.leftOut)
     {
-        all.push_back("Left out, and so never named: " + effect + ".");
+        all.push_back("This effect was left out and cannot be named: " + effect + ".");
     }
     if (study.simulator.seedEntry.empty())
     {
-        all.emplace_back("Runs of the simulator do not scatter.");
+        all.emplace_back("Repeated runs of the simulator do not differ.");
     }
     return all;
 }
