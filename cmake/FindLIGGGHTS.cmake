@@ -27,7 +27,7 @@ find_package_handle_standard_args(LIGGGHTS
 # The line above names the folder of the headers.
 if(LIGGGHTS_FOUND)
     find_package_message(LIGGGHTS_library
-        "      LIGGGHTS ${LIGGGHTS_VERSION}: headers in ${LIGGGHTS_INCLUDE_DIR}, library ${LIGGGHTS_LIBRARY}"
+        "LIGGGHTS ${LIGGGHTS_VERSION}: headers in ${LIGGGHTS_INCLUDE_DIR}, library ${LIGGGHTS_LIBRARY}"
         "[${LIGGGHTS_VERSION}][${LIGGGHTS_INCLUDE_DIR}][${LIGGGHTS_LIBRARY}]")
 endif()
 

@@ -58,7 +58,7 @@ find_package_handle_standard_args(OpenFOAM
 # The line above names the folder of the headers. The libraries lie elsewhere where they are the distribution's.
 if(OpenFOAM_FOUND)
     find_package_message(OpenFOAM_libraries
-        "      OpenFOAM ${OpenFOAM_VERSION}: headers in ${OpenFOAM_ROOT}/src, libraries as ${OpenFOAM_LIBRARY}, ${OpenFOAM_PSTREAM_LIBRARY}"
+        "OpenFOAM ${OpenFOAM_VERSION}: headers in ${OpenFOAM_ROOT}/src, libraries as ${OpenFOAM_LIBRARY}, ${OpenFOAM_PSTREAM_LIBRARY}"
         "[${OpenFOAM_VERSION}][${OpenFOAM_ROOT}][${OpenFOAM_LIBRARY}][${OpenFOAM_PSTREAM_LIBRARY}]")
 endif()
 
