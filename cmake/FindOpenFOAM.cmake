@@ -6,7 +6,8 @@
 #   OpenFOAM_FOUND, OpenFOAM_VERSION (1912), OpenFOAM_ROOT (the folder that holds src/ and etc/)
 #   OpenFOAM_IS_PACKAGED      true where it is the distribution's, with what scripts/setup has fetched
 #
-# It warns of a version outside the range that was tried, and refuses what is not ESI's.
+# It says which versions Clepsydra is known to compile with and was tested with, where this is another, and refuses what
+# is not ESI's.
 #
 #   OpenFOAM::core            libOpenFOAM, libPstream
 #   OpenFOAM::surfaces        libfileFormats, libsurfMesh
@@ -20,9 +21,11 @@
 
 include(FindPackageHandleStandardArgs)
 
-# The test suite has passed with these two. scripts/setup reads this range here.
-set(OpenFOAM_OLDEST_TRIED 1912)
-set(OpenFOAM_NEWEST_TRIED 2312)
+# Clepsydra compiles with the oldest and the newest of these, and its test suite has passed with those that are listed as
+# tested. scripts/setup reads the numbers here.
+set(OpenFOAM_OLDEST_COMPILED 1912)
+set(OpenFOAM_NEWEST_COMPILED 2312)
+set(OpenFOAM_TESTED 1912)
 
 #--- Where it is -------------------------------------------------------------------------------------------------------
 
@@ -67,13 +70,18 @@ mark_as_advanced(OpenFOAM_ROOT OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY)
 if(OpenFOAM_ROOT)
     if(NOT EXISTS "${OpenFOAM_ROOT}/META-INFO/api-info")
         message(FATAL_ERROR "The OpenFOAM in ${OpenFOAM_ROOT} has no META-INFO/api-info, so it is not ESI's (openfoam.com), "
-            "which Clepsydra needs: v${OpenFOAM_OLDEST_TRIED} or later.")
+            "which Clepsydra needs: v${OpenFOAM_OLDEST_COMPILED} or later.")
     endif()
     file(STRINGS "${OpenFOAM_ROOT}/META-INFO/api-info" _api REGEX "^api=[0-9]+")
     string(REGEX REPLACE "^api=" "" OpenFOAM_VERSION "${_api}")
-    if(OpenFOAM_VERSION LESS OpenFOAM_OLDEST_TRIED OR OpenFOAM_VERSION GREATER OpenFOAM_NEWEST_TRIED)
-        message(WARNING "OpenFOAM v${OpenFOAM_VERSION} in ${OpenFOAM_ROOT}: Clepsydra was tried with "
-            "v${OpenFOAM_OLDEST_TRIED} to v${OpenFOAM_NEWEST_TRIED}. Run the tests (ctest) before you trust a result.")
+    if(NOT OpenFOAM_VERSION IN_LIST OpenFOAM_TESTED)
+        set(_severity STATUS)
+        if(OpenFOAM_VERSION LESS OpenFOAM_OLDEST_COMPILED OR OpenFOAM_VERSION GREATER OpenFOAM_NEWEST_COMPILED)
+            set(_severity WARNING)
+        endif()
+        list(JOIN OpenFOAM_TESTED ", v" _tested)
+        message(${_severity} "Clepsydra compiles with OpenFOAM v${OpenFOAM_OLDEST_COMPILED} to v${OpenFOAM_NEWEST_COMPILED}, and "
+            "its tests have passed with v${_tested}. Run the tests (ctest) with this v${OpenFOAM_VERSION} before you trust a result.")
     endif()
 endif()
 

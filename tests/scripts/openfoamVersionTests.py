@@ -104,7 +104,13 @@ class CMake(Environment):
         self.assertIn("WM_LABEL_SIZE=64", said)
         self.assertIn("OPENFOAM=2312", said)
         self.assertIn(f"libraries: {libraries}/libOpenFOAM.so;{libraries}/mpi/libPstream.so;", said)
+        self.assertIn("its tests have passed with v1912. Run the tests (ctest) with this v2312", said)
         self.assertNotIn("Warning", said)
+
+    def test_says_nothing_of_a_version_that_was_tested(self) -> None:
+        status, said = self.configure(self.openfoam("1912"))
+        self.assertEqual(status, 0, said)
+        self.assertNotIn("Run the tests", said)
 
     def test_keeps_the_sizes_where_the_environment_is_no_longer_sourced(self) -> None:
         """A build folder configures itself again when a CMakeLists.txt changes, in whichever shell that happens."""
@@ -114,15 +120,15 @@ class CMake(Environment):
         self.assertIn("WM_LABEL_SIZE=64", said)
         self.assertIn("OPENFOAM=2312", said)
 
-    def test_warns_outside_the_range_that_was_tried(self) -> None:
+    def test_warns_outside_the_range_that_was_compiled(self) -> None:
         for api in ("1906", "9912"):
             with self.subTest(api):
                 shutil.rmtree(self.folder / "build", ignore_errors=True)
                 status, said = self.configure(self.openfoam(api, "v" + api))
                 self.assertEqual(status, 0, said)
                 self.assertIn("Warning", said)
-                self.assertIn(f"OpenFOAM v{api} in ", said)
-                self.assertIn("tried with v1912 to v", said)
+                self.assertIn("Clepsydra compiles with OpenFOAM v1912 to v", said)
+                self.assertIn(f"with this v{api} before", said)
 
     def test_refuses_what_is_not_of_esi(self) -> None:
         status, said = self.configure(self.openfoam(None))
@@ -151,12 +157,18 @@ class Setup(Environment):
         status, said = self.setup(sourced)
         self.assertEqual(status, 0, said)
         self.assertIn(f"setup: using OpenFOAM v2312 in {sourced['WM_PROJECT_DIR']}, whose environment is sourced", said)
-        self.assertNotIn("warning", said)
+        self.assertIn("setup: Clepsydra compiles with OpenFOAM v1912 to v", said)
 
-    def test_warns_outside_the_range_that_was_tried(self) -> None:
+    def test_says_nothing_of_a_version_that_was_tested(self) -> None:
+        status, said = self.setup(self.openfoam("1912"))
+        self.assertEqual(status, 0, said)
+        self.assertIn("using OpenFOAM v1912", said)
+        self.assertNotIn("Run the tests", said)
+
+    def test_warns_outside_the_range_that_was_compiled(self) -> None:
         status, said = self.setup(self.openfoam("9912"))
         self.assertEqual(status, 0, said)
-        self.assertIn("setup: warning: Clepsydra was tried with v1912 to v", said)
+        self.assertIn("setup: warning: Clepsydra compiles with OpenFOAM v1912 to v", said)
 
     def test_refuses_an_openfoam_without_headers(self) -> None:
         sourced = self.openfoam("2312")
