@@ -4,6 +4,10 @@
 # headers that scripts/setup has fetched for them.
 #
 #   OpenFOAM_FOUND, OpenFOAM_VERSION (the API number, such as 2312), OpenFOAM_ROOT (the folder that holds src/ and etc/)
+#   OpenFOAM_IS_PACKAGED      true where it is the distribution's, with what scripts/setup has fetched
+#
+# It says which versions Clepsydra is known to compile with and was tested with, where this is another, and refuses what
+# is not ESI's.
 #
 #   OpenFOAM::core            libOpenFOAM, libPstream
 #   OpenFOAM::surfaces        libfileFormats, libsurfMesh
@@ -17,6 +21,12 @@
 
 include(FindPackageHandleStandardArgs)
 include(FindPackageMessage)
+
+# Clepsydra compiles with the oldest and the newest of these, and its test suite has passed with those that are listed as
+# tested. scripts/setup reads the numbers here.
+set(OpenFOAM_OLDEST_COMPILED 1912)
+set(OpenFOAM_NEWEST_COMPILED 2312)
+set(OpenFOAM_TESTED 1912)
 
 #--- Where it is -------------------------------------------------------------------------------------------------------
 
@@ -35,25 +45,58 @@ else()
     set(_root "${_fetched}")
 endif()
 
+# Libraries of one version behind headers of another corrupt memory in silence. FOAM_LIBBIN is set by a sourced
+# environment only; the packaged libraries lie where the linker looks anyway.
+if(DEFINED ENV{FOAM_LIBBIN} AND OpenFOAM_ROOT)
+    file(REAL_PATH "${OpenFOAM_ROOT}" _configured)
+    file(REAL_PATH "${_root}" _wanted)
+    if(NOT _configured STREQUAL _wanted)
+        message(FATAL_ERROR "${CMAKE_BINARY_DIR} was configured with the OpenFOAM in ${_configured}; the environment that is "
+            "sourced has the one in ${_wanted}. Configure another build folder, or source the environment of this one.")
+    endif()
+endif()
+
 find_path(OpenFOAM_ROOT src/finiteVolume/lnInclude/fvCFD.H
     PATHS "${_root}" NO_DEFAULT_PATH
     DOC "OpenFOAM's folder with src/ and etc/"
 )
-# FOAM_LIBBIN is set by a sourced environment only; the packaged libraries lie where the linker looks anyway.
-set(OpenFOAM_LIBRARY_HINTS "$ENV{FOAM_LIBBIN}/$ENV{FOAM_MPI}" "$ENV{FOAM_LIBBIN}")
-find_library(OpenFOAM_LIBRARY OpenFOAM HINTS ${OpenFOAM_LIBRARY_HINTS})
-find_library(OpenFOAM_PSTREAM_LIBRARY Pstream HINTS ${OpenFOAM_LIBRARY_HINTS})
+if(DEFINED ENV{FOAM_LIBBIN})
+    find_library(OpenFOAM_LIBRARY OpenFOAM PATHS "$ENV{FOAM_LIBBIN}" NO_DEFAULT_PATH)
+else()
+    find_library(OpenFOAM_LIBRARY OpenFOAM)
+endif()
+get_filename_component(_libraries "${OpenFOAM_LIBRARY}" DIRECTORY)
+# That of MPI before the one in dummy/, which only a program without MPI links.
+find_library(OpenFOAM_PSTREAM_LIBRARY Pstream PATHS "${_libraries}/$ENV{FOAM_MPI}" "${_libraries}" NO_DEFAULT_PATH)
 mark_as_advanced(OpenFOAM_ROOT OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY)
 
-if(OpenFOAM_ROOT AND EXISTS "${OpenFOAM_ROOT}/META-INFO/api-info")
+if(OpenFOAM_ROOT)
+    if(NOT EXISTS "${OpenFOAM_ROOT}/META-INFO/api-info")
+        message(FATAL_ERROR "The OpenFOAM in ${OpenFOAM_ROOT} has no META-INFO/api-info, so it is not ESI's (openfoam.com), "
+            "which Clepsydra needs: v${OpenFOAM_OLDEST_COMPILED} or later.")
+    endif()
     file(STRINGS "${OpenFOAM_ROOT}/META-INFO/api-info" _api REGEX "^api=[0-9]+")
     string(REGEX REPLACE "^api=" "" OpenFOAM_VERSION "${_api}")
+    if(NOT OpenFOAM_VERSION IN_LIST OpenFOAM_TESTED)
+        set(_severity STATUS)
+        if(OpenFOAM_VERSION LESS OpenFOAM_OLDEST_COMPILED OR OpenFOAM_VERSION GREATER OpenFOAM_NEWEST_COMPILED)
+            set(_severity WARNING)
+        endif()
+        list(JOIN OpenFOAM_TESTED ", v" _tested)
+        message(${_severity} "Clepsydra compiles with OpenFOAM v${OpenFOAM_OLDEST_COMPILED} to v${OpenFOAM_NEWEST_COMPILED}, and "
+            "its tests have passed with v${_tested}. Run the tests (ctest) with this v${OpenFOAM_VERSION} before you trust a result.")
+    endif()
+endif()
+
+set(OpenFOAM_IS_PACKAGED FALSE)
+if(EXISTS "${OpenFOAM_ROOT}/.complete")     # the last that scripts/setup writes there
+    set(OpenFOAM_IS_PACKAGED TRUE)
 endif()
 
 find_package_handle_standard_args(OpenFOAM
     REQUIRED_VARS OpenFOAM_ROOT OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY
     VERSION_VAR OpenFOAM_VERSION
-    REASON_FAILURE_MESSAGE "Looked for src/finiteVolume/lnInclude/fvCFD.H in ${_root}. Run scripts/setup, or source an OpenFOAM environment first."
+    REASON_FAILURE_MESSAGE "Run scripts/setup, or source the environment (etc/bashrc) of a compiled OpenFOAM first."
 )
 # The line above names the folder of the headers. The libraries lie elsewhere where they are the distribution's.
 if(OpenFOAM_FOUND)
@@ -75,7 +118,7 @@ function(_openfoam_target name)
         target_include_directories(OpenFOAM::${name} SYSTEM INTERFACE "${OpenFOAM_ROOT}/src/${folder}/lnInclude")
     endforeach()
     foreach(library IN LISTS arg_LIBRARIES)
-        find_library(OpenFOAM_${library}_LIBRARY ${library} HINTS ${OpenFOAM_LIBRARY_HINTS} REQUIRED)
+        find_library(OpenFOAM_${library}_LIBRARY ${library} PATHS "${_libraries}" NO_DEFAULT_PATH REQUIRED)
         mark_as_advanced(OpenFOAM_${library}_LIBRARY)
         target_link_libraries(OpenFOAM::${name} INTERFACE "${OpenFOAM_${library}_LIBRARY}")
     endforeach()
@@ -83,16 +126,22 @@ function(_openfoam_target name)
     target_link_libraries(OpenFOAM::${name} INTERFACE ${arg_DEPENDS})
 endfunction()
 
+# Kept in the cache: CMake may run again where the environment is not sourced.
 function(_openfoam_environment variable default result)
     if(DEFINED ENV{${variable}})
-        set(${result} "$ENV{${variable}}" PARENT_SCOPE)
-    else()
-        set(${result} "${default}" PARENT_SCOPE)
+        set(OpenFOAM_${variable} "$ENV{${variable}}" CACHE INTERNAL "${variable} of the environment that was sourced")
+    elseif(NOT DEFINED OpenFOAM_${variable})
+        set(OpenFOAM_${variable} "${default}" CACHE INTERNAL "${variable}, since no environment was sourced")
     endif()
+    set(${result} "${OpenFOAM_${variable}}" PARENT_SCOPE)
 endfunction()
 
 if(OpenFOAM_FOUND)
-    _openfoam_target(core LIBRARIES OpenFOAM Pstream FOLDERS OpenFOAM OSspecific/POSIX Pstream/mpi)
+    if(NOT OpenFOAM_FIND_QUIETLY)
+        message(STATUS "OpenFOAM v${OpenFOAM_VERSION}: headers in ${OpenFOAM_ROOT}, libraries in ${_libraries}")
+    endif()
+    _openfoam_target(core FOLDERS OpenFOAM OSspecific/POSIX Pstream/mpi)
+    target_link_libraries(OpenFOAM::core INTERFACE "${OpenFOAM_LIBRARY}" "${OpenFOAM_PSTREAM_LIBRARY}")
 
     _openfoam_environment(WM_ARCH linux64 _architecture)
     _openfoam_environment(WM_PRECISION_OPTION DP _precision)

@@ -14,7 +14,9 @@ set(_shared share/clepsydra)
 set_target_properties(pimpleDemFoam traceResidual closuresProgram PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 install(TARGETS pimpleDemFoam traceResidual closuresProgram RUNTIME DESTINATION ${_programs}/bin)
 install(TARGETS coupling EXPORT ClepsydraTargets LIBRARY DESTINATION ${_programs}/lib INCLUDES DESTINATION include/clepsydra)
-install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
+if(TARGET scotchDecomp)
+    install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
+endif()
 # Manual pages, of what the programs say of themselves; what bash completes.
 set(_manual_of_pimpleDemFoam "grains in water: PIMPLE with LIGGGHTS particles" -help)
 set(_manual_of_traceResidual "from a measured residual to a named effect" --help)
@@ -39,7 +41,10 @@ foreach(_program IN ITEMS pimpleDemFoam traceResidual closures)
 endforeach()
 add_custom_target(manPages ALL DEPENDS ${_pages})
 # All that is installed: what `scripts/setup --programs` builds.
-add_custom_target(programs DEPENDS pimpleDemFoam traceResidual closuresProgram scotchDecomp manPages)
+add_custom_target(programs DEPENDS pimpleDemFoam traceResidual closuresProgram manPages)
+if(TARGET scotchDecomp)
+    add_dependencies(programs scotchDecomp)
+endif()
 install(FILES ${_pages} DESTINATION share/man/man1)
 
 # What git tracks, since cases leave the results of runs beside their files; not the record of the blind test, which no case needs.
@@ -59,7 +64,9 @@ install(CODE "
     file(CREATE_LINK ../../lib/clepsydra \"\${shared}/build\" SYMBOLIC)
 ")
 # Debian's OpenFOAM has no etc/, without which none of its programs starts.
-install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-${clepsydra_openfoam_version})
+if(OpenFOAM_IS_PACKAGED)
+    install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-${clepsydra_openfoam_version})
+endif()
 
 include(CMakePackageConfigHelpers)
 set(modules ${_shared}/cmake)

@@ -2,6 +2,7 @@
 
 #include "checkpoint/manifest.h"
 #include "engine/demEngine.h"
+#include "openfoam/compatibility.h"
 #include "ranks.h"
 
 #include "IFstream.H"
@@ -265,7 +266,7 @@ void requireWholeFoamFile(const fs::path& file)
 void requireFunctionState(const Time& time)
 {
     const fileName file = time.timePath() / "uniform/functionObjects/functionObjectProperties";
-    if (!time.functionObjects().stateDict().empty() && !isFile(file))
+    if (!functionObjectState(time).empty() && !isFile(file))
     {
         throw FileError(file + " could not be made");
     }

@@ -1,5 +1,7 @@
 #include "checkpoint/runTime.h"
 
+#include "openfoam/compatibility.h"
+
 #include "IFstream.H"
 #include "IOdictionary.H"
 
@@ -61,7 +63,7 @@ void RunTime::requireWholeState() const
     IFstream file(timePath() / "uniform/functionObjects/functionObjectProperties");
     dictionary state(file);
     state.remove("FoamFile");
-    if (state.digest() != functionObjects().stateDict().digest())
+    if (state.digest() != functionObjectState(*this).digest())
     {
         // OpenFOAM takes a file that it could not read completely for one that ends there.
         FatalIOErrorInFunction(file) << "The state of the function objects could not be read completely"

@@ -4,6 +4,7 @@
 #include "distribution/voidFractionModel.h"
 #include "forces/forceModel.h"
 #include "couplingStep/dictionaryText.h"
+#include "openfoam/compatibility.h"
 
 #include "runTimeSelection.h"
 
@@ -43,7 +44,7 @@ wordList coefficientsOfModels(wordList names)
 IOobject couplingProperties(const Time& time)
 {
     IOobject object("couplingProperties", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE);
-    checkDictionaryText(typeFilePath<IOdictionary>(object));
+    checkDictionaryText(clepsydra::typeFilePath<IOdictionary>(object));
     return object;
 }
 

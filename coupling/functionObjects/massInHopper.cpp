@@ -3,6 +3,7 @@
 #include "functionObjects/observableTable.h"
 #include "functionObjects/observedParticles.h"
 #include "modelLines.h"
+#include "openfoam/compatibility.h"
 #include "vectors.h"
 #include "tokens/exactText.h"
 
@@ -223,7 +224,7 @@ void MassInHopper::stopIfFlowStopped()
 
 label MassInHopper::lastCount(const Time& time)
 {
-    const dictionary results = time.functionObjects().stateDict().subOrEmptyDict("results");
+    const dictionary results = functionObjectState(time).subOrEmptyDict("results");
     for (const entry& object : results)
     {
         label count = -1;

@@ -1,6 +1,7 @@
 #include "run/runChecks.h"
 
 #include "distribution/lengthOfChange.h"
+#include "openfoam/compatibility.h"
 
 #include "PstreamReduceOps.H"
 #include "solverPerformance.H"
@@ -39,7 +40,7 @@ void RunChecks::checkConvergence()
 {
     // OpenFOAM does not store whether the velocity has converged.
     List<solverPerformance> solutions;
-    if (!mesh_.solverPerformanceDict().readIfPresent("p", solutions) || solutions.empty()
+    if (!solverPerformanceDict(mesh_).readIfPresent("p", solutions) || solutions.empty()
         || solutions.last().converged())
     {
         unconvergedInRow_ = 0;

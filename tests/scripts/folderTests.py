@@ -8,7 +8,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 COUPLING = REPOSITORY / "coupling"
 
 # From below to above; each may include those before it. Files that lie in coupling/ itself stand for themselves.
-ORDER = ["tokens", "files", "closures", "vectorUnits.h", "phaseTimers.h", "engine", "vectors.h", "couplingState.h",
+ORDER = ["tokens", "openfoam", "files", "closures", "vectorUnits.h", "phaseTimers.h", "engine", "vectors.h", "couplingState.h",
          "knownEntries.h", "modelLines.h", "runTimeSelection.h", "ranks.h", "exchange", "distribution", "forces", "insertionAndRemoval", "conservation", "couplingStep",
          "checkpoint", "functionObjects", "output", "run"]
 

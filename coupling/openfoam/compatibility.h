@@ -1,0 +1,45 @@
+#pragma once
+
+// Where OpenFOAM's interface differs between the versions that Clepsydra compiles with (ESI, v1912 and later), the
+// difference stands here and nowhere else. FindOpenFOAM.cmake defines OPENFOAM (2312 for v2312).
+
+#include "IOobject.H"
+#include "Time.H"
+#include "dictionary.H"
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+/// What function objects keep from one write time to the next: their counters, triggers and results.
+inline const Foam::dictionary& functionObjectState(const Foam::Time& time)
+{
+#if OPENFOAM >= 2112
+    return time.functionObjects().propsDict();
+#else
+    return time.functionObjects().stateDict();
+#endif
+}
+
+/// The solutions of each linear system in the current time step, by the name of the field.
+inline const Foam::dictionary& solverPerformanceDict(const Foam::fvMesh& mesh)
+{
+#if OPENFOAM >= 2312
+    return mesh.data().solverPerformanceDict();
+#else
+    return mesh.solverPerformanceDict();
+#endif
+}
+
+/// The file that an object of this type is read from; empty where there is none.
+template<class Type>
+Foam::fileName typeFilePath(const Foam::IOobject& object)
+{
+#if OPENFOAM >= 2312
+    return object.typeFilePath<Type>();
+#else
+    return Foam::typeFilePath<Type>(object);
+#endif
+}
+
+} // namespace clepsydra
