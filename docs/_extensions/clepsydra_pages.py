@@ -1,0 +1,164 @@
+"""Parts of pages that are made from files of the repository, so that they cannot differ from them."""
+
+import functools
+import os
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import yaml
+from docutils import nodes
+from docutils.parsers.rst import Directive, directives
+from docutils.statemachine import StringList
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+class GeneratedText(Directive):
+    """A directive that stands for Markdown text made from the file or folder that is its argument."""
+
+    required_arguments = 1
+    has_content = False
+
+    def text(self, path: Path) -> str:
+        """The Markdown text in the place of the directive."""
+        raise NotImplementedError
+
+    def run(self) -> list:
+        path = REPOSITORY / self.arguments[0]
+        if not path.exists():
+            raise self.error(f"no such file or folder: {path}")
+        self.state.document.settings.env.note_dependency(str(path))
+        container = nodes.container()
+        self.state.nested_parse(StringList(self.text(path).splitlines(), source=str(path)), 0, container)
+        return container.children
+
+
+class EffectTable(GeneratedText):
+    """The effects of a library (identification/effects/*.yaml) as a table."""
+
+    def text(self, path: Path) -> str:
+        library = yaml.safe_load(path.read_text(encoding="utf-8"))
+        rows = ["| effect | meaning | what amplitude 1 does | how to measure it by itself |", "|---|---|---|---|"]
+        for effect in library["effects"]:
+            changes = effect.get("set") or effect["chain"]
+            told = ", ".join(f"`{name}` {'to' if effect.get('switch') and 'set' in effect else '='} `{value}`" for name, value in changes.items())
+            if not effect.get("switch"):
+                told += f", $a$ from {effect.get('amplitude', [0, 1])[0]} to {effect.get('amplitude', [0, 1])[1]}"
+            where = "".join(f"; {tag}: {listed(values)}" for tag, values in effect.get("actsIn", {}).items())
+            rows.append(f"| `{effect['name']}` | {effect.get('meaning', '')}{where} | {told} | {effect.get('hint', '')} |")
+        return "\n".join(rows)
+
+
+class Headers(GeneratedText):
+    """The classes that Doxygen has read in the headers of a folder (not of the folders in it), with `:functions:` the free functions, too:
+    each of these costs Breathe a search through everything."""
+
+    option_spec = {"functions": directives.flag}
+
+    def text(self, path: Path) -> str:
+        xml = Path(self.state.document.settings.env.config.breathe_projects["clepsydra"])
+        files = files_read_by_doxygen(str(xml))
+        return "\n\n".join(self.header(str(header.relative_to(REPOSITORY)), files) for header in sorted(path.glob("*.h")))
+
+    def header(self, name: str, files: dict) -> str:
+        if name not in files:
+            raise ValueError(f"Doxygen has not read {name}")
+
+        def wanted(directive: str) -> bool:
+            return "functions" in self.options or directive in ("doxygenclass", "doxygenstruct")
+
+        parts = [f":::{{rubric}} `{name}`\n:::", f":::{{doxygenfile}} {name}\n:sections: briefdescription detaileddescription\n:::"]
+        return "\n\n".join(parts + [f":::{{{directive}}} {member}\n:::" for directive, member in files[name] if wanted(directive)])
+
+
+@functools.lru_cache(maxsize=None)
+def files_read_by_doxygen(xml: str) -> dict:
+    """Path of a header -> directives of Breathe, with their arguments, for what it declares."""
+    found: dict = {}
+    places = {}
+    for compound in ElementTree.parse(f"{xml}/index.xml").getroot().iter("compound"):
+        kind = compound.get("kind")
+        if kind in ("file", "class", "struct", "namespace"):
+            places[compound.get("refid")] = ElementTree.parse(f"{xml}/{compound.get('refid')}.xml").getroot().find("compounddef")
+    for compound in places.values():
+        if compound.get("kind") == "file":
+            found[compound.find("location").get("file")] = []
+    classes = {compound.findtext("compoundname") for compound in places.values() if compound.get("kind") in ("class", "struct")}
+    for compound in places.values():
+        kind, name = compound.get("kind"), compound.findtext("compoundname")
+        # what lies within a class is shown with it; specialisations with their template
+        if kind in ("class", "struct") and name.rpartition("::")[0] not in classes and "<" not in name:
+            found[compound.find("location").get("file")].append((f"doxygen{kind}", name))
+        if kind == "namespace" and "@" not in name:
+            for member in compound.iter("memberdef"):
+                arguments = (member.findtext("argsstring") or "") if member.get("kind") == "function" else ""
+                # Doxygen takes an object with texts as arguments for a function
+                if member.get("kind") in ("function", "enum", "typedef") and '"' not in arguments:
+                    header = member.find("location").get("declfile") or member.find("location").get("file")
+                    found[header].append((f"doxygen{member.get('kind')}", f"{name}::{member.findtext('name')}{arguments}"))
+    return found
+
+
+# Where the site has what a README outside of docs/ stands for.
+PAGES = {
+    "README.md": "index",
+    "CHANGELOG.md": "changelog",
+    "CONTRIBUTING.md": "developers/contributing",
+    "cases/README.md": "tutorials/index",
+    "cases/paper/README.md": "validation/paperHopper",
+    "cases/studies/blindHopper/README.md": "validation/blindTests",
+    "cases/validation/README.md": "validation/index",
+    "cmake/README.md": "howTo/install",
+    "coupling/README.md": "reference/index",
+    "identification/README.md": "howTo/ownMeasurement",
+    "meshes/README.md": "howTo/meshes",
+    "scripts/benchmarks/README.md": "benchmarks/index",
+}
+
+
+def insert_repository_pages(app, docname: str, source: list) -> None:
+    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by what stands there
+    between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
+
+    def text_of(match) -> str:
+        path = REPOSITORY / match["file"]
+        app.env.dependencies[docname].add(str(path))
+        text = path.read_text(encoding="utf-8")
+        if match["table"]:
+            text = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)[1]
+        return with_links_from(text, match["file"], docname)
+
+    source[0] = re.sub(r"^% repository page: (?P<file>\S+?)(?:, (?P<table>table of .+))?$", text_of, source[0], flags=re.MULTILINE)
+
+
+def with_links_from(text: str, file: str, docname: str) -> str:
+    """A file's text with its links as they are from a page: to pages of the site, or, where there is none, the path alone."""
+
+    def link(match) -> str:
+        picture, label, target, anchor = match.groups()
+        if "://" in target or not target:
+            return match[0]
+        path = os.path.normpath(os.path.join(os.path.dirname(file), target))
+        page = re.sub(r"^docs/|\.md$", "", path) if path.startswith("docs/") else PAGES.get(path)
+        if page and not picture:
+            # of another README the site has the text under headings of its own
+            kept = anchor if path.startswith("docs/") or path in ("CHANGELOG.md", "CONTRIBUTING.md") else ""
+            return f"[{label}]({os.path.relpath(page, os.path.dirname(docname) or '.')}.md{kept or ''})"
+        if picture:
+            return f"![{label}]({os.path.relpath(path, os.path.join('docs', os.path.dirname(docname)))})"
+        return f"{label} (`{path}`)"
+
+    return re.sub(r"(!?)\[([^\]]*)\]\(([^)#\s]*)(#[^)\s]*)?\)", link, text)
+
+
+def listed(values) -> str:
+    return ", ".join(values) if isinstance(values, list) else str(values)
+
+
+def setup(app):
+    """Called by Sphinx."""
+    app.add_directive("effects", EffectTable)
+    app.add_directive("headers", Headers)
+    app.connect("source-read", insert_repository_pages)
+    return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}
