@@ -26,7 +26,9 @@ myst_heading_anchors = 4
 myst_dmath_allow_space = False
 
 # scripts/documentation runs Doxygen first and says where its XML is.
-breathe_projects = {"clepsydra": os.environ.get("CLEPSYDRA_DOXYGEN_XML", str(REPOSITORY / "build/documentation/doxygen/xml"))}
+breathe_projects = {
+    "clepsydra": os.environ.get("CLEPSYDRA_DOXYGEN_XML", str(REPOSITORY / "build/documentation/doxygen/xml"))
+}
 breathe_default_project = "clepsydra"
 breathe_default_members = ("members",)
 breathe_show_include = False

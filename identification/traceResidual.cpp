@@ -1,4 +1,4 @@
-/// Traces a measured residual to a physical effect. See README.md beside this file.
+/// Traces a measured residual to a physical effect. See docs/howTo/ownMeasurement.md.
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
 #include "report/html.h"

@@ -42,24 +42,31 @@ class EffectTable(GeneratedText):
         rows = ["| effect | meaning | what amplitude 1 does | how to measure it by itself |", "|---|---|---|---|"]
         for effect in library["effects"]:
             changes = effect.get("set") or effect["chain"]
-            told = ", ".join(f"`{name}` {'to' if effect.get('switch') and 'set' in effect else '='} `{value}`" for name, value in changes.items())
+            told = ", ".join(
+                f"`{name}` {'to' if effect.get('switch') and 'set' in effect else '='} `{value}`"
+                for name, value in changes.items()
+            )
             if not effect.get("switch"):
                 told += f", $a$ from {effect.get('amplitude', [0, 1])[0]} to {effect.get('amplitude', [0, 1])[1]}"
             where = "".join(f"; {tag}: {listed(values)}" for tag, values in effect.get("actsIn", {}).items())
-            rows.append(f"| `{effect['name']}` | {effect.get('meaning', '')}{where} | {told} | {effect.get('hint', '')} |")
+            rows.append(
+                f"| `{effect['name']}` | {effect.get('meaning', '')}{where} | {told} | {effect.get('hint', '')} |"
+            )
         return "\n".join(rows)
 
 
 class Headers(GeneratedText):
-    """The classes that Doxygen has read in the headers of a folder (not of the folders in it), with `:functions:` the free functions, too:
-    each of these costs Breathe a search through everything."""
+    """The classes that Doxygen has read in the headers of a folder (not of the folders in it), with `:functions:` the
+    free functions, too: each of these costs Breathe a search through everything."""
 
     option_spec = {"functions": directives.flag}
 
     def text(self, path: Path) -> str:
         xml = Path(self.state.document.settings.env.config.breathe_projects["clepsydra"])
         files = files_read_by_doxygen(str(xml))
-        return "\n\n".join(self.header(str(header.relative_to(REPOSITORY)), files) for header in sorted(path.glob("*.h")))
+        return "\n\n".join(
+            self.header(str(header.relative_to(REPOSITORY)), files) for header in sorted(path.glob("*.h"))
+        )
 
     def header(self, name: str, files: dict) -> str:
         if name not in files:
@@ -68,8 +75,13 @@ class Headers(GeneratedText):
         def wanted(directive: str) -> bool:
             return "functions" in self.options or directive in ("doxygenclass", "doxygenstruct")
 
-        parts = [f":::{{rubric}} `{name}`\n:::", f":::{{doxygenfile}} {name}\n:sections: briefdescription detaileddescription\n:::"]
-        return "\n\n".join(parts + [f":::{{{directive}}} {member}\n:::" for directive, member in files[name] if wanted(directive)])
+        parts = [
+            f":::{{rubric}} `{name}`\n:::",
+            f":::{{doxygenfile}} {name}\n:sections: briefdescription detaileddescription\n:::",
+        ]
+        return "\n\n".join(
+            parts + [f":::{{{directive}}} {member}\n:::" for directive, member in files[name] if wanted(directive)]
+        )
 
 
 @functools.lru_cache(maxsize=None)
@@ -80,11 +92,15 @@ def files_read_by_doxygen(xml: str) -> dict:
     for compound in ElementTree.parse(f"{xml}/index.xml").getroot().iter("compound"):
         kind = compound.get("kind")
         if kind in ("file", "class", "struct", "namespace"):
-            places[compound.get("refid")] = ElementTree.parse(f"{xml}/{compound.get('refid')}.xml").getroot().find("compounddef")
+            places[compound.get("refid")] = (
+                ElementTree.parse(f"{xml}/{compound.get('refid')}.xml").getroot().find("compounddef")
+            )
     for compound in places.values():
         if compound.get("kind") == "file":
             found[compound.find("location").get("file")] = []
-    classes = {compound.findtext("compoundname") for compound in places.values() if compound.get("kind") in ("class", "struct")}
+    classes = {
+        compound.findtext("compoundname") for compound in places.values() if compound.get("kind") in ("class", "struct")
+    }
     for compound in places.values():
         kind, name = compound.get("kind"), compound.findtext("compoundname")
         # what lies within a class is shown with it; specialisations with their template
@@ -96,7 +112,9 @@ def files_read_by_doxygen(xml: str) -> dict:
                 # Doxygen takes an object with texts as arguments for a function
                 if member.get("kind") in ("function", "enum", "typedef") and '"' not in arguments:
                     header = member.find("location").get("declfile") or member.find("location").get("file")
-                    found[header].append((f"doxygen{member.get('kind')}", f"{name}::{member.findtext('name')}{arguments}"))
+                    found[header].append(
+                        (f"doxygen{member.get('kind')}", f"{name}::{member.findtext('name')}{arguments}")
+                    )
     return found
 
 
@@ -118,8 +136,8 @@ PAGES = {
 
 
 def insert_repository_pages(app, docname: str, source: list) -> None:
-    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by what stands there
-    between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
+    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by what
+    stands there between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
 
     def text_of(match) -> str:
         path = REPOSITORY / match["file"]
@@ -129,11 +147,13 @@ def insert_repository_pages(app, docname: str, source: list) -> None:
             text = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)[1]
         return with_links_from(text, match["file"], docname)
 
-    source[0] = re.sub(r"^% repository page: (?P<file>\S+?)(?:, (?P<table>table of .+))?$", text_of, source[0], flags=re.MULTILINE)
+    source[0] = re.sub(
+        r"^% repository page: (?P<file>\S+?)(?:, (?P<table>table of .+))?$", text_of, source[0], flags=re.MULTILINE
+    )
 
 
 def with_links_from(text: str, file: str, docname: str) -> str:
-    """A file's text with its links as they are from a page: to pages of the site, or, where there is none, the path alone."""
+    """A file's text with its links as from a page: to pages of the site or, where there is none, the path alone."""
 
     def link(match) -> str:
         picture, label, target, anchor = match.groups()

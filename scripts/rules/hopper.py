@@ -18,7 +18,7 @@ RAYLEIGH_FRACTION = 0.4                 # of the DEM step, at most: as pimpleDem
 DENSEST_PACKING = 0.74
 FASTEST_IN_CELLS = 10                   # cells that a falling particle may pass in a coupling step; from 2 on a warning
 RANKS_PER_CORE = 4                      # more ranks than cores are slow, but may be wanted for a test
-# scripts/benchmarks/README.md
+# docs/benchmarks/costModel.md
 BYTES_PER_PARTICLE, BYTES_PER_CELL, BYTES_OF_PROGRAM = 2700, 2590, 87e6
 
 
@@ -115,7 +115,7 @@ def checkResolution(p, found):
                               "which nothing is left to resolve")
     elif not 2 <= p["smoothingBandwidth"] / particle * (1 + 1e-9) <= 6:
         found.warnings.append(f"smoothingBandwidth is {p['smoothingBandwidth'] / particle:.2g} particle diameters; 2 to 4 have been tried "
-                              "(cases/validation/README.md, independence)")
+                              "(docs/validation/index.md, independence)")
     if p["mesher"] == "hopperInTank" and p["smoothingBandwidth"] < p["cellSize"]:
         found.warnings.append(f"smoothingBandwidth {p['smoothingBandwidth']:g} m is less than a cell, {p['cellSize']:g} m: it does nothing")
     if p["heapBelow"] > p["hopperLeftBelow"]:

@@ -3,9 +3,9 @@
 
 usage: documentation_tests.py BUILD [options of unittest]      BUILD: where the programs have been built, in bin/
 
-The reference marks by labels what is held against the code: the table behind `(entries-X)=` lists the entries of a dictionary, those behind
-`(models-X)=` models, behind `(study-X)=` keys of a study file, and so on. What each stands for in the code is stated in the tables below. A
-reader of entries in the code that none of them names fails the test, too.
+The reference marks by labels what is held against the code: the table behind `(entries-X)=` lists the entries of a
+dictionary, those behind `(models-X)=` models, behind `(study-X)=` keys of a study file, and so on. What each stands for in
+the code is stated in the tables below. A reader of entries in the code that none of them names fails the test, too.
 """
 
 import html.parser
@@ -18,7 +18,7 @@ import tempfile
 import unittest
 import urllib.parse
 from pathlib import Path
-from typing import Optional
+from typing import Mapping, Optional, Sized
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 DOCS = REPOSITORY / "docs"
@@ -66,7 +66,8 @@ ENTRIES: dict[str, list[Optional[str]]] = {
     "solvers/pimpleDemFoam/pimpleDemFoam.C": ["entries-transportProperties"],
 }
 
-# File of each list of keys that YamlPlace::allow() is given, in the order of the lists -> label, and what stands before the keys there.
+# File of each list of keys that YamlPlace::allow() is given, in the order of the lists -> label, and what stands before
+# the keys there.
 KEYS = {
     "identification/study/readStudy.cpp": [
         ("study-simulator", ""),
@@ -99,10 +100,12 @@ def listed(label: str) -> list[str]:
     """What stands in backquotes in the first cells of the table behind a label: up to the next label or heading."""
     for page in sorted((DOCS / "reference").glob("*.md")):
         text = re.sub(r"^```.*?^```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
-        match = re.search(rf"^\({re.escape(label)}\)=\n(?:#+ [^\n]*\n)?(.*?)(?=^\(|^#|\Z)", text, re.DOTALL | re.MULTILINE)
+        section = rf"^\({re.escape(label)}\)=\n(?:#+ [^\n]*\n)?(.*?)(?=^\(|^#|\Z)"
+        match = re.search(section, text, re.DOTALL | re.MULTILINE)
         if match:
             rows = re.sub(r"^\|.*\n\|---.*$", "", match[1], flags=re.MULTILINE)
-            return [name for cell in re.findall(r"^\|([^|]*)\|", rows, re.MULTILINE) for name in re.findall(r"`([^`]+)`", cell)]
+            cells = re.findall(r"^\|([^|]*)\|", rows, re.MULTILINE)
+            return [name for cell in cells for name in re.findall(r"`([^`]+)`", cell)]
     raise AssertionError(f"no page of docs/reference has the label ({label})=")
 
 
@@ -122,6 +125,10 @@ def in_brackets(text: str, start: int) -> str:
 
 def texts_in(code: str) -> list[str]:
     return re.findall(r'"([^"\n]*)"', code)
+
+
+def lengths(lists: Mapping[str, Sized]) -> dict[str, int]:
+    return {name: len(each) for name, each in lists.items()}
 
 
 def sources(folders: list[str]) -> dict[str, str]:
@@ -148,7 +155,9 @@ class Reference(unittest.TestCase):
         """Against what the program itself lists."""
         environment = dict(os.environ)
         script = f". '{REPOSITORY}/scripts/environment' && '{build}/bin/pimpleDemFoam' -listModels"
-        shown = subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=True, env=environment).stdout
+        shown = subprocess.run(
+            ["bash", "-c", script], capture_output=True, text=True, check=True, env=environment
+        ).stdout
         models: dict[str, set[str]] = {}
         head = ""
         for line in shown.splitlines():
@@ -167,10 +176,11 @@ class Reference(unittest.TestCase):
         found: dict[str, list[set[str]]] = {}
         for path, text in sources(["coupling", "solvers"]).items():
             if Path(path).stem != "knownEntries":
-                calls = [in_brackets(text, match.end() - 1) for match in re.finditer(r"\brequireKnownEntries\(", text)]
+                starts = re.finditer(r"\brequireKnownEntries\(", text)
+                calls = [in_brackets(text, match.end() - 1) for match in starts]
                 if calls:
                     found[path] = [set(re.findall(r'"(\w+)"', call.split(",", 1)[1])) for call in calls]
-        self.assertEqual({path: len(calls) for path, calls in found.items()}, {path: len(labels) for path, labels in ENTRIES.items()})
+        self.assertEqual(lengths(found), lengths(ENTRIES), "number of calls in each file")
         self.assertIn("couplingTimeStep", found["coupling/couplingStep/couplingSettings.cpp"][0])
         text = sources(["coupling"])["coupling/knownEntries.cpp"]
         of_all = set(texts_in(in_brackets(text, text.index("{", text.index("wordList functionObjectEntries(")))))
@@ -187,10 +197,11 @@ class Reference(unittest.TestCase):
         """Against all lists of keys that the readers allow."""
         found: dict[str, list[set[str]]] = {}
         for path, text in sources(["identification"]).items():
-            lists = [in_brackets(text, match.end() - 1) for match in re.finditer(r"(?:\.allow\(\s*|\ballowed = )\{", text)]
+            starts = re.finditer(r"(?:\.allow\(\s*|\ballowed = )\{", text)
+            lists = [in_brackets(text, match.end() - 1) for match in starts]
             if lists:
                 found[path] = [set(texts_in(each)) for each in lists]
-        self.assertEqual({path: len(lists) for path, lists in found.items()}, {path: len(labels) for path, labels in KEYS.items()})
+        self.assertEqual(lengths(found), lengths(KEYS), "number of lists in each file")
         self.assertIn("simulator", found["identification/study/readStudy.cpp"][-1])
         documented = {label for labels in KEYS.values() for label, _ in labels}
         keys: dict[str, set[str]] = {label: set() for label in documented}
@@ -207,9 +218,9 @@ class Reference(unittest.TestCase):
         variables = dict(re.findall(r'FeatureKind::Parameter (\w+)\{"(\w+)"', body))
         kinds = {}
         for match in re.finditer(r'\{"(\w+)",\s*"[^"]*",\s*\{', body):
-            parameters = in_brackets(body, match.end() - 1)
-            named = set(re.findall(r'\{"(\w+)"', parameters[1:]))
-            bare = re.sub(r"\{[^{}]*\}", "", parameters[1:-1])
+            list_of_parameters = in_brackets(body, match.end() - 1)
+            named = set(re.findall(r'\{"(\w+)"', list_of_parameters[1:]))
+            bare = re.sub(r"\{[^{}]*\}", "", list_of_parameters[1:-1])
             kinds[match[1]] = named | {variables[name] for name in re.findall(r"\w+", bare)}
         self.assertIn("logMeanRate", kinds)
         self.assert_same(set(listed("study-features")), set(kinds), "kinds of features")
@@ -241,7 +252,9 @@ class Reference(unittest.TestCase):
         options = set(re.findall(r'add_(?:option|flag)\("(--\w+)"', code))
         commands = set(re.findall(r'add_subcommand\("(\w+)"', code))
         self.assertIn("--execute", options)
-        self.assert_same({name.split()[0] for name in listed("options-traceResidual")}, options | commands, "traceResidual")
+        self.assert_same(
+            {name.split()[0] for name in listed("options-traceResidual")}, options | commands, "traceResidual"
+        )
 
     def test_every_header_is_in_the_interface(self) -> None:
         """A folder of coupling or identification whose headers no page shows would be missed otherwise."""
@@ -249,7 +262,9 @@ class Reference(unittest.TestCase):
         shown = set(re.findall(r"^:::\{headers\} (\S+)$", pages, re.MULTILINE))
         inner = {"coupling/engine/liggghts", "coupling/engine/liggghts/styles", "identification/study/draft"}
         folders = {
-            str(path.parent.relative_to(REPOSITORY)) for folder in ("coupling", "identification") for path in (REPOSITORY / folder).rglob("*.h")
+            str(path.parent.relative_to(REPOSITORY))
+            for folder in ("coupling", "identification")
+            for path in (REPOSITORY / folder).rglob("*.h")
         }
         self.assertIn("coupling/forces", shown)
         self.assert_same(shown, folders - inner - {"identification"}, "folders with headers")
@@ -293,9 +308,8 @@ class Site(unittest.TestCase):
     def test_builds_without_a_warning_and_every_link_leads_somewhere(self) -> None:
         """Links within the site, to pages and to places on them, pictures and scripts. One build serves for both."""
         with tempfile.TemporaryDirectory(prefix="clepsydra-documentation-") as folder:
-            run = subprocess.run(
-                [REPOSITORY / "scripts/documentation", "--output", folder], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False
-            )
+            command = [str(REPOSITORY / "scripts/documentation"), "--output", folder]
+            run = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
             self.assertEqual(run.returncode, 0, run.stdout)
             site = Path(folder) / "html"
             pages = {page: Targets(page) for page in sorted(site.rglob("*.html"))}
@@ -308,7 +322,8 @@ class Site(unittest.TestCase):
                     if parts.scheme in ("http", "https", "mailto", "data"):
                         continue
                     followed += 1
-                    target = (page.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else page.resolve()
+                    path = urllib.parse.unquote(parts.path)
+                    target = (page.parent / path).resolve() if path else page.resolve()
                     target = target / "index.html" if target.is_dir() else target
                     known = pages.get(target)
                     anchor = urllib.parse.unquote(parts.fragment)
@@ -318,8 +333,9 @@ class Site(unittest.TestCase):
             self.assertEqual(wrong, [], "links that lead nowhere")
             # what shows formulas comes with the site
             self.assertTrue((site / "_static/mathjax/MathJax.js").is_file())
-            without_network = re.findall(r'<(?:script|link|img)[^>]*(?:src|href)="(https?:[^"]*)"', "".join(page.read_text(encoding="utf-8") for page in pages))
-            self.assertEqual(set(without_network), set(), "fetched from the network")
+            fetched = r'<(?:script|link|img)[^>]*(?:src|href)="(https?:[^"]*)"'
+            from_network = {url for page in pages for url in re.findall(fetched, page.read_text(encoding="utf-8"))}
+            self.assertEqual(from_network, set(), "fetched from the network")
 
 
 if __name__ == "__main__":

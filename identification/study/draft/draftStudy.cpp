@@ -128,7 +128,7 @@ void Draft::writeHead()
 {
     text_ << "# Drafted by `traceResidual new`. All values are guesses; check each line. Values \""
           << YamlPlace::toFillIn
-          << "\"\n# could not be guessed; no run starts before they are replaced. All keys: identification/README.md\n"
+          << "\"\n# could not be guessed; no run starts before they are replaced. All keys: docs/reference/study.md\n"
           << "study: " << yamlWord(name_) << "\n\n";
 }
 
@@ -150,7 +150,7 @@ void Draft::writeSimulator()
         {"tankHeight", "m"},
         {"releaseHeight", "m, of the particle's centre above the floor"},
     };
-    // A particle in a tank with one-way coupling: see the second study file of README.md.
+    // A particle in a tank with one-way coupling: see docs/howTo/ownMeasurement.md.
     const std::vector<std::pair<std::string, std::string>> falling = {
         {"stopBelow", fillIn("m above the floor, below all measured positions; a run ends there")},
         {"smoothingBandwidth", fillIn("m; with twice the tank's diameter the liquid stays at rest on any mesh")},
