@@ -25,11 +25,9 @@ myst_heading_anchors = 4
 # `$` begins a formula only where no blank follows: "$ closures ..." is a prompt.
 myst_dmath_allow_space = False
 
-# scripts/documentation runs Doxygen first and says where its XML is.
-breathe_projects = {
-    "clepsydra": os.environ.get("CLEPSYDRA_DOXYGEN_XML", str(REPOSITORY / "build/documentation/doxygen/xml"))
-}
-breathe_default_project = "clepsydra"
+# scripts/documentation runs Doxygen first and says where its XML is: a folder for each folder of headers.
+doxygen = Path(os.environ.get("CLEPSYDRA_DOXYGEN", str(REPOSITORY / "build/documentation/doxygen")))
+breathe_projects = {folder.name: str(folder / "xml") for folder in sorted(doxygen.iterdir())}
 breathe_default_members = ("members",)
 breathe_show_include = False
 cpp_id_attributes = ["alignas"]
@@ -40,6 +38,8 @@ nitpick_ignore_regex = [("cpp:.*", ".*")]
 suppress_warnings = ["ref.ref"]
 
 html_theme = "furo"
+html_static_path = ["_static"]
+html_css_files = ["wide.css"]
 html_title = "Clepsydra"
 html_show_sourcelink = False
 html_copy_source = False

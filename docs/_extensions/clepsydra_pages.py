@@ -1,6 +1,5 @@
 """Parts of pages that are made from files of the repository, so that they cannot differ from them."""
 
-import functools
 import os
 import re
 from pathlib import Path
@@ -8,7 +7,7 @@ from xml.etree import ElementTree
 
 import yaml
 from docutils import nodes
-from docutils.parsers.rst import Directive, directives
+from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -39,7 +38,7 @@ class EffectTable(GeneratedText):
 
     def text(self, path: Path) -> str:
         library = yaml.safe_load(path.read_text(encoding="utf-8"))
-        rows = ["| effect | meaning | what amplitude 1 does | how to measure it by itself |", "|---|---|---|---|"]
+        rows = ["| effect | meaning | what it sets | how to measure it by itself |", "|---|---|---|---|"]
         for effect in library["effects"]:
             changes = effect.get("set") or effect["chain"]
             told = ", ".join(
@@ -56,65 +55,71 @@ class EffectTable(GeneratedText):
 
 
 class Headers(GeneratedText):
-    """The classes that Doxygen has read in the headers of a folder (not of the folders in it), with `:functions:` the
-    free functions, too: each of these costs Breathe a search through everything."""
+    """The classes and functions that Doxygen has read in the headers of a folder (not of the folders in it).
 
-    option_spec = {"functions": directives.flag}
+    Each folder is a project of its own for Breathe, which searches all of a project for each class.
+    """
 
     def text(self, path: Path) -> str:
-        xml = Path(self.state.document.settings.env.config.breathe_projects["clepsydra"])
-        files = files_read_by_doxygen(str(xml))
-        return "\n\n".join(
-            self.header(str(header.relative_to(REPOSITORY)), files) for header in sorted(path.glob("*.h"))
-        )
-
-    def header(self, name: str, files: dict) -> str:
-        if name not in files:
-            raise ValueError(f"Doxygen has not read {name}")
-
-        def wanted(directive: str) -> bool:
-            return "functions" in self.options or directive in ("doxygenclass", "doxygenstruct")
-
-        parts = [
-            f":::{{rubric}} `{name}`\n:::",
-            f":::{{doxygenfile}} {name}\n:sections: briefdescription detaileddescription\n:::",
-        ]
-        return "\n\n".join(
-            parts + [f":::{{{directive}}} {member}\n:::" for directive, member in files[name] if wanted(directive)]
-        )
+        project = project_of(self.arguments[0])
+        xml = self.state.document.settings.env.config.breathe_projects.get(project)
+        if xml is None:
+            raise self.error(f"Doxygen has not read the headers of {self.arguments[0]}")
+        files = files_read_by_doxygen(Path(xml))
+        headers = [str(header.relative_to(REPOSITORY)) for header in sorted(path.glob("*.h"))]
+        return "\n\n".join(f":::{{rubric}} `{name}`\n:::\n\n{directives_of(files[name], project)}" for name in headers)
 
 
-@functools.lru_cache(maxsize=None)
-def files_read_by_doxygen(xml: str) -> dict:
+def project_of(folder: str) -> str:
+    return folder.replace("/", ".")
+
+
+def directives_of(members: list[tuple[str, str]], project: str) -> str:
+    return "\n\n".join(
+        f":::{{{directive}}} {member}\n:project: {project}\n"
+        + (":sections: briefdescription detaileddescription\n" if directive == "doxygenfile" else "")
+        + ":::"
+        for directive, member in members
+    )
+
+
+def files_read_by_doxygen(xml: Path) -> dict[str, list[tuple[str, str]]]:
     """Path of a header -> directives of Breathe, with their arguments, for what it declares."""
-    found: dict = {}
-    places = {}
-    for compound in ElementTree.parse(f"{xml}/index.xml").getroot().iter("compound"):
-        kind = compound.get("kind")
-        if kind in ("file", "class", "struct", "namespace"):
-            places[compound.get("refid")] = (
-                ElementTree.parse(f"{xml}/{compound.get('refid')}.xml").getroot().find("compounddef")
-            )
-    for compound in places.values():
+
+    def text_of(element: ElementTree.Element, tag: str) -> str:
+        return "".join(element.find(tag).itertext()).strip() if element.find(tag) is not None else ""  # type: ignore
+
+    def place_of(element: ElementTree.Element) -> str:
+        location = element.find("location")
+        assert location is not None
+        return location.get("declfile") or location.get("file") or ""
+
+    compounds = []
+    for compound in ElementTree.parse(xml / "index.xml").getroot().iter("compound"):
+        if compound.get("kind") in ("file", "class", "struct", "namespace"):
+            definition = ElementTree.parse(xml / f"{compound.get('refid')}.xml").getroot().find("compounddef")
+            assert definition is not None
+            compounds.append(definition)
+    found: dict[str, list[tuple[str, str]]] = {}
+    for compound in compounds:
         if compound.get("kind") == "file":
-            found[compound.find("location").get("file")] = []
+            documented = text_of(compound, "briefdescription") + text_of(compound, "detaileddescription")
+            found[place_of(compound)] = [("doxygenfile", place_of(compound))] if documented else []
     classes = {
-        compound.findtext("compoundname") for compound in places.values() if compound.get("kind") in ("class", "struct")
+        text_of(compound, "compoundname") for compound in compounds if compound.get("kind") in ("class", "struct")
     }
-    for compound in places.values():
-        kind, name = compound.get("kind"), compound.findtext("compoundname")
+    for compound in compounds:
+        kind, name = compound.get("kind"), text_of(compound, "compoundname")
         # what lies within a class is shown with it; specialisations with their template
         if kind in ("class", "struct") and name.rpartition("::")[0] not in classes and "<" not in name:
-            found[compound.find("location").get("file")].append((f"doxygen{kind}", name))
+            found[place_of(compound)].append((f"doxygen{kind}", name))
         if kind == "namespace" and "@" not in name:
             for member in compound.iter("memberdef"):
-                arguments = (member.findtext("argsstring") or "") if member.get("kind") == "function" else ""
+                arguments = text_of(member, "argsstring") if member.get("kind") == "function" else ""
                 # Doxygen takes an object with texts as arguments for a function
                 if member.get("kind") in ("function", "enum", "typedef") and '"' not in arguments:
-                    header = member.find("location").get("declfile") or member.find("location").get("file")
-                    found[header].append(
-                        (f"doxygen{member.get('kind')}", f"{name}::{member.findtext('name')}{arguments}")
-                    )
+                    directive = f"doxygen{member.get('kind')}"
+                    found[place_of(member)].append((directive, f"{name}::{text_of(member, 'name')}{arguments}"))
     return found
 
 
@@ -136,15 +141,16 @@ PAGES = {
 
 
 def insert_repository_pages(app, docname: str, source: list) -> None:
-    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by what
-    stands there between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
+    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by
+    what stands there between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
 
     def text_of(match) -> str:
         path = REPOSITORY / match["file"]
         app.env.dependencies[docname].add(str(path))
         text = path.read_text(encoding="utf-8")
         if match["table"]:
-            text = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)[1]
+            table = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)
+            text = table[1] if table else ""
         return with_links_from(text, match["file"], docname)
 
     source[0] = re.sub(

@@ -1,16 +1,16 @@
 #!/usr/bin/python3
 """Builds the documentation site, follows its links, and holds its reference against the code.
 
-usage: documentation_tests.py BUILD [options of unittest]      BUILD: where the programs have been built, in bin/
+usage: documentation_tests.py BUILD [options of unittest]      BUILD: where the programs have been built, in bin/;
+                                                               to be run by tests/support/inEnvironment
 
 The reference marks by labels what is held against the code: the table behind `(entries-X)=` lists the entries of a
-dictionary, those behind `(models-X)=` models, behind `(study-X)=` keys of a study file, and so on. What each stands for in
-the code is stated in the tables below. A reader of entries in the code that none of them names fails the test, too.
+dictionary, those behind `(models-X)=` models, behind `(study-X)=` keys of a study file, and so on. The tables below
+state what each stands for in the code. A reader of entries in the code that none of them names fails, too.
 """
 
 import html.parser
 import json
-import os
 import re
 import subprocess
 import sys
@@ -153,11 +153,8 @@ class Reference(unittest.TestCase):
 
     def test_every_model_is_there(self) -> None:
         """Against what the program itself lists."""
-        environment = dict(os.environ)
-        script = f". '{REPOSITORY}/scripts/environment' && '{build}/bin/pimpleDemFoam' -listModels"
-        shown = subprocess.run(
-            ["bash", "-c", script], capture_output=True, text=True, check=True, env=environment
-        ).stdout
+        command = [str(build / "bin/pimpleDemFoam"), "-listModels"]
+        shown = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         models: dict[str, set[str]] = {}
         head = ""
         for line in shown.splitlines():
