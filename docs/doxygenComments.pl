@@ -5,6 +5,8 @@ while (<>)
     if (m{///<? ?[^ ]})
     {
         s/<([A-Za-z0-9]+)>/&lt;$1&gt;/g;
+        # of a sentence behind it Sphinx keeps the first word
+        s/\\throws\b/Throws/g;
         s/#([A-Za-z])/\\#$1/g;
         s{`([^`]*&lt;[^`]*)`}{<tt>$1</tt>}g;
     }

@@ -246,8 +246,8 @@ class Reference(unittest.TestCase):
         self.assertIn("-dryRun", options)
         self.assert_same(set(listed("options-pimpleDemFoam")), options, "pimpleDemFoam")
         code = sources(["identification"])["identification/traceResidual.cpp"]
-        options = set(re.findall(r'add_(?:option|flag)\("(--\w+)"', code))
-        commands = set(re.findall(r'add_subcommand\("(\w+)"', code))
+        options = set(re.findall(r'add_(?:option|flag)\(\s*"(--\w+)"', code))
+        commands = set(re.findall(r'add_subcommand\(\s*"(\w+)"', code))
         self.assertIn("--execute", options)
         self.assert_same(
             {name.split()[0] for name in listed("options-traceResidual")}, options | commands, "traceResidual"
