@@ -11,8 +11,9 @@ parameters.rules is YAML:
     numbers: [scripts/benchmarks/costModel.json]    # more names: those of the numbers in a JSON file of the repository
     define:                     # more names, in this order
       shear: 0.5 * youngsModulus / (1 + poissonRatio)
-      fallSpeed: {closure: terminalVelocity, options: [dragLaw, particleDiameter, ...]}
-      cells: {program: ["meshes/{mesher}", --cells, /dev/stdin]}    # of the repository; it gets `parameters` on its standard input
+      fallSpeed: {closure: terminalVelocity, options: [dragLaw, particleDiameter], at: {option: value}}
+      # of the repository; gets `parameters` on its standard input
+      cells: {program: ["meshes/{mesher}", --cells, /dev/stdin]}
     together:                   # the entries against each other, in this order
       - require: orificeDiameter < hopperDiameter < tankDiameter
         message: orificeDiameter is {orificeDiameter:g} m; allowed: less than hopperDiameter, {hopperDiameter:g} m
@@ -20,11 +21,11 @@ parameters.rules is YAML:
         message: orificeDiameter is {orificeDiameter / particleDiameter:.1f} particle diameters; it is likely to clog
       - fact: the mesh will have some {cells:.3g} cells
 
-What is required stops a case, what is expected is a warning, facts are for `Allrun check`. `when: CONDITION` restricts one
-of them, `notFor: [mesh, ...]` leaves it out where only these parts of the case are wanted, `here: yes` where the case is to
-run on another machine. A definition takes `when` and `notFor`, too, and may be a list of which the last that applies counts;
-what refers to a name without a value is left out.
-Conditions compare arithmetic (scripts/arithmetic.py) and words, and know `and`, `or` and `not`.
+What is required stops a case, what is expected is a warning, facts are for `Allrun check`. `when: CONDITION` restricts
+one of them, `notFor: [mesh, ...]` leaves it out where only these parts of the case are wanted, `here: yes` where the case
+is to run on another machine. A definition takes `when` and `notFor`, too, and may be a list of which the last that
+applies counts; what refers to a name without a value is left out. Conditions compare arithmetic (scripts/arithmetic.py)
+and words, and know `and`, `or` and `not`.
 """
 
 from __future__ import annotations
@@ -54,11 +55,11 @@ FILE = "parameters.rules"
 RANKS_PER_CORE = 4  # more ranks than cores are slow, but may be wanted for a test
 ROOT_KEYS = ("entries", "numbers", "define", "together")
 ENTRY_KEYS = ("from", "to", "unit", "whole", "prime", "words", "word", "closure")
-DEFINITION_KEYS = ("program", "closure", "options", "value", "when", "notFor")
+DEFINITION_KEYS = ("program", "closure", "options", "at", "value", "when", "notFor")
 CHECK_KEYS = ("require", "expect", "fact", "message", "when", "notFor", "here")
 
 Value = Union[float, str]
-Names = Mapping[str, Value]
+Names = Mapping[str, Union[Value, None]]  # None: a definition that has no value for these parameters
 
 
 class RulesError(Exception):
@@ -96,20 +97,27 @@ def entry_of(about: Mapping[str, Any], where: str) -> Entry:
         return Entry("a word", lambda value: isinstance(value, str))
     if "closure" in about:
         known = words_of_closure(str(about["closure"]))
-        return Entry(", ".join(known) or "a word", lambda value: isinstance(value, str) and (value in known or not known))
+        return Entry(
+            ", ".join(known) or "a word", lambda value: isinstance(value, str) and (value in known or not known)
+        )
     low, high = float(about["from"]), float(about["to"])
     unit = f" [{about['unit']}]" if "unit" in about else ""
     if about.get("prime"):
         return Entry(
             f"a prime from {low:.0f} to {high:.0f}",
-            lambda value: isinstance(value, float) and low <= value <= high and value.is_integer() and seeds.isSeed(int(value)),
+            lambda value: isinstance(value, float)
+            and low <= value <= high
+            and value.is_integer()
+            and seeds.isSeed(int(value)),
         )
     if about.get("whole"):
         return Entry(
             f"a whole number from {low:.0f} to {high:.0f}{unit}",
             lambda value: isinstance(value, float) and value.is_integer() and low <= value <= high,
         )
-    return Entry(f"a number from {low:g} to {high:g}{unit}", lambda value: isinstance(value, float) and low <= value <= high)
+    return Entry(
+        f"a number from {low:g} to {high:g}{unit}", lambda value: isinstance(value, float) and low <= value <= high
+    )
 
 
 def as_word(word: object) -> str:
@@ -127,7 +135,7 @@ def words_of_closure(listing: str) -> tuple[str, ...]:
     return tuple(asked.stdout.split()) if asked.returncode == 0 else ()
 
 
-def alone(values: Names, entries: Mapping[str, Entry], folder: Path) -> list[str]:
+def alone(values: Mapping[str, Value], entries: Mapping[str, Entry], folder: Path) -> list[str]:
     """What is wrong with the entries, each for itself."""
     problems = [f"entry '{name}' is missing" for name in entries if name not in values]
     for name, value in values.items():
@@ -145,7 +153,9 @@ def is_referred_to(name: str, case: Path) -> bool:
     """True where a file of the case has $name: then it is an entry of the user's own."""
     word = re.compile(rf"\$\{{?{name}\b")
     files = [path for part in ("0", "constant", "system", "DEM") for path in (case / part).glob("*")]
-    return any(word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("step.*")] if path.is_file())
+    return any(
+        word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("step.*")] if path.is_file()
+    )
 
 
 def hint(value: Value) -> str:
@@ -161,8 +171,10 @@ def hint(value: Value) -> str:
 
 def number(expression: str, names: Names) -> float:
     """The value of arithmetic on names. NoValue where one of them has none."""
-    for name in referred(expression):
-        if name not in names and name not in arithmetic.FUNCTIONS:
+    for name in referred(expression) - arithmetic.FUNCTIONS.keys():
+        if name not in names:
+            raise RulesError(f"{expression!r}: there is no '{name}'{parameterFile.meant(name, names)}")
+        if names[name] is None:
             raise NoValue(name)
     try:
         return float(arithmetic.evaluate(expression, names))
@@ -189,7 +201,11 @@ def truth(node: ast.expr, names: Names) -> bool:
     if isinstance(node, ast.BoolOp):
         # As Python does: what comes after the one that decides is not looked at.
         every = isinstance(node.op, ast.And)
-        return all(truth(part, names) for part in node.values) if every else any(truth(part, names) for part in node.values)
+        return (
+            all(truth(part, names) for part in node.values)
+            if every
+            else any(truth(part, names) for part in node.values)
+        )
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
         return not truth(node.operand, names)
     if isinstance(node, ast.Compare):
@@ -202,8 +218,9 @@ def side(node: ast.expr, names: Names) -> Value:
     """Of a comparison: a word in quotes, an entry that is a word, or arithmetic."""
     if isinstance(node, ast.Constant) and isinstance(node.value, str):
         return node.value
-    if isinstance(node, ast.Name) and isinstance(names.get(node.id), str):
-        return names[node.id]
+    value = names.get(node.id) if isinstance(node, ast.Name) else None
+    if isinstance(value, str):
+        return value
     return number(ast.unparse(node), names)
 
 
@@ -278,13 +295,17 @@ class Rules:
         problems, warnings = ([f"{path}: {one}" for one in some] for some in (found.problems, found.warnings))
         return Findings(problems, warnings, found.facts)
 
-    def _names(self, values: Names, text: str, part: str, found: Findings) -> Names:
-        names: dict[str, Value] = dict(values)
+    def _names(self, values: Mapping[str, Value], text: str, part: str, found: Findings) -> Names:
+        names: dict[str, Value | None] = {**dict.fromkeys(self.definitions), **values}
         names["memoryHere"] = float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
         for file in self.numbers:
             table = json.loads((REPOSITORY / file).read_text())
             names.update({name: float(value) for name, value in table.items() if isinstance(value, (int, float))})
-        choices = [(name, one) for name, about in self.definitions.items() for one in (about if isinstance(about, list) else [about])]
+        choices = [
+            (name, one)
+            for name, about in self.definitions.items()
+            for one in (about if isinstance(about, list) else [about])
+        ]
         for name, about in choices:
             how = about if isinstance(about, dict) else {"value": str(about)}
             require_known(how, DEFINITION_KEYS, name)
@@ -294,7 +315,7 @@ class Rules:
                 if "program" in how:
                     names[name] = by_program(how["program"], names, text)
                 elif "closure" in how:
-                    names[name] = by_closure(how["closure"], how["options"], names)
+                    names[name] = by_closure(how["closure"], how["options"], how.get("at", {}), names)
                 else:
                     names[name] = number(str(how["value"]), names)
             except NoValue:
@@ -335,9 +356,10 @@ def by_program(command: list[str], names: Names, text: str) -> float:
     return float(asked.stdout)
 
 
-def by_closure(formula: str, options: list[str], names: Names) -> float:
+def by_closure(formula: str, options: list[str], at: Mapping[str, float], names: Names) -> float:
     """NoValue where the program is not built, or knows no value."""
     command = [str(environment.program("closures")), formula, *(f"--{name}={names[name]}" for name in options)]
+    command += [f"--{name}={value}" for name, value in at.items()]
     try:
         return float(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
     except (OSError, subprocess.CalledProcessError, ValueError):

@@ -1,8 +1,8 @@
 """Runs a hopper case: meshes it, fills the hopper, and discharges the same packing in each of the other steps.
 
-A step is a run of pimpleDemFoam in steps/<name>, set up from the case's file step.<name>. The first step fills the hopper
-and leaves steps/<first>/packing.restart, from which all others start. A run that was stopped resumes from its last
-checkpoint; steps that have ended are not run again.
+A step is a run of pimpleDemFoam in steps/<name>, set up from the case's file step.<name>. The first step fills the
+hopper and leaves steps/<first>/packing.restart, from which all others start. A run that was stopped resumes from its
+last checkpoint; steps that have ended are not run again.
 """
 
 from __future__ import annotations
@@ -22,6 +22,8 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import FrameType
 
+import yaml
+
 import case_rules
 import parameterFile
 
@@ -36,22 +38,6 @@ STATUS_OF_SIGNAL = {signal.SIGHUP: 129, signal.SIGINT: 130, signal.SIGTERM: 143}
 STOPPED_BY_ITSELF = STATUS_OF_SIGNAL[signal.SIGTERM]
 AFTER_STOP = "stopped; the same command resumes the run"
 USER_LINKS = ("constant", "system", "DEM")
-
-# Parameters that may change while a run is stopped, since they say only how long or how often things are done.
-MAY_CHANGE = {"ranks", "fieldInterval", "drawParticles", "fillingTime", "dryTime", "submergedTime"}
-GEOMETRY = {
-    "hopperDiameter",
-    "orificeDiameter",
-    "hopperHeight",
-    "tankDiameter",
-    "tankDepth",
-    "waterAboveRim",
-    "landHeight",
-    "bevelHeight",
-    "wallThickness",
-}
-OF_MESH = GEOMETRY | {"lid", "mesher", "meshLevel", "cellSize"}
-OF_PACKING = GEOMETRY | {"particleDiameter", "particleDensity", "particleCount", "diameterDeviation", "seed"}
 
 
 class Failure(Exception):
@@ -140,8 +126,8 @@ class Step:
     def write_ranks(self, ranks: int) -> None:
         """Splits mesh and particles into the same boxes, one for each rank.
 
-        Halves or quarters about the hopper's axis keep equal numbers of particles to the end; further ranks lie one above
-        another. More boxes side by side would lie beside the hopper, and never have particles."""
+        Halves or quarters about the hopper's axis keep equal numbers of particles to the end; further ranks lie one
+        above another. More boxes side by side would lie beside the hopper, and never have particles."""
         along_x = 2 - ranks % 2
         along_y = 2 - ranks // along_x % 2
         entries = {
@@ -196,8 +182,9 @@ class Step:
 
 
 def ask_to_stop(process: subprocess.Popen[bytes]) -> None:
-    """Asks a solver to write a checkpoint and end. mpirun itself must not be asked: it would stop to forward the ranks'
-    output, and then kill them."""
+    """Asks a solver to write a checkpoint and end.
+
+    mpirun itself must not be asked: it would stop to forward the ranks' output, and then kill them."""
     ranks = subprocess.run(["pkill", "-TERM", "-P", str(process.pid), "-x", SOLVER])
     if ranks.returncode != 0 and process.poll() is None:
         process.terminate()
@@ -228,7 +215,9 @@ class Signals:
 
 
 class HopperCase:
-    """The case in a folder. steps: their names, the first of which fills the hopper."""
+    """The case in a folder. steps: their names, the first of which fills the hopper.
+
+    The case's template.yaml says which parameters mesh and packing depend on, and which may change after a stop."""
 
     def __init__(self, folder: Path, steps: Sequence[str], ranks: int, signals: Signals) -> None:
         self.folder = folder
@@ -238,6 +227,10 @@ class HopperCase:
         self.signals = signals
         self.lock: int | None = None
         self.began = time.monotonic()
+        template = yaml.safe_load((folder / "template.yaml").read_text())
+        self.of_mesh = set(template["shared"]["mesh"]["dependsOn"])
+        self.of_packing = set(template["shared"]["filling"]["ofPacking"])
+        self.may_change = {*template["mayChange"], *template["steps"].values()}
 
     # --- what the command line asks for ---
 
@@ -298,9 +291,10 @@ class HopperCase:
         require_program(SOLVER)
         ended = self.has_ended(self.filling)
         with tempfile.TemporaryDirectory() as name:
+            steps = [f"step.{step}" for step in self.steps]
+            for part in ("0", "constant", "system", "DEM", "parameters", "template.yaml", *steps):
+                (Path(name) / part).symlink_to(self.folder / part)
             copy = HopperCase(Path(name), self.steps, 1, self.signals)  # one rank, whatever it will run on
-            for part in ("0", "constant", "system", "DEM", "parameters", *(f"step.{step}" for step in self.steps)):
-                (copy.folder / part).symlink_to(self.folder / part)
             (copy.folder / "steps").mkdir()
             for step in self.steps if ended else [self.filling]:
                 folder = copy.step_folder(step).folder
@@ -338,10 +332,10 @@ class HopperCase:
         for part in parts:
             if part == "mesh":
                 record = "constant/polyMesh/madeFrom"
-                self._refuse_changed("the mesh", record, OF_MESH, "'./Allrun mesh' makes another")
+                self._refuse_changed("the mesh", record, self.of_mesh, "'./Allrun mesh' makes another")
             elif part == "packing":
                 record = f"steps/{self.filling}/parameters"
-                self._refuse_changed("the packing", record, OF_PACKING, f"remove steps/{self.filling} for another")
+                self._refuse_changed("the packing", record, self.of_packing, f"remove steps/{self.filling} for another")
             else:
                 record = f"steps/{part}/parameters"
                 self._refuse_changed(f"step {part}", record, None, f"remove steps/{part} to begin it again")
@@ -353,21 +347,23 @@ class HopperCase:
         changed = [
             line
             for name, line in self.differences(record).items()
-            if (name in names if names is not None else name not in MAY_CHANGE)
+            if (name in names if names is not None else name not in self.may_change)
         ]
         if changed:
             raise Failure(
-                f"parameters have changed since {what} was begun ({'; '.join(changed)}). Put them back and the same command "
-                f"resumes; or begin all again by './Allrun -fresh' (removes steps and results); or {other_way}"
+                f"parameters have changed since {what} was begun ({'; '.join(changed)}). Put them back and the same "
+                "command resumes; or begin all again by './Allrun -fresh' (removes steps and results); "
+                f"or {other_way}"
             )
 
     def differences(self, record: str) -> dict[str, str]:
         before = parameterFile.parameters(self.folder / record)
         now = parameterFile.parameters(self.folder / "parameters")
-        return {
-            name: f"{name} {parameterFile.shown(before.get(name, '(none)'))} -> {parameterFile.shown(now.get(name, '(none)'))}"
-            for name in parameterFile.changedNames(before, now)
-        }
+        changed = {}
+        for name in parameterFile.changedNames(before, now):
+            old, new = (parameterFile.shown(values.get(name, "(none)")) for values in (before, now))
+            changed[name] = f"{name} {old} -> {new}"
+        return changed
 
     def require_same_surface(self) -> None:
         """Mesh, packing and runs belong to one surface, where the case has one (mesher hopperFromSurface)."""
@@ -463,15 +459,17 @@ class HopperCase:
         sizes.unlink(missing_ok=True)
         if deviation != "0":
             mean = self.parameter("particleDiameter")
-            command = [SCRIPTS / "sizeDistribution", "--mean", mean, "--relativeDeviation", deviation]
+            command = [str(SCRIPTS / "sizeDistribution"), "--mean", mean, "--relativeDeviation", deviation]
             made = subprocess.run([*command, "--density", "${particleDensity}"], stdout=subprocess.PIPE, text=True)
             if made.returncode != 0:
                 raise Failure("scripts/sizeDistribution made no DEM/in.sizes")
             sizes.write_text(made.stdout)
 
     def run_steps(self, names: Sequence[str]) -> None:
-        """Starts steps, or resumes them from their checkpoints, waits for them all, and reports progress. Ctrl-C and SIGTERM
-        reach the solvers, which write a checkpoint; then this program ends with status 130 or 143."""
+        """Starts steps, or resumes them from their checkpoints, waits for them all, and reports progress.
+
+        Ctrl-C and SIGTERM reach the solvers, which write a checkpoint; then this program ends with status 130 or 143.
+        """
         self.say(" ".join(names))
         require_program(SOLVER)
         since = time.monotonic()
@@ -567,7 +565,7 @@ class HopperCase:
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         prog="Allrun",
-        description="Meshes and fills a hopper and discharges it in each of its steps. After a stop the same command resumes.",
+        description="Meshes, fills and discharges a hopper. After a stop the same command resumes the run.",
         epilog="PART: mesh; the name of a step; check (whether parameters and case are right; makes nothing)",
         allow_abbrev=False,
     )

@@ -21,7 +21,7 @@ PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": 
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
                     "steps": "of each run", "packings": "values of the template's seed",
                     "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
-TEMPLATE_ENTRIES = ("shared", "steps", "seed", "summary", "derived")
+TEMPLATE_ENTRIES = ("shared", "steps", "mayChange", "seed", "summary", "derived")
 REPOSITORY = Path(__file__).resolve().parents[2]
 RUN_ENTRIES = ("sweep", "parameters", "filling", "steps", "packings", "ranks")
 

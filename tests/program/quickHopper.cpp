@@ -26,7 +26,7 @@ QuickHopper::QuickHopper(const std::map<std::string, std::string>& parameters)
         "mkdir -p cases/tutorials/hopperQuick\n"
         "ln -s \"$CLEPSYDRA/meshes\" \"$CLEPSYDRA/scripts\" .\n"
         "cd \"$CLEPSYDRA/cases/tutorials/hopperQuick\"\n"
-        "cp -r 0 constant system DEM parameters parameters.rules step.* Allrun Allclean "
+        "cp -r 0 constant system DEM parameters parameters.rules template.yaml step.* Allrun Allclean "
         "\"$OLDPWD/cases/tutorials/hopperQuick\"\n"
         "cd \"$OLDPWD/cases/tutorials/hopperQuick\"\n";
     for (const auto& [name, value] : parameters)

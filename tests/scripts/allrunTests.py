@@ -239,6 +239,33 @@ class Mistakes(HopperCase):
         self.assertEqual(sorted(self.case.rglob("*")), before)
 
 
+class Quickstart(HopperCase):
+    """The front page's first command."""
+
+    def quickstart(self, *arguments):
+        return subprocess.run([self.folder / "scripts/quickstart", *arguments], env=self.environment, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=60)
+
+    def testItSetsUpAndThenRunsTheHopper(self):
+        """In this order: where set-up fails nothing is run. It says where the results are."""
+        outcome = self.quickstart()
+        self.assertEqual(outcome.returncode, 1)
+        self.assertFalse((self.case / "starts").exists())
+        self.program(self.folder / "scripts" / "setup", f"#!/bin/sh\necho \"$*\" > {self.folder}/options\n")
+        outcome = self.quickstart()
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        self.assertEqual((self.folder / "options").read_text(), "--programs\n")
+        self.assertEqual(sorted(self.starts()), ["dry", "filling", "submerged"])
+        self.assertIn(f"the results are in {self.case}/results", outcome.stdout)
+
+    def testHelpMakesNothing(self):
+        for option, status in (("--help", 0), ("-h", 0), ("--fast", 2)):
+            outcome = self.quickstart(option)
+            self.assertEqual(outcome.returncode, status)
+            self.assertIn("usage: scripts/quickstart", outcome.stdout + outcome.stderr)
+        self.assertFalse((self.folder / "setupWasCalled").exists())
+
+
 class Copies(HopperCase):
     """Cases that were copied out of the repository."""
 
