@@ -22,8 +22,8 @@ parameters.rules is YAML:
       - fact: the mesh will have some {cells:.3g} cells
 
 What is required stops a case, what is expected is a warning, facts are for `Allrun check`. `when: CONDITION` restricts
-one of them, `notFor: [mesh, ...]` leaves it out where only these parts of the case are wanted, `here: yes` where the case
-is to run on another machine. A definition takes `when` and `notFor`, too, and may be a list of which the last that
+one of them, `notFor: [mesh, ...]` leaves it out where only these parts of the case are wanted, `here: yes` where the
+case is to run on another machine. A definition takes `when` and `notFor`, too, and may be a list of which the last that
 applies counts; what refers to a name without a value is left out. Conditions compare arithmetic (scripts/arithmetic.py)
 and words, and know `and`, `or` and `not`.
 """

@@ -52,7 +52,7 @@ class FirstHour(unittest.TestCase):
     def testTypesTheLinesOfThePages(self):
         """Exits with an error where the table names a line that its page has lost."""
         said = subprocess.run([ROOT / "scripts/firstHour", "--list"], check=True, capture_output=True, text=True).stdout.splitlines()
-        for command, _ in typedLines((ROOT / "cases/README.md").read_text()):
+        for command, _ in typedLines((ROOT / "cases/tutorials/hopperQuick/README.md").read_text()):
             self.assertIn(command, said)
         self.assertIn("mine/Allrun", said)
 

@@ -44,7 +44,7 @@ class Rules(unittest.TestCase):
         return case_rules.Rules(self.folder).check(parameters, ranks, part, "parameters")
 
     def testRightParametersHaveFactsAlone(self):
-        """The tube's fact and that without a value are left out: a check that skipped all of them would miss the area."""
+        """The tube's fact and that without a value are left out; a check that skipped all would miss the area."""
         found = self.found()
         self.assertEqual((found.problems, found.warnings, found.facts), ([], [], ["area 1 m2"]))
 

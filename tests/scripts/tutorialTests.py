@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The tutorials as a user of OpenFOAM meets them: copied elsewhere, and started by Allrun or by hand. Runs the programs.
+"""The tutorials as a user of OpenFOAM meets them: copied elsewhere, started by Allrun or by hand. Runs the programs.
 
 usage: tutorialTests.py BUILD [unittest's options]
 """
@@ -39,7 +39,7 @@ class Tutorials(unittest.TestCase):
 
     def copied(self, name: str) -> Path:
         """As git has it: without what a run has left in the repository."""
-        listed = ["git", "-C", TUTORIALS / name, "ls-files", "--cached", "--others", "--exclude-standard"]
+        listed = ["git", "-C", str(TUTORIALS / name), "ls-files", "--cached", "--others", "--exclude-standard"]
         for file in subprocess.run(listed, check=True, capture_output=True, text=True).stdout.split():
             (self.folder / name / file).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(TUTORIALS / name / file, self.folder / name / file)
@@ -96,8 +96,8 @@ class Tutorials(unittest.TestCase):
                 self.assertEqual(sorted(case.rglob("*")), before)
 
     def testCheckAndMistakes(self) -> None:
-        """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of its log;
-        without Clepsydra's environment a copy says what to do."""
+        """`check` makes nothing; a mistake is told before anything is made, a program that fails with the end of its
+        log; without Clepsydra's environment a copy says what to do."""
         for name in BY_HAND:
             with self.subTest(name):
                 case = self.copied(name)
