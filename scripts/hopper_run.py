@@ -559,6 +559,22 @@ class HopperCase:
         print(f"{self.folder.name}: {words}", flush=True)
 
 
+def run_here(folder: Path, ranks: int, signals: Signals) -> None:
+    """The step in a folder by itself, or its rest; Stopped where it was asked to stop."""
+    step = Step(folder)
+    step.write_ranks(ranks)
+    step.redistribute(ranks)
+    process = step.start(ranks)
+    signals.solvers = [process]
+    if signals.status:  # a signal that came before the solver was on the list
+        ask_to_stop(process)
+    process.wait()
+    if signals.status or step.was_stopped():
+        raise Stopped(signals.status or STOPPED_BY_ITSELF)
+    if process.returncode != 0:
+        raise Failure(f"the solver failed: see {step.log}")
+
+
 # --- command line -----------------------------------------------------------------------------------------------------
 
 
@@ -569,7 +585,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         epilog="PART: mesh; the name of a step; check (whether parameters and case are right; makes nothing)",
         allow_abbrev=False,
     )
-    parser.add_argument("--steps", metavar="FILLING,DISCHARGE,...", required=True, help=argparse.SUPPRESS)
+    parser.add_argument("--steps", metavar="FILLING,DISCHARGE,...", default="", help=argparse.SUPPRESS)
+    parser.add_argument("--here", action="store_true", help=argparse.SUPPRESS)  # the step whose folder this is
     parser.add_argument(
         "-np", dest="ranks", metavar="RANKS", help="MPI ranks of each step (default: entry 'ranks' of parameters)"
     )
@@ -580,6 +597,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     parser.add_argument("parts", metavar="PART", nargs="*", help="only these; all of it where none is given")
     options = parser.parse_args(arguments)
     options.steps = options.steps.split(",")
+    if options.here != (options.steps == [""]) or (options.here and not options.ranks):
+        parser.error("either --steps FILLING,DISCHARGE,... or --here -np RANKS")
     known = ["mesh", "check", *options.steps]
     for part in options.parts:
         # A variant of a step, whose folder the user made.
@@ -635,6 +654,9 @@ def main(arguments: Sequence[str]) -> None:
         options = parse(arguments)
         signals.install()
         ranks = read_ranks(options.ranks)
+        if options.here:
+            run_here(folder, ranks, signals)
+            return
         case = HopperCase(folder, options.steps, ranks, signals)
         if options.prepare:
             case.prepare(options.parts)
