@@ -65,7 +65,10 @@ install(CODE "
 ")
 # Debian's OpenFOAM has no etc/, without which none of its programs starts.
 if(OpenFOAM_IS_PACKAGED)
-    install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-${clepsydra_openfoam_version})
+    set(_openfoam ${_shared}/.dependencies/openfoam-${clepsydra_openfoam_version})
+    install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_openfoam})
+    # Nor has it RunFunctions, which the tutorials' Allrun use.
+    install(FILES "${OpenFOAM_ROOT}/bin/tools/RunFunctions" DESTINATION ${_openfoam}/bin/tools)
 endif()
 
 include(CMakePackageConfigHelpers)

@@ -32,7 +32,7 @@ def columns(case, name):
 
 def balances(case):
     """The conservation check's summaries of a run, in order of time. A part that is killed writes none."""
-    files = [directory / "summary.json" for directory in startDirectories(case, "conservationCheck")]
+    files = [directory / "summary.json" for directory in startDirectories(case, "conservation")]
     return [json.loads(file.read_text()) for file in files if file.exists()]
 
 

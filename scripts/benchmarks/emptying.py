@@ -5,7 +5,7 @@ import shutil
 
 import caseFiles
 from . import timing
-from .hopper import FUNCTIONS, Hopper, solver
+from .hopper import Hopper, solver
 from .twoRanks import loopSeconds
 
 # Parts of the fill that remain, and the length of each window [s]
@@ -58,7 +58,7 @@ def window(folder, start, ranks):
         shutil.copy(folder / "checkpoints" / "beginning", part / "checkpoints")
     with open(part / "step", "a") as step:
         step.write(f"stepEndTime {start + WINDOW};\nfieldInterval 10;\n")
-    Hopper.inFolder(part.parent.parent, f"{FUNCTIONS}; ranks={ranks}; shareOut steps/{part.name}/step")
+    Hopper.inFolder(part.parent.parent, f"./Allrun -np {ranks} -prepare {part.name}")
     if ranks > 1:
         Hopper.inFolder(part, f"decomposePar -latestTime > log.decomposePar 2>&1")
     return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newestBalance(part))

@@ -21,7 +21,7 @@ def rates(hopper, repetitions):
     require("lmp")
     require("yade")
     folder = hopper.validationCase("besideLammps")
-    Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../hopperQuick; "
+    Hopper.inFolder(folder, "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../tutorials/hopperQuick; "
                             f"makeRun hopper {QUICK if hopper.quick else WHOLE}; inEachRun solveInBoth")
     run = folder / "runs" / "hopper"
     p = caseFiles.parameters(run / "parameters")

@@ -2,6 +2,7 @@
 
 import functools
 import json
+import shlex
 import shutil
 import subprocess
 import sys
@@ -17,16 +18,13 @@ import caseFiles
 FULL_SIZE = {"particleCount": "13900", "hopperDiameter": "0.05", "hopperHeight": "0.095", "orificeDiameter": "0.02",
              "tankDiameter": "0.12", "tankDepth": "0.06", "fillingTime": "1.4"}
 
-# All of Allrun but its last line, which calls main.
-FUNCTIONS = "sed '$d' Allrun > functions; . ./functions; ranks=1"
-
 
 class Hopper:
     def __init__(self, folder, quick, repository=REPOSITORY, **parameters):
         self.folder = folder
-        self.case = folder / "cases" / "hopperQuick"
+        self.case = folder / "cases" / "tutorials" / "hopperQuick"
         self.quick = quick
-        shutil.copytree(repository / "cases" / "hopperQuick", self.case,
+        shutil.copytree(caseOf(repository), self.case,
                         ignore=shutil.ignore_patterns("steps", "results", "polyMesh"))
         for name in ("meshes", "scripts"):
             (folder / name).symlink_to(repository / name)
@@ -43,7 +41,7 @@ class Hopper:
     def withCells(self, cellSize):
         """The same packing in another mesh."""
         other = Hopper(self.folder / f"cells{cellSize}", self.quick, cellSize=cellSize)
-        self.inFolder(other.case, f"{FUNCTIONS}; startAfresh; makeMesh")
+        other.allrun("mesh")
         shutil.copy(self.packing, other.case / "steps" / "filling")
         other._filled = True
         return other
@@ -66,7 +64,7 @@ class Hopper:
         self._pour()
         folder = self.case / "steps" / name
         shutil.rmtree(folder, ignore_errors=True)
-        self.inFolder(self.case, f"{FUNCTIONS}; ranks={ranks}; prepareStep {template}")
+        self.allrun("-prepare", template, ranks=ranks)
         shutil.copytree(self.case / "steps" / template, folder, symlinks=True)
         entries = {"stepEndTime": duration, **entries}
         with open(folder / "step", "a") as step:
@@ -80,6 +78,9 @@ class Hopper:
         self._pour()
         return self.case / "steps" / "filling" / "packing.restart"
 
+    def allrun(self, *arguments, ranks=1):
+        self.inFolder(self.case, shlex.join(["./Allrun", "-np", str(ranks), *arguments]))
+
     @staticmethod
     def inFolder(folder, commands):
         done = subprocess.run(["bash", "-euo", "pipefail", "-c", commands], cwd=folder, capture_output=True, text=True,
@@ -90,12 +91,18 @@ class Hopper:
 
     def _pour(self):
         if not self._filled:
-            self.inFolder(self.case, f"{FUNCTIONS}; startAfresh; makeMesh; runSteps filling; requireAllParticles")
+            self.allrun("mesh", "filling")
             self._filled = True
 
     @staticmethod
     def setParameters(file, values):
         file.write_text(caseFiles.withParameters(file.read_text(), {name: str(value) for name, value in values.items()}))
+
+
+def caseOf(repository):
+    """The case, also of an earlier version."""
+    case = repository / "cases/tutorials/hopperQuick"
+    return case if case.exists() else repository / "cases/hopperQuick"
 
 
 def solver(ranks=1):
@@ -105,7 +112,7 @@ def solver(ranks=1):
 
 def conservation(folder):
     """What the run in this folder wrote at its end: particles, errors, seconds of each phase, bytes exchanged."""
-    return json.loads((folder / "postProcessing" / "conservationCheck" / "0" / "summary.json").read_text())
+    return json.loads((folder / "postProcessing" / "conservation" / "0" / "summary.json").read_text())
 
 
 def forgetResults(folder):

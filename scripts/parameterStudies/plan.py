@@ -5,7 +5,6 @@ parameters replaced. What runs have in common (the mesh, the packing) is a task 
 """
 
 import hashlib
-import importlib
 import itertools
 import re
 from dataclasses import dataclass
@@ -15,15 +14,14 @@ from pathlib import Path
 import yaml
 
 import arithmetic
+import case_rules
 import parameterFile
-import rules
 
 PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
                     "steps": "of each run", "packings": "values of the template's seed",
                     "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
-TEMPLATE_ENTRIES = ("shared", "steps", "seed", "summary", "derived", "rules")
-RULES = ("hopper", "settlingParticle")        # modules of scripts/rules
+TEMPLATE_ENTRIES = ("shared", "steps", "mayChange", "seed", "summary", "derived")
 REPOSITORY = Path(__file__).resolve().parents[2]
 RUN_ENTRIES = ("sweep", "parameters", "filling", "steps", "packings", "ranks")
 
@@ -109,21 +107,24 @@ class ParameterStudy:
         return self._resolved(dict(task.overrides))
 
     def check(self, executor):
-        """{name: what is known of it} of all tasks; ParameterStudyError where the template's rules refuse the parameters of any.
+        """{name: what is known of it} of all tasks; ParameterStudyError where the template's parameters.rules refuse the parameters of any.
 
         Slurm's tasks run on other machines than this one: what fits there, each finds when it starts."""
-        if "rules" not in self.template:
+        if not (self.case / case_rules.FILE).exists():
             return {}
-        if self.template["rules"] not in RULES:
-            raise ParameterStudyError(f"{self.case}/template.yaml: entry 'rules' is {self.template['rules']!r}; allowed: {', '.join(RULES)}")
-        case = importlib.import_module(f"rules.{self.template['rules']}")
+        try:
+            return self._check(case_rules.Rules(self.case), executor)
+        except case_rules.RulesError as problem:
+            raise ParameterStudyError(str(problem)) from None
+
+    def _check(self, rules, executor):
         known, seen, problems = {}, {}, []
         for name, task in self.tasks.items():
             # runs of one set of parameters are checked once
             key = task.overrides, task.ranks, task.part
             if key not in seen:
-                seen[key] = rules.check(case, self.parameterText(task), self.case, task.ranks if executor == "local" else None,
-                                        task.part, f"{self.path}: {name}")
+                seen[key] = rules.check(self.parameterText(task), task.ranks if executor == "local" else None, task.part,
+                                        f"{self.path}: {name}")
             known[name] = seen[key]
             problems += [problem for problem in known[name].problems if problem not in problems]
         if problems:

@@ -52,9 +52,8 @@ class FirstHour(unittest.TestCase):
     def testTypesTheLinesOfThePages(self):
         """Exits with an error where the table names a line that its page has lost."""
         said = subprocess.run([ROOT / "scripts/firstHour", "--list"], check=True, capture_output=True, text=True).stdout.splitlines()
-        for page in ("settlingParticle", "quickHopper", "hopperOfAnotherShape"):
-            for command, _ in typedLines((ROOT / f"docs/tutorials/{page}.md").read_text()):
-                self.assertIn(command, said)
+        for command, _ in typedLines((ROOT / "cases/tutorials/hopperQuick/README.md").read_text()):
+            self.assertIn(command, said)
         self.assertIn("mine/Allrun", said)
 
     def testQuickSaysWhatItLeavesOut(self):

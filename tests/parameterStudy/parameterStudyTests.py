@@ -20,7 +20,7 @@ PARAMETER_STUDY = REPOSITORY / "scripts" / "parameterStudy"
 
 class ParameterStudyTest(unittest.TestCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameter study-"))
+        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameterStudy-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
     def write(self, **settings):
@@ -250,7 +250,7 @@ class ParameterStudyOfHoppers(ParameterStudyTest):
     def testTheQuickHopperThroughTheRealProgram(self):
         """300 particles, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very same
         mass, the smoother particles must leave faster, and no row may be lost or doubled by the stop."""
-        self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), steps="dry", keepTimes=2, parameters={
+        self.write(case=str(REPOSITORY / "cases/tutorials/hopperQuick"), steps="dry", keepTimes=2, parameters={
             "particleCount": 300, "hopperDiameter": 0.015, "orificeDiameter": 0.009, "hopperHeight": 0.04,
             "tankDiameter": 0.04, "tankDepth": 0.025, "waterAboveRim": 0.01, "fillingTime": 0.7, "dryTime": 1.5},
             runs={"mu": {"sweep": {"friction": [0.1, 0.5]}}})

@@ -26,10 +26,9 @@ QuickHopper::QuickHopper(const std::map<std::string, std::string>& parameters)
         "mkdir -p cases/tutorials/hopperQuick\n"
         "ln -s \"$CLEPSYDRA/meshes\" \"$CLEPSYDRA/scripts\" .\n"
         "cd \"$CLEPSYDRA/cases/tutorials/hopperQuick\"\n"
-        "cp -r 0 constant system DEM parameters step.* Allrun Allclean \"$OLDPWD/cases/tutorials/hopperQuick\"\n"
-        "cd \"$OLDPWD/cases/tutorials/hopperQuick\"\n"
-        // All of Allrun but its last line, which calls main.
-        "sed '$d' Allrun > functions\n";
+        "cp -r 0 constant system DEM parameters parameters.rules template.yaml step.* Allrun Allclean "
+        "\"$OLDPWD/cases/tutorials/hopperQuick\"\n"
+        "cd \"$OLDPWD/cases/tutorials/hopperQuick\"\n";
     for (const auto& [name, value] : parameters)
     {
         commands += "grep -q '^" + name + " ' parameters\n";
@@ -43,29 +42,30 @@ QuickHopper::QuickHopper(const std::map<std::string, std::string>& parameters)
     }
 }
 
-Outcome QuickHopper::withAllrun(const std::string& commands)
+Outcome QuickHopper::inCase(const std::string& commands)
 {
     std::ofstream(folder_.path() / "runCase") << "set -euo pipefail\n"
-                                                 "PATH=$(dirname \"$SOLVER\"):$PATH\n"
+                                                 "CLEPSYDRA_BUILD=$(dirname \"$(dirname \"$SOLVER\")\")\n"
+                                                 "export CLEPSYDRA_BUILD\n"
                                                  "cd "
-                                                     + caseFolder + "\n. ./functions\nranks=1\n" + commands;
+                                                     + caseFolder + '\n' + commands;
     return folder_.runCommand("bash runCase");
 }
 
 Outcome QuickHopper::filling()
 {
-    return withAllrun("startAfresh\nmakeMesh\nrunSteps filling\nrequireAllParticles\n");
+    return inCase("./Allrun -np 1 mesh filling\n");
 }
 
 Outcome QuickHopper::run(const std::string& step)
 {
-    return withAllrun("runSteps " + step + '\n');
+    return inCase("./Allrun -np 1 " + step + '\n');
 }
 
 Outcome QuickHopper::runVariant(const std::string& step, const std::string& name, const std::string& entries)
 {
-    return withAllrun("prepareStep " + step + "\ncp -r steps/" + step + " steps/" + name + "\ncat >> steps/" + name
-                      + "/step << 'END'\n" + entries + "\nEND\nrunSteps " + name + '\n');
+    return inCase("./Allrun -np 1 -prepare " + step + "\ncp -r steps/" + step + " steps/" + name + "\ncat >> steps/" + name
+                  + "/step << 'END'\n" + entries + "\nEND\n./Allrun -np 1 " + name + '\n');
 }
 
 std::vector<std::vector<double>> QuickHopper::table(const std::string& step, const std::string& file) const

@@ -46,8 +46,8 @@ public:
     double parameter(const std::string& name) const;
 
 private:
-    /// Runs commands in the case, after the functions of its Allrun.
-    Outcome withAllrun(const std::string& commands);
+    /// Runs commands in the case; its Allrun starts the solver that is tested.
+    Outcome inCase(const std::string& commands);
 
     TestCase folder_;
 };

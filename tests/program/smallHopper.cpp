@@ -118,7 +118,7 @@ TEST(SmallHopper, EveryParticleIsAccountedFor)
     EXPECT_NEAR(rate["submerged"] / rate["dry"], ratioOfRates.mean, ratioOfRates.allowed());
 }
 
-/// The softest particles that scripts/rules/hopper.py allows. LIGGGHTS refuses particles of less than 5 MPa unless it is reported.
+/// The softest particles that parameters.rules of the case allows. LIGGGHTS alone refuses particles of less than 5 MPa.
 TEST(SmallHopper, ParticlesMayBeAsSoftAsTheRulesSay)
 {
     QuickHopper hopper(

@@ -19,11 +19,12 @@ class Stops(HopperCase):
         wipes first would start the filling three times; one that knows no SIGINT would end with another status and no word."""
         status, said = self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.assertEqual(status, 130, said)
-        self.assertIn("stopped; the same command goes on", said)
+        self.assertIn("stopped; the same command resumes the run", said)
         self.assertIn("Asked to stop", (self.case / "steps/filling/log.pimpleDemFoam").read_text())
         status, said = self.interrupted(by=signal.SIGTERM, steps=["dry", "submerged"]) if self.fillingIsDone() else (None, "no filling")
         self.assertEqual(status, 143, said)
         self.succeeds()
+        self.assertFalse((self.folder / "setupWasCalled").exists())
         self.assertEqual(sorted(self.starts()), ["dry", "dry", "filling", "filling", "submerged", "submerged"])
         self.assertEqual([self.rows(step) for step in ("filling", "dry", "submerged")], [20, 20, 20])
 
@@ -35,7 +36,7 @@ class Stops(HopperCase):
         """All particles lie in the hopper, yet the filling was stopped: discharging must be refused, with the command that goes on."""
         self.interrupted("mesh", "filling", by=signal.SIGTERM, steps=["filling"])
         said = self.refuses("dry")
-        self.assertIn("the filling has not come to its end: './Allrun filling' goes on with it", said)
+        self.assertIn("the filling has not come to its end: './Allrun filling' resumes it", said)
         self.assertEqual(self.starts(), ["filling"])
         self.succeeds("filling", "dry")
         self.assertEqual(self.starts(), ["filling", "filling", "dry"])
@@ -66,7 +67,7 @@ class Stops(HopperCase):
         for arguments in ([], ["filling"]):
             said = self.refuses(*arguments)
             self.assertIn("friction 0.15 -> 0.3", said)
-            self.assertIn("Put them back and the same command goes on", said)
+            self.assertIn("Put them back and the same command resumes", said)
             self.assertIn("./Allrun -fresh", said)
         self.assertEqual(self.starts(), ["filling"])
         self.assertEqual(self.rows("filling"), 10)
@@ -114,8 +115,7 @@ class Ranks(HopperCase):
         self.assertIn("ranksAlongY     2;\n", step.read_text())
 
     def prepare(self, step, ranks):
-        subprocess.run(["bash", "-euc", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; ranks={ranks}; prepareStep {step}"],
-                       env=self.environment, check=True)
+        self.succeeds("-np", str(ranks), "-prepare", step)
 
 
 class Mistakes(HopperCase):
@@ -191,7 +191,7 @@ class Mistakes(HopperCase):
         for value in (f"x $(touch {made})|e #", f"0.1|e touch {made}", f"`touch {made}`", f'system("touch {made}")'):
             with self.otherParameters(self.otherLine("friction", f"friction {value};")):
                 self.refuses("mesh")
-                functions = f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; "
+                functions = f"cd {self.case}; repository={self.folder}; . {self.folder}/scripts/runFunctions; "
                 for use in (f"setParameter step.dry stepEndTime {chr(39)}{value}{chr(39)}",
                             "cp parameters other; parameterFile merge other parameters", "at \"$(parameter friction)\""):
                     subprocess.run(["bash", "-c", functions + use], env=self.environment, capture_output=True)
@@ -209,7 +209,7 @@ class Mistakes(HopperCase):
         self.assertNotIn("Asked to stop", said)
         self.assertEqual(log.read_text(), before)
         (self.case / "log.noMesher").write_text("an old log\n")
-        outcome = subprocess.run(["bash", "-c", f"cd {self.case}; sed '$d' Allrun > functions; . ./functions; logged noMesher"],
+        outcome = subprocess.run(["bash", "-c", f"cd {self.case}; repository={self.folder}; . {self.folder}/scripts/runFunctions; logged noMesher"],
                                  env=self.environment, capture_output=True, text=True)
         self.assertNotEqual(outcome.returncode, 0)
         self.assertIn("there is no program 'noMesher' here: run", outcome.stderr)
@@ -239,11 +239,38 @@ class Mistakes(HopperCase):
         self.assertEqual(sorted(self.case.rglob("*")), before)
 
 
+class Quickstart(HopperCase):
+    """The front page's first command."""
+
+    def quickstart(self, *arguments):
+        return subprocess.run([self.folder / "scripts/quickstart", *arguments], env=self.environment, capture_output=True, text=True,
+                              stdin=subprocess.DEVNULL, timeout=60)
+
+    def testItSetsUpAndThenRunsTheHopper(self):
+        """In this order: where set-up fails nothing is run. It says where the results are."""
+        outcome = self.quickstart()
+        self.assertEqual(outcome.returncode, 1)
+        self.assertFalse((self.case / "starts").exists())
+        self.program(self.folder / "scripts" / "setup", f"#!/bin/sh\necho \"$*\" > {self.folder}/options\n")
+        outcome = self.quickstart()
+        self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
+        self.assertEqual((self.folder / "options").read_text(), "--programs\n")
+        self.assertEqual(sorted(self.starts()), ["dry", "filling", "submerged"])
+        self.assertIn(f"the results are in {self.case}/results", outcome.stdout)
+
+    def testHelpMakesNothing(self):
+        for option, status in (("--help", 0), ("-h", 0), ("--fast", 2)):
+            outcome = self.quickstart(option)
+            self.assertEqual(outcome.returncode, status)
+            self.assertIn("usage: scripts/quickstart", outcome.stdout + outcome.stderr)
+        self.assertFalse((self.folder / "setupWasCalled").exists())
+
+
 class Copies(HopperCase):
     """Cases that were copied out of the repository."""
 
     def testACopyElsewhereFindsClepsydraOrSaysHow(self):
-        elsewhere = self.folder / "far" / "away" / "copy"
+        elsewhere = self.folder / "far/away/from/it/copy"
         shutil.copytree(self.case, elsewhere)
         self.case = elsewhere
         self.assertIn("source its scripts/environment first", self.refuses("mesh"))

@@ -23,7 +23,7 @@ from parameterStudies.plan import ParameterStudy
 
 class ParameterStudyFile(unittest.TestCase):
     def setUp(self):
-        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameter study-"))
+        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameterStudy-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
     def write(self, **settings):
@@ -119,25 +119,25 @@ class MistakenFiles(ParameterStudyFile):
                               ({"orificeDiameter": 1e-3}, "cannot pass orificeDiameter 0.001 m"),
                               ({"friction": "0.1; #include \"/etc/passwd\""}, "entry 'friction' cannot be"),
                               ({"fillMass": "().__class__"}, "'fillMass' is")):
-            self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), packings=[100003], runs={"one": {"sweep": values}})
+            self.write(case=str(REPOSITORY / "cases/tutorials/hopperQuick"), packings=[100003], runs={"one": {"sweep": values}})
             for command in ("check", "run"):
                 self.assertIn(words, self.refused(command))
             self.assertFalse((self.folder / "work").exists())
 
     def testMachinesOfSlurmAreNotThisOne(self):
         """More ranks than this machine can bear are refused here, and are none of its business where Slurm places them."""
-        self.write(case=str(REPOSITORY / "cases" / "hopperQuick"), packings=[100003], ranks=100000)
+        self.write(case=str(REPOSITORY / "cases/tutorials/hopperQuick"), packings=[100003], ranks=100000)
         self.assertIn("100000 ranks; allowed", self.refused())
         outcome = self.call("check", "--executor", "slurm")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
 
     def testAParameterStudyMayLieOutsideTheRepository(self):
-        """A copy of cases/tutorials/hopperDry: its base is found, and its work and results lie beside it."""
-        shutil.copy(REPOSITORY / "cases" / "hopperDry" / "case.yaml", self.folder / "test.yaml")
+        """A copy of cases/paper/reference.yaml: its base is found, and its work and results lie beside it."""
+        shutil.copy(REPOSITORY / "cases/paper/reference.yaml", self.folder / "test.yaml")
         outcome = self.call("check")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
         self.assertIn("37596 of 2 mm, 400 g", outcome.stdout)
-        self.assertEqual(self.parameterStudy().work, self.folder / "work")
+        self.assertEqual(self.parameterStudy().work, self.folder / "work/reference")
 
     def testASpaceInThePath(self):
         self.write(work="my work")

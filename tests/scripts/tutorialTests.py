@@ -1,0 +1,145 @@
+#!/usr/bin/python3
+"""The tutorials as a user of OpenFOAM meets them: copied elsewhere, started by Allrun or by hand. Runs the programs.
+
+usage: tutorialTests.py BUILD [unittest's options]
+"""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+BUILD = Path(sys.argv.pop(1)).resolve() if len(sys.argv) > 1 else REPOSITORY / "build"
+TUTORIALS = REPOSITORY / "cases/tutorials"
+# Of one folder each, by the programs that make their mesh; what they write; how long a run is here.
+BY_HAND = {
+    "settlingParticle": (["blockMesh"], "particleHeight/0/particleHeight.dat", "0.005"),
+    "fluidisedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
+    "hopperDry": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
+    "hopperSubmerged": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
+    "hopperFromSTL": (
+        ["surfaceFeatureExtract", "blockMesh", "snappyHexMesh -overwrite"],
+        "massInHopper/0/massInHopper.dat",
+        "0.01",
+    ),
+}
+MOST_LINES = 25  # of an Allrun
+
+
+class Tutorials(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory(prefix="clepsydra-tutorials-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def copied(self, name: str) -> Path:
+        """As git has it: without what a run has left in the repository."""
+        listed = ["git", "-C", str(TUTORIALS / name), "ls-files", "--cached", "--others", "--exclude-standard"]
+        for file in subprocess.run(listed, check=True, capture_output=True, text=True).stdout.split():
+            (self.folder / name / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(TUTORIALS / name / file, self.folder / name / file)
+        return self.folder / name
+
+    def shortened(self, name: str) -> Path:
+        case, end = self.copied(name), BY_HAND[name][2]
+        text = (case / "parameters").read_text()
+        text, count = re.subn(r"(?m)^endTime +[^;]+;", f"endTime {end};", text)
+        self.assertEqual(count, 1)
+        (case / "parameters").write_text(re.sub(r"(?m)^writeInterval +[^;]+;", f"writeInterval {end};", text))
+        return case
+
+    def typed(self, case: Path, commands: str, sourced: bool = True) -> str:
+        first = f". {REPOSITORY}/scripts/environment; " if sourced else ""
+        environment = {key: value for key, value in os.environ.items() if key not in ("CLEPSYDRA", "CLEPSYDRA_BUILD")}
+        outcome = subprocess.run(
+            ["bash", "-c", f"export CLEPSYDRA_BUILD={BUILD}; {first}set -e; {commands}"],
+            cwd=case,
+            env=environment,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
+        self.status = outcome.returncode
+        return outcome.stdout
+
+    def testEveryTutorialIsKnownHere(self) -> None:
+        found = {path.parent.name for path in TUTORIALS.glob("*/Allrun")}
+        self.assertEqual(found, {*BY_HAND, "hopperQuick"})
+
+    def testByHandInACopy(self) -> None:
+        """blockMesh (and what else a mesh needs), then pimpleDemFoam: to the end, with a table of the observable."""
+        for name, (mesh, table, end) in BY_HAND.items():
+            with self.subTest(name):
+                case = self.shortened(name)
+                said = self.typed(case, "; ".join([*mesh, "pimpleDemFoam"]))
+                self.assertEqual(self.status, 0, said[-2000:])
+                last = (case / "postProcessing" / table).read_text().splitlines()[-1].split()
+                self.assertAlmostEqual(float(last[0]), float(end))
+
+    def testAllrunInACopyAndAgain(self) -> None:
+        """The same by Allrun. Called again it does nothing again, or begins anew; Allclean leaves what was copied."""
+        for name in ("settlingParticle", "hopperDry"):
+            with self.subTest(name):
+                case = self.shortened(name)
+                before = sorted(case.rglob("*"))
+                for _ in range(2):
+                    said = self.typed(case, "./Allrun")
+                    self.assertEqual(self.status, 0, said[-2000:])
+                self.assertTrue((case / "postProcessing" / BY_HAND[name][1]).exists())
+                self.typed(case, "./Allclean")
+                self.assertEqual(sorted(case.rglob("*")), before)
+
+    def testCheckAndMistakes(self) -> None:
+        """`check` makes nothing; a mistake is told before anything is made, a program that fails with the end of its
+        log; without Clepsydra's environment a copy says what to do."""
+        for name in BY_HAND:
+            with self.subTest(name):
+                case = self.copied(name)
+                before = sorted(case.rglob("*"))
+                said = self.typed(case, "./Allrun check")
+                self.assertEqual(self.status, 0, said)
+                self.assertIn("; " if name != "settlingParticle" else "vessel: ", said)
+                text = (case / "parameters").read_text()
+                (case / "parameters").write_text(re.sub(r"(?m)^demStep +[^;]+;", "demStep 1;", text))
+                self.assertIn("demStep' is 1; allowed: ", self.typed(case, "./Allrun"))
+                self.assertNotEqual(self.status, 0)
+                (case / "parameters").write_text(text)
+                said = self.typed(case, "./Allrun", sourced=False)
+                self.assertIn("source its scripts/environment first", said)
+                self.assertEqual(sorted(case.rglob("*")), before)
+                if name == "fluidisedBed":
+                    (case / "system/blockMeshDict").write_text(
+                        "FoamFile { version 2.0; format ascii; class dictionary; }\n"
+                    )
+                    said = self.typed(case, "./Allrun")
+                    self.assertNotEqual(self.status, 0)
+                    self.assertIn("FOAM FATAL", said)
+                    self.assertIn("failed: see ", said)
+
+    def testAbsentProgramsAreNamed(self) -> None:
+        """A machine on which nothing is built yet: every Allrun says what to run, and installs nothing."""
+        for name in (*BY_HAND, "hopperQuick"):
+            with self.subTest(name):
+                said = self.typed(
+                    self.copied(name), f"export CLEPSYDRA_BUILD={self.folder}; PATH=/usr/bin:/bin; ./Allrun"
+                )
+                self.assertNotEqual(self.status, 0)
+                self.assertRegex(said, "there is no program 'pimpleDemFoam' here: run .*/scripts/setup")
+
+    def testAllrunsAreShortAndCallNoPackageManager(self) -> None:
+        for allrun in (REPOSITORY / "cases").rglob("Allrun"):
+            with self.subTest(str(allrun)):
+                text = allrun.read_text()
+                self.assertIsNone(re.search(r"\bapt|^\s*\S*scripts/setup", text, re.MULTILINE))
+                if TUTORIALS in allrun.parents:
+                    self.assertLessEqual(len(text.splitlines()), MOST_LINES)
+
+
+if __name__ == "__main__":
+    unittest.main()
