@@ -6,6 +6,7 @@
 # Set LIGGGHTS_ROOT for a copy of your own, with include/liggghts/ and lib/.
 
 include(FindPackageHandleStandardArgs)
+include(FindPackageMessage)
 find_package(MPI REQUIRED COMPONENTS CXX)
 
 find_path(LIGGGHTS_INCLUDE_DIR lammps.h PATH_SUFFIXES liggghts)
@@ -23,6 +24,12 @@ find_package_handle_standard_args(LIGGGHTS
     VERSION_VAR LIGGGHTS_VERSION
     REASON_FAILURE_MESSAGE "Run scripts/setup, or set LIGGGHTS_ROOT."
 )
+# The line above names the folder of the headers.
+if(LIGGGHTS_FOUND)
+    find_package_message(LIGGGHTS_library
+        "LIGGGHTS ${LIGGGHTS_VERSION}: headers in ${LIGGGHTS_INCLUDE_DIR}, library ${LIGGGHTS_LIBRARY}"
+        "[${LIGGGHTS_VERSION}][${LIGGGHTS_INCLUDE_DIR}][${LIGGGHTS_LIBRARY}]")
+endif()
 
 if(LIGGGHTS_FOUND AND NOT TARGET LIGGGHTS::liggghts)
     add_library(LIGGGHTS::liggghts UNKNOWN IMPORTED)

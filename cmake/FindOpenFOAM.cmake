@@ -3,7 +3,7 @@
 # Uses the environment that is sourced (ESI: WM_PROJECT_DIR, FOAM_LIBBIN), or else the distribution's libraries with the
 # headers that scripts/setup has fetched for them.
 #
-#   OpenFOAM_FOUND, OpenFOAM_VERSION (1912), OpenFOAM_ROOT (the folder that holds src/ and etc/)
+#   OpenFOAM_FOUND, OpenFOAM_VERSION (the API number, such as 2312), OpenFOAM_ROOT (the folder that holds src/ and etc/)
 #
 #   OpenFOAM::core            libOpenFOAM, libPstream
 #   OpenFOAM::surfaces        libfileFormats, libsurfMesh
@@ -16,13 +16,16 @@
 #   OpenFOAM::decomposition   libdecompositionMethods
 
 include(FindPackageHandleStandardArgs)
+include(FindPackageMessage)
 
 #--- Where it is -------------------------------------------------------------------------------------------------------
 
+# The version of the distribution's package, by which scripts/setup names the folder of its headers.
+file(STRINGS "${CMAKE_CURRENT_LIST_DIR}/../scripts/openfoamVersion" clepsydra_openfoam_version LIMIT_COUNT 1)
 if(DEFINED ENV{CLEPSYDRA_DEPENDENCIES})
-    set(_fetched "$ENV{CLEPSYDRA_DEPENDENCIES}/openfoam-1912")
+    set(_fetched "$ENV{CLEPSYDRA_DEPENDENCIES}/openfoam-${clepsydra_openfoam_version}")
 else()
-    set(_fetched "${PROJECT_SOURCE_DIR}/.dependencies/openfoam-1912")
+    set(_fetched "${PROJECT_SOURCE_DIR}/.dependencies/openfoam-${clepsydra_openfoam_version}")
 endif()
 
 set(_sourced "$ENV{WM_PROJECT_DIR}")
@@ -50,8 +53,14 @@ endif()
 find_package_handle_standard_args(OpenFOAM
     REQUIRED_VARS OpenFOAM_ROOT OpenFOAM_LIBRARY OpenFOAM_PSTREAM_LIBRARY
     VERSION_VAR OpenFOAM_VERSION
-    REASON_FAILURE_MESSAGE "Run scripts/setup, or source an OpenFOAM environment first."
+    REASON_FAILURE_MESSAGE "Looked for src/finiteVolume/lnInclude/fvCFD.H in ${_root}. Run scripts/setup, or source an OpenFOAM environment first."
 )
+# The line above names the folder of the headers. The libraries lie elsewhere where they are the distribution's.
+if(OpenFOAM_FOUND)
+    find_package_message(OpenFOAM_libraries
+        "OpenFOAM ${OpenFOAM_VERSION}: headers in ${OpenFOAM_ROOT}/src, libraries as ${OpenFOAM_LIBRARY}, ${OpenFOAM_PSTREAM_LIBRARY}"
+        "[${OpenFOAM_VERSION}][${OpenFOAM_ROOT}][${OpenFOAM_LIBRARY}][${OpenFOAM_PSTREAM_LIBRARY}]")
+endif()
 
 #--- What to compile and link with -------------------------------------------------------------------------------------
 

@@ -59,7 +59,7 @@ install(CODE "
     file(CREATE_LINK ../../lib/clepsydra \"\${shared}/build\" SYMBOLIC)
 ")
 # Debian's OpenFOAM has no etc/, without which none of its programs starts.
-install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-1912)
+install(DIRECTORY "${OpenFOAM_ROOT}/etc" DESTINATION ${_shared}/.dependencies/openfoam-${clepsydra_openfoam_version})
 
 include(CMakePackageConfigHelpers)
 set(modules ${_shared}/cmake)

@@ -39,7 +39,8 @@ class HopperCase(unittest.TestCase):
             self.program(root / "bin" / name, (SURROGATE / "meshTool").read_text())
         self.program(root / "bin" / "pimpleDemFoam", (SURROGATE / "pimpleDemFoam").read_text())
         self.program(root / "bin" / "xvfb-run", "#!/bin/sh\n")
-        etc = root / "dependencies" / "openfoam-1912" / "etc"
+        version = (REPOSITORY / "scripts" / "openfoamVersion").read_text().strip()
+        etc = root / "dependencies" / f"openfoam-{version}" / "etc"
         etc.mkdir(parents=True)
         (etc / "controlDict").touch()
         # only what a machine has, and the surrogates

@@ -12,11 +12,21 @@
 namespace clepsydra
 {
 
-void requireLiggghtsErrorReplacements()
+void replaceLiggghtsErrors()
 {
-    // The two that are called from everywhere; another build of LIGGGHTS may have no call of the others.
-    requireReplaced({"_ZN9LAMMPS_NS5Error3allEPKciS2_", "_ZN9LAMMPS_NS5Error3oneEPKciS2_"},
-        reinterpret_cast<const void*>(&lammps_open), reinterpret_cast<const void*>(&requireLiggghtsErrorReplacements));
+    // All the members below.
+    replaceFunctions(
+        {
+            "_ZN9LAMMPS_NS5Error3allEPKciS2_",
+            "_ZN9LAMMPS_NS5Error3oneEPKciS2_",
+            "_ZN9LAMMPS_NS5Error9fix_errorEPKciPNS_3FixES2_",
+            "_ZN9LAMMPS_NS5Error9fix_errorEPKciPNS_3FixES2_S2_",
+            "_ZN9LAMMPS_NS5Error13compute_errorEPKciPNS_7ComputeES2_",
+            "_ZN9LAMMPS_NS5Error12universe_allEPKciS2_",
+            "_ZN9LAMMPS_NS5Error12universe_oneEPKciS2_",
+            "_ZN9LAMMPS_NS5Error4doneEv",
+        },
+        reinterpret_cast<const void*>(&lammps_open), reinterpret_cast<const void*>(&replaceLiggghtsErrors));
 }
 
 } // namespace clepsydra

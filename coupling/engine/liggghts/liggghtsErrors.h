@@ -10,7 +10,8 @@ namespace clepsydra
 ///
 /// LIGGGHTS ends in members of its class Error alone: they print to its own log and call exit() or MPI_Abort(). Linking
 /// liggghtsErrors.cpp into the program replaces all of those members (the dynamic linker prefers the program's
-/// definition to the library's), so that the message reaches the caller with the place where it happened.
+/// definition to the library's; see replaceFunctions()), so that the message reaches the caller with the place where it
+/// happened.
 class LiggghtsStopped : public std::runtime_error
 {
 public:
@@ -30,7 +31,7 @@ private:
 };
 
 /// To be called before LIGGGHTS is.
-/// \throws DemEngineError where LIGGGHTS' library does not use the replacements
-void requireLiggghtsErrorReplacements();
+/// \throws DemEngineError where LIGGGHTS' library cannot be made to use the replacements
+void replaceLiggghtsErrors();
 
 } // namespace clepsydra

@@ -16,7 +16,7 @@ namespace clepsydra
 
 LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator)
 {
-    requireLiggghtsErrorReplacements();
+    replaceLiggghtsErrors();
     // The screen must go to a file: `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
     std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
     std::vector<char*> arguments;

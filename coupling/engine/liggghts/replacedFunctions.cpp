@@ -5,8 +5,13 @@
 #include <cxxabi.h>
 #include <dlfcn.h>
 #include <link.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <set>
 
@@ -114,23 +119,117 @@ std::string readable(const std::string& symbol)
     return status == 0 ? text.get() : symbol;
 }
 
+/// A function as the dynamic linker's tables have it.
+struct Function
+{
+    void* address = nullptr;
+    std::size_t size = 0;
+};
+
+/// The library's own, whatever other objects have under this name.
+Function functionOf(const LoadedObject& library, const std::string& symbol)
+{
+    // Loaded already: this only counts its users.
+    const auto close = [](void* handle) { dlclose(handle); };
+    const std::unique_ptr<void, decltype(close)> handle(dlopen(library.file.c_str(), RTLD_LAZY | RTLD_NOLOAD), close);
+    void* const address = handle ? dlsym(handle.get(), symbol.c_str()) : nullptr;
+    Dl_info info{};
+    void* entry = nullptr;
+    if (address == nullptr || dladdr1(address, &info, &entry, RTLD_DL_SYMENT) == 0 || entry == nullptr
+        || info.dli_fbase != library.base)
+    {
+        return {};
+    }
+    return {address, static_cast<const ElfW(Sym)*>(entry)->st_size};
+}
+
+/// Instructions that jump to a function, however far it lies. They use a register that no argument is passed in.
+std::vector<unsigned char> jumpTo(const void* function)
+{
+#if defined(__x86_64__)
+    std::vector<unsigned char> code{0x49, 0xbb, 0, 0, 0, 0, 0, 0, 0, 0, 0x41, 0xff, 0xe3}; // movabs r11; jmp *r11
+    std::memcpy(code.data() + 2, &function, sizeof function);
+    return code;
+#elif defined(__aarch64__)
+    std::vector<unsigned char> code{
+        0x50, 0, 0, 0x58, 0, 0x02, 0x1f, 0xd6, 0, 0, 0, 0, 0, 0, 0, 0}; // ldr x16, #8; br x16
+    std::memcpy(code.data() + 8, &function, sizeof function);
+    return code;
+#else
+    static_cast<void>(function);
+    return {};
+#endif
+}
+
+/// Lets a function of a library begin with a jump to another one, in this process's copy of the library.
+/// \return why that cannot be; empty where it is done
+std::string redirect(const Function& from, const void* to)
+{
+    const std::vector<unsigned char> code = jumpTo(to);
+    if (code.empty())
+    {
+        return "this program has no jump for this kind of processor";
+    }
+    if (from.size < code.size())
+    {
+        return "it has " + std::to_string(from.size) + " bytes, and a jump to another function takes "
+               + std::to_string(code.size());
+    }
+    if (std::memcmp(from.address, code.data(), code.size()) == 0)
+    {
+        return {};
+    }
+    const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
+    const auto address = reinterpret_cast<std::uintptr_t>(from.address);
+    const std::uintptr_t begin = address / page * page;
+    void* const pages = reinterpret_cast<void*>(begin); // NOLINT(performance-no-int-to-ptr)
+    const std::size_t length = address + code.size() - begin;
+    // Writable and executable at once: where the system forbids either, it does so here, before anything is changed.
+    if (mprotect(pages, length, PROT_READ | PROT_WRITE | PROT_EXEC) != 0)
+    {
+        return std::string("the system forbids to change it in memory (") + std::strerror(errno) + ")";
+    }
+    std::memcpy(from.address, code.data(), code.size());
+    auto* const first = static_cast<char*>(from.address);
+    __builtin___clear_cache(first, first + code.size());
+    mprotect(pages, length, PROT_READ | PROT_EXEC);
+    return {};
+}
+
 } // namespace
 
-void requireReplaced(const std::vector<std::string>& symbols, const void* inLibrary, const void* inReplacement)
+void replaceFunctions(const std::vector<std::string>& symbols, const void* inLibrary, const void* inReplacement)
 {
     const LoadedObject library = objectAt(inLibrary);
     const LoadedObject replacement = objectAt(inReplacement);
     const std::set<std::string> lookedUp = namesLookedUp(library);
+    const bool looksElsewhere = !prefersItself(library);
     for (const std::string& symbol : symbols)
     {
         const void* const found = dlsym(RTLD_DEFAULT, symbol.c_str());
         const bool isFirst = found != nullptr && objectAt(found).base == replacement.base;
-        if (!isFirst || lookedUp.count(symbol) == 0 || prefersItself(library))
+        if (isFirst && looksElsewhere && lookedUp.count(symbol) > 0)
+        {
+            continue;
+        }
+        const Function own = functionOf(library, symbol);
+        if (own.address == nullptr)
+        {
+            throw DemEngineError("The library " + library.file + " has no function " + readable(symbol)
+                                 + ", which this program replaces; allowed: LIGGGHTS 3.8");
+        }
+        const std::string obstacle =
+            isFirst ? redirect(own, found) : "a third library has a function of this name, which is found first";
+        if (!obstacle.empty())
         {
             throw DemEngineError(
                 "The library " + library.file + " calls its own " + readable(symbol)
-                + ", not this program's, which hands errors on: one would end the run without a word; allowed: a "
-                  "library linked without -Bsymbolic and -Bsymbolic-functions, as Debian's libliggghts3 is");
+                + ", not this program's, which hands errors on: one would end the run without a word. It cannot be "
+                  "replaced: "
+                + obstacle
+                + "; allowed: LIGGGHTS linked without -Bsymbolic and -Bsymbolic-functions, as Debian's libliggghts is. "
+                  "Ubuntu's is linked with the latter; to build it without, set "
+                  "DEB_LDFLAGS_STRIP=-Wl,-Bsymbolic-functions in the environment of apt-get source --build liggghts");
         }
     }
 }

@@ -1,0 +1,55 @@
+/// \file
+/// Checksums of dictionaries, which OpenFOAM takes of every function object.
+
+#include "IStringStream.H"
+#include "OStringStream.H"
+#include "SHA1.H"
+#include "dictionary.H"
+
+#include <gtest/gtest.h>
+
+#include <dlfcn.h>
+
+#include <string>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+/// The file that the dynamic linker takes a symbol from; empty where there is none.
+std::string originOf(const char* symbol)
+{
+    Dl_info info{};
+    const void* const address = dlsym(RTLD_DEFAULT, symbol);
+    return address != nullptr && dladdr(address, &info) != 0 ? info.dli_fname : "";
+}
+
+} // namespace
+
+/// The checksum that libOpenFOAM takes of a dictionary is that of its text. With libstdc++ 14 and OpenFOAM v1912 it
+/// ends with "error in IOstream sha1" where the stream's buffer does not take single characters.
+TEST(Checksums, AreThoseOfTheText)
+{
+    Foam::IStringStream text("type probes; fields (U p); points ((0 0 1)); more { a 'b'; c \"d e\"; }");
+    const Foam::dictionary dictionary(text);
+    Foam::OStringStream printed;
+    for (const Foam::entry& entry : dictionary)
+    {
+        printed << entry;
+    }
+    EXPECT_EQ(dictionary.digest().str(), Foam::SHA1(printed.str()).digest().str());
+}
+
+/// libOpenFOAM uses the buffer that takes single characters, on systems too where libstdc++ does not yet need it: the
+/// linker finds the table of virtual functions in the object that has this member. Where libOpenFOAM comes first, its
+/// table does, which in v1912 lacks it.
+TEST(Checksums, TakeSingleCharacters)
+{
+    const std::string origin = originOf("_ZN4Foam11osha1stream7sha1buf8overflowEi");
+    EXPECT_NE(origin, "");
+    EXPECT_EQ(originOf("_ZTVN4Foam11osha1stream7sha1bufE"), origin);
+}
+
+} // namespace clepsydra::tests
