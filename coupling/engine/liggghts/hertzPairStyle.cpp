@@ -2,6 +2,7 @@
 
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/quietRegistration.h"
 
 // What LIGGGHTS' headers below use and do not include
 #include <mpi.h>
@@ -40,7 +41,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -336,10 +336,8 @@ LIGGGHTS::PairStyles::IGranularPairStyle* create(lmp::LAMMPS* program, lmp::Pair
 
 void registerHertzPairStyle()
 {
-    // LIGGGHTS warns there that it knows the style already.
-    std::cerr.setstate(std::ios::failbit);
+    const QuietRegistration quiet;
     LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(HertzStyle::HASHCODE), &create);
-    std::cerr.clear();
 }
 
 } // namespace clepsydra
