@@ -2,6 +2,7 @@
 
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/quietRegistration.h"
 
 // Headers that LIGGGHTS' headers below use without including them.
 #include <mpi.h>
@@ -40,7 +41,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 #include <string>
 #include <vector>
 
@@ -337,10 +337,8 @@ LIGGGHTS::PairStyles::IGranularPairStyle* create(lmp::LAMMPS* program, lmp::Pair
 
 void registerHertzPairStyle()
 {
-    // LIGGGHTS would warn that the style is known already.
-    std::cerr.setstate(std::ios::failbit);
+    const QuietRegistration quiet;
     LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(HertzStyle::HASHCODE), &create);
-    std::cerr.clear();
 }
 
 } // namespace clepsydra

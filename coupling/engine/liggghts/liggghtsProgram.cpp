@@ -2,7 +2,9 @@
 
 #include "engine/demEngine.h"
 #include "engine/liggghts/floatingPointTraps.h"
+#include "engine/liggghts/librarySelfTest.h"
 #include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/quietRegistration.h"
 
 #include <input.h>
 #include <lammps.h>
@@ -17,6 +19,7 @@ namespace clepsydra
 LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator)
 {
     replaceLiggghtsErrors();
+    testLiggghtsLibrary();
     // The screen output must go to a file, because `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
     std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
     std::vector<char*> arguments;
@@ -27,6 +30,7 @@ LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm 
     }
     try
     {
+        const QuietRegistration quiet;
         program_ =
             std::make_unique<LAMMPS_NS::LAMMPS>(static_cast<int>(arguments.size()), arguments.data(), communicator);
     }

@@ -8,12 +8,15 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <set>
+#include <string_view>
+#include <unordered_set>
 
 namespace clepsydra
 {
@@ -83,24 +86,33 @@ private:
     const LoadedObject& object_;
 };
 
-/// The functions and data that an object leaves to the dynamic linker to find by name.
-std::set<std::string> namesLookedUp(const LoadedObject& object)
+/// Those of some functions that an object leaves to the dynamic linker to find by name.
+std::set<std::string_view> lookedUpOf(const std::vector<std::string>& functions, const LoadedObject& object)
 {
-    std::set<std::string> names;
     const DynamicSection dynamic(object);
+    std::vector<bool> isDone; // tables of virtual functions name most symbols many times
+    const std::unordered_set<std::string_view> wanted(functions.begin(), functions.end());
     const auto* const symbols = dynamic.table<ElfW(Sym)>(DT_SYMTAB);
     const auto* const texts = dynamic.table<char>(DT_STRTAB);
+    std::set<std::string_view> found;
     const auto add = [&](ElfW(Sxword) first, ElfW(Sxword) size) {
         const auto* const relocations = dynamic.table<ElfW(Rela)>(first);
         const std::size_t count = dynamic.value(size) / sizeof(ElfW(Rela));
         for (std::size_t i = 0; i < count; ++i)
         {
-            names.insert(texts + symbols[ELF64_R_SYM(relocations[i].r_info)].st_name);
+            const std::size_t symbol = ELF64_R_SYM(relocations[i].r_info);
+            isDone.resize(std::max(isDone.size(), symbol + 1));
+            const std::string_view name = isDone[symbol] ? "" : texts + symbols[symbol].st_name;
+            isDone[symbol] = true;
+            if (wanted.count(name) > 0)
+            {
+                found.insert(name);
+            }
         }
     };
     add(DT_RELA, DT_RELASZ);
     add(DT_JMPREL, DT_PLTRELSZ);
-    return names;
+    return found;
 }
 
 /// Looks up names in itself before anything else.
@@ -198,11 +210,16 @@ std::string redirect(const Function& from, const void* to)
 
 } // namespace
 
+std::string fileOfObjectAt(const void* address)
+{
+    return objectAt(address).file;
+}
+
 void replaceFunctions(const std::vector<std::string>& symbols, const void* inLibrary, const void* inReplacement)
 {
     const LoadedObject library = objectAt(inLibrary);
     const LoadedObject replacement = objectAt(inReplacement);
-    const std::set<std::string> lookedUp = namesLookedUp(library);
+    const std::set<std::string_view> lookedUp = lookedUpOf(symbols, library);
     const bool looksElsewhere = !prefersItself(library);
     for (const std::string& symbol : symbols)
     {

@@ -6,6 +6,10 @@
 namespace clepsydra
 {
 
+/// The file of the shared library, or of the program, that has this address.
+/// \throws DemEngineError where the dynamic linker knows none
+std::string fileOfObjectAt(const void* address);
+
 /// Makes a shared library call this program's functions in the place of its own ones of the same name.
 ///
 /// That is the dynamic linker's rule, unless the library was linked so that its calls are bound already (-Bsymbolic, or
