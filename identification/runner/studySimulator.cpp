@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -218,9 +219,11 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
             simulation.condition = order.condition;
             simulation.seed = runs[k].seed;
             simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
-            simulation.curve = simulation.plain.time.size() < 2
-                                   ? simulation.plain
-                                   : throughChain(simulation.plain, order.condition, order.setting);
+            simulation.curve = simulation.plain;
+            if (simulation.plain.time.size() >= 2)
+            {
+                simulation.curve = throughChain(std::move(simulation.curve), order.condition, order.setting);
+            }
             simulation.features = featuresOf(simulation.curve);
             ++effort_.runsByPurpose[order.purpose];
             effort_.seedsByPurpose[order.purpose].push_back(runs[k].seed);

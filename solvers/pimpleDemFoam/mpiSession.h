@@ -1,5 +1,7 @@
 #pragma once
 
+#include "run/scratchFolder.h"
+
 #include <mpi.h>
 
 namespace clepsydra
@@ -10,12 +12,18 @@ namespace clepsydra
 class MpiSession
 {
 public:
+    /// \throws std::runtime_error where it cannot start because of TMPDIR
     MpiSession()
     {
         int initialised = 0;
         MPI_Initialized(&initialised);
         if (!initialised)
         {
+#if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION >= 5
+            // Open MPI 5 keeps files in a folder of TMPDIR. Where it cannot make that folder, MPI_Init reports success all
+            // the same, and a later call ends the program by a signal.
+            const ScratchFolder canBeMade;
+#endif
             MPI_Init(nullptr, nullptr);
             startedHere_ = true;
         }

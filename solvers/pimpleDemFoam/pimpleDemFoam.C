@@ -20,6 +20,7 @@
 #include "uniformDimensionedFields.H"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 namespace
@@ -186,7 +187,15 @@ int main(int argc, char* argv[])
     }
 #include "setRootCase.H"
     const bool dryRun = args.found("dryRun");
-    const MpiSession mpi;
+    std::optional<MpiSession> mpi;
+    try
+    {
+        mpi.emplace();
+    }
+    catch (const std::exception& error)
+    {
+        FatalErrorInFunction << error.what() << exit(FatalError);
+    }
     chDir(args.globalPath());
     std::unique_ptr<CaseLock> lock;
     word start;
