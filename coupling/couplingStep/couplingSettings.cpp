@@ -19,8 +19,8 @@ namespace
 const ModelLines fluids(
     "fluid", {{"incompressible", "solved by PIMPLE"}, {"none", "DEM only: the particles move without fluid"}});
 const ModelLines momentumCouplings("momCoupleModels",
-    {{"implicitCouple", "the drag of the next coupling step is implicit in the fluid's equation"},
-        {"explicitCouple", "the fluid receives the drag afterwards; stable with short coupling steps only"}});
+    {{"implicitCouple", "the fluid's equation holds the drag of the next coupling step"},
+        {"explicitCouple", "the fluid receives the drag afterwards: short coupling steps only"}});
 
 /// Relative tolerance in comparisons of times, because decimal fractions are rounded.
 constexpr double sameTime = 1e-6;

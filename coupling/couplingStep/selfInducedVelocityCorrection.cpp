@@ -28,8 +28,8 @@ double latticePeak(double bandwidthSqr, double cellSize)
 constexpr double latticeBandwidthSqr = 0.126;
 
 const ModelLines selfInducedVelocityCorrections("selfInducedVelocityCorrection",
-    {{"off", "forces use the sampled velocity, with the particle's self-induced part (the default)"},
-        {"Oseen", "forces use the sampled velocity less the particle's self-induced velocity"}});
+    {{"off", "forces use the sampled velocity as it is (the default)"},
+        {"Oseen", "the self-induced velocity is subtracted from the sampled one"}});
 
 bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
 {

@@ -70,7 +70,7 @@ private:
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, ConstDiffSmoothing, dictionary);
 const ModelLines lines("smoothingModel",
-    {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of the given bandwidth, which does not pass walls"}});
+    {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of `bandwidth`, stopped by walls"}});
 
 } // namespace
 

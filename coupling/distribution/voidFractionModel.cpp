@@ -87,7 +87,7 @@ defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
 const ModelLines lines("voidFractionModel",
     {{Divided::typeName_(), "each cell holds the part of the sphere in it"},
-        {Centre::typeName_(), "the cell that holds the centre holds the whole particle; use with smoothing only"}});
+        {Centre::typeName_(), "the cell of the centre holds all of it; use with smoothing only"}});
 
 } // namespace
 

@@ -115,7 +115,7 @@ defineTypeNameAndDebug(Archimedes, 0);
 addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
 const ModelLines lines(
     "forceModels", {{PressureGradientForce::typeName_(),
-                        "pressure gradient force -V grad p, with p without its hydrostatic part (model A)"},
+                        "-V grad p, p without its hydrostatic part (model A)"},
                        {ViscousForce::typeName_(), "viscous force V div(tau) (model A)"},
                        {Archimedes::typeName_(), "buoyancy; necessary with either modelType"}});
 

@@ -132,7 +132,7 @@ private:
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
 const ModelLines lines("forceModels",
-    {{LubricationForce::typeName_(), "lubrication force between two particles, or a particle and a wall (Cox 1974)"}});
+    {{LubricationForce::typeName_(), "lubrication between particles and at walls (Cox 1974)"}});
 
 } // namespace
 

@@ -19,7 +19,7 @@ defineTypeNameAndDebug(ParticleFlux, 0);
 addToRunTimeSelectionTable(functionObject, ParticleFlux, dictionary);
 static const ModelLines lines("functions { type }",
     {{ParticleFlux::typeName_(),
-        "number, mass, momentum and rate of inserted particles and of those that leave through outlets"}});
+        "number, mass, momentum and rate of particles inserted or leaving"}});
 
 namespace
 {

@@ -509,7 +509,7 @@ TEST(Runner, SeveralFilesOfOneRun)
     const TemporaryFolder folder;
     folder.write("case/parameters", "x 0;\n");
     const Study study = readStudy(
-        folder.write("study.yaml", "study: s\nrig: { case: case, seed: none }\n"
+        folder.write("study.yaml", "study: s\nsimulator: { case: case, seed: none }\n"
                                    "observable: { file: a, time: t, value: m, features: [ { kind: residue } ] }\n"
                                    "conditions: [ { name: only, role: training } ]\n"));
     std::ostringstream progress;
