@@ -12,7 +12,7 @@ endif()
 
 # No -ffast-math: it lets the compiler assume that NaN does not occur, and our checks look for NaN.
 # No -march=native: loops that gain by wide vectors are compiled for several processors (vectorUnits.h), the rest gains little
-# (scripts/benchmarks/README.md, "Compiled for one processor"). Release is CMake's -O3 -DNDEBUG.
+# (scripts/developers/benchmarks/README.md, "Compiled for one processor"). Release is CMake's -O3 -DNDEBUG.
 
 # Messages name our sources from the repository's root on (OpenFOAM's errors quote __FILE__), wherever it was built. Debug
 # information keeps whole paths, by which a debugger finds the sources.

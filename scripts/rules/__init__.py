@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Callable
 
-from parameterFile import ParameterError, meant, parametersIn, shown
+from clepsydra.parameter_file import ParameterError, meant, parameters_in, shown
 
 
 @dataclass(frozen=True)
 class Rule:
-    allowed: str                    # in words
-    holds: Callable                 # of a value: a float or text
+    allowed: str  # in words
+    holds: Callable  # of a value: a float or text
 
 
 @dataclass
@@ -25,7 +25,9 @@ class Findings:
 
 def number(low, high, unit=""):
     of = f" [{unit}]" if unit else ""
-    return Rule(f"a number from {low:g} to {high:g}{of}", lambda value: isinstance(value, float) and low <= value <= high)
+    return Rule(
+        f"a number from {low:g} to {high:g}{of}", lambda value: isinstance(value, float) and low <= value <= high
+    )
 
 
 def length(low, high):
@@ -33,8 +35,10 @@ def length(low, high):
 
 
 def whole(low, high):
-    return Rule(f"a whole number from {low} to {high}",
-                lambda value: isinstance(value, float) and value.is_integer() and low <= value <= high)
+    return Rule(
+        f"a whole number from {low} to {high}",
+        lambda value: isinstance(value, float) and value.is_integer() and low <= value <= high,
+    )
 
 
 def oneOf(*words):
@@ -47,13 +51,15 @@ def check(case, text, folder, ranks, part, path):
     case: a module with RULES and findings; folder: where the case lies, whose files may have entries of their own; part: what
     of the case is wanted, as its Allrun calls it, or `all`; ranks: None where it is to run on another machine."""
     try:
-        p = parametersIn(text, path)
+        p = parameters_in(text, path)
     except ParameterError as problem:
         return Findings([str(problem)])
     found = Findings(alone(p, case.RULES, Path(folder)))
     if not found.problems:
         case.findings(text, p, ranks, part, found)
-    return Findings([f"{path}: {one}" for one in found.problems], [f"{path}: {one}" for one in found.warnings], found.facts)
+    return Findings(
+        [f"{path}: {one}" for one in found.problems], [f"{path}: {one}" for one in found.warnings], found.facts
+    )
 
 
 def alone(p, rules, folder):
@@ -72,7 +78,9 @@ def isReferredTo(name, case):
     """True where a file of the case has $name: then it is an entry of the user's own."""
     word = re.compile(rf"\$\{{?{name}\b")
     files = [path for part in ("0", "constant", "system", "DEM") for path in (case / part).glob("*")]
-    return any(word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("step.*")] if path.is_file())
+    return any(
+        word.search(path.read_text(errors="replace")) for path in [*files, *case.glob("step.*")] if path.is_file()
+    )
 
 
 def hint(value):

@@ -6,8 +6,8 @@ import os
 import subprocess
 from pathlib import Path
 
-import environment
-import seeds
+from clepsydra import environment
+from clepsydra import seeds
 from rules import Rule, length, number, oneOf, whole
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -18,13 +18,13 @@ RAYLEIGH_FRACTION = 0.4                 # of the DEM step, at most: as pimpleDem
 DENSEST_PACKING = 0.74
 FASTEST_IN_CELLS = 10                   # cells that a falling particle may pass in a coupling step; from 2 on a warning
 RANKS_PER_CORE = 4                      # more ranks than cores are slow, but may be wanted for a test
-# scripts/benchmarks/README.md
+# scripts/developers/benchmarks/README.md
 BYTES_PER_PARTICLE, BYTES_PER_CELL, BYTES_OF_PROGRAM = 2700, 2590, 87e6
 
 
 def isSeed(value):
     """Those from 10007 on are the particle templates'."""
-    return isinstance(value, float) and value.is_integer() and 11000 < value < 2**31 and seeds.isSeed(int(value))
+    return isinstance(value, float) and value.is_integer() and 11000 < value < 2**31 and seeds.is_seed(int(value))
 
 
 RULES = {
@@ -177,7 +177,7 @@ def checkHere(p, cells, ranks, needed, found):
 
 
 def seconds(p, cells, simulated):
-    """By the speeds of another machine, scripts/benchmarks/costModel.json: a run that has begun knows its own."""
-    costs = json.loads((REPOSITORY / "scripts" / "benchmarks" / "costModel.json").read_text())
+    """By the speeds of another machine, scripts/clepsydra/costModel.json: a run that has begun knows its own."""
+    costs = json.loads((REPOSITORY / "scripts" / "clepsydra" / "costModel.json").read_text())
     perInterval = costs["perParticle"] * p["particleCount"] + costs["perCell"] * cells + costs["perCell43"] * cells**(4 / 3)
     return simulated * (costs["perParticleStep"] * p["particleCount"] / p["demStep"] + perInterval * (cells > 0) / p["couplingTimeStep"])

@@ -11,7 +11,7 @@ import yaml
 HERE = Path(__file__).resolve().parent
 ROOT = next(folder for folder in HERE.parents if (folder / "scripts/environment").exists())
 sys.path.insert(0, str(ROOT / "scripts"))
-import caseFiles
+from clepsydra import case_files, parameter_file
 from undeclared import BY_NAME
 
 CASE = (HERE / yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]["case"]).resolve()
@@ -95,7 +95,7 @@ def measure(folder, condition, friction, effects, seed, random, numerics=NUMERIC
         if effect.mesh:
             effect.mesh(folder, a)
     allrun(folder, "filling", step)
-    time, mass = caseFiles.columns(folder / "steps" / step, "massInHopper")[:2]
+    time, mass = case_files.columns(folder / "steps" / step, "massInHopper")[:2]
     # a run ends early where the flow has stopped
     end = float(entries[{"dry": "dryTime", "submerged": "submergedTime"}[step]])
     if time[-1] < end:
@@ -119,8 +119,8 @@ def makeCase(folder, entries, acting):
     (folder / "summarise").symlink_to(CASE / "summarise")
     path = folder / "parameters"
     for changes in [lambda p: entries] + [lambda p, e=e, a=a: e.entries(p, a) for e, a in acting if e.entries]:
-        changed = {name: text(value) for name, value in changes(caseFiles.parameters(path)).items()}
-        path.write_text(caseFiles.withParameters(path.read_text(), changed))
+        changed = {name: text(value) for name, value in changes(parameter_file.parameters(path)).items()}
+        path.write_text(parameter_file.with_parameters(path.read_text(), changed))
     for effect, a in acting:
         if effect.files:
             effect.files(folder, a)
