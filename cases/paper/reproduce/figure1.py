@@ -6,6 +6,7 @@ import exit_flow
 import hopper_drawing
 import output
 import paper
+from matplotlib.ticker import MultipleLocator
 
 VIEW = (-0.016, 0.016, -0.009, 0.023)
 
@@ -16,7 +17,7 @@ def main(folder):
     for axes, step in zip(panels, paper.STEPS):
         particles = hopper_drawing.particles(axes, *exit_flow.slab(step), fastest, arrows=True)
         hopper_drawing.walls(axes)
-        axes.xaxis.set_major_locator(output.matplotlib.ticker.MultipleLocator(0.01))
+        axes.xaxis.set_major_locator(MultipleLocator(0.01))
         axes.set(xlim=VIEW[:2], ylim=VIEW[2:], aspect="equal", title=output.PANEL[step], xlabel="x [m]", ylabel="z [m]")
     figure.colorbar(particles, ax=panels[:2], label="speed [m/s]", shrink=0.8)
     rows = []

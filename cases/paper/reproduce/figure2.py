@@ -5,6 +5,7 @@
 import exit_flow
 import hopper_drawing
 import output
+from matplotlib.ticker import MultipleLocator
 from repository import hopper
 
 
@@ -20,7 +21,7 @@ def main(folder):
         ("particles d = 0.2 cm, seen 1 s after opening", 0, -0.076),
     ):
         axes.text(x, z, text, ha="center", fontsize=9)
-    axes.xaxis.set_major_locator(output.matplotlib.ticker.MultipleLocator(0.05))
+    axes.xaxis.set_major_locator(MultipleLocator(0.05))
     axes.set(aspect="equal", ylim=(-0.085, None), xlabel="x [m]", ylabel="z [m]")
     folder.picture(figure, "figure2")
     folder.numbers(

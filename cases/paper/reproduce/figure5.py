@@ -2,6 +2,7 @@
 """Figure 5: mass in the hopper against t - t_c for all frictions, dry and submerged, with the end magnified."""
 
 
+import matplotlib
 import numpy as np
 import output
 import paper
@@ -55,7 +56,7 @@ def newtonian(step):
 def colours(frictions):
     """From blue, nearly without friction, to red; as far apart as they can be, since two frictions may be close."""
     ordered = sorted(frictions)
-    return dict(zip(ordered, output.matplotlib.colormaps["turbo"](np.linspace(0.08, 0.92, len(ordered)))))
+    return dict(zip(ordered, matplotlib.colormaps["turbo"](np.linspace(0.08, 0.92, len(ordered)))))
 
 
 output.command(main, __doc__, ["fill100", "fill100start", "fill200"])
