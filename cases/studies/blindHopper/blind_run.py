@@ -7,18 +7,18 @@ from pathlib import Path
 
 import numpy as np
 import yaml
+from undeclared import BY_NAME
+
+from clepsydra import case_files, parameter_file
 
 HERE = Path(__file__).resolve().parent
 ROOT = next(folder for folder in HERE.parents if (folder / "scripts/environment").exists())
-sys.path.insert(0, str(ROOT / "scripts"))
-from clepsydra import case_files, parameter_file
-from undeclared import BY_NAME
 
 CASE = (HERE / yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]["case"]).resolve()
-NUMERICS = {"demStep": 2.5e-5, "smoothingBandwidth": 5e-3}     # not those of the study
-SCALE_NOISE = 1e-5                                          # [kg], standard deviation of every reading
-SAMPLING = 5e-3                                             # [s] between readings
-ATTEMPTS = 3                                                # of each measurement, with seeds of their own
+NUMERICS = {"demStep": 2.5e-5, "smoothingBandwidth": 5e-3}  # not those of the study
+SCALE_NOISE = 1e-5  # [kg], standard deviation of every reading
+SAMPLING = 5e-3  # [s] between readings
+ATTEMPTS = 3  # of each measurement, with seeds of their own
 CANDIDATE_REPEATS = 8
 
 
@@ -36,51 +36,64 @@ def candidates():
     return experiments("candidates.yaml", lambda one: CANDIDATE_REPEATS)
 
 
-def experiments(file, repeatsOf, roles=()):
+def experiments(file, repeats_of, roles=()):
     simulator = yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]
-    return {one["name"]: (one.get("command", simulator["command"]).split()[-1], {**simulator["set"], **one["set"]}, repeatsOf(one))
-            for one in yaml.safe_load((HERE / file).read_text())["conditions"] if not roles or one["role"] in roles}
+    return {
+        one["name"]: (
+            one.get("command", simulator["command"]).split()[-1],
+            {**simulator["set"], **one["set"]},
+            repeats_of(one),
+        )
+        for one in yaml.safe_load((HERE / file).read_text())["conditions"]
+        if not roles or one["role"] in roles
+    }
 
 
 def acts(effect, step):
     return effect.medium == "both" or effect.medium == {"dry": "air", "submerged": "water"}[step]
 
 
-def measureTo(target, folder, truth, label, run):
+def measure_to(target, folder, truth, label, run):
     """One file of a set; run: CONDITION_REPEAT. False where all attempts have failed."""
     effects = [(e["name"], e["amplitude"]) for e in truth["effects"]]
     for attempt, seed in enumerate(truth["seeds"][run]):
         random = np.random.default_rng([truth["noise"], seed])
         try:
-            time, mass = measure(folder, run.rsplit("_", 1)[0], truth["friction"], effects, seed, random, truth.get("numerics", NUMERICS))
+            time, mass = measure(
+                folder, run.rsplit("_", 1)[0], truth["friction"], effects, seed, random, truth.get("numerics", NUMERICS)
+            )
         except RunFailed:
             print(f"{label}: attempt {attempt + 1} failed", flush=True)
             continue
-        writeCsv(target, time, mass)
+        write_csv(target, time, mass)
         shutil.rmtree(folder)
         print(label, flush=True)
         return True
     return False
 
 
-def measureMissing(truth, data, work, label=""):
+def measure_missing(truth, data, work, label=""):
     """All files of a set that are not there. SystemExit where one has failed in all attempts."""
     for run in truth["seeds"]:
-        if not (data / f"{run}.csv").exists() and not measureTo(data / f"{run}.csv", work / run, truth, label + run, run):
+        if not (data / f"{run}.csv").exists() and not measure_to(
+            data / f"{run}.csv", work / run, truth, label + run, run
+        ):
             sys.exit(f"{label}{run} has failed {ATTEMPTS} times")
 
 
-def seedsOf(conditions, random):
+def seeds_of(conditions, random):
     """{CONDITION_REPEAT: seeds of its attempts}; random: of the standard library"""
-    return {f"{condition}_{repeat}": [prime(random) for _ in range(ATTEMPTS)]
-            for condition, (_, _, repeats) in conditions.items()
-            for repeat in range(1, repeats + 1)}
+    return {
+        f"{condition}_{repeat}": [prime(random) for _ in range(ATTEMPTS)]
+        for condition, (_, _, repeats) in conditions.items()
+        for repeat in range(1, repeats + 1)
+    }
 
 
 def prime(random):
     """LIGGGHTS asks for primes above 10000 as seeds."""
-    number = random.randrange(10007, 10 ** 8) | 1
-    while any(number % divisor == 0 for divisor in range(3, int(number ** 0.5) + 1, 2)):
+    number = random.randrange(10007, 10**8) | 1
+    while any(number % divisor == 0 for divisor in range(3, int(number**0.5) + 1, 2)):
         number += 2
     return number
 
@@ -89,7 +102,7 @@ def measure(folder, condition, friction, effects, seed, random, numerics=NUMERIC
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
     step, entries, _ = (conditions() | candidates())[condition]
     acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], step)]
-    makeCase(folder, {**entries, **numerics, "friction": friction, "seed": seed}, acting)
+    make_case(folder, {**entries, **numerics, "friction": friction, "seed": seed}, acting)
     allrun(folder, "mesh")
     for effect, a in acting:
         if effect.mesh:
@@ -107,7 +120,7 @@ def measure(folder, condition, friction, effects, seed, random, numerics=NUMERIC
     return readings, np.interp(readings, time, mass) + random.normal(0, SCALE_NOISE, len(readings))
 
 
-def makeCase(folder, entries, acting):
+def make_case(folder, entries, acting):
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for part in ("0", "constant", "system", "DEM", "parameters", *(path.name for path in CASE.glob("step.*"))):
@@ -115,7 +128,7 @@ def makeCase(folder, entries, acting):
         copy(CASE / part, folder / part)
     for rest in (folder / "constant/polyMesh", folder / "DEM/meshes"):
         shutil.rmtree(rest, ignore_errors=True)
-    (folder / "Allrun").symlink_to(CASE / "Allrun")         # which finds the repository through the link
+    (folder / "Allrun").symlink_to(CASE / "Allrun")  # which finds the repository through the link
     (folder / "summarise").symlink_to(CASE / "summarise")
     path = folder / "parameters"
     for changes in [lambda p: entries] + [lambda p, e=e, a=a: e.entries(p, a) for e, a in acting if e.entries]:
@@ -132,11 +145,13 @@ def text(value):
 
 def allrun(folder, *parts):
     with open(folder / "log", "a") as log:
-        if subprocess.run(["./Allrun", *parts], cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log).returncode:
+        if subprocess.run(
+            ["./Allrun", *parts], cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log
+        ).returncode:
             raise RunFailed(folder)
 
 
-def writeCsv(path, time, mass):
+def write_csv(path, time, mass):
     """Whole or not at all, with nothing in it but readings."""
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_name(path.name + ".unfinished")
