@@ -33,9 +33,9 @@ foreach(_program IN ITEMS pimpleDemFoam traceResidual closures)
     set(_page "${PROJECT_BINARY_DIR}/man/${_program}.1")
     add_custom_command(OUTPUT "${_page}"
         COMMAND ${CMAKE_COMMAND} -E make_directory "${PROJECT_BINARY_DIR}/man"
-        COMMAND "${PROJECT_SOURCE_DIR}/tests/support/inEnvironment" "${OpenFOAM_ROOT}" "${PROJECT_SOURCE_DIR}/cmake/manPage"
+        COMMAND "${PROJECT_SOURCE_DIR}/tests/support/inEnvironment" "${OpenFOAM_ROOT}" "${PROJECT_SOURCE_DIR}/cmake/man_page.py"
             "$<TARGET_FILE:${_target}>" ${_manual_of_${_program}} "${_page}" ${_more_of_${_program}}
-        DEPENDS ${_target} "${PROJECT_SOURCE_DIR}/cmake/manPage"
+        DEPENDS ${_target} "${PROJECT_SOURCE_DIR}/cmake/man_page.py"
         VERBATIM)
     list(APPEND _pages "${_page}")
 endforeach()

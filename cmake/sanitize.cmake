@@ -1,5 +1,5 @@
 # Our own code with sanitizers; the engines' libraries stay as they are. What these leak, and what their headers do, is
-# named in scripts/sanitizers.
+# named in scripts/developers/sanitizers.
 #
 #   CLEPSYDRA_SANITIZE   everything, with address, leak and undefined-behaviour sanitizers: scripts/sanitize
 #   CLEPSYDRA_FUZZ       the same for the fuzzers of tests/fuzz, which need clang: scripts/fuzz
@@ -14,7 +14,7 @@ if(CLEPSYDRA_SANITIZE OR CLEPSYDRA_FUZZ)
     add_link_options(-fsanitize=address,undefined)
 endif()
 if(CLEPSYDRA_SANITIZE)
-    add_library(keepLoaded OBJECT scripts/sanitizers/keepLoaded.cpp)
+    add_library(keepLoaded OBJECT scripts/developers/sanitizers/keepLoaded.cpp)
     link_libraries($<$<STREQUAL:$<TARGET_PROPERTY:TYPE>,EXECUTABLE>:$<TARGET_OBJECTS:keepLoaded>>)
 endif()
 if(CLEPSYDRA_FUZZ)

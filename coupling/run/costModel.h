@@ -14,7 +14,7 @@ namespace clepsydra
 /// exchange; all others, whose time depends on the cells of the mesh. The estimate is therefore valid on any machine
 /// and any number of ranks, and it takes changes of the number of particles and of the coupling step into account; it
 /// does not predict changes of the flow that change the cost of an iteration or a contact. (In
-/// scripts/benchmarks/costModel.py the last coefficient depends on the number of cells.)
+/// scripts/developers/benchmarks/cost_model.py the last coefficient depends on the number of cells.)
 class CostModel
 {
 public:

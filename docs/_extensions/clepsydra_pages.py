@@ -136,7 +136,7 @@ PAGES = {
     "coupling/README.md": "reference/index",
     "identification/README.md": "howTo/ownMeasurement",
     "meshes/README.md": "howTo/meshes",
-    "scripts/benchmarks/README.md": "benchmarks/index",
+    "scripts/developers/benchmarks/README.md": "benchmarks/index",
 }
 
 

@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 
-import wholeFiles
+from clepsydra import whole_files
 from parameterStudies.plan import ParameterStudyError
 from parameterStudies.task import isDone, onStop
 
@@ -26,7 +26,7 @@ def local(parameterStudy, cores):
         rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
                   # exec: the signals of make must reach the task, not a shell before it
                   "\t@exec " + shlex.join([COMMAND, "task", str(parameterStudy.path), name]).replace("$", "$$") + " 2>&1"]
-    wholeFiles.write(makefile, "\n".join(rules) + "\n")
+    whole_files.write(makefile, "\n".join(rules) + "\n")
     # without make's own words on what failed: the tasks say it themselves
     make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
                             cwd=parameterStudy.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
@@ -66,7 +66,7 @@ def submit(parameterStudy, names, ranks, before, options):
     """One job array. Its tasks find their names by the line of a list."""
     number = len(list(parameterStudy.work.glob("slurm.*.list")))
     listed = parameterStudy.work / f"slurm.{number}.list"
-    wholeFiles.write(listed, "\n".join(names) + "\n")
+    whole_files.write(listed, "\n".join(names) + "\n")
     name = f'"$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})"'
     # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
     script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(parameterStudy.path)])} {name}\n"

@@ -13,9 +13,9 @@ from pathlib import Path
 
 import yaml
 
-import arithmetic
-import case_rules
-import parameterFile
+from clepsydra import arithmetic
+from clepsydra import case_rules
+from clepsydra import parameter_file
 
 PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
@@ -55,7 +55,7 @@ class ParameterStudy:
             self._read(only)
             if missing:
                 self._dropPublished()
-        except parameterFile.ParameterError as problem:
+        except parameter_file.ParameterError as problem:
             raise ParameterStudyError(problem) from None
 
     def _read(self, only):
@@ -79,7 +79,7 @@ class ParameterStudy:
         self.template = readYaml(self.case / "template.yaml", TEMPLATE_ENTRIES,
                                  required=("shared", "steps", "seed", "summary"))
         self.derived = self.template.get("derived", {})
-        self.defaults = parameterFile.parameters(self.case / "parameters")
+        self.defaults = parameter_file.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
         self.common = self._derive(self.given)
         self.keepTimes = self._keepTimes()
@@ -152,7 +152,7 @@ class ParameterStudy:
         for name in given or {}:
             if name not in self.defaults and name not in self.derived:
                 known = [*self.defaults, *self.derived]
-                raise self._error(entry, name, f"the template's parameters{parameterFile.meant(str(name), known)}, which are "
+                raise self._error(entry, name, f"the template's parameters{parameter_file.meant(str(name), known)}, which are "
                                   + ", ".join(known))
         return {name: parameterValue(value) for name, value in (given or {}).items()}
 
@@ -174,7 +174,7 @@ class ParameterStudy:
             raise self._error("runs", runs, "a list of `name: { ... }`")
         unknown = [name for name in only or [] if name not in runs]
         if unknown:
-            raise ParameterStudyError(f"{self.path}: no run '{unknown[0]}'{parameterFile.meant(unknown[0], runs)}; there are: {', '.join(map(str, runs))}")
+            raise ParameterStudyError(f"{self.path}: no run '{unknown[0]}'{parameter_file.meant(unknown[0], runs)}; there are: {', '.join(map(str, runs))}")
         for name, entry in runs.items():
             if only and name not in only:
                 continue
@@ -236,11 +236,11 @@ class ParameterStudy:
         return tuple((made, task.name) for made in self.template["shared"][task.part]["makes"])
 
     def _resolved(self, overrides):
-        return parameterFile.parametersIn(self._text(overrides), self.case / "parameters")
+        return parameter_file.parameters_in(self._text(overrides), self.case / "parameters")
 
     def _text(self, overrides):
         path = self.case / "parameters"
-        return parameterFile.withParameters(parameterFile.read(path), overrides, path)
+        return parameter_file.with_parameters(parameter_file.read(path), overrides, path)
 
 
 def found(path, folder):
@@ -277,7 +277,7 @@ def readYaml(path, allowed, required):
     for name in found:
         if name not in allowed:
             raise ParameterStudyError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}"
-                                + parameterFile.meant(str(name), allowed))
+                                + parameter_file.meant(str(name), allowed))
     for name in required:
         if name not in found:
             raise ParameterStudyError(f"{path}: entry '{name}' is missing")

@@ -5,7 +5,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-import caseFiles
+from clepsydra import case_files
 from parameterStudies.task import attemptsOf, isDone, stepFolder, wallSeconds
 
 ORDER = ("done", "running", "stopped", "waiting", "blocked", "failed")
@@ -44,7 +44,7 @@ def progress(parameterStudy, task):
     """Simulated time, mass now and share done (guessed from the present rate); None before the first row."""
     end = parameterStudy.endTime(task)
     try:
-        now, mass, _, rate = caseFiles.columns(stepFolder(parameterStudy, task), "massInHopper")[:, -1]
+        now, mass, _, rate = case_files.columns(stepFolder(parameterStudy, task), "massInHopper")[:, -1]
     except (SystemExit, OSError, ValueError):
         return None
     left = end - now

@@ -16,9 +16,9 @@ import subprocess
 import time
 from pathlib import Path
 
-import caseFiles
-import parameterFile
-import wholeFiles
+from clepsydra import case_files
+from clepsydra import parameter_file
+from clepsydra import whole_files
 from parameterStudies.plan import ParameterStudyError
 
 # What a template's outputs are called, which must not be copied with it.
@@ -49,9 +49,9 @@ def execute(parameterStudy, task):
             if task.publish:
                 publish(parameterStudy, task)
         except (Exception, SystemExit) as problem:  # whatever it is, the other runs go on, and status shows it
-            wholeFiles.write(folder / "failed", f"{problem}\n")
+            whole_files.write(folder / "failed", f"{problem}\n")
             return 1
-        wholeFiles.write(folder / "done", "")
+        whole_files.write(folder / "done", "")
     return 0
 
 
@@ -59,7 +59,7 @@ def isDone(parameterStudy, task):
     """A run is not done once it is to last longer than it did."""
     folder, endTime = parameterStudy.folder(task), parameterStudy.template["steps"].get(task.part)
     return (folder / "done").exists() and (
-        endTime is None or parameterFile.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task))
+        endTime is None or parameter_file.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task))
 
 
 def hasEnded(parameterStudy, task):
@@ -71,7 +71,7 @@ def hasEnded(parameterStudy, task):
 
 def attempt(parameterStudy, task, attempts):
     note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
-    wholeFiles.write(parameterStudy.folder(task) / "parameters", parameterStudy.parameterText(task))
+    whole_files.write(parameterStudy.folder(task) / "parameters", parameterStudy.parameterText(task))
     status = runAllrun(parameterStudy, task)
     note(attempts, {"end": time.time(), "status": status})
     return status
@@ -82,7 +82,7 @@ def makeFolder(parameterStudy, task):
     the steps last."""
     folder = parameterStudy.folder(task)
     if folder.exists():
-        changed = [name for name in parameterFile.changedNames(parameterFile.parameters(folder / "parameters"), parameterStudy.parameters(task))
+        changed = [name for name in parameter_file.changed_names(parameter_file.parameters(folder / "parameters"), parameterStudy.parameters(task))
                    if name not in parameterStudy.template["steps"].values()]
         if changed:
             raise SystemExit(f"parameterStudy: {folder} was begun with other parameters than the parameter study's file has now "
@@ -94,7 +94,7 @@ def makeFolder(parameterStudy, task):
     for made, maker in task.links:
         (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
         (unfinished / made).symlink_to(parameterStudy.work / maker / made)
-    wholeFiles.settleTree(unfinished)
+    whole_files.settle_tree(unfinished)
     unfinished.rename(folder)
 
 
@@ -191,10 +191,10 @@ def publish(parameterStudy, task):
     """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
     parameterStudy.results.mkdir(parents=True, exist_ok=True)
     step = stepFolder(parameterStudy, task)
-    columns = caseFiles.columns(step, "massInHopper")
+    columns = case_files.columns(step, "massInHopper")
     last = columns.shape[1] - 1
     rows = columns.T[[*range(0, last, last // MOST_ROWS + 1), last]]
-    with wholeFiles.replacing(parameterStudy.results / f"{task.publish}.csv") as file:
+    with whole_files.replacing(parameterStudy.results / f"{task.publish}.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "mass [kg]", "particles [-]"])
         table.writerows((f"{t:.6g}", f"{m:.7g}", int(particles)) for t, m, particles, *_ in rows)
@@ -206,7 +206,7 @@ def publish(parameterStudy, task):
               "seed": parameters[parameterStudy.template["seed"]], "parameters": parameters,
               "packing": packing(parameterStudy, task), "code": codeVersions(step / "log.pimpleDemFoam"),
               "cost": cost(parameterStudy, task), "summary": json.loads(text)}
-    wholeFiles.write(parameterStudy.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
+    whole_files.write(parameterStudy.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
 
 
 def packing(parameterStudy, task):

@@ -7,7 +7,7 @@ usage: pages.py table BUILD                 each command of the pages has its ro
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
 A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a program
-(pageText.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
+(developers/page_text.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
 """
 
 import json
@@ -19,22 +19,21 @@ import sys
 import tempfile
 from pathlib import Path
 
-sys.dont_write_bytecode = True
 import yaml
 
-from pageText import ROOT, commands, links
+from developers.page_text import ROOT, commands, links
 
 TABLE = Path(__file__).with_name("commands.yaml")
-WORDS_OF_FRONT_PAGE = 900       # one screen: what is more belongs on the page beside what it describes
+WORDS_OF_FRONT_PAGE = 900  # one screen: what is more belongs on the page beside what it describes
 KINDS = ("run", "long", "test")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
 def main():
     if len(sys.argv) == 3 and sys.argv[1] == "table":
-        checkTable(Path(sys.argv[2]))
+        check_table(Path(sys.argv[2]))
     elif len(sys.argv) in (5, 6) and sys.argv[1] == "run":
-        runPage(sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4]), "long" if sys.argv[5:] == ["--long"] else "run")
+        run_page(sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4]), "long" if sys.argv[5:] == ["--long"] else "run")
     else:
         sys.exit(__doc__)
 
@@ -46,7 +45,7 @@ def pages():
     return {page: (ROOT / page).read_text() for page in found if page != "CHANGELOG.md" and not made.match(page)}
 
 
-def readTable():
+def read_table():
     table = yaml.safe_load(TABLE.read_text())
     for page, rows in table.items():
         for command, row in rows.items():
@@ -55,45 +54,59 @@ def readTable():
     return table
 
 
-def checkTable(build):
-    table, wrong = readTable(), []
-    registered = registeredTests(build)
+def check_table(build):
+    table, wrong = read_table(), []
+    registered = registered_tests(build)
     words = len((ROOT / "README.md").read_text().split())
     if words > WORDS_OF_FRONT_PAGE:
         wrong.append(f"README.md: {words} words; allowed: {WORDS_OF_FRONT_PAGE}")
     for page, text in pages().items():
-        wrong += [f"{page}: its link '{link}' leads to no file" for link in links(text) if not (ROOT / page).parent.joinpath(link).exists()]
+        wrong += [
+            f"{page}: its link '{link}' leads to no file"
+            for link in links(text)
+            if not (ROOT / page).parent.joinpath(link).exists()
+        ]
         found, rows = commands(page, text), table.pop(page, {})
         wrong += [f"{page}: '{command}' has no row" for command in found if command not in rows]
         wrong += [f"{page}: '{command}' is not on the page" for command in rows if command not in found]
-        wrong += [f"{page}: '{command}': there is no test '{test}'" for command, row in rows.items()
-                  for test in row.get("test", []) if test not in registered]
+        wrong += [
+            f"{page}: '{command}': there is no test '{test}'"
+            for command, row in rows.items()
+            for test in row.get("test", [])
+            if test not in registered
+        ]
     wrong += [f"{page}: is no page" for page in table]
     if wrong:
         raise SystemExit("pages, commands.yaml:\n  " + "\n  ".join(wrong))
 
 
-def registeredTests(build):
+def registered_tests(build):
     """With those that run in `ctest -C long` only."""
-    shown = subprocess.run(["ctest", "--test-dir", build, "-C", "long", "--show-only=json-v1"], check=True, capture_output=True, text=True)
+    shown = subprocess.run(
+        ["ctest", "--test-dir", build, "-C", "long", "--show-only=json-v1"], check=True, capture_output=True, text=True
+    )
     return {test["name"] for test in json.loads(shown.stdout)["tests"]}
 
 
-def runPage(page, build, headers, kind):
-    rows = readTable()[page]
+def run_page(page, build, headers, kind):
+    rows = read_table()[page]
     with tempfile.TemporaryDirectory(prefix="clepsydra-pages-") as folder:
-        home = copyRepository(Path(folder) / "clepsydra")
-        linkBuild(home / "build", build)
+        home = copy_repository(Path(folder) / "clepsydra")
+        link_build(home / "build", build)
         (home / ".dependencies").symlink_to(headers)
         failed = [command for command, row in rows.items() if kind in row and not works(command, row, kind, home, page)]
     if failed:
         raise SystemExit(f"{page}: as documented, these fail: " + "; ".join(failed))
 
 
-def copyRepository(home):
+def copy_repository(home):
     """The files as they are now, without what git ignores, and a git of their own: some commands ask it what is committed."""
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"], check=True,
-                            capture_output=True, text=True).stdout.split("\0")
+    listed = subprocess.run(
+        ["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout.split("\0")
     subprocess.run(["git", "clone", "--quiet", "--shared", "--no-checkout", ROOT, home], check=True)
     subprocess.run(["git", "-C", home, "reset", "--quiet"], check=True)
     for name in filter(None, listed):
@@ -103,13 +116,15 @@ def copyRepository(home):
     return home
 
 
-def linkBuild(folder, build):
+def link_build(folder, build):
     """What was built, as a build that is up to date: scripts/setup must not build again beneath the other tests."""
     folder.mkdir()
     for part in ("bin", "lib"):
         (folder / part).symlink_to(build / part)
-    (folder / "CMakeCache.txt").write_text("CMAKE_PROJECT_NAME:STATIC=clepsydra\nCMAKE_GENERATOR:INTERNAL=Ninja\n"
-                                           f"CMAKE_MAKE_PROGRAM:FILEPATH={shutil.which('ninja')}\n")
+    (folder / "CMakeCache.txt").write_text(
+        "CMAKE_PROJECT_NAME:STATIC=clepsydra\nCMAKE_GENERATOR:INTERNAL=Ninja\n"
+        f"CMAKE_MAKE_PROGRAM:FILEPATH={shutil.which('ninja')}\n"
+    )
     (folder / "build.ninja").write_text("build all: phony\nbuild programs: phony\n")
     (folder / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
 
@@ -123,9 +138,15 @@ def works(command, row, kind, home, page):
         typed = typed.replace(word, by)
     script = row[kind].replace("{}", typed)
     print(f"--- {page}: {command}\n{script}", flush=True)
-    outcome = subprocess.run(["bash", "-c", "set -e\n" + script], cwd=home / row.get("in", "."), text=True,
-                             stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                             env={"HOME": os.environ["HOME"], "PATH": PATH, "TERM": "dumb"})
+    outcome = subprocess.run(
+        ["bash", "-c", "set -e\n" + script],
+        cwd=home / row.get("in", "."),
+        text=True,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        env={"HOME": os.environ["HOME"], "PATH": PATH, "TERM": "dumb"},
+    )
     print(outcome.stdout, flush=True)
     if outcome.returncode != row.get("status", 0):
         print(f"exit status {outcome.returncode}, not {row.get('status', 0)}")
@@ -136,4 +157,5 @@ def works(command, row, kind, home, page):
     return True
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -16,18 +16,16 @@ SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 ALLRUN = """#!/usr/bin/python3
 import json, os, sys
 from pathlib import Path
-sys.dont_write_bytecode = True
 os.chdir(Path(__file__).parent)
-sys.path.insert(0, "../../../scripts")
-import validation
+from clepsydra import validation
 asked = json.loads(Path("asked.json").read_text())
 if isinstance(asked, int):
     sys.exit(asked)
 validation.write([validation.row("v", "m/s", 2, "a formula", "computed", **asked)] if asked else [])
 """
 # 10 % above the reference of 2, known to .5 % of it from one repeat to the next
-FINDING = {"ours": 2.2, "uncertainty": 0.3, "repeats": 0.01, "tolerancePercent": 5, "finding": "soft particles"}
-AGREEING = {"ours": 2.01, "uncertainty": 0.01, "tolerancePercent": 5}
+FINDING = {"ours": 2.2, "uncertainty": 0.3, "repeats": 0.01, "tolerance_percent": 5, "finding": "soft particles"}
+AGREEING = {"ours": 2.01, "uncertainty": 0.01, "tolerance_percent": 5}
 
 
 class Findings(unittest.TestCase):
@@ -36,8 +34,8 @@ class Findings(unittest.TestCase):
         self.addCleanup(shutil.rmtree, root)
         self.cases = root / "cases" / "validation"
         (root / "scripts").mkdir()
-        for name in ("validate", "validation.py", "wholeFiles.py"):
-            shutil.copy(SCRIPTS / name, root / "scripts")
+        shutil.copy(SCRIPTS / "validate", root / "scripts")
+        shutil.copytree(SCRIPTS / "clepsydra", root / "scripts" / "clepsydra")
         self.program = root / "scripts" / "validate"
         for name in ("one", "other"):
             (self.cases / name).mkdir(parents=True)
@@ -56,69 +54,71 @@ class Findings(unittest.TestCase):
         outcome = self.validate("--record")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
 
-    def assertFails(self, pattern):
+    def assert_fails(self, pattern):
         outcome = self.validate()
         self.assertEqual(outcome.returncode, 1, outcome.stdout)
         self.assertRegex(outcome.stderr, pattern)
 
-    def testAFindingHoldsOnceItIsRecorded(self):
-        self.assertFails(r"one, v: \+10\.00 % is more than the 5 % allowed, and this finding is not recorded")
+    def test_a_finding_holds_once_it_is_recorded(self):
+        self.assert_fails(r"one, v: \+10\.00 % is more than the 5 % allowed, and this finding is not recorded")
         self.record()
         again = self.validate()
         self.assertEqual(again.returncode, 0, again.stderr)
         self.assertRegex(again.stdout, r"one +v .*\+10\.00 \+- 2\.121 +finding")
         self.assertRegex(again.stdout, r"other +v .*\+0\.00 \+- 5 +yes")
 
-    def testAFindingThatChangesIsNews(self):
+    def test_a_finding_that_changes_is_news(self):
         """By three standard errors of the two repeats, 2.1 %, and not of the reference, which would allow 60 %."""
         self.record()
         self.ask(one=FINDING | {"ours": 2.24})
         self.assertEqual(self.validate().returncode, 0)
         for changed in (2.25, 2.15, 3, 1):
             self.ask(one=FINDING | {"ours": changed})
-            self.assertFails(r"one, v: .* % is not the finding that is recorded, \+10\.00 \+- 2\.12 %")
+            self.assert_fails(r"one, v: .* % is not the finding that is recorded, \+10\.00 \+- 2\.12 %")
 
-    def testAFindingThatAgreesAtLastIsNews(self):
+    def test_a_finding_that_agrees_at_last_is_news(self):
         self.record()
         self.ask(one=FINDING | {"ours": 2})
-        self.assertFails(r"one, v: \+0\.00 % is not the finding")
+        self.assert_fails(r"one, v: \+0\.00 % is not the finding")
 
-    def testARowThatNoLongerAgreesFails(self):
+    def test_a_row_that_no_longer_agrees_fails(self):
         self.record()
         self.ask(other=AGREEING | {"ours": 2.2})
-        self.assertFails("other, v: .* nothing explains it")
+        self.assert_fails("other, v: .* nothing explains it")
         self.ask(other=FINDING)
-        self.assertFails("other, v: .* this finding is not recorded")
+        self.assert_fails("other, v: .* this finding is not recorded")
 
-    def testARowThatIsNoLongerComparedIsMissed(self):
+    def test_a_row_that_is_no_longer_compared_is_missed(self):
         self.record()
         self.ask(other={})
-        self.assertFails("other, v: is recorded, but was not compared")
+        self.assert_fails("other, v: is recorded, but was not compared")
 
-    def testWhatNothingExplainsIsNotRecorded(self):
+    def test_what_nothing_explains_is_not_recorded(self):
         self.ask(other=AGREEING | {"ours": 3})
         self.assertEqual(self.validate("--record").returncode, 1)
         self.assertFalse((self.cases / "quickResults.json").exists())
 
-    def testTheRecordOfACaseThatDidNotRunStays(self):
+    def test_the_record_of_a_case_that_did_not_run_stays(self):
         self.record()
         self.ask(one=77)
         self.assertEqual(self.validate("--record").returncode, 0)
         self.ask(one=FINDING)
         self.assertEqual(self.validate().returncode, 0)
 
-    def testACaseThatFailsFailsAndOneLeftOutDoesNot(self):
+    def test_a_case_that_fails_fails_and_one_left_out_does_not(self):
         self.ask(one=77)
         self.assertEqual(self.validate().returncode, 0)
         self.assertEqual(self.validate("one").returncode, 77)
         self.ask(one=1)
-        self.assertFails("one did not run to its end")
+        self.assert_fails("one did not run to its end")
 
-    def testWhatIsCommittedExplainsEachRowThatDoesNotAgree(self):
+    def test_what_is_committed_explains_each_row_that_does_not_agree(self):
         for name in ("results.json", "quickResults.json"):
             for found in json.loads((SCRIPTS.parent / "cases" / "validation" / name).read_text()):
                 self.assertTrue(found["holds"] and (found["agrees"] or "finding" in found), (name, found["quantity"]))
-                self.assertEqual(found["agrees"], abs(found["errorPercent"]) <= found["tolerancePercent"], found["quantity"])
+                self.assertEqual(
+                    found["agrees"], abs(found["errorPercent"]) <= found["tolerancePercent"], found["quantity"]
+                )
 
 
 unittest.main()

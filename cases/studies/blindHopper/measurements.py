@@ -13,7 +13,7 @@ HEADER = "t_s,m_g"  # of a discharge
 HEADER_OF_SET = "condition,repeat," + HEADER
 
 
-def setFile(name: str) -> Path:
+def set_file(name: str) -> Path:
     return DATA / f"{name}.csv"
 
 
@@ -23,11 +23,11 @@ def folder(name: str) -> Path:
 
 def discharges(name: str) -> Dict[str, str]:
     """{CONDITION_REPEAT: text of its CSV file} of a set; empty where the set has not been measured."""
-    if not setFile(name).exists():
+    if not set_file(name).exists():
         return {}
-    header, *rows = setFile(name).read_text().splitlines()
+    header, *rows = set_file(name).read_text().splitlines()
     if header != HEADER_OF_SET:
-        raise SystemExit(f"{setFile(name)}: the first line is '{header}'; allowed is '{HEADER_OF_SET}'")
+        raise SystemExit(f"{set_file(name)}: the first line is '{header}'; allowed is '{HEADER_OF_SET}'")
     texts: Dict[str, List[str]] = {}
     for row in rows:
         condition, repeat, reading = row.split(",", 2)
@@ -47,18 +47,18 @@ def unpack(name: str) -> Path:
 def join(name: str) -> None:
     """Writes data/SET.csv from the files of the discharges: whole or not at all."""
     rows = [HEADER_OF_SET]
-    for path in sorted(folder(name).glob("*_*.csv"), key=conditionAndRepeat):
-        condition, repeat = conditionAndRepeat(path)
+    for path in sorted(folder(name).glob("*_*.csv"), key=condition_and_repeat):
+        condition, repeat = condition_and_repeat(path)
         header, *readings = path.read_text().splitlines()
         if header != HEADER:
             raise SystemExit(f"{path}: the first line is '{header}'; allowed is '{HEADER}'")
         rows += [f"{condition},{repeat},{reading}" for reading in readings]
     DATA.mkdir(exist_ok=True)
-    unfinished = setFile(name).with_suffix(".unfinished")
+    unfinished = set_file(name).with_suffix(".unfinished")
     unfinished.write_text("\n".join(rows) + "\n")
-    unfinished.rename(setFile(name))
+    unfinished.rename(set_file(name))
 
 
-def conditionAndRepeat(path: Path) -> Tuple[str, int]:
+def condition_and_repeat(path: Path) -> Tuple[str, int]:
     condition, repeat = path.stem.rsplit("_", 1)
     return condition, int(repeat)

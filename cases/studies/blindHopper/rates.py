@@ -2,47 +2,55 @@
 
 import math
 
-NORMAL = 1.959964   # standard deviations to either side of 95 %
-DRAWS = {"first": range(1, 9), "second": range(9, 17), "third": range(17, 1000)}     # numbers of sets drawn together
+NORMAL = 1.959964  # standard deviations to either side of 95 %
+DRAWS = {"first": range(1, 9), "second": range(9, 17), "third": range(17, 1000)}  # numbers of sets drawn together
 
 
 def rates(score):
     """{draw: {name: rate}} of each draw that has been opened, and of all together."""
-    drawn = {draw: [one for one in score if drawOf(one["set"]) == draw] for draw in DRAWS}
-    return {draw: ratesOf(some) for draw, some in (drawn | {"all": score}).items() if some}
+    drawn = {draw: [one for one in score if draw_of(one["set"]) == draw] for draw in DRAWS}
+    return {draw: rates_of(some) for draw, some in (drawn | {"all": score}).items() if some}
 
 
-def drawOf(name):
+def draw_of(name):
     return next(draw for draw, numbers in DRAWS.items() if int(name[3:]) in numbers)
 
 
-def ratesOf(score):
+def rates_of(score):
     nulls = [one for one in score if one["kind"] == "null"]
     outside = [one for one in score if one["kind"] == "outside"]
     effects = [one for one in score if one["kind"] not in ("null", "outside")]
-    found = [one for one in effects if isResidual(one)]
+    found = [one for one in effects if is_residual(one)]
     alone = [one for one in found if one["decision"] == "named"]
-    foundOutside = [one for one in outside if isResidual(one)]
+    found_outside = [one for one in outside if is_residual(one)]
     better = [one for one in found if one["heldOut"]["after"]]
-    errors = {name: mean(one["heldOut"][key]["value"] for one in better) for name, key in
-              (("heldOutErrorBefore", "before"), ("heldOutErrorAfter", "after"),
-               ("heldOutErrorOneMoreParameter", "oneMoreParameter"))}
+    errors = {
+        name: mean(one["heldOut"][key]["value"] for one in better)
+        for name, key in (
+            ("heldOutErrorBefore", "before"),
+            ("heldOutErrorAfter", "after"),
+            ("heldOutErrorOneMoreParameter", "oneMoreParameter"),
+        )
+    }
     return {
-        "falseAlarms": share(map(isResidual, nulls)),
-        "detected": share(map(isResidual, effects)),
+        "falseAlarms": share(map(is_residual, nulls)),
+        "detected": share(map(is_residual, effects)),
         "top1": share(best(one) == true(one) for one in found),
         "truthInSet": share(one["truthInSet"] for one in found),
         "meanSetSize": mean(len(one["answer"]) for one in found),
         "namedAlone": share(one in alone for one in found),
         "namedAloneRight": share(one["verdict"] == "right" for one in alone),
-        "wrongNameOutOfLibrary": share(one["decision"] == "named" for one in foundOutside),
-        "abstainedOutOfLibrary": share(one["decision"] == "unknown" or one["somethingElseInSet"] for one in foundOutside),
+        "wrongNameOutOfLibrary": share(one["decision"] == "named" for one in found_outside),
+        "abstainedOutOfLibrary": share(
+            one["decision"] == "unknown" or one["somethingElseInSet"] for one in found_outside
+        ),
         "coverage95": share(covers(size) for one in found for size in one["amplitudes"]),
         **errors,
-        "runsPerDataSet": mean(one["runs"] for one in score)}
+        "runsPerDataSet": mean(one["runs"] for one in score),
+    }
 
 
-def isResidual(one):
+def is_residual(one):
     return one["decision"] != "noResidual"
 
 
@@ -67,7 +75,7 @@ def share(hits):
     n = len(hits)
     if n == 0:
         return {"share": None, "count": 0, "of": 0, "interval95": None}
-    p, z = sum(hits) / n, NORMAL ** 2 / n
+    p, z = sum(hits) / n, NORMAL**2 / n
     middle, half = (p + z / 2) / (1 + z), math.sqrt(z * (p * (1 - p) + z / 4)) / (1 + z)
     return {"share": p, "count": sum(hits), "of": n, "interval95": [middle - half, middle + half]}
 

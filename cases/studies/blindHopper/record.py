@@ -73,7 +73,7 @@ def write(files: Dict[str, bytes], archive: Path = ARCHIVE) -> None:
 def hashes(file: Path) -> Dict[str, str]:
     """{path: hash} of a file as sha256sum writes it."""
     lines = file.read_text().splitlines() if file.exists() else []
-    return {path: digestOfLine for digestOfLine, path in (line.split() for line in lines)}
+    return {path: digest_of_line for digest_of_line, path in (line.split() for line in lines)}
 
 
 def digest(content: bytes) -> str:

@@ -6,12 +6,12 @@ import os
 import subprocess
 from pathlib import Path
 
-import oldNames
+import old_names
 import record
 
 HERE = Path(__file__).resolve().parent
-SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "sealed"))     # SET.json.enc of what has not been opened
-HASHES = HERE / "truth.sha256"      # lines "hash  truth/SET.json"; the first eight had one more, of a file of them all
+SEALED = Path(os.environ.get("BLIND_SEALED", HERE / "sealed"))  # SET.json.enc of what has not been opened
+HASHES = HERE / "truth.sha256"  # lines "hash  truth/SET.json"; the first eight had one more, of a file of them all
 OPENED = HERE / "truth"
 
 
@@ -45,14 +45,14 @@ def unsealed(name):
     return cipher(name, sealed, "-d")
 
 
-def isSealedFileKept(name):
+def is_sealed_file_kept(name):
     """The sealed files of the first two draws were never committed."""
     return (SEALED / f"{name}.json.enc").exists() or f"sealed/{name}.json.enc" in record.archived()
 
 
-def truthOf(part):
+def truth_of(part):
     """What is in a set, with today's names."""
-    return oldNames.today(json.loads(part))
+    return old_names.today(json.loads(part))
 
 
 def committed():
@@ -60,11 +60,11 @@ def committed():
     return record.hashes(HASHES)
 
 
-def setNames():
-    return [name[len("truth/"):-len(".json")] for name in committed() if name.startswith("truth/")]
+def set_names():
+    return [name[len("truth/") : -len(".json")] for name in committed() if name.startswith("truth/")]
 
 
-def isOpen(name):
+def is_open(name):
     return record.read(f"truth/{name}.json") is not None
 
 
@@ -74,7 +74,7 @@ def open(name):
     part = record.read(f"truth/{name}.json") or unsealed(name)
     if hashlib.sha256(part).hexdigest() != committed()[f"truth/{name}.json"]:
         raise SystemExit(f"{path}: this is not what was sealed: its hash is not that of {HASHES}")
-    if not isOpen(name):
+    if not is_open(name):
         OPENED.mkdir(exist_ok=True)
         path.write_bytes(part)
-    return truthOf(part)
+    return truth_of(part)

@@ -5,20 +5,19 @@ import re
 import subprocess
 from pathlib import Path
 
-import yaml
-
 import measurements
-import oldNames
+import old_names
 import record
+import yaml
 
 HERE = Path(__file__).resolve().parent
 
 
-def study(replaced, further="", heldOut=True):
+def study(replaced, further="", held_out=True):
     """replaced: {text: by what}; further: blocks of conditions."""
     text = (HERE / "study.yaml").read_text()
     for name, block in conditions("study.yaml").items():
-        if not heldOut and "role: heldOut" in block:
+        if not held_out and "role: heldOut" in block:
             text = text.replace(block, "")
     text = text.replace("\nparameters:", further + "\nparameters:")
     for old, new in replaced.items():
@@ -26,16 +25,16 @@ def study(replaced, further="", heldOut=True):
     return text
 
 
-def report(traceResidual, results, file, text):
+def report(trace_residual, results, file, text):
     """What traceResidual says of a study; from the report, where there is one. file: a name for the study."""
     path = str((results / "report.json").relative_to(HERE))
     if record.read(path) is None:
         (HERE / file).write_text(text)
-        subprocess.run([traceResidual, "run", "--output", results, HERE / file], check=True)
-    return oldNames.today(json.loads(record.answer(path)))
+        subprocess.run([trace_residual, "run", "--output", results, HERE / file], check=True)
+    return old_names.today(json.loads(record.answer(path)))
 
 
-def measuredBy(name):
+def measured_by(name):
     """What makes the study that of a set: {text: by what}, with a file for each of its discharges."""
     return {"work/data/SET/": f"{measurements.unpack(name).relative_to(HERE)}/"}
 

@@ -17,19 +17,20 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Undeclared:
-    name: str                           # of the study's library, where it is in there
-    inLibrary: bool
+    name: str  # of the study's library, where it is in there
+    in_library: bool
     meaning: str
     signed: bool = False
-    switch: bool = False                # no amplitude: on
-    medium: str = "both"                # air, water: where it acts
+    switch: bool = False  # no amplitude: on
+    medium: str = "both"  # air, water: where it acts
     entries: Optional[Callable] = None
     files: Optional[Callable] = None
     mesh: Optional[Callable] = None
     record: Optional[Callable] = None
 
 
-#--- Records ----------------------------------------------------------------------------------------------------------
+# --- Records ----------------------------------------------------------------------------------------------------------
+
 
 def lag(time, mass, a, random):
     """First-order, tau y' = m - y, in steps of the exact solution for a mass held over a step."""
@@ -49,11 +50,11 @@ def momentum(time, mass, a, random):
     return time, mass + 0.03 * a * np.gradient(mass, time)
 
 
-def underWater(time, mass, a, random):
+def under_water(time, mass, a, random):
     return time, mass * (1 - 1000 / 2540)
 
 
-def bentScale(time, mass, a, random):
+def bent_scale(time, mass, a, random):
     """Right when empty and when full, up to 5 % of the fill off half-way."""
     full = mass[0]
     return time, mass + 0.05 * a * 4 * mass * (full - mass) / full
@@ -67,21 +68,27 @@ def pause(time, mass, a, random):
     return time, np.interp(later, time, mass)
 
 
-#--- Cases ------------------------------------------------------------------------------------------------------------
+# --- Cases ------------------------------------------------------------------------------------------------------------
+
 
 def tilt(case, a):
     """The whole apparatus leans by up to 15 degrees."""
     angle = radians(15 * a)
-    replace(case / "DEM/in.hopper", "gravity 9.81 vector 0 0 -1",
-            f"gravity 9.81 vector {sin(angle):.9g} 0 {-cos(angle):.9g}")
+    replace(
+        case / "DEM/in.hopper",
+        "gravity 9.81 vector 0 0 -1",
+        f"gravity 9.81 vector {sin(angle):.9g} 0 {-cos(angle):.9g}",
+    )
     replace(case / "constant/g", "(0 0 -9.81)", f"({9.81 * sin(angle):.9g} 0 {-9.81 * cos(angle):.9g})")
 
 
 def rod(case, a):
     """A horizontal rod of up to 6 mm across the hopper, its axis 8 mm above the orifice. The water does not feel it."""
     with open(case / "DEM/in.hopper", "a") as script:
-        script.write("\nfix rod all wall/gran model hertz tangential history cohesion ${cohesion} "
-                     f"rolling_friction ${{rolling}} primitive type 2 xcylinder {3e-3 * a:.6g} 0 8e-3\n")
+        script.write(
+            "\nfix rod all wall/gran model hertz tangential history cohesion ${cohesion} "
+            f"rolling_friction ${{rolling}} primitive type 2 xcylinder {3e-3 * a:.6g} 0 8e-3\n"
+        )
 
 
 def funnel(case, a):
@@ -105,41 +112,92 @@ def replace(path, old, new):
     path.write_text(text.replace(old, new))
 
 
-#--- All of them ------------------------------------------------------------------------------------------------------
+# --- All of them ------------------------------------------------------------------------------------------------------
 
 # In the library: those that were expected, when the project began, to change a rate by 3 % or more.
 EFFECTS = [
-    Undeclared("wallFriction", True, "the cylinder rubs more",
-               entries=lambda p, a: {"frictionWall": p["frictionWall"] + 0.35 * a}),
-    Undeclared("bottomFriction", True, "the bottom rubs more",
-               entries=lambda p, a: {"frictionBottom": p["frictionBottom"] + 0.35 * a}),
+    Undeclared(
+        "wallFriction",
+        True,
+        "the cylinder rubs more",
+        entries=lambda p, a: {"frictionWall": p["frictionWall"] + 0.35 * a},
+    ),
+    Undeclared(
+        "bottomFriction",
+        True,
+        "the bottom rubs more",
+        entries=lambda p, a: {"frictionBottom": p["frictionBottom"] + 0.35 * a},
+    ),
     Undeclared("rollingFriction", True, "particles resist rolling", entries=lambda p, a: {"rollingFriction": 0.05 * a}),
-    Undeclared("particleDiameter", True, "particles of another size", signed=True,
-               entries=lambda p, a: {"particleDiameter": p["particleDiameter"] * (1 + 0.05 * a)}),
-    Undeclared("orificeDiameter", True, "orifice of another width", signed=True,
-               entries=lambda p, a: {"orificeDiameter": p["orificeDiameter"] * (1 + 0.02 * a)}),
-    Undeclared("dragFactor", True, "larger or smaller drag", signed=True, medium="water",
-               entries=lambda p, a: {"dragFactor": 1 + 0.25 * a}),
-    Undeclared("dragLaw", True, "the drag law of Koch and Hill", switch=True, medium="water",
-               entries=lambda p, a: {"dragLaw": "KochHillDrag"}),
-    Undeclared("lubrication", True, "lubrication between particles", switch=True, medium="water",
-               entries=lambda p, a: {"lubrication": "on"}),
+    Undeclared(
+        "particleDiameter",
+        True,
+        "particles of another size",
+        signed=True,
+        entries=lambda p, a: {"particleDiameter": p["particleDiameter"] * (1 + 0.05 * a)},
+    ),
+    Undeclared(
+        "orificeDiameter",
+        True,
+        "orifice of another width",
+        signed=True,
+        entries=lambda p, a: {"orificeDiameter": p["orificeDiameter"] * (1 + 0.02 * a)},
+    ),
+    Undeclared(
+        "dragFactor",
+        True,
+        "larger or smaller drag",
+        signed=True,
+        medium="water",
+        entries=lambda p, a: {"dragFactor": 1 + 0.25 * a},
+    ),
+    Undeclared(
+        "dragLaw",
+        True,
+        "the drag law of Koch and Hill",
+        switch=True,
+        medium="water",
+        entries=lambda p, a: {"dragLaw": "KochHillDrag"},
+    ),
+    Undeclared(
+        "lubrication",
+        True,
+        "lubrication between particles",
+        switch=True,
+        medium="water",
+        entries=lambda p, a: {"lubrication": "on"},
+    ),
     Undeclared("addedMass", True, "added mass", medium="water", entries=lambda p, a: {"addedMassCoefficient": 0.5 * a}),
-    Undeclared("pumpingByDilation", True, "no pumping by dilation", switch=True, medium="water",
-               entries=lambda p, a: {"dilation": "off"}),
-    Undeclared("closedTop", True, "a lid on the hopper", switch=True, medium="water", entries=lambda p, a: {"lid": "on"}),
+    Undeclared(
+        "pumpingByDilation",
+        True,
+        "no pumping by dilation",
+        switch=True,
+        medium="water",
+        entries=lambda p, a: {"dilation": "off"},
+    ),
+    Undeclared(
+        "closedTop", True, "a lid on the hopper", switch=True, medium="water", entries=lambda p, a: {"lid": "on"}
+    ),
     Undeclared("scaleLag", True, "the scale lags", record=lag),
-    Undeclared("weightUnderWater", True, "the weight under water is recorded", switch=True, medium="water",
-               record=underWater),
+    Undeclared(
+        "weightUnderWater", True, "the weight under water is recorded", switch=True, medium="water", record=under_water
+    ),
     Undeclared("triggerOffset", True, "the record begins early or late", signed=True, record=trigger),
-    Undeclared("momentumOfLeavingParticles", True, "the scale feels the particles that leave", signed=True, record=momentum),
-
+    Undeclared(
+        "momentumOfLeavingParticles", True, "the scale feels the particles that leave", signed=True, record=momentum
+    ),
     Undeclared("tilt", False, "the hopper leans by up to 15 degrees", files=tilt),
-    Undeclared("saltWater", False, "water up to 20 % denser", medium="water",
-               entries=lambda p, a: {"fluidDensity": p["fluidDensity"] * (1 + 0.2 * a)}),
+    Undeclared(
+        "saltWater",
+        False,
+        "water up to 20 % denser",
+        medium="water",
+        entries=lambda p, a: {"fluidDensity": p["fluidDensity"] * (1 + 0.2 * a)},
+    ),
     Undeclared("rod", False, "a rod of up to 6 mm across the hopper above the orifice", files=rod),
     Undeclared("funnel", False, "a bottom that rises by up to 30 degrees to the wall", mesh=funnel),
-    Undeclared("bentScale", False, "a scale up to 5 % of the fill off half-way", signed=True, record=bentScale),
+    Undeclared("bentScale", False, "a scale up to 5 % of the fill off half-way", signed=True, record=bent_scale),
     Undeclared("pause", False, "the orifice is blocked for up to 0.1 s", record=pause),
 ]
 BY_NAME = {effect.name: effect for effect in EFFECTS}

@@ -1,10 +1,8 @@
 #!/usr/bin/python3
 """The numbers of study.yaml from the measured points, where these are (they are not ours to keep here)."""
 
-import sys
 from pathlib import Path
 
-sys.dont_write_bytecode = True
 import numpy as np
 
 DATA = Path(__file__).resolve().parent / "../../../../shared/data/gondret2002_rebound/gondret_St152.csv"
@@ -58,4 +56,5 @@ def show(name, unit, value, error):
     print(f"{name}: {value:.5g} {unit}, relative error {error / value:.4f}")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -19,10 +19,10 @@ def main():
     for name in sys.argv[1:]:
         time, position = np.loadtxt(name, skiprows=2).T
         seen = position > 0
-        print(Path(name).stem, *(f"{meanSpeed(time[seen], position[seen], *part):.4f}" for part in PARTS))
+        print(Path(name).stem, *(f"{mean_speed(time[seen], position[seen], *part):.4f}" for part in PARTS))
 
 
-def meanSpeed(time, position, begin, end):
+def mean_speed(time, position, begin, end):
     """The way over its time [mm/s]."""
     deepest = np.maximum.accumulate(position)
     if deepest[0] > begin or deepest[-1] < end:
@@ -30,4 +30,5 @@ def meanSpeed(time, position, begin, end):
     return (end - begin) / np.diff(np.interp((begin, end), deepest, time))[0]
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -4,16 +4,12 @@
 Writes `measured` from the raw files where they are (they are not ours to keep here); else leaves the committed one.
 """
 
-import sys
 from pathlib import Path
 
-sys.dont_write_bytecode = True
-sys.path.insert(0, "../../../scripts")
 import numpy as np
 from scipy.optimize import brentq
 
-import caseFiles
-import closures
+from clepsydra import closures, parameter_file
 
 DATA = Path("../../../../shared/data/beadfall_glycerol/data")
 # of another group with the same set, +-0.02 mm
@@ -33,16 +29,23 @@ def main():
     entries = {}
     for particle, diameter in DIAMETERS.items():
         velocities = [velocity(DATA / "glycerol" / f"glycerolbead{particle}t{repeat}.txt") for repeat in REPEATS]
-        entries |= {f"particleDiameter{particle}": diameter, f"velocity{particle}": np.mean(velocities),
-                    f"velocityError{particle}": np.std(velocities, ddof=1) / np.sqrt(len(velocities))}
-    quarters = [velocity(DATA / "glycerolbead3tedge.txt", part) / velocity(DATA / "glycerolbead3tcenter.txt", part)
-                for part in range(4)]
+        entries |= {
+            f"particleDiameter{particle}": diameter,
+            f"velocity{particle}": np.mean(velocities),
+            f"velocityError{particle}": np.std(velocities, ddof=1) / np.sqrt(len(velocities)),
+        }
+    quarters = [
+        velocity(DATA / "glycerolbead3tedge.txt", part) / velocity(DATA / "glycerolbead3tcenter.txt", part)
+        for part in range(4)
+    ]
     entries |= {"edgeOverCentre": np.mean(quarters), "edgeOverCentreError": np.std(quarters, ddof=1) / 2}
-    entries["fluidViscosity"] = fittedViscosity(entries)
+    entries["fluidViscosity"] = fitted_viscosity(entries)
     Path("measured").write_text(
-        "// Written by ./measure.py from kyleyhw/PHY324_motion_in_fluids (GitHub), 1f0af8ed. SI units; errors are standard\n"
-        "// errors of the mean of four repeats. fluidViscosity (kinematic) is fitted to particle 3 on the axis.\n"
-        + "".join(f"{name:<20}{value:.5g};\n" for name, value in entries.items()))
+        "// Written by ./measure.py from kyleyhw/PHY324_motion_in_fluids (GitHub), 1f0af8ed. SI units; errors are"
+        " standard\n// errors of the mean of four repeats. fluidViscosity (kinematic) is fitted to particle 3 on the"
+        " axis.\n"
+        + "".join(f"{name:<20}{value:.5g};\n" for name, value in entries.items())
+    )
 
 
 def velocity(file, quarter=None):
@@ -55,22 +58,29 @@ def velocity(file, quarter=None):
     return 1e-3 * np.polyfit(time[seen], depth[seen], 1)[0]
 
 
-def fittedViscosity(entries):
-    def tooFast(viscosity):
-        return axisVelocity(entries[f"particleDiameter{FITTED}"], viscosity) - entries[f"velocity{FITTED}"]
+def fitted_viscosity(entries):
+    def too_fast(viscosity):
+        return axis_velocity(entries[f"particleDiameter{FITTED}"], viscosity) - entries[f"velocity{FITTED}"]
 
-    return brentq(tooFast, 1e-4, 1e-3, xtol=1e-9)
+    return brentq(too_fast, 1e-4, 1e-3, xtol=1e-9)
 
 
-def axisVelocity(diameter, viscosity, wall=True):
+def axis_velocity(diameter, viscosity, wall=True):
     """Of a particle on the axis, by the case's drag law and, with a wall, Di Felice's."""
-    p = caseFiles.parameters("parameters")
-    free = closures.value("terminalVelocity", dragLaw=p["dragLaw"], particleDiameter=diameter,
-                          particleDensity=p["particleDensity"], fluidDensity=p["fluidDensity"], fluidViscosity=viscosity)
+    p = parameter_file.parameters("parameters")
+    free = closures.value(
+        "terminalVelocity",
+        dragLaw=p["dragLaw"],
+        particleDiameter=diameter,
+        particleDensity=p["particleDensity"],
+        fluidDensity=p["fluidDensity"],
+        fluidViscosity=viscosity,
+    )
     if not wall:
         return free
-    return free * closures.value("tubeVelocityRatio", diameterRatio=diameter / p["tankDiameter"],
-                                 reynolds=free * diameter / viscosity)
+    return free * closures.value(
+        "tubeVelocityRatio", diameterRatio=diameter / p["tankDiameter"], reynolds=free * diameter / viscosity
+    )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 // The `parameters` of a case as traceResidual reads and changes them: what is set is what is read again, and all other
-// entries keep their values. (scripts/caseFiles.py reads the same files: parameters.py.)
+// entries keep their values. (scripts/clepsydra/parameter_file.py reads the same files: parameters.py.)
 #include "inputFile.h"
 
 #include "runner/entries.h"

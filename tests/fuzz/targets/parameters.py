@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The `parameters` of a case as all scripts read and change them (scripts/parameterFile.py).
+"""The `parameters` of a case as all scripts read and change them (clepsydra.parameter_file).
 
 A text is either refused with ParameterError, or its last entry can be set, is then read as what it was set to, and all
 other entries keep their values. (traceResidual reads the same files by itself: entries.cpp.)
@@ -17,11 +17,9 @@ import sys
 import time
 from pathlib import Path
 
-sys.dont_write_bytecode = True
+from clepsydra import arithmetic, parameter_file
+
 SCRIPTS = Path(__file__).resolve().parents[3] / "scripts"
-sys.path.insert(0, str(SCRIPTS))
-import arithmetic
-import parameterFile
 
 OPTION = re.compile(r"-(\w+)=(.*)")
 EXTREMES = ["0", "-1", "1e308", "1e-320", "1e400", "nan", "inf", "00", "1_0", "9" * 30, "0x10", "1.", ".5", "+", "1e"]
@@ -29,7 +27,7 @@ EXTREMES = ["0", "-1", "1e308", "1e-320", "1e400", "nan", "inf", "00", "1_0", "9
 
 def main():
     options = dict(OPTION.fullmatch(word).groups() for word in sys.argv[1:] if OPTION.fullmatch(word))
-    texts = [readText(path) for word in sys.argv[1:] if not OPTION.fullmatch(word) for path in filesOf(Path(word))]
+    texts = [read_text(path) for word in sys.argv[1:] if not OPTION.fullmatch(word) for path in files_of(Path(word))]
     if "max_total_time" not in options:
         for text in texts:
             execute(text, options)
@@ -40,11 +38,11 @@ def main():
     print(f"({all_} inline 8-bit counters)\ncov: {reached}\nstat::number_of_executed_units: {executed}")
 
 
-def filesOf(path):
+def files_of(path):
     return sorted(path.iterdir()) if path.is_dir() else [path]
 
 
-def readText(path):
+def read_text(path):
     return path.read_bytes().decode(errors="replace")
 
 
@@ -52,13 +50,13 @@ def execute(text, options):
     """Its outcome, in few words. A text that takes too long ends this program by SIGALRM, Python's own loops included."""
     signal.setitimer(signal.ITIMER_REAL, float(options.get("timeout", 10)))
     try:
-        before = parameterFile.parametersIn(text)
-    except parameterFile.ParameterError as refusal:
+        before = parameter_file.parameters_in(text)
+    except parameter_file.ParameterError as refusal:
         return re.sub(r"'.*'|\d+", "", str(refusal))
     if not before:
         return "nothing"
     last = list(before)[-1]
-    now = parameterFile.parametersIn(parameterFile.withParameters(text, {last: "42"}))
+    now = parameter_file.parameters_in(parameter_file.with_parameters(text, {last: "42"}))
     if list(now.items()) != [*list(before.items())[:-1], (last, 42.0)]:
         raise AssertionError(f"after {last} was set to 42, these were read: {now}; before: {before}")
     return f"{min(len(before), 9)} entries, {sorted({type(value).__name__ for value in before.values()})}"
@@ -114,31 +112,31 @@ def dictionary(options):
 def mutated(text, pieces, words):
     for _ in range(random.choice((1, 1, 1, 2, 3, 6))):
         at = random.randint(0, len(text))
-        upTo = min(len(text), at + random.choice((1, 1, 2, 5, 20, 100)))
+        up_to = min(len(text), at + random.choice((1, 1, 2, 5, 20, 100)))
         kind = random.randrange(7)
         if kind == 0:
             new = random.choice(words)
         elif kind == 1:
             new = chr(random.choice((random.randrange(128), random.randrange(0x800), random.randrange(0x2000, 0x2100))))
         elif kind == 2:
-            new = text[at:upTo] * 2
+            new = text[at:up_to] * 2
         elif kind == 3:
             other = random.choice(pieces)
             start = random.randint(0, len(other))
-            new = other[start:start + random.randint(0, 60)]
+            new = other[start : start + random.randint(0, 60)]
         elif kind == 4:
-            new, upTo = random.choice(words) * random.randint(1, 30), at
+            new, up_to = random.choice(words) * random.randint(1, 30), at
         elif kind == 5:
-            new = text[at:upTo][::-1]
+            new = text[at:up_to][::-1]
         else:
             new = ""
-        text = text[:at] + new + text[upTo:]
+        text = text[:at] + new + text[up_to:]
     return text
 
 
 def coverage(texts):
     """Lines of the parser that the texts reach, and all of its lines."""
-    files = {module.__file__: module for module in (parameterFile, arithmetic)}
+    files = {module.__file__: module for module in (parameter_file, arithmetic)}
     reached = set()
 
     def trace(frame, event, _):
@@ -154,9 +152,14 @@ def coverage(texts):
     finally:
         sys.settrace(None)
         signal.setitimer(signal.ITIMER_REAL, 0)
-    all_ = {(file, line) for file, module in files.items() for value in vars(module).values()
-            if getattr(value, "__module__", None) == module.__name__ and hasattr(value, "__code__")
-            for _, line in dis.findlinestarts(value.__code__) if line != value.__code__.co_firstlineno}
+    all_ = {
+        (file, line)
+        for file, module in files.items()
+        for value in vars(module).values()
+        if getattr(value, "__module__", None) == module.__name__ and hasattr(value, "__code__")
+        for _, line in dis.findlinestarts(value.__code__)
+        if line != value.__code__.co_firstlineno
+    }
     return len(reached & all_), len(all_)
 
 

@@ -1,0 +1,57 @@
+#!/usr/bin/python3
+"""prepare START MOTION DRAG_TIME: in a run, what its water does at first, where the particles are, and their drag.
+
+START      wave: up and down, a cosine across, through open ends; vortex: closed; uniform: up, through open ends
+MOTION     held or free
+DRAG_TIME  K couplingTimeStep over the water's mass
+"""
+
+import sys
+from pathlib import Path
+
+from layer import Layer
+
+HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
+
+
+def main():
+    start, motion, drag_time = sys.argv[1:]
+    layer = Layer(".")
+    closed = start == "vortex"
+    write_field(
+        "U", "volVectorField", "[0 1 -1 0 0 0 0]", layer.velocity(start), "slip" if closed else "zeroGradient", "slip"
+    )
+    write_field(
+        "p", "volScalarField", "[0 2 -2 0 0 0 0]", None, "zeroGradient" if closed else "fixedValue", "zeroGradient"
+    )
+    Path("DEM/in.particles").write_text(
+        "".join(f"create_atoms 1 single {x:.15g} {y:.15g} {z:.15g} units box\n" for x, y, z in layer.centres())
+        + ("fix motion all nve/sphere\n" if motion == "free" else "")
+    )
+    Path("constant/drag").write_text(f"factor {layer.drag_factor(float(drag_time)):.15g};\n")
+    with open("constant/couplingProperties", "a") as properties:
+        properties.write(Path("constant/more").read_text())
+
+
+def write_field(name, kind, dimensions, values, ends, sides):
+    inside = (
+        "uniform 0"
+        if values is None
+        else (
+            f"nonuniform List<vector>\n{len(values)}\n(\n"
+            + "\n".join("({:.15g} {:.15g} {:.15g})".format(*value) for value in values)
+            + "\n)\n"
+        )
+    )
+    Path("0", name).write_text(
+        HEADER.format(kind=kind, name=name)
+        + f"dimensions {dimensions};\ninternalField {inside};\nboundaryField\n{{\n"
+        + f'    "bottom|top" {{ type {ends}; value $internalField; }}\n'.replace(
+            " value $internalField;", " value uniform 0;" if ends == "fixedValue" else ""
+        )
+        + f"    sides {{ type {sides}; }}\n}}\n"
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,40 @@
+#!/usr/bin/python3
+"""Writes the manual page of a program from what it says of itself, so that there is one text.
+
+Usage: manPage PROGRAM SUMMARY HELP_OPTION FILE [OPTION HEADING]...      each OPTION is asked for, and printed below HEADING
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+
+def said(program, option):
+    return subprocess.run([program, option], check=True, capture_output=True, text=True).stdout.strip("\n")
+
+
+def verbatim(text):
+    """As it stands; roff takes a line's first dot or quote for its own, and backslashes anywhere."""
+    lines = [line.rstrip().replace("\\", "\\e").replace("-", "\\-") for line in text.splitlines()]
+    return "\n".join([".nf", *("\\&" + line if line[:1] in (".", "'") else line for line in lines), ".fi"])
+
+
+def main():
+    if len(sys.argv) < 5 or len(sys.argv) % 2 == 0:
+        sys.exit(__doc__)
+    program, summary, help, file, *more = sys.argv[1:]
+    name = Path(program).name
+    parts = [
+        f'.TH {name.upper()} 1 "" Clepsydra',
+        f".SH NAME\n{name} \\- {summary}",
+        f".SH USAGE\n{verbatim(said(program, help))}",
+    ]
+    parts += [
+        f".SH {heading.upper()}\n{verbatim(said(program, option))}" for option, heading in zip(more[::2], more[1::2])
+    ]
+    parts.append(".SH SEE ALSO\nThe pages in share/clepsydra, of which README.md is the first.")
+    Path(file).write_text("\n".join(parts) + "\n")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,84 @@
+"""Reading what a case directory holds: its parameters and its observables."""
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+
+TIME_ROUNDING = 1e-5  # a part's start is the name of a folder, in six digits
+
+
+def start_directories(case, name):
+    """postProcessing/<name>/<startTime>, in order of start time."""
+    found = (Path(case) / "postProcessing" / name).glob("[0-9]*")
+    return sorted(found, key=lambda directory: float(directory.name))
+
+
+def columns(case, name):
+    """The columns of an observable. Where a run was resumed, the later part wins."""
+    rows = np.empty((0, 0))
+    for directory in start_directories(case, name):
+        part = np.loadtxt(directory / f"{name}.dat", ndmin=2)
+        if len(part) == 0:
+            continue
+        rows = np.vstack([rows[rows[:, 0] < part[0, 0]], part]) if len(rows) else part
+    if not len(rows):
+        raise SystemExit(f"{case}: no data in postProcessing/{name}")
+    return rows.T
+
+
+def balances(case):
+    """The conservation check's summaries of a run, in order of time. A part that is killed writes none."""
+    files = [directory / "summary.json" for directory in start_directories(case, "conservation")]
+    return [json.loads(file.read_text()) for file in files if file.exists()]
+
+
+def missing_balances(case, parts, end):
+    """(from, to) of each piece of a run, up to `end`, that none of these balances are of."""
+    starts = [float(directory.name) for directory in Path(case).glob("postProcessing/*/[0-9]*")]
+    missing, reached = [], min(starts)
+    for part in [*parts, {"timeStart": end, "timeEnd": end}]:
+        if part["timeStart"] - reached > TIME_ROUNDING * reached:
+            missing.append((reached, part["timeStart"]))
+        reached = max(reached, part["timeEnd"])
+    return missing
+
+
+def times(case):
+    """Names of the time directories after the start, in order."""
+    found = [path.name for path in Path(case).iterdir() if re.fullmatch(r"[0-9][0-9.e-]*", path.name)]
+    return sorted((name for name in found if float(name) > 0), key=float)
+
+
+def field(case, time, name):
+    """Values of a field in all cells, one row per cell; of one row where the field is uniform. Written as ascii."""
+    text = (Path(case) / time / name).read_text()
+    entry = re.search(
+        r"^internalField\s+(nonuniform List<\w+>\s*\d+\s*\((.*?)\n\)|uniform ([^;]*))\s*;",
+        text,
+        re.MULTILINE | re.DOTALL,
+    )
+    if not entry:
+        raise SystemExit(f"{case}/{time}/{name}: no internalField in ascii")
+    lines = (entry.group(2) or entry.group(3)).strip().splitlines()
+    return np.array([[float(part) for part in line.strip("() ").split()] for line in lines])
+
+
+def surface_values(case, name):
+    """Times and values, one row per time, of a function object surfaceFieldValue."""
+    directory = start_directories(case, name)[0]
+    lines = (directory / "surfaceFieldValue.dat").read_text().replace("(", " ").replace(")", " ").splitlines()
+    rows = np.array([[float(part) for part in line.split()] for line in lines if not line.startswith("#")])
+    return rows[:, 0], rows[:, 1:]
+
+
+def dumped_particles(case, dump="DEM/particles.dump"):
+    """The entries of a LIGGGHTS dump: step, and an array with a row per particle and the columns that the dump has."""
+    lines = (Path(case) / dump).read_text().splitlines()
+    entries, at = [], 0
+    while at < len(lines):
+        step, count = int(lines[at + 1]), int(lines[at + 3])
+        entries.append((step, np.array([line.split() for line in lines[at + 9 : at + 9 + count]], dtype=float)))
+        at += 9 + count
+    return entries

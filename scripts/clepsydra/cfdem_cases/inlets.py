@@ -1,0 +1,124 @@
+"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the particles here."""
+
+import re
+
+from clepsydra.cfdem_cases import foam_text
+
+TERMS_OF_A_VARIABLE = 10
+FIXED = ("fixedValue", "uniformFixedValue")
+
+
+def converted(U, void_fraction, report):
+    """Changes the patches of U, a Dictionary, whose velocity is superficial."""
+    for patch, entries in U.sub("boundaryField").entries.items():
+        if not isinstance(entries, foam_text.Dictionary) or entries.text("type") not in FIXED:
+            continue
+        table = velocities(entries)
+        if all(part == 0 for _, velocity in table for part in velocity):
+            continue
+        fraction = fixed_fraction(void_fraction.sub("boundaryField"), patch)
+        if fraction is None:
+            continue
+        superficial = [(time, [fraction * part for part in velocity]) for time, velocity in table]
+        if len(superficial) == 1:
+            as_vector = vector(superficial[0][1])
+            entries.entries = {
+                "type": "interstitialInletVelocity",
+                "inletVelocity": f"uniform {as_vector}",
+                "alpha": "voidFraction",
+                "value": f"uniform {as_vector}",
+            }
+        else:
+            variables, parts = expression(superficial)
+            entries.entries = {
+                "type": "exprFixedValue",
+                "value": f"uniform {vector(superficial[0][1])}",
+                "variables": f"( {variables} )",
+                "valueExpr": f'"vector({", ".join(parts)})/voidFraction"',
+            }
+        report.change(
+            U.where,
+            f"{patch} of U",
+            (
+                f"0/voidfraction is {fraction:g} there, so that the velocity is a superficial one; "
+                "it is divided by the void fraction of the particles at the patch now"
+            ),
+        )
+
+
+def fixed_fraction(void_fraction, patch):
+    """The value at the patch; None where it follows the cells, as it does here. voidFraction: the boundary field."""
+    entries = (
+        void_fraction.sub(patch)
+        if patch in void_fraction
+        else None
+        if foam_text.is_pattern(patch)
+        else void_fraction.matching(patch)
+    )
+    if entries is None:
+        raise foam_text.FoamError(
+            f"{void_fraction.where}: nothing for '{patch}', where U has a velocity; allowed: the same name, so "
+            "that it is clear whether the velocity is superficial"
+        )
+    if entries.text("type") == "zeroGradient":
+        return None
+    if entries.text("type") != "fixedValue":
+        raise foam_text.FoamError(
+            f"{entries.where}: type {entries.text('type')}, where U has a velocity; allowed: fixedValue, zeroGradient"
+        )
+    value = entries.needed("value")
+    if not re.fullmatch(r"uniform [-+.\deE]+", value):
+        raise foam_text.FoamError(f"{entries.where}: value '{value}'; allowed: uniform NUMBER")
+    return float(value.split()[1])
+
+
+def velocities(entries):
+    """Rows of a time and a velocity; one row where it does not change."""
+    text = entries.needed("value" if entries.text("type") == "fixedValue" else "uniformValue")
+    numbers = [float(word) for word in re.findall(r"[-+.\d][-+.\deE]*", text)]
+    if re.match(r"(uniform|constant)? *\(", text) and len(numbers) == 3:
+        return [(0, numbers)]
+    if text.startswith("table") and numbers and len(numbers) % 4 == 0:
+        return [(numbers[at], numbers[at + 1 : at + 4]) for at in range(0, len(numbers), 4)]
+    raise foam_text.FoamError(
+        f"{entries.where}: velocity '{text[:60]}'; allowed: uniform (X Y Z), constant (X Y Z), "
+        "table ((TIME (X Y Z)) ...)"
+    )
+
+
+def vector(parts):
+    return f"({' '.join(f'{part:.10g}' for part in parts)})"
+
+
+def expression(table):
+    """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after. Variables, and the
+    three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read more than
+    1024 characters at a time.
+    """
+    variables, parts = [], []
+    for axis, name in enumerate("xyz"):
+        terms = component(table, axis)
+        pieces = [" + ".join(terms[at : at + TERMS_OF_A_VARIABLE]) for at in range(0, len(terms), TERMS_OF_A_VARIABLE)]
+        if len(pieces) == 1:
+            parts.append(pieces[0])
+        else:
+            variables += [f'"{name}{number}={piece}"' for number, piece in enumerate(pieces)]
+            parts.append(" + ".join(f"{name}{number}" for number in range(len(pieces))))
+    return " ".join(variables), parts
+
+
+def component(table, axis):
+    """The terms of a sum: the first value, and ramps that begin at the table's times."""
+    terms, slope = [f"{table[0][1][axis]:.10g}"], 0
+    for (before, low), (after, high) in zip(table, table[1:]):
+        rise = high[axis] - low[axis]
+        if after == before:
+            terms += [f"{rise:.10g}*pos(time() - {after:.10g})"] if rise else []
+            continue
+        terms += ramp(rise / (after - before) - slope, before)
+        slope = rise / (after - before)
+    return terms + ramp(-slope, table[-1][0])
+
+
+def ramp(slope, start):
+    return [f"{slope:.10g}*max(time() - {start:.10g}, 0)"] if abs(slope) > 1e-12 else []

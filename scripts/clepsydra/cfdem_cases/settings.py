@@ -1,0 +1,227 @@
+"""constant/couplingProperties of CFDEMcoupling: which entry is which of ours."""
+
+from clepsydra.cfdem_cases import foam_text
+
+# Entry -> the values for which there is nothing to do. None: any.
+WITHOUT_COUNTERPART = {
+    "syncMode": None,
+    "verbose": None,
+    "locateModel": None,
+    "averagingModel": None,
+    "clockModel": None,
+    "IOModel": None,
+    "turbulenceModelType": None,  # what it names is looked at in constant/
+    "meshMotionModel": ["noMeshMotion"],
+    "regionModel": ["allRegion"],
+    "probeModel": ["off"],
+    "dataExchangeModel": ["twoWayMPI"],
+    "checkPeriodicCells": ["off", "false", "no"],
+}
+SAME_FORCES = (
+    "Archimedes",
+    "gradPForce",
+    "viscForce",
+    "virtualMassForce",
+    "DiFeliceDrag",
+    "GidaspowDrag",
+    "KochHillDrag",
+    "BeetstraDrag",
+    "RongDrag",
+    "SchillerNaumannDrag",
+)
+OTHER_NAMES = {"MeiLift": "SaffmanLiftForce"}
+DIAGNOSTICS = (
+    "volWeightedAverage",
+    "totalMomentumExchange",
+    "particleCellVolume",
+    "particleVolume",
+    "fieldTimeAverage",
+    "fieldStore",
+    "checkCouplingInterval",
+)
+# Words of a model's Props
+NAMES_OF_FIELDS = (
+    "velFieldName",
+    "velocityFieldName",
+    "granVelFieldName",
+    "voidfractionFieldName",
+    "densityFieldName",
+    "gravityFieldName",
+    "pFieldName",
+    "pressureFieldName",
+    "minAlphaP",
+)
+NOTHING_TO_DO = (
+    "verbose",
+    "suppressProbe",
+    "interpolation",
+    "implForceDEM",
+    "implForceDEMaccumulated",
+    "lowerLimit",
+    "upperLimit",
+    "treeSearch",
+    "forceSubModels",
+)
+ONE = ("phi", "scaleUpVol", "scaleDia", "scaleDrag", "scale", "weight")
+SWITCHED_OFF = ("off", "false", "no")
+
+
+class Settings:
+    """What the rest of the import needs to know; `entries` are those of the new file."""
+
+    def __init__(self, old, report):
+        self.old, self.report, self.where = old, report, old.where
+        self.interval_in_steps = old.number("couplingInterval")
+        self.script = self.script_of("twoWayMPI")
+        self.without_counterpart()
+        self.entries = {
+            "fluid": "incompressible",
+            "modelType": self.one_of("modelType", ("A", "B")),
+            "voidFractionModel": self.one_of("voidFractionModel", ("divided", "centre", "Gaussian", "Gauss")),
+        }
+        if self.entries["voidFractionModel"] == "Gauss":
+            self.entries["voidFractionModel"] = "Gaussian"
+        self.void_fraction_props()
+        self.smoothing()
+        self.forces()
+        self.entries["momCoupleModels"] = f"( {' '.join(self.momentum_models())} )"
+        self.dilation()
+        self.other_props()
+
+    def script_of(self, exchange):
+        return self.old.sub(f"{exchange}Props").needed("liggghtsPath").strip('"')
+
+    def without_counterpart(self):
+        for name, harmless in WITHOUT_COUNTERPART.items():
+            if name in self.old:
+                value = self.old.text(name).strip('"')
+                if harmless is None or value in harmless:
+                    self.report.left_out(self.where, f"{name} {value}".strip(), "has no counterpart")
+                else:
+                    self.report.error(self.where, name, f"is '{value}'; allowed: {', '.join(harmless)}")
+
+    def one_of(self, name, allowed):
+        value = self.old.needed(name).strip('"')
+        if value not in allowed:
+            self.report.error(self.where, name, f"is '{value}'; allowed: {', '.join(allowed)}")
+        return value
+
+    def void_fraction_props(self):
+        model = self.old.text("voidFractionModel").strip('"')
+        props = self.old.sub(f"{model}Props")
+        self.plain_words(props)
+        if "alphaMin" in props:
+            self.entries[f"{self.entries['voidFractionModel']}Props"] = {"alphaMin": props.text("alphaMin")}
+
+    def smoothing(self):
+        model = self.one_of("smoothingModel", ("off", "constDiffSmoothing"))
+        self.entries["smoothingModel"] = model
+        if model != "constDiffSmoothing":
+            return
+        props = self.old.sub("constDiffSmoothingProps")
+        self.plain_words(props)
+        length = props.number("smoothingLength")
+        self.entries["constDiffSmoothingProps"] = {"bandwidth": f"{2 * length:.10g}"}
+        self.report.change(
+            self.where,
+            f"smoothingLength {length:g}",
+            (
+                f"is a bandwidth of {2 * length:g} here: a length L spreads there by a "
+                "standard deviation of sqrt(2) L, one implicit step of diffusion, and here of L/sqrt(2)"
+            ),
+        )
+
+    def forces(self):
+        chosen = []
+        for name in self.old.words("forceModels"):
+            if name in DIAGNOSTICS:
+                self.report.left_out(
+                    self.where, name, "a diagnostic; the conservation check in the log has volume and momentum"
+                )
+                self.old.sub(f"{name}Props").is_read()
+                continue
+            if name not in SAME_FORCES and name not in OTHER_NAMES:
+                self.report.error(
+                    self.where, name, f"is no force here; known: {', '.join([*SAME_FORCES, *OTHER_NAMES])}"
+                )
+                continue
+            chosen.append(OTHER_NAMES.get(name, name))
+            if name in OTHER_NAMES:
+                self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
+            self.force_props(name)
+        if "Archimedes" not in chosen:
+            self.report.change(
+                self.where,
+                "forceModels",
+                (
+                    "has no Archimedes: particles feel no buoyancy, as before; that is right only where "
+                    "the fluid is much lighter than the particles"
+                ),
+            )
+        self.entries["forceModels"] = f"( {' '.join(chosen)} )"
+
+    def force_props(self, name):
+        props = self.old.sub(f"{name}Props")
+        self.plain_words(props)
+        if props.text("interpolation") not in (None, *SWITCHED_OFF):
+            self.report.left_out(
+                props.where,
+                "interpolation",
+                "the fluid at a particle is always the mean over what the particle acts on",
+            )
+
+    def plain_words(self, props):
+        """Those that need nothing done, and those that must have the value for which nothing need be done."""
+        for name in (*NAMES_OF_FIELDS, *NOTHING_TO_DO):
+            props.text(name)
+        for name in ONE:
+            if name in props and props.number(name) != 1:
+                self.report.error(
+                    props.where, name, f"is {props.number(name):g}; allowed: 1, for there is no coarse-graining here"
+                )
+        for name in (
+            "treatForceExplicit",
+            "treatForceDEM",
+            "scalarViscosity",
+            "useFilteredDragModel",
+            "useParcelSizeDependentFilteredDrag",
+            "explicitCorr",
+        ):
+            if name in props and props.text(name) not in SWITCHED_OFF:
+                self.report.error(props.where, name, "is on; allowed: off, it has no counterpart")
+
+    def momentum_models(self):
+        models = self.old.words("momCoupleModels")
+        for name in models:
+            if name not in ("implicitCouple", "explicitCouple"):
+                self.report.error(
+                    self.where, name, "is no way of giving momentum here; known: implicitCouple, explicitCouple"
+                )
+            self.plain_words(self.old.sub(f"{name}Props"))
+        if len(models) == 2:
+            self.report.change(
+                self.where, "momCoupleModels", "one model here, implicitCouple: it hands over all forces"
+            )
+            return ["implicitCouple"]
+        return models
+
+    def dilation(self):
+        """In CFDEMcoupling off where the word is missing."""
+        on = "useDDTvoidfraction" in self.old and self.old.text("useDDTvoidfraction") not in SWITCHED_OFF
+        self.entries["useDDTvoidfraction"] = "on" if on else "off"
+        if not on:
+            self.report.change(
+                self.where,
+                "useDDTvoidfraction",
+                (
+                    "off, as in the old case; where particles move 'on' is right, with "
+                    "useDDTvoidfractionProps { smoothingTime } of some ms"
+                ),
+            )
+
+    def other_props(self):
+        """Of models that are not chosen: nobody read them there either."""
+        for name, value in self.old.entries.items():
+            if name.endswith("Props") and name not in self.old.asked and isinstance(value, foam_text.Dictionary):
+                self.old.sub(name).is_read()
+                self.report.left_out(self.where, name, "of a model that is not chosen")

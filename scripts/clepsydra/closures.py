@@ -1,0 +1,26 @@
+"""Values of the closed formulas in coupling/closures, from the program `closures`."""
+
+import subprocess
+
+import numpy as np
+
+from clepsydra import environment
+
+
+def value(formula, **options):
+    """One number: value("terminalVelocity", dragLaw="DiFeliceDrag", particleDiameter=2e-3, ...)."""
+    return float(values(formula, **options)[0])
+
+
+def values(formula, **options):
+    """An array, for options that take several numbers: values("drag", ..., slipSpeed=[.1, .2])."""
+    command = [str(environment.program("closures")), formula]
+    for name, given in options.items():
+        command += [f"--{name}"] + [str(one) for one in np.atleast_1d(given)]
+    try:
+        found = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    except OSError as problem:
+        raise SystemExit(f"{command[0]}: {problem.strerror}; run scripts/setup") from None
+    if found.returncode != 0:
+        raise SystemExit(f"{' '.join(command)} failed")
+    return np.array([float(line) for line in found.stdout.split()])

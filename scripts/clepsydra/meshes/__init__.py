@@ -1,0 +1,1 @@
+"""Generators of hopper meshes and surfaces; the commands are in meshes/."""

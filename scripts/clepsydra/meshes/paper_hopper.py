@@ -1,0 +1,61 @@
+#!/usr/bin/python3
+"""Makes the mesh of the paper's hopper (cases/paper/hopper.yaml) at one level, checks it and draws it.
+
+Usage: paperHopper quick|coarse|medium|paper [PARAMETER=VALUE ...]       e.g. paperHopper coarse wallThickness=3e-3
+
+The mesh lies in meshes/made/<level>/constant/polyMesh then, its picture in meshes/made/<level>.png. Printed: cells, seconds
+of computing, and memory of the largest program.
+"""
+
+import json
+import resource
+import shutil
+import subprocess
+import sys
+
+from clepsydra.environment import REPOSITORY, SCRIPTS
+from parameterStudies.plan import ParameterStudy, ParameterStudyError, Task
+from parameterStudies.task import makeFolder
+
+MESHES = REPOSITORY / "meshes"
+
+
+def main():
+    if len(sys.argv) < 2 or not all("=" in word for word in sys.argv[2:]):
+        sys.exit(__doc__)
+    level, wishes = sys.argv[1], dict(word.split("=", 1) for word in sys.argv[2:])
+    parameter_study = ParameterStudy(REPOSITORY / "cases/paper/reference.yaml")
+    parameter_study.work = MESHES / "made"
+    overrides = {**parameter_study.common, "meshLevel": level, **wishes}
+    unknown = set(overrides) - set(parameter_study.defaults)
+    if unknown:
+        raise ParameterStudyError(
+            f"unknown parameter {', '.join(unknown)}; allowed: {', '.join(parameter_study.defaults)}"
+        )
+    task = Task(
+        name=level, part="mesh", ranks=1, overrides=tuple(overrides.items()), needs=(), links=(), publish="", entry=""
+    )
+    folder = parameter_study.folder(task)
+    shutil.rmtree(folder, ignore_errors=True)
+    makeFolder(parameter_study, task)
+    subprocess.run(["./Allrun", "mesh"], cwd=folder, check=True)
+
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(
+        json.dumps(
+            {
+                "level": level,
+                "computingSeconds": round(used.ru_utime + used.ru_stime, 1),
+                "memoryMB": round(used.ru_maxrss / 1024),
+            }
+        )
+    )
+    subprocess.run([SCRIPTS / "renderMesh", folder, parameter_study.work / f"{level}.png"], check=True)
+
+
+try:
+    main()
+except ParameterStudyError as problem:
+    sys.exit(f"paperHopper: {problem}")
+except subprocess.CalledProcessError as problem:
+    sys.exit(problem.returncode)

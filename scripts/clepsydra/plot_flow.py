@@ -1,0 +1,50 @@
+#!/usr/bin/python3
+"""Mass in the hopper and rate of outflow against time, from massInHopper.dat.
+
+Usage: plotFlow FOLDER CASE...
+
+Writes FOLDER/mass.png and FOLDER/rate.png with one curve for each case directory,
+named after it.
+"""
+
+import sys
+from pathlib import Path
+
+from clepsydra import case_files, flow, picture_style
+from clepsydra.picture_style import pyplot
+
+
+def draw(path, curves, ylabel, title):
+    figure, axes = pyplot.subplots(figsize=(6, 4), constrained_layout=True)
+    for name, x, y in curves:
+        axes.plot(x, y, label=name, color=picture_style.STEPS.get(name))
+    axes.set(xlabel="time [s]", ylabel=ylabel, title=title, ylim=(0, None), xlim=(0, None))
+    axes.grid(alpha=0.3)
+    axes.legend()
+    figure.savefig(path, dpi=picture_style.DPI)
+
+
+def main():
+    if len(sys.argv) < 3:
+        sys.exit(__doc__)
+    folder, cases = Path(sys.argv[1]), [Path(case).resolve() for case in sys.argv[2:]]
+    folder.mkdir(parents=True, exist_ok=True)
+
+    masses, rates = [], []
+    for case in cases:
+        time, mass = case_files.columns(case, "massInHopper")[:2]
+        masses.append((case.name, time, 1e3 * mass))
+        at, rate = flow.smoothed_rate(time, 1e3 * mass)
+        rates.append((case.name, at, rate))
+
+    draw(folder / "mass.png", masses, "mass in the hopper [g]", "")
+    draw(
+        folder / "rate.png",
+        rates,
+        "rate of outflow [g/s]",
+        f"slope of a parabola in a Gaussian window, sd {flow.DEVIATION} s",
+    )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+"""A study's answer on conditions that were held back: their measured files are put in, and the study is run again from
+its stored runs. The answer is on disk before the files are looked at.
+
+usage: scoreHeldOut STUDY.yaml CONDITION=FILES ...     CONDITION: a candidate of the study; FILES: one name or 'pattern*'
+
+Writes STUDY's folder/results/heldOut/report.json and .html. The study itself stays as it is.
+"""
+
+import glob
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from clepsydra import environment
+
+
+def main():
+    if len(sys.argv) < 3 or any("=" not in one for one in sys.argv[2:]):
+        raise SystemExit(__doc__)
+    environment.load()
+    original = Path(sys.argv[1]).resolve()
+    study = with_files(yaml.safe_load(original.read_text()), dict(one.split("=", 1) for one in sys.argv[2:]))
+    # beside the original, so that its relative paths and stored runs are found
+    scored = original.with_name(f".scored.{original.name}")
+    scored.write_text(yaml.safe_dump(study, sort_keys=False))
+    output = original.parent / "results/heldOut"
+    subprocess.run(["traceResidual", "run", "--output", output, scored], check=True)
+    report = json.loads((output / "report.json").read_text())
+    print(f"{report['study']}: {report['decision']} {report.get('name') or ''}".rstrip())
+    for model in ("before", "after", "oneMoreParameter"):
+        error = report["heldOut"].get(model)
+        if error:
+            print(f"{model}: {100 * error['rmsLogError']:.2f} +- {100 * error['standardError']:.2f} %")
+
+
+def with_files(study, files):
+    """The study, with the named candidates held out and measured by these files."""
+    conditions = {one["name"]: one for one in study["conditions"]}
+    for name, pattern in files.items():
+        found = sorted(glob.glob(pattern))
+        if name not in conditions or conditions[name]["role"] != "candidate":
+            candidates = [one for one in conditions if conditions[one]["role"] == "candidate"]
+            raise SystemExit(f"no candidate '{name}' in the study; allowed: {', '.join(candidates)}")
+        if not found:
+            raise SystemExit(f"no file {pattern}")
+        conditions[name]["role"] = "heldOut"
+        conditions[name]["measured"] = {"files": [str(Path(one).resolve()) for one in found]}
+    return study
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,130 @@
+#!/usr/bin/python3
+"""How fast Clepsydra is, each figure a ratio of runs that were interleaved on this machine.
+
+Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY ...]
+
+Without ENTRY all of them; with --quick all but the longest. Prints a table and, with --json, writes it with machine,
+date and load. An entry that cannot be measured here is skipped, with the reason. LAMMPS and Yade come with
+scripts/setup --with otherCodes.
+"""
+
+import argparse
+import sys
+import tempfile
+from pathlib import Path
+
+from clepsydra import environment
+from developers.benchmarks import (
+    cost_model,
+    coupled,
+    dpm_foam,
+    emptying,
+    flow_rates,
+    large_bed,
+    memory,
+    messages,
+    other_programs,
+    pressure,
+    report,
+    stock_liggghts,
+    timing,
+    two_ranks,
+    whole_run,
+)
+from developers.benchmarks.hopper import Hopper
+
+# Each takes (hopper, repetitions) and gives a timing.Figure.
+ENTRIES = {
+    "coupledOverEnginesAlone": coupled.coupled_over_engines_alone,
+    "coupledOverEnginesAloneWithoutSmoothing": coupled.coupled_over_engines_alone_without_smoothing,
+    "coupledOverLiggghtsAndFluid": coupled.coupled_over_liggghts_and_fluid,
+    "couplingShare": coupled.coupling_share,
+    "exchangeBytesPerParticle": coupled.exchange_bytes_per_particle,
+    "pressureMicrosecondsPerCell": pressure.microseconds_per_cell,
+    "speedupTwoRanks": two_ranks.speedup_coupled,
+    "speedupTwoRanksDry": two_ranks.speedup_dry,
+    "speedupTwoRanksEmptying": emptying.speedup_emptying,
+    "demOverStockLiggghts": stock_liggghts.dem_over_stock_liggghts,
+    "overDPMFoam": dpm_foam.over_dpm_foam,
+    "overDPMFoamBed": dpm_foam.over_dpm_foam_bed,
+    "overLammps": other_programs.over_lammps,
+    "overYade": other_programs.over_yade,
+    "flowRates": flow_rates.rates,
+    "messagesPerInterval": messages.messages_per_interval,
+    "bytesPerRank": messages.bytes_per_rank,
+    "bytesPerParticle": memory.bytes_per_particle,
+    "bytesPerCell": memory.bytes_per_cell,
+    "millionParticles": large_bed.million_particles,
+    "millionParticlesDry": large_bed.million_particles_dry,
+    "millionCells": large_bed.million_cells,
+    "quickHopperSubmerged_s": whole_run.quick_hopper_submerged,
+    "quickHopperOverLast": whole_run.quick_hopper_over_last,
+    "costModelErrorPercent": cost_model.cost_model_error_percent,
+}
+
+# Not of --quick, unless they are named.
+LONG = (
+    "speedupTwoRanksEmptying",
+    "flowRates",
+    "millionParticles",
+    "millionParticlesDry",
+    "millionCells",
+    "pressureMicrosecondsPerCell",
+)
+
+
+# Not of --realTime: two ranks that wait for each other keep the system's own threads, which write their files, off both cores.
+TWO_RANKS = (
+    "speedupTwoRanks",
+    "speedupTwoRanksDry",
+    "speedupTwoRanksEmptying",
+    "millionParticles",
+    "millionParticlesDry",
+    "millionCells",
+    "quickHopperSubmerged_s",
+    "quickHopperOverLast",
+)
+
+
+def main():
+    options = read_options()
+    environment.load()
+    timing.real_time = options.realTime
+    figures = {}
+    with tempfile.TemporaryDirectory(prefix="clepsydraBenchmark") as folder:
+        hopper = Hopper(Path(folder), quick=options.quick)
+        for name in options.entries or [name for name in ENTRIES if not (options.quick and name in LONG)]:
+            print(f"{name} ...", file=sys.stderr, flush=True)
+            try:
+                if options.realTime and name in TWO_RANKS:
+                    raise timing.Skipped("two ranks are timed on a quiet machine, without --realTime")
+                figures[name] = ENTRIES[name](hopper, options.repetitions)
+            except timing.Skipped as reason:
+                figures[name] = str(reason)
+            if options.json:  # after each: the benchmark may be interrupted
+                report.write(options.json, figures, options)
+    print(report.table(figures))
+
+
+def read_options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("entries", nargs="*", metavar="ENTRY", help=", ".join(ENTRIES))
+    parser.add_argument("--quick", action="store_true", help="3000 particles, short windows")
+    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument(
+        "--realTime",
+        action="store_true",
+        help="timed programs of one rank push all other work on this machine aside, others are left out; root only",
+    )
+    parser.add_argument("--json", type=Path, metavar="FILE")
+    options = parser.parse_args()
+    unknown = [name for name in options.entries if name not in ENTRIES]
+    if unknown:
+        parser.error(f"no entry {' '.join(unknown)}; there are: {', '.join(ENTRIES)}")
+    if options.repetitions < 1:
+        parser.error("--repetitions is a whole number above 0")
+    return options
+
+
+if __name__ == "__main__":
+    main()

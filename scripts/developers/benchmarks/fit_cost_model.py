@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Measures hoppers of several sizes, fits the cost model to them and writes it to costModel.json beside this file.
+
+Usage: fitCostModel [--realTime | --predict]
+  --realTime   timed programs push all other work on this machine aside; root only
+  --predict    fit nothing, print the estimates for large runs from the file that is there
+
+10 minutes on a machine that has nothing else to do. One rank for the coefficients, two for the serial fraction.
+"""
+
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+from clepsydra import whole_files
+from developers.benchmarks import cost_model, report, timing
+from developers.benchmarks.hopper import Hopper
+
+# The paper's hopper: mass [kg], particle diameter [m], cells, simulated time [s], DEM step [s]. The step goes with the diameter.
+# Times: 9.8 g/s of 2 mm particles through 1 cm as the quick hopper has it, smaller particles by Beverloo's (D - 1.4 d)^2.5.
+PAPER = {
+    "500 g of 2 mm particles, 1.5 million cells": (0.5, 2e-3, 1.5e6, 51, 4e-5),
+    "500 g of 1 mm particles, 1.5 million cells": (0.5, 1e-3, 1.5e6, 33, 2e-5),
+    "500 g of .5 mm particles, 1.5 million cells": (0.5, 5e-4, 1.5e6, 27, 1e-5),
+}
+DENSITY = 2540
+INTERVAL = 2e-3
+
+
+def main():
+    if sys.argv[1:] == ["--predict"]:
+        predict(json.loads(cost_model.FILE.read_text()))
+        return
+    timing.real_time = sys.argv[1:] == ["--realTime"]
+    if sys.argv[1:] and not timing.real_time:
+        sys.exit(__doc__)
+    with tempfile.TemporaryDirectory(prefix="clepsydraCost") as folder:
+        model = fitted(Path(folder))
+    whole_files.write(cost_model.FILE, json.dumps(model, indent=2) + "\n")
+    predict(model)
+
+
+def fitted(folder):
+    small, large = Hopper(folder / "small", quick=True), Hopper(folder / "large", quick=False)
+    hoppers = [small.with_cells(4e-3), small, small.with_cells(1.5e-3), large.with_cells(4e-3), large]
+    rows = []
+    for hopper in hoppers:
+        rows.append(cost_model.measured(hopper))
+        print(f"{rows[-1][0]} {rows[-1][1]:.2f} s", flush=True)
+    model = cost_model.fit(rows)
+    # Amdahl's law: t2/t1 = f + (1 - f)/2
+    _, on_two = cost_model.measured(large, ranks=2)
+    model["serialFraction"] = max(0.0, 2 * on_two / rows[-1][1] - 1)
+    model["machine"] = report.machine()
+    model["fitted"] = [
+        {
+            "terms": list(terms),
+            "seconds": seconds,
+            "errorPercent": 100 * (cost_model.predicted(model, terms) / seconds - 1),
+        }
+        for terms, seconds in rows
+    ]
+    terms, seconds = cost_model.measured(cost_model.unseen_hopper(large))
+    model["unseen"] = {
+        "terms": list(terms),
+        "seconds": seconds,
+        "errorPercent": 100 * (cost_model.predicted(model, terms) / seconds - 1),
+    }
+    return model
+
+
+def predict(model):
+    print(f"Estimates from {model['machine']}")
+    for name, (mass, diameter, cells, duration, dem_step) in PAPER.items():
+        particles = mass / (DENSITY * 3.14159265 / 6 * diameter**3)
+        intervals = duration / INTERVAL
+        terms = [
+            particles * duration / dem_step,
+            particles * intervals,
+            cells * intervals,
+            cells ** (4 / 3) * intervals,
+        ]
+        hours = {ranks: cost_model.predicted(model, terms, ranks) / 3600 for ranks in (1, 2, 128)}
+        core_hours = 128 * hours[128]
+        print(
+            f"{name}: {particles:.3g} particles, {duration} s: {hours[2]:.3g} h on 2 ranks, {hours[128]:.3g} h on 128"
+            f" ({core_hours:.3g} core-hours; {hours[1] / 128:.3g} h if all of it scaled)"
+        )
+
+
+if __name__ == "__main__":
+    main()

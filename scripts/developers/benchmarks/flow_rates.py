@@ -1,0 +1,100 @@
+"""The flow rates of the programs that the benchmark compares: dry particles from one packing through the same hopper."""
+
+import numpy as np
+
+from clepsydra import flow  # of scripts/, which .hopper puts on the path
+from clepsydra import parameter_file
+
+from . import timing
+from .hopper import Hopper, case_files, forget_results, solver
+from .other_programs import require, yade_engines
+
+DUMP_EVERY = 250
+# Parts of the fill; the rate is that of the whole window, its error that of the parts.
+WINDOW = (0.95, 0.85, 0.75, 0.65, 0.55)
+# A third of the particles, as cases/validation/besideLammps has it; otherwise the quick hopper.
+QUICK = "particleCount=900 hopperDiameter=0.02 hopperHeight=0.05 tankDiameter=0.05 fillingTime=0.8 dryTime=0.5"
+WHOLE = "dryTime=1.2"
+
+
+def rates(hopper, repetitions):
+    """Once: the packing's own scatter, 3.5 % from one to the next, is larger than what a repetition shows."""
+    require("lmp")
+    require("yade")
+    folder = hopper.validation_case("besideLammps")
+    Hopper.in_folder(
+        folder,
+        (
+            "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../tutorials/hopperQuick; "
+            f"makeRun hopper {QUICK if hopper.quick else WHOLE}; inEachRun solveInBoth"
+        ),
+    )
+    run = folder / "runs" / "hopper"
+    p = parameter_file.parameters(run / "parameters")
+    (run / "hopper.py").write_text(yade_script(p))
+    yade = timing.timed(timing.Run(["yade", "-n", "-x", "-j1", "hopper.py"], run))
+    ours = timing.timed(timing.Run(solver(), run, prepare=lambda: forget_results(run)))
+    lammps = timing.timed(timing.Run(["lmp", "-in", "DEM/in.lammps", "-screen", "none", "-log", "log.lammps"], run))
+    steps = round(p["dryTime"] / p["demStep"])
+    found = {
+        "ours": (ours, *dumped(run, p, "DEM/particles.dump")),
+        "LAMMPS": (lammps, *dumped(run, p, "DEM/lammps.dump")),
+        "Yade": (yade, *np.loadtxt(run / "yade.dat").T),
+    }
+    details = {}
+    for name, (took, time, inside) in found.items():
+        rate, error = mean_rate(time, inside, p)
+        details[name] = {
+            "gramsPerSecond": rate,
+            "standardError": error,
+            "processorSeconds": took.processor,
+            "particleStepsPerSecond": p["particleCount"] * steps / took.processor,
+        }
+    return timing.Figure(
+        [details["ours"]["gramsPerSecond"]],
+        details=details,
+        meaning=(
+            f"g/s, {p['particleCount']:.0f} dry particles, while {100 * WINDOW[0]:.0f} to {100 * WINDOW[-1]:.0f} %"
+            " remain; "
+        )
+        + ", ".join(f"{name} {of['gramsPerSecond']:.2f} +- {of['standardError']:.2f}" for name, of in details.items())
+        + "; one packing, they scatter by 3.5 %",
+    )
+
+
+def dumped(run, p, dump):
+    """Times, and the particles above the orifice."""
+    entries = case_files.dumped_particles(run, dump)
+    return (
+        np.array([step * p["demStep"] for step, _ in entries]),
+        np.array([(particles[:, 3] > 0).sum() for _, particles in entries]),
+    )
+
+
+def mean_rate(time, inside, p):
+    """While WINDOW of the fill remains, with its standard error [g/s]."""
+    mass = 1e3 * inside * p["particleDensity"] * np.pi / 6 * p["particleDiameter"] ** 3
+    parts = [flow.mean_rate(time, mass, *part) for part in zip(WINDOW, WINDOW[1:])]
+    return flow.mean_rate(time, mass, WINDOW[0], WINDOW[-1]), np.std(parts, ddof=1) / np.sqrt(len(parts))
+
+
+def yade_script(p):
+    """DEM/particles.data, at rest, and the hopper's own surfaces of triangles."""
+    return f"""from yade import geom, ymport
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["particleDensity"]},
+                                    frictionAngle=atan({p["friction"]})))
+particles = []
+for line in open("DEM/particles.data").read().split("Atoms\\n\\n")[1].splitlines():
+    particles.append(O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["particleDiameter"] / 2}, material=glass)))
+for name in ("hopperWall", "hopperPlate"):
+    O.bodies.append(ymport.stl(f"DEM/meshes/{{name}}.stl", material=glass))
+O.bodies.append(geom.facetCylinder((0, 0, {(p["hopperHeight"] + p["waterAboveRim"] - p["tankDepth"]) / 2}), {p["tankDiameter"] / 2},
+                                   {p["hopperHeight"] + p["waterAboveRim"] + p["tankDepth"]}, segmentsNumber=40, wallMask=4,
+                                   material=glass))
+O.bodies.append(wall({-p["tankDepth"]}, axis=2, material=glass))
+{yade_engines(p)}with open("yade.dat", "w") as out:
+    for part in range({round(p["dryTime"] / p["demStep"] / DUMP_EVERY)} + 1):
+        inside = sum(O.bodies[particle].state.pos[2] > 0 for particle in particles)
+        out.write(f"{{part * {DUMP_EVERY * p['demStep']}}} {{inside}}\\n")
+        O.run({DUMP_EVERY}, True)
+"""

@@ -1,0 +1,65 @@
+"""What the ranks of one run send each other in an interval, and their memory, against their number: counts, no times."""
+
+import functools
+import json
+
+from clepsydra import environment
+
+from . import timing
+
+RANKS = (2, 4, 8)
+INTERVALS = 5
+
+
+def messages_per_interval(hopper, repetitions):
+    return figure(
+        hopper,
+        "messages that the busiest rank sends in a coupling step",
+        lambda rank: sum(phase["messages"] for phase in rank["phases"].values()),
+    )
+
+
+def bytes_per_rank(hopper, repetitions):
+    return figure(hopper, "bytes of memory of the largest rank", lambda rank: rank["peakMemory"])
+
+
+def figure(hopper, meaning, quantity):
+    """Of the most ranks; of fewer in the details."""
+    counts = measured(hopper)
+    values = {ranks: max(quantity(rank) for rank in of) for ranks, of in counts.items()}
+    return timing.Figure(
+        [values[RANKS[-1]]],
+        meaning=f"{meaning}, {RANKS[-1]} ranks, submerged hopper",
+        details={"ranks": values, "largestOfPhase": {ranks: largest(of) for ranks, of in counts.items()}},
+    )
+
+
+def largest(of_ranks):
+    """Of each phase and quantity, the most that a rank has."""
+    return {
+        phase: {name: max(rank["phases"][phase][name] for rank in of_ranks) for name in of}
+        for phase, of in of_ranks[0]["phases"].items()
+    }
+
+
+@functools.cache
+def measured(hopper):
+    """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are counts."""
+    if not counter().exists():
+        raise timing.Skipped(
+            f"there is no {counter()}: 'cmake --build {environment.build()} --target countMessages' makes it"
+        )
+    return {ranks: counted(hopper, ranks) for ranks in RANKS}
+
+
+def counter():
+    return environment.build() / "lib" / "libcountMessages.so"
+
+
+def counted(hopper, ranks):
+    run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingTimeStep"], ranks)
+    counts = run.folder / "counts"
+    counts.mkdir()
+    run.command[1:1] = ["-x", f"MESSAGE_COUNTS={counts}", "-x", f"LD_PRELOAD={counter()}"]
+    timing.timed(run)
+    return [json.loads((counts / f"{rank}.json").read_text()) for rank in range(ranks)]

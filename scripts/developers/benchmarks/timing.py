@@ -1,0 +1,97 @@
+"""Times programs in turn, so that a machine that grows faster or slower does so for all of them."""
+
+import os
+import statistics
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+
+@dataclass
+class Figure:
+    """What one entry of the benchmark measured, one value a repetition."""
+
+    values: list
+    meaning: str
+    target: str = ""
+    details: dict = field(default_factory=dict)
+
+    @property
+    def median(self):
+        return statistics.median(self.values)
+
+
+# Timed programs push all other work on this machine aside (root only).
+real_time = False
+
+
+def push_others_aside():
+    os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
+
+
+def priority():
+    """For a subprocess, to be run in it before its program begins."""
+    return push_others_aside if real_time else None
+
+
+class Skipped(Exception):
+    """Why an entry cannot be measured here."""
+
+
+@dataclass
+class Run:
+    """A command, the folder it runs in, what it must find there and what it left: neither is timed."""
+
+    command: list
+    folder: Path
+    prepare: object = None
+    result: object = None
+
+
+@dataclass
+class Time:
+    wall: float
+    processor: float  # user and system, of the command and all its children
+    peak_memory: int  # of the largest of its processes [bytes]
+    result: object = None
+
+
+def timed(run):
+    """Runs it once; ends the benchmark with its last lines where it fails."""
+    if run.prepare:
+        run.prepare()
+    log = run.folder / "log.timed"
+    with open(log, "w") as output:
+        start = time.monotonic()
+        process = subprocess.Popen(
+            run.command,
+            cwd=run.folder,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            preexec_fn=priority(),
+        )
+        _, status, used = os.wait4(process.pid, 0)
+        wall = time.monotonic() - start
+        process.returncode = os.waitstatus_to_exitcode(status)
+    if status != 0:
+        lines = log.read_text(errors="replace").splitlines()[-20:]
+        sys.exit("\n".join(lines + [f"benchmark: {' '.join(map(str, run.command))} failed in {run.folder}"]))
+    return Time(wall, used.ru_utime + used.ru_stime, 1024 * used.ru_maxrss, run.result and run.result())
+
+
+def interleaved(runs, repetitions):
+    """Times of each run by its name: A B ... A B ..., `repetitions` of each."""
+    times = {name: [] for name in runs}
+    for _ in range(repetitions):
+        for name, run in runs.items():
+            times[name].append(timed(run))
+    return times
+
+
+def processor_ratio(times, slow, fast, target, meaning):
+    """A figure of slow/fast in processor time, one value a repetition."""
+    processor = {name: [time.processor for time in of] for name, of in times.items()}
+    return Figure([a / b for a, b in zip(processor[slow], processor[fast])], meaning, target, details=processor)

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""The statistics of traceResidual from end to end, on a surrogate for the solver: false alarms, detection, right names, sets,
+abstention, coverage, the same answer under other seeds.
+
+usage: checkIdentification                      the table of what has been run, all seeds together (seconds)
+       checkIdentification --run SEED [OPTION ...]    runs one seed, 13 minutes, to identification/results/statistics.SEED.json;
+                                                OPTION: of build/bin/checkIdentification, for instance --libraries 3
+"""
+
+import json
+import subprocess
+import sys
+
+from scipy.stats import binomtest
+
+from clepsydra import environment
+
+ROOT = environment.REPOSITORY
+RESULTS = ROOT / "identification/results"
+USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2, "again": 2, "draws": 500}
+
+
+def main():
+    if sys.argv[1:2] == ["--run"] and len(sys.argv) > 2:
+        run(sys.argv[2], sys.argv[3:])
+    elif len(sys.argv) > 1:
+        raise SystemExit(__doc__)
+    table([json.loads(path.read_text()) for path in sorted(RESULTS.glob("statistics.*.json"))])
+
+
+def run(seed, options):
+    usual = [word for name, number in USUAL.items() for word in (f"--{name}", str(number))]
+    subprocess.run(
+        [
+            environment.program("checkIdentification"),
+            ROOT / "tests/identification/surrogate/study.yaml",
+            *usual,
+            "--seed",
+            seed,
+            "--output",
+            RESULTS / f"statistics.{seed}.json",
+            *options,
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
+
+
+def table(seeds):
+    print(f"seeds {', '.join(str(one['seed']) for one in seeds)}; {sum(one['libraries'] for one in seeds)} libraries\n")
+    print("| | measured [95 %] |\n|---|---|")
+    row("false alarms at nominal 5 %", seeds, "falseAlarms")
+    row("p below one half, without any effect", seeds, "pValueBelowHalf")
+    row("effects detected", seeds, "effects", "detected")
+    for name, key in (
+        ("best is the truth", "topOneWhenDetected"),
+        ("truth in the set", "truthInSetWhenDetected"),
+        ("named", "namedWhenDetected"),
+        ("amplitude in its interval", "intervalCoversWhenDetected"),
+    ):
+        row(f"of these: {name}", seeds, "effects", key)
+    row("of these named: rightly", seeds, "effects", "namedRightly")
+    detected = [one["effects"]["detected"]["count"] for one in seeds]
+    sizes = [one["effects"]["meanSetSize"] for one in seeds]
+    print(f"| mean size of the set | {sum(n * size for n, size in zip(detected, sizes)) / sum(detected):.2f} |")
+    worst = min(seeds[0]["byEffect"], key=lambda name: covered(seeds, name))
+    row(f"truth in the set, worst effect ({worst})", seeds, "byEffect", worst, "truthInSetWhenDetected")
+    row("same answer with other seeds of its own runs", seeds, "sameAnswerWithOtherSeeds")
+    for size in ("1.00", "0.50", "0.25"):
+        row(f"outside the library, size {size}: wrong name", seeds, "outsideLibrary", size, "wrongNameWhenDetected")
+        row("unknown, or a set with something else", seeds, "outsideLibrary", size, "somethingElseWhenDetected")
+    row("two effects: the pair in the set", seeds, "pairs", "truthInSetWhenDetected")
+    row("two effects: a name", seeds, "pairs", "namedWhenDetected")
+    row("of these: of the pair, and no part of it", seeds, "pairs", "namedRightly")
+
+
+def covered(seeds, effect):
+    count, of = counted(seeds, "byEffect", effect, "truthInSetWhenDetected")
+    return count / of if of else 1
+
+
+def counted(seeds, *keys):
+    parts = []
+    for one in seeds:
+        for key in keys:
+            one = one[key]
+        parts.append(one)
+    return sum(part.get("count", 0) for part in parts), sum(part["of"] for part in parts)
+
+
+def row(name, seeds, *keys):
+    count, of = counted(seeds, *keys)
+    if of:
+        lower, upper = binomtest(int(count), int(of)).proportion_ci(method="wilson")
+        print(f"| {name} | {count:.0f} of {of:.0f}: {100 * count / of:.1f} % [{100 * lower:.0f}, {100 * upper:.0f}] |")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,53 @@
+#!/usr/bin/python3
+"""Throws damaged and hostile text at everything that reads users' files, and looks for crashes, hangs and sanitizers' reports.
+
+Usage: fuzz [--seconds N] [--json FILE] [--build FOLDER] [--build-only] [TARGET ...]
+
+Each TARGET (default: all) first reads every file of tests/fuzz/found/TARGET, where the finds of former runs are kept, and
+then mutations of the repository's own files for N seconds (default 60; 0: the former finds only). Inputs that reached new
+code are kept in FOLDER/corpus (default FOLDER: build-fuzz) and are where the next run goes on. --json adds the numbers to
+FILE. What is found lies in FOLDER/found. Exit status 1 where anything was found, 77 where clang cannot build fuzzers.
+"""
+
+import argparse
+import sys
+from pathlib import Path
+
+from developers.fuzzing import builds, table, targets
+
+CANNOT_BUILD = 77
+
+
+def main():
+    options = parsed(sys.argv[1:])
+    if not builds.fuzzers_can_be_built():
+        print("fuzz: clang++ cannot build fuzzers here; scripts/setup installs what it needs (clang, libclang-rt-dev)")
+        return CANNOT_BUILD
+    builds.build(options.build, options.targets)
+    if options.build_only:
+        return 0
+    rows = [targets.run(name, options.build, options.seconds) for name in options.targets]
+    print(table.text(rows))
+    if options.json:
+        table.add_to(options.json, rows)
+    return 1 if any(row["findings"] for row in rows) else 0
+
+
+def parsed(arguments):
+    parser = argparse.ArgumentParser(usage=__doc__.split("\n\n")[1][len("Usage: ") :], add_help=True)
+    parser.add_argument("--seconds", type=int, default=60)
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--build", type=Path, default=builds.REPOSITORY / "build-fuzz")
+    parser.add_argument("--build-only", action="store_true")
+    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    options = parser.parse_args(arguments)
+    for name in options.targets:
+        if name not in targets.TARGETS:
+            parser.error(f"there is no target '{name}'; allowed: {', '.join(targets.TARGETS)}")
+    options.targets = options.targets or list(targets.TARGETS)
+    options.build = options.build.resolve()
+    return options
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,201 @@
+#!/usr/bin/python3
+"""All studies on real measurements, in one table: what was lacking, and the error before and after on what no fit has seen.
+
+usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --run: the studies are run again first
+       studies --leaveOut STUDY ...    each training condition in turn is left out and predicted from the others
+       studies --picture FILE STUDY ...    measured, model before, model after, in the conditions that no fit has seen
+
+Errors are those of held-out conditions: the study's own (results/), or those that were held back (results/heldOut, by
+scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote the
+library may have. In this order; the table says which.
+"""
+
+import argparse
+import json
+import math
+import statistics
+import subprocess
+
+import yaml
+
+from clepsydra import environment
+
+CASES = environment.REPOSITORY / "cases" / "studies"
+# What a table says of each; the studies' files say more
+STUDIES = {
+    "startingSpheres": ("glass spheres let go in water (Mordant & Pinton 2000)", "drag only"),
+    "bouncesInOil": ("a steel sphere bounces in oil, St 152 (Gondret 2002)", "drag, dry restitution"),
+    "glycerineParticlesTall": ("particles fall in a tall tank of glycerine", "one viscosity"),
+    "sphereInBoxCurves": ("a sphere sinks to the floor (ten Cate 2002)", "drag, added mass"),
+    "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
+    "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
+    "paperRates": ("the paper's two rates, dry and under water", "one friction"),
+}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", nargs="*", help="of " + ", ".join(STUDIES))
+    parser.add_argument("--run", action="store_true")
+    parser.add_argument("--leaveOut", action="store_true")
+    parser.add_argument("--picture", metavar="FILE")
+    arguments = parser.parse_args()
+    unknown = [name for name in arguments.study if name not in STUDIES]
+    if unknown:
+        raise SystemExit(f"no study '{unknown[0]}'; allowed: {', '.join(STUDIES)}")
+    if (arguments.leaveOut or arguments.picture) and not arguments.study:
+        raise SystemExit("--leaveOut and --picture need the names of studies")
+    chosen = arguments.study or list(STUDIES)
+    if arguments.run or arguments.leaveOut:
+        environment.load()
+    for name in chosen:
+        if arguments.run:
+            subprocess.run(["traceResidual", "run", CASES / name / "study.yaml"], check=True, stdout=subprocess.DEVNULL)
+        if arguments.leaveOut:
+            leave_out(CASES / name / "study.yaml")
+    if arguments.picture:
+        picture(chosen, arguments.picture)
+    else:
+        table(chosen)
+
+
+def leave_out(original):
+    """Reports of the study with each training condition held out in turn, from its stored runs and a few more."""
+    study = yaml.safe_load(original.read_text())
+    training = [one for one in study["conditions"] if one["role"] == "training"]
+    for left in [one["name"] for one in training]:
+        for one in training:
+            one["role"] = "heldOut" if one["name"] == left else "training"
+        # beside the original, so that its relative paths and stored runs are found
+        split = original.with_name(f".scored.{left}.yaml")
+        split.write_text(yaml.safe_dump(study, sort_keys=False))
+        output = original.parent / "results/leftOut" / left
+        subprocess.run(["traceResidual", "run", "--output", output, split], check=True, stdout=subprocess.DEVNULL)
+
+
+def table(chosen):
+    print(
+        "| data | baseline | what was lacking | held out | error before | after | one more parameter | noise alone |"
+        " entered | runs | their time |"
+    )
+    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    for name in chosen:
+        report = read(CASES / name / "results/report.json")
+        if report is None:
+            print("|", " | ".join([*STUDIES[name], "not run yet"] + 8 * [""]), "|")
+            continue
+        found = unseen(name, report)
+        scores = [line for label, each in found.items() for line in [(label, errors(each)), *by_condition(each)]]
+        runs = report["runs"]
+        seconds = runs["seconds"] + runs.get("secondsOfStored", 0)
+        for i, (label, score) in enumerate(scores or [("none", 5 * [""])]):
+            first = [*STUDIES[name], answer(report)] if i == 0 else ["", "", ""]
+            last = [str(runs["used"]), f"{seconds / 60:.0f} min"] if i == 0 else ["", ""]
+            print("|", " | ".join(first + [label] + score + last), "|")
+
+
+def answer(report):
+    return {"named": report["name"], "noResidual": "nothing", "unknown": "unknown"}.get(
+        report["decision"]
+    ) or "one of: " + ", ".join(
+        [one["name"] for one in report["set"]] + ["something else"] * report["somethingElseInSet"]
+    )
+
+
+def unseen(name, report):
+    """Labels and reports of what no fit has seen, one line of the table each."""
+    folder = CASES / name / "results"
+    if report["heldOut"].get("before"):
+        return {", ".join(report["heldOut"]["conditions"]): report}
+    scored = read(folder / "heldOut/report.json")
+    if scored:
+        return {", ".join(scored["heldOut"]["conditions"]) + " (held back)": scored}
+    left = {path.parent.name: read(path) for path in sorted(folder.glob("leftOut/*/report.json"))}
+    return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
+
+
+def picture(names, file):
+    from clepsydra import picture_style
+    from clepsydra.picture_style import pyplot
+
+    panels = [
+        (STUDIES[name][0], label, each["heldOut"]["numbers"])
+        for name in names
+        for report in [read(CASES / name / "results/report.json")]
+        if report
+        for label, each in unseen(name, report).items()
+    ]
+    if not panels:
+        raise SystemExit("no condition of these studies was held out, or left out: nothing to draw")
+    figure, row = pyplot.subplots(
+        1,
+        len(panels),
+        figsize=(1 + 2.6 * len(panels), 3.2),
+        squeeze=False,
+        constrained_layout=True,
+        width_ratios=[1 + len(numbers) for _, _, numbers in panels],
+    )
+    marks = [
+        ("measured", "measured", "black", "o", "black"),
+        ("before", "model before", picture_style.STEPS["dry"], "s", "none"),
+        ("after", "model after", picture_style.LINE, "D", "none"),
+    ]
+    for axes, (study, where, numbers) in zip(row[0], panels):
+        for kind, label, colour, mark, filling in marks:
+            shown = [
+                (place, one[kind]["value"], one[kind]["standardError"])
+                for place, one in enumerate(numbers)
+                if one[kind]
+            ]
+            axes.errorbar(
+                *(zip(*shown) if shown else ([], [], [])),
+                color=colour,
+                marker=mark,
+                markerfacecolor=filling,
+                linestyle="",
+                label=label,
+            )
+        several = len({one["condition"] for one in numbers}) > 1
+        axes.set_xticks(
+            range(len(numbers)),
+            [f"{one['condition']}\n{one['feature']}" if several else one["feature"] for one in numbers],
+        )
+        axes.set(yscale="log", title=f"{study}:\n{where}", xlim=(-0.6, len(numbers) - 0.4))
+        axes.tick_params(labelsize=7, which="both")
+        axes.title.set_fontsize(8)
+        axes.grid(alpha=0.3)
+    row[0][0].set_ylabel("SI units")
+    row[0][0].legend(fontsize=7)
+    figure.savefig(file, dpi=picture_style.DPI)
+
+
+def errors(report):
+    held_out = report["heldOut"]
+    scores = [held_out.get(one) for one in ("before", "after", "oneMoreParameter")]
+    return [
+        f"{100 * one['rmsLogError']:.1f} +- {100 * one['standardError']:.1f} %" if one else "" for one in scores
+    ] + [
+        f"{100 * held_out['noiseFloor']:.1f} %" if held_out.get("noiseFloor") else "",
+        "yes" if held_out["accepted"] else "no",
+    ]
+
+
+def by_condition(report):
+    """Where several conditions were held out together: lines of the table for each."""
+    conditions = report["heldOut"]["conditions"]
+    for condition in conditions if len(conditions) > 1 else []:
+        numbers = [one for one in report["heldOut"]["numbers"] if one["condition"] == condition]
+        yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in ("before", "after")] + ["", "", ""]
+
+
+def rms_log_error(numbers, when):
+    logs = [math.log(one[when]["value"] / one["measured"]["value"]) for one in numbers if one[when]]
+    return f"{100 * math.sqrt(statistics.mean(log * log for log in logs)):.1f} %" if logs else ""
+
+
+def read(path):
+    return json.loads(path.read_text()) if path.exists() else None
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,271 @@
+#!/usr/bin/python3
+"""scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials ErgunTestMPI and
+settlingTestMPI. What it writes is run, and held against the law that the old case states; what it cannot carry over is an error.
+"""
+
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+from clepsydra import case_files, closures, environment
+
+HERE = Path(__file__).resolve().parent
+ROOT = HERE.parents[1]
+
+
+class Folder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="clepsydra-import-")
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+        self.target = self.folder / "new"
+
+    def case(self, name, file=None, old="", new=""):
+        """A copy of an old case, with a text in one of its files replaced."""
+        copy = self.folder / name
+        shutil.copytree(HERE / name, copy)
+        if file:
+            text = (copy / file).read_text() if (copy / file).exists() else ""
+            self.assertIn(old, text)
+            (copy / file).write_text(text.replace(old, new, 1))
+        return copy
+
+    def importing(self, case, *options):
+        return subprocess.run(
+            [ROOT / "scripts/importCfdem", case, self.target, *options], capture_output=True, text=True
+        )
+
+    def imported(self, case, *options):
+        done = self.importing(case, *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout
+
+    def run_(self):
+        done = subprocess.run([self.target / "Allrun"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+
+
+class Runs(Folder):
+    """Of the new cases: within 5 % of the law."""
+
+    def test_settling_particle(self):
+        self.imported(HERE / "settlingParticle")
+        self.run_()
+        speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
+        law = closures.value(
+            "terminalVelocity",
+            dragLaw="DiFeliceDrag",
+            particleDiameter=1e-4,
+            particleDensity=3000,
+            fluidDensity=10,
+            fluidViscosity=1e-5,
+        )
+        print(f"settlingParticle: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
+        self.assertLess(abs(speed / law - 1), 0.05)
+
+    def test_packed_column(self):
+        """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the pressure drop."""
+        self.imported(HERE / "packedColumn")
+        self.run_()
+        probes = np.loadtxt(self.target / "postProcessing/probes/0/p")
+        for time, velocity in (("0.05", 0.006), ("0.1", 0.01)):
+            bottom, top = probes[np.abs(probes[:, 0] - float(time)).argmin(), 1:]
+            drop, law = 10 * (bottom - top), self.ergun(time, velocity)
+            print(f"packedColumn at {velocity} m/s: {drop:.2f} Pa, Ergun {law:.2f}: {100 * (drop / law - 1):+.2f} %")
+            self.assertLess(abs(drop / law - 1), 0.05)
+
+    def ergun(self, time, velocity):
+        """Over the layers of cells between the two probes, which are the middles of the lowest layer and of one above the bed."""
+        void_fraction = case_files.field(self.target, time, "voidFraction")[:, 0]  # one cell a layer
+        bed = void_fraction < 0.95
+        weight = np.where(np.arange(30) == 0, 0.5, 1.0)[bed]
+        gradient = closures.values(
+            "ergunPressureGradient",
+            particleDiameter=1e-3,
+            fluidDensity=10,
+            fluidViscosity=1.5e-4,
+            voidFraction=void_fraction[bed],
+            superficialVelocity=velocity,
+        )
+        return (weight * gradient).sum() * 1e-3
+
+
+class Meanings(Folder):
+    """What is written, where a word means something else."""
+
+    def test_interval_is_in_seconds(self):
+        said = self.imported(HERE / "settlingParticle")
+        self.assertIn("couplingTimeStep        0.001;", (self.target / "constant/couplingProperties").read_text())
+        self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
+        self.assertIn("couplingInterval 100: is in seconds here", said)
+
+    def test_smoothing_length_spreads_alike(self):
+        self.imported(HERE / "settlingParticle")
+        self.assertIn("bandwidth               0.0006;", (self.target / "constant/couplingProperties").read_text())
+
+    def test_constant_inlet_is_superficial(self):
+        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        table = re.search(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[0]
+        self.imported(self.case("packedColumn", "CFD/0/U", table, "type fixedValue; value uniform (0 0 0.01);\n"))
+        self.assertIn("interstitialInletVelocity", (self.target / "0/U").read_text())
+
+    def test_long_table_of_an_inlet(self):
+        """OpenFOAM reads the expression, and it has the table's values at and between its times."""
+        rows = [(0.001 * step, 0.002 + 0.001 * (step % 3)) for step in range(60)]
+        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        table = re.search(r"table\n        \(.*?\n        \);", text, re.DOTALL)[0]
+        self.imported(
+            self.case(
+                "packedColumn",
+                "CFD/0/U",
+                table,
+                "table (" + " ".join(f"({time:.6g} (0 0 {speed:.6g}))" for time, speed in rows) + ");",
+            )
+        )
+        control = self.target / "system/controlDict"
+        control.write_text(re.sub(r"(?m)^(endTime|writeInterval) .*;", r"\1 0.03;", control.read_text()))
+        self.run_()
+        probes = (self.target / "postProcessing/probes/0/U").read_text().replace("(", " ").replace(")", " ")
+        for row in probes.splitlines():
+            if not row.startswith("#"):
+                time, *_, upwards = (float(number) for number in row.split())
+                self.assertAlmostEqual(upwards, np.interp(time, *zip(*rows)), delta=1e-6)
+
+    def test_inlet_between_the_particles_stays_one(self):
+        self.imported(
+            self.case(
+                "packedColumn",
+                "CFD/0/voidfraction",
+                '"(inlet|outlet)"\n    {\n        type            fixedValue;',
+                '"(inlet|outlet)"\n    {\n        type            zeroGradient;',
+            )
+        )
+        self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
+
+    def test_probes_look_for_our_field(self):
+        said = self.imported(HERE / "packedColumn")
+        self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
+        self.assertIn("volAverage_voidfraction: no such field here", said)
+
+    def test_files_are_not_compressed(self):
+        """Taken over as `on`, the program would refuse the case."""
+        said = self.imported(
+            self.case(
+                "settlingParticle",
+                "CFD/system/controlDict",
+                "writeCompression uncompressed",
+                "writeCompression compressed",
+            )
+        )
+        self.assertIn("writeCompression        off;", (self.target / "system/controlDict").read_text())
+        self.assertIn("writeCompression: is off here", said)
+
+    def test_script_loses_the_coupling(self):
+        said = self.imported(HERE / "packedColumn")
+        script = (self.target / "DEM/in.liggghts_run").read_text()
+        for word in ("processors", "couple/cfd", "dragforce", "dragtotal", "../DEM", "thermo_log"):
+            self.assertNotIn(word, script)
+        self.assertNotRegex(script, r"(?m)^run")
+        self.assertIn("thermo_style custom step atoms ke c_centre[3]", script)
+        self.assertIn("processors 2 2 1: both engines", said)
+
+    def test_seeds_are_primes_above10000(self):
+        for file, old, new in (
+            ("DEM/in.liggghts_init", "sphere 15485863", "sphere 1"),
+            ("DEM/in.liggghts_init", "seed 100003", "seed 100001"),
+        ):
+            with self.subTest(new):
+                case = self.case("packedColumn", file, old, new)
+                said = self.imported(case)
+                script = (self.target / file).read_text()
+                shutil.rmtree(case)
+                shutil.rmtree(self.target)
+                self.assertRegex(script, r"sphere 10007|seed 100003")
+                self.assertIn(f"seed {new.split()[1]}: is 100", said)
+
+    def test_solvers_keep_their_words(self):
+        self.imported(HERE / "packedColumn")
+        solution = (self.target / "system/fvSolution").read_text()
+        self.assertIn("        $p;", solution)
+        self.assertIn("    nNonOrthogonalCorrectors 0;", solution)
+
+    def test_report_stays_with_the_case(self):
+        said = self.imported(HERE / "packedColumn")
+        self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
+
+
+class Errors(Folder):
+    """Nothing is written, and the message names the file and the entry."""
+
+    def test_what_nothing_reads(self):
+        coupling, control, script = "CFD/constant/couplingProperties", "CFD/system/controlDict", "DEM/in.liggghts_run"
+        for file, old, new, named in (
+            (coupling, "modelType B;", "modelType B; useImplicitWhatever on;", "useImplicitWhatever"),
+            (coupling, "    treeSearch true;", "    treeSearch true; } DiFeliceDragProps { scaleDia 2;", "scaleDia"),
+            (coupling, 'granVelFieldName "Us";\n    verbose', "slipFactor 2;\n    verbose", "slipFactor"),
+            (coupling, "modelType B;", "modelType Bfull;", "modelType"),
+            (coupling, "    Archimedes\n", "    Archimedes\n    magicForce\n", "magicForce"),
+            (coupling, "dataExchangeModel twoWayMPI", "dataExchangeModel twoWayM2M", "dataExchangeModel"),
+            (coupling, "scaleUpVol 1.0", "scaleUpVol 1.3", "scaleUpVol"),
+            (control, "adjustTimeStep  no", "adjustTimeStep  yes", "adjustTimeStep"),
+            (control, "endTime         0.15;", 'endTime         0.15; libs ("libmine.so");', "libs"),
+            (control, "endTime         0.15;", "endTime         0.15; graphFormat raw;", "graphFormat"),
+            (script, "couple_every 100", "couple_every 50", "couple_every"),
+            (script, "run             0\n", "run             5000\n", "run"),
+            (script, "couple/cfd/force\n", "couple/cfd/convection\n", "couple/cfd/convection"),
+            (
+                "CFD/constant/RASProperties",
+                "RASModel        laminar;\nturbulence      off;",
+                "RASModel kEpsilon; turbulence on;",
+                "kEpsilon",
+            ),
+            ("CFD/constant/g", "0 -9.81 0", "0 0 -9.81", "DEM script"),
+            ("CFD/0/T", "", "internalField uniform 300;", "CFD/0/T"),
+            ("CFD/constant/liggghtsCommands", "runLiggghts", "runLiggghts execute", "execute"),
+        ):
+            with self.subTest(named):
+                case = self.case("settlingParticle", file, old, new)
+                done = self.importing(case)
+                shutil.rmtree(case)
+                self.assertEqual(done.returncode, 1, done.stdout)
+                self.assertIn(named, done.stderr)
+                self.assertIn("nothing was written", done.stderr)
+                self.assertFalse(self.target.exists())
+
+    def test_inlet_that_may_be_either(self):
+        done = self.importing(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"', "outlet"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("inlet", done.stderr)
+
+    def test_without_is_what_the_user_says(self):
+        case = self.case(
+            "settlingParticle",
+            "CFD/constant/couplingProperties",
+            "modelType B;",
+            "modelType B; useImplicitWhatever on;",
+        )
+        self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
+
+    def test_without_that_names_nothing(self):
+        done = self.importing(HERE / "settlingParticle", "--without", "misspelt")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("misspelt: names no error", done.stderr)
+
+    def test_target_that_is_there(self):
+        self.target.mkdir()
+        done = self.importing(HERE / "settlingParticle")
+        self.assertIn("is there already", done.stderr)
+
+    def test_broken_file(self):
+        done = self.importing(self.case("settlingParticle", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("CFD/0/p", done.stderr)
+
+
+environment.load()
+unittest.main()

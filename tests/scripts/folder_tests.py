@@ -1,0 +1,79 @@
+"""Which folder of coupling/ may include which: an arrow that goes back makes two folders one."""
+
+import re
+import unittest
+from pathlib import Path
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+COUPLING = REPOSITORY / "coupling"
+
+# From below to above; each may include those before it. Files that lie in coupling/ itself stand for themselves.
+ORDER = [
+    "tokens",
+    "openfoam",
+    "files",
+    "closures",
+    "vectorUnits.h",
+    "phaseTimers.h",
+    "engine",
+    "vectors.h",
+    "couplingState.h",
+    "knownEntries.h",
+    "modelLines.h",
+    "runTimeSelection.h",
+    "ranks.h",
+    "exchange",
+    "distribution",
+    "forces",
+    "insertionAndRemoval",
+    "conservation",
+    "couplingStep",
+    "checkpoint",
+    "functionObjects",
+    "output",
+    "run",
+]
+
+
+def includes(folder=COUPLING):
+    """Pairs of a file and what it includes, both relative to coupling/."""
+    for file in sorted(folder.rglob("*")):
+        if file.suffix in (".h", ".cpp", ".C"):
+            for included in re.findall(r'^#include "([^"]+)"', file.read_text(), re.MULTILINE):
+                if (COUPLING / included).exists():
+                    yield file, included
+
+
+def part(file):
+    """The folder, or the header of a file that lies in none."""
+    first = Path(file).parts[0]
+    return first.replace(".cpp", ".h")
+
+
+class Folders(unittest.TestCase):
+    def test_none_includes_what_stands_above_it(self):
+        """In one order for all; a folder that is not in it fails, too. The last line is against a search that finds no
+        includes, and would let everything pass."""
+        arrows = set()
+        for file, included in includes():
+            of, to = part(file.relative_to(COUPLING)), part(included)
+            self.assertIn(of, ORDER)
+            self.assertIn(to, ORDER)
+            self.assertGreaterEqual(ORDER.index(of), ORDER.index(to), f"{file} includes {included}")
+            arrows.add((of, to))
+        self.assertIn(("couplingStep", "forces"), arrows)
+
+    def test_only_the_solver_knows_liggghts(self):
+        """Its folder, and the program that chooses it."""
+        knowing = {part(file.relative_to(COUPLING)) for file, included in includes() if "liggghts" in included}
+        self.assertEqual(knowing, {"engine"})
+        self.assertIn("engine/liggghts/liggghtsEngine.h", {to for _, to in includes(REPOSITORY / "solvers")})
+
+    def test_closures_include_themselves_alone(self):
+        """But for the program that prints their values."""
+        known = {part(included) for file, included in includes(COUPLING / "closures") if file.suffix == ".h"}
+        self.assertEqual(known, {"closures"})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,183 @@
+"""What scripts/parameterStudy does with damaged state, a full disk and mistaken files. With the surrogate of tests/parameterStudy; seconds."""
+
+import errno
+import os
+import shutil
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import yaml
+
+from clepsydra import whole_files
+from parameterStudies import executors, task
+from parameterStudies.plan import ParameterStudy
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+SURROGATE = REPOSITORY / "tests" / "parameterStudy" / "surrogate"
+
+
+class ParameterStudyFile(unittest.TestCase):
+    def setUp(self):
+        self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameterStudy-"))
+        self.addCleanup(shutil.rmtree, self.folder)
+
+    def write(self, **settings):
+        (self.folder / "test.yaml").write_text(
+            yaml.safe_dump({"case": str(SURROGATE), "steps": ["dry"], "packings": [1], "runs": {"one": {}}, **settings})
+        )
+
+    def parameter_study(self):
+        return ParameterStudy(self.folder / "test.yaml")
+
+    def call(self, command, *arguments):
+        return subprocess.run(
+            [REPOSITORY / "scripts" / "parameterStudy", command, self.folder / "test.yaml", *arguments],
+            capture_output=True,
+            text=True,
+            env={"PATH": os.environ["PATH"], "CLEPSYDRA_BUILD": str(self.folder)},
+        )
+
+    def refused(self, command="check"):
+        outcome = self.call(command)
+        self.assertEqual(outcome.returncode, 2, outcome.stdout + outcome.stderr)
+        self.assertNotIn("Traceback", outcome.stderr)
+        return outcome.stderr
+
+
+class DamagedState(ParameterStudyFile):
+    def attempts(self, text):
+        self.write()
+        folder = self.folder / "work/runs/one.1.dry"
+        folder.mkdir(parents=True)
+        (folder / "attempts").write_text(text)
+        return folder
+
+    def test_half_a_line_of_attempts_is_dropped(self):
+        """A kill in the midst of a write leaves half a line: `status` shows the run, and the next attempt begins a line of
+        its own. A reader that takes each line for JSON ends with a traceback; a writer that appends spoils its own line.
+        """
+        start = '{"start": 10.0, "host": "here", "ranks": 1}\n'
+        folder = self.attempts(start + '{"end": 20.0, "sta')
+        outcome = self.call("status")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertRegex(outcome.stdout, r"one\.1\.dry +stopped")
+        with task.locked(folder / "attempts") as attempts:
+            with mock.patch("builtins.print") as said:
+                task.dropHalfLine(attempts)
+            task.note(attempts, {"end": 30.0, "status": 1})
+        self.assertIn("dropped half a line", said.call_args[0][0])
+        self.assertEqual((folder / "attempts").read_text(), start + '{"end": 30.0, "status": 1}\n')
+        self.assertEqual(task.attemptsOf(folder), [[10.0, 30.0, 1]])
+
+    def test_other_damage_of_attempts_is_named(self):
+        for line in ("no JSON", "[]", '{"start": "x", "ranks": 1}', '{"end": 1, "status": 0}', "{}"):
+            self.attempts(line + "\n")
+            self.assertIn(f"attempts:1: {line!r} is no start or end of an attempt", self.refused("status"))
+            shutil.rmtree(self.folder / "work")
+
+    def test_a_full_disk_never_leaves_a_half_file(self):
+        """Whatever step of a write fails, the old file is still there, whole, and the failure is known."""
+        path = self.folder / "results.json"
+        for step in ("fsync", "write", "rename"):
+            with self.subTest(step):
+                whole_files.write(path, "old\n")
+                full = OSError(errno.ENOSPC, "No space left on device")
+                with (
+                    mock.patch(f"os.{step}", side_effect=full)
+                    if step == "fsync"
+                    else (
+                        mock.patch("pathlib.Path.rename", side_effect=full)
+                        if step == "rename"
+                        else mock.patch("builtins.open", return_value=open("/dev/full", "w"))
+                    )
+                ):
+                    with self.assertRaises(OSError):
+                        whole_files.write(path, "new, and longer\n")
+                self.assertEqual(path.read_text(), "old\n")
+                self.assertEqual([found.name for found in self.folder.iterdir()], ["results.json"])
+
+
+class MistakenFiles(ParameterStudyFile):
+    def test_an_entry_that_is_there_twice(self):
+        self.write()
+        with open(self.folder / "test.yaml", "a") as file:
+            file.write("steps: [submerged]\n")
+        self.assertIn("entry 'steps' is there twice", self.refused())
+
+    def test_misspelt_words_name_the_nearest(self):
+        self.write(packing=[1])
+        self.assertIn("unknown entry 'packing'; allowed: base, case", self.refused())
+        self.assertIn("(is 'packings' meant?)", self.refused())
+        self.write(parameters={"fricton": 0.1})
+        self.assertIn("(is 'friction' meant?)", self.refused())
+
+    def test_what_is_no_list_of_runs_or_no_number_of_times(self):
+        """Before anything is run: these were found while the first run was under way, or ended in a traceback."""
+        for settings, words in (
+            ({"runs": {}}, "entry 'runs' is {}; allowed: a list of"),
+            ({"runs": {"mu": 5}}, "allowed: a list of"),
+            ({"keepTimes": 1}, "entry 'keepTimes' is 1; allowed: all, or a whole number above 1"),
+        ):
+            self.write(**settings)
+            for command in ("check", "run"):
+                self.assertIn(words, self.refused(command))
+
+    def test_parameters_of_the_hopper_are_checked_before_anything_is_made(self):
+        """Of every run, also of one of many in a sweep."""
+        for values, words in (
+            ({"friction": "nan"}, "entry 'friction' is nan; allowed: a number from 0 to 10"),
+            ({"particleDiameter": [2e-3, 2]}, "entry 'particleDiameter' is 2; allowed: a number from 1e-05 to 0.1 [m]"),
+            ({"orificeDiameter": 1e-3}, "cannot pass orificeDiameter 0.001 m"),
+            ({"friction": '0.1; #include "/etc/passwd"'}, "entry 'friction' cannot be"),
+            ({"fillMass": "().__class__"}, "'fillMass' is"),
+        ):
+            self.write(
+                case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"),
+                packings=[100003],
+                runs={"one": {"sweep": values}},
+            )
+            for command in ("check", "run"):
+                self.assertIn(words, self.refused(command))
+            self.assertFalse((self.folder / "work").exists())
+
+    def test_machines_of_slurm_are_not_this_one(self):
+        """More ranks than this machine can bear are refused here, and are none of its business where Slurm places them."""
+        self.write(case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"), packings=[100003], ranks=100000)
+        self.assertIn("100000 ranks; allowed", self.refused())
+        outcome = self.call("check", "--executor", "slurm")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+
+    def test_a_parameter_study_may_lie_outside_the_repository(self):
+        """A copy of cases/paper/reference.yaml: its base is found, and its work and results lie beside it."""
+        shutil.copy(REPOSITORY / "cases/paper/reference.yaml", self.folder / "test.yaml")
+        outcome = self.call("check")
+        self.assertEqual(outcome.returncode, 0, outcome.stderr)
+        self.assertIn("37596 of 2 mm, 400 g", outcome.stdout)
+        self.assertEqual(self.parameter_study().work, self.folder / "work/reference")
+
+    def test_a_space_in_the_path(self):
+        self.write(work="my work")
+        self.assertIn("has a space or a quote in it", self.refused())
+
+
+class Shell(ParameterStudyFile):
+    def test_no_name_reaches_a_shell_or_make_as_code(self):
+        """The parameter study's file lies in a folder whose name make, or the shell, would run: the task must get it as it is."""
+        work, command = self.folder / "work", self.folder / "command"
+        command.write_text(f'#!/bin/sh\nprintf %s "$2" > {self.folder}/received\n')
+        command.chmod(0o755)
+        self.folder = self.folder / "$(shell touch made);touch made;`touch made`"
+        self.folder.mkdir()
+        self.write(work=str(work))
+        work.mkdir()
+        with mock.patch.object(executors, "COMMAND", str(command)), mock.patch("signal.signal"):
+            executors.local(self.parameter_study(), 1)
+        self.assertEqual(list(work.parent.rglob("made")), [])
+        self.assertEqual((work.parent / "received").read_text(), str(self.folder / "test.yaml"))
+
+
+if __name__ == "__main__":
+    unittest.main()
