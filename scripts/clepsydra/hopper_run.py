@@ -538,7 +538,7 @@ class HopperCase:
         discharges = [f"steps/{name}" for name in self.steps[1:]]
         commands: list[list[str | Path]] = [[SCRIPTS / "plotFlow", "results", *discharges], ["./summarise"]]
         if self.parameter("drawParticles") != "off":
-            picture = ["parameters", "results/particles.png", *discharges]
+            picture = ["results/particles.png", *discharges]
             commands.append([SCRIPTS / "renderFlow", *picture])
         for command in commands:
             if subprocess.run(command, cwd=self.folder).returncode != 0:
