@@ -1,4 +1,5 @@
-"""cases/tutorials/hopperQuick in a copy of the repository's layout, with surrogates for setup, solver, mesh programs and pictures."""
+"""cases/tutorials/hopperQuick in a copy of the repository's layout, with surrogates for setup, solver, mesh programs
+and pictures."""
 
 import os
 import shutil
@@ -33,7 +34,7 @@ class HopperCase(unittest.TestCase):
         (root / "scripts").mkdir()
         for path in (REPOSITORY / "scripts").iterdir():
             (root / "scripts" / path.name).symlink_to(path)
-        for name in ("setup", "plotFlow", "renderParticles"):
+        for name in ("setup", "plotFlow", "renderFlow"):
             self.program(root / "scripts" / name, "#!/bin/sh\n")
         self.program(self.case / "summarise", "#!/bin/sh\nmkdir -p results; touch results/summary.json\n")
         for name in MESH_PROGRAMS:

@@ -1,14 +1,13 @@
 #!/usr/bin/python3
 """A hopper of any shape, the STL file hopper.stl of the case, inside a square tank of water, meshed by snappyHexMesh.
 
-Usage: hopperFromSurface PARAMETERS CASE
-       hopperFromSurface --cells PARAMETERS   makes nothing, prints about how many cells the mesh will have
-
 CASE/hopper.stl (text or binary, metres, z upwards) is one surface without thickness, open at two places only: at the
 orifice, an edge in the plane z = 0 round the origin, and at the rim, z = hopperHeight. Its upper part is a cylinder of
-hopperDiameter, where particles are filled in; below, it is of any shape within that cylinder. A surface with another hole is refused.
+hopperDiameter, where particles are filled in; below, it is of any shape within that cylinder. A surface with another
+hole is refused.
 
-Particles and water get their walls from the same triangles: DEM/meshes/hopperWall.stl (those of the cylinder), hopperPlate.stl
+Particles and water get their walls from the same triangles: DEM/meshes/hopperWall.stl (those of the cylinder),
+hopperPlate.stl
 (all others), plug.stl (closes the orifice) and constant/triSurface/hopper.stl. All else is as hopperBySnappy writes it.
 """
 
@@ -17,10 +16,10 @@ import subprocess
 import sys
 from collections import Counter
 from math import hypot, pi, sqrt
-from pathlib import Path
 
 from clepsydra import environment, parameter_file
 from clepsydra.meshes import hopper_walls
+from clepsydra.meshes.generator import read_options
 
 SNAPPY = environment.REPOSITORY / "meshes" / "hopperBySnappy"
 SAME_POINT = 1e-4  # of the hopper's diameter: points nearer than this are one
@@ -144,10 +143,8 @@ def is_on_cylinder(triangle, radius):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    only_count = sys.argv[1] == "--cells"
-    text = parameter_file.read(sys.argv[2] if only_count else sys.argv[1])  # once: it may be a pipe
+    only_count, source, case = read_options("hopperFromSurface", __doc__)
+    text = parameter_file.read(source)  # once: it may be a pipe
     p = parameter_file.parameters_in(text)
     if any(p.get(name) != 0 for name in ("landHeight", "bevelHeight", "wallThickness")):
         sys.exit(
@@ -155,12 +152,11 @@ def main():
             " it all"
         )
     made = subprocess.run(
-        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", sys.argv[2]])], input=text, text=True
+        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", case])], input=text, text=True
     )
     if made.returncode != 0 or only_count:
         sys.exit(made.returncode)
 
-    case = Path(sys.argv[2])
     file, radius = case / "hopper.stl", p["hopperDiameter"] / 2
     try:
         surface = merged(triangles(file), SAME_POINT * p["hopperDiameter"])
