@@ -1,11 +1,9 @@
 #!/usr/bin/python3
 """Writes the manual page of a program from what it says of itself, so that there is one text.
-
-Usage: manPage PROGRAM SUMMARY HELP_OPTION FILE [OPTION HEADING]...      each OPTION is asked for, and printed below HEADING
 """
 
+import argparse
 import subprocess
-import sys
 from pathlib import Path
 
 
@@ -20,9 +18,18 @@ def verbatim(text):
 
 
 def main():
-    if len(sys.argv) < 5 or len(sys.argv) % 2 == 0:
-        sys.exit(__doc__)
-    program, summary, help, file, *more = sys.argv[1:]
+    parser = argparse.ArgumentParser(description=__doc__, prefix_chars="+")
+    parser.add_argument("program", metavar="PROGRAM")
+    parser.add_argument("summary", metavar="SUMMARY")
+    parser.add_argument("help", metavar="HELP_OPTION")
+    parser.add_argument("file", type=Path, metavar="FILE")
+    parser.add_argument(
+        "more", nargs="*", metavar="OPTION HEADING", help="each OPTION is asked for, and printed below HEADING"
+    )
+    given = parser.parse_args()
+    if len(given.more) % 2:
+        parser.error("OPTION and HEADING come in pairs")
+    program, summary, help, more = given.program, given.summary, given.help, given.more
     name = Path(program).name
     parts = [
         f'.TH {name.upper()} 1 "" Clepsydra',
@@ -33,7 +40,7 @@ def main():
         f".SH {heading.upper()}\n{verbatim(said(program, option))}" for option, heading in zip(more[::2], more[1::2])
     ]
     parts.append(".SH SEE ALSO\nThe pages in share/clepsydra, of which README.md is the first.")
-    Path(file).write_text("\n".join(parts) + "\n")
+    given.file.write_text("\n".join(parts) + "\n")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,5 @@
-"""Arithmetic that stands in a data file: numbers, names, + - * / **, brackets and a few functions. Nothing else is run."""
+"""Arithmetic that stands in a data file: numbers, names, + - * / **, brackets and a few functions. Nothing else is
+run."""
 
 import ast
 import math

@@ -45,7 +45,9 @@ FORMULAS = {
 
 
 def main():
-    parser = argparse.ArgumentParser(description="A contact law's coefficient as another code wants it, from LIGGGHTS'.")
+    parser = argparse.ArgumentParser(
+        description="A contact law's coefficient as another code wants it, from LIGGGHTS'."
+    )
     parser.add_argument("quantity", choices=FORMULAS)
     parser.add_argument("value", type=float, help="the restitution coefficient; of tangentialDamping, Poisson's ratio")
     given = parser.parse_args()

@@ -1,4 +1,5 @@
-"""Particles and water of a case in its middle plane, and beside them what a scale would read: of renderFlow and movie."""
+"""Particles and water of a case in its middle plane, and beside them what a scale would read: of renderFlow and
+movie."""
 
 import sys
 
@@ -19,7 +20,8 @@ OBSERVABLES = {
 
 
 class View:
-    """A part of the plane y = 0 in m, with the walls in it. Left alone, a hopper and the water below it, or the whole mesh."""
+    """A part of the plane y = 0 in m, with the walls in it. Left alone, a hopper and the water below it, or the whole
+    mesh."""
 
     def __init__(self, case, extent=None):
         _, patches = foam_mesh.read(case)
@@ -143,12 +145,40 @@ def observable(case):
 
 
 def draw(case, view, moment, fastest_particle, fastest_water, height=6.2):
-    """A figure of this height in inches."""
+    """A figure of this height in inches: the plane, and beside it what a scale reads."""
     beside = observable(case)
     wide = height * (view.width / view.height) + (1.4 if moment.across is None else 2.6)
     figure = pyplot.figure(figsize=(wide + (4.4 if beside else 0), height), constrained_layout=True)
     panels = figure.subplots(1, 2, gridspec_kw={"width_ratios": (wide, 4.4)}) if beside else (figure.subplots(),)
-    axes = panels[0]
+    draw_plane(figure, panels[0], case, view, moment, fastest_particle, fastest_water)
+    if beside:
+        label, title, time, value = beside
+        until = time <= moment.at
+        panels[1].plot(time, value, color="0.8")
+        panels[1].plot(time[until], value[until], color=picture_style.LINE)
+        panels[1].plot(moment.at, np.interp(moment.at, time, value), "o", color=picture_style.MARK)
+        panels[1].set(xlabel="time [s]", ylabel=label, xlim=(0, None), ylim=(0, None), title=title)
+        panels[1].grid(alpha=0.3)
+    return figure
+
+
+def draw_cases(cases, views, moments, height=6.2):
+    """A figure with the planes of several cases side by side, all in the same colours."""
+    fastest_particle = max(moment.fastest_particle(view) for moment, view in zip(moments, views))
+    fastest_water = max(moment.fastest_water() for moment in moments)
+    widths = [
+        height * (view.width / view.height) + (1.4 if moment.across is None else 2.6)
+        for moment, view in zip(moments, views)
+    ]
+    figure = pyplot.figure(figsize=(sum(widths), height), constrained_layout=True)
+    panels = figure.subplots(1, len(cases), squeeze=False, gridspec_kw={"width_ratios": widths})[0]
+    for axes, case, view, moment in zip(panels, cases, views, moments):
+        draw_plane(figure, axes, case, view, moment, fastest_particle, fastest_water)
+    return figure
+
+
+def draw_plane(figure, axes, case, view, moment, fastest_particle, fastest_water):
+    """Particles, water and walls, and the bars of their colours."""
     if moment.across is not None:
         x, z = 1e3 * view.x, 1e3 * view.z
         shown = axes.pcolormesh(
@@ -185,15 +215,6 @@ def draw(case, view, moment, fastest_particle, fastest_water, height=6.2):
         title=f"{case.resolve().name}, t = {moment.at:.2f} s",
     )
     figure.colorbar(circles, ax=axes, location="right", shrink=0.7, label="particles [m/s]", extend="max")
-    if beside:
-        label, title, time, value = beside
-        until = time <= moment.at
-        panels[1].plot(time, value, color="0.8")
-        panels[1].plot(time[until], value[until], color=picture_style.LINE)
-        panels[1].plot(moment.at, np.interp(moment.at, time, value), "o", color=picture_style.MARK)
-        panels[1].set(xlabel="time [s]", ylabel=label, xlim=(0, None), ylim=(0, None), title=title)
-        panels[1].grid(alpha=0.3)
-    return figure
 
 
 def draw_particles(axes, view, moment, fastest):

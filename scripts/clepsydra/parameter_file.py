@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""A case's file `parameters`: a flat OpenFOAM dictionary of entries "name value;", one a line. Read and changed here only."""
+"""A case's file `parameters`: a flat OpenFOAM dictionary of entries "name value;", one a line. Read and changed here
+only."""
 
 import argparse
 import difflib

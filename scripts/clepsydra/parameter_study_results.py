@@ -1,4 +1,5 @@
-"""What scripts/parameterStudy has published: curves and inputs of runs, gathered by the entry of the parameter study's list."""
+"""What scripts/parameterStudy has published: curves and inputs of runs, gathered by the entry of the parameter study's
+list."""
 
 import csv
 import json

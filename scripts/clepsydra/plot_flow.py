@@ -1,13 +1,11 @@
 #!/usr/bin/python3
 """Mass in the hopper and rate of outflow against time, from massInHopper.dat.
 
-Usage: plotFlow FOLDER CASE...
-
 Writes FOLDER/mass.png and FOLDER/rate.png with one curve for each case directory,
 named after it.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 from clepsydra import case_files, flow, picture_style
@@ -25,9 +23,11 @@ def draw(path, curves, ylabel, title):
 
 
 def main():
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    folder, cases = Path(sys.argv[1]), [Path(case).resolve() for case in sys.argv[2:]]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", type=Path, metavar="FOLDER")
+    parser.add_argument("cases", type=Path, metavar="CASE", nargs="+")
+    given = parser.parse_args()
+    folder, cases = given.folder, [case.resolve() for case in given.cases]
     folder.mkdir(parents=True, exist_ok=True)
 
     masses, rates = [], []

@@ -1,10 +1,8 @@
 #!/usr/bin/python3
-"""Height and speed of a particle against time, from particleHeight.dat, with the speed that it would reach alone in unlimited liquid.
+"""Height and speed of a particle against time, from particleHeight.dat, with the speed that it would reach alone in
+unlimited liquid."""
 
-Usage: plotParticle CASE FILE       CASE has `parameters` as cases/tutorials/settlingParticle; FILE is the picture
-"""
-
-import sys
+import argparse
 from pathlib import Path
 
 from clepsydra import case_files, closures, parameter_file, picture_style
@@ -12,9 +10,13 @@ from clepsydra.picture_style import pyplot
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    case, file = Path(sys.argv[1]), sys.argv[2]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        "case", type=Path, metavar="CASE", help="a case with `parameters` as tutorials/settlingParticle has"
+    )
+    parser.add_argument("file", type=Path, metavar="FILE", help="the picture")
+    given = parser.parse_args()
+    case, file = given.case, given.file
     entries = parameter_file.parameters(case / "parameters")
     terminal = closures.value(
         "terminalVelocity",

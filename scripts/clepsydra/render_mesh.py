@@ -1,10 +1,8 @@
 #!/usr/bin/python3
-"""Picture of a case's mesh: the cells behind the plane y = 0 and the walls in it, the whole on the left and the orifice on the right.
+"""Picture of a case's mesh: the cells behind the plane y = 0 and the walls in it, the whole on the left and the orifice
+on the right."""
 
-Usage: renderMesh CASE PICTURE     (CASE holds constant/polyMesh and `parameters`)
-"""
-
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +16,8 @@ WALLS = ("hopper", "exit")
 
 
 def faces_seen(cells):
-    """Corners of the faces that one sees from the front where only the cells behind the plane are there, the farthest first, in mm."""
+    """Corners of the faces that one sees from the front where only the cells behind the plane are there, the farthest
+    first, in mm."""
     plane = vtk.vtkPlane()
     # before the cells' faces, which lie in y = 0
     plane.SetOrigin(0, -1e-4, 0)
@@ -40,9 +39,11 @@ def faces_seen(cells):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    case, picture = Path(sys.argv[1]), Path(sys.argv[2])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("case", type=Path, metavar="CASE")
+    parser.add_argument("picture", type=Path, metavar="PICTURE")
+    given = parser.parse_args()
+    case, picture = given.case, given.picture
     p = parameter_file.parameters(case / "parameters")
     cells, patches = foam_mesh.read(case, polyhedra="whole")
     faces = faces_seen(cells)

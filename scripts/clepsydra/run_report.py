@@ -1,7 +1,9 @@
 #!/usr/bin/python3
-"""The report of a run as one page that needs nothing beside it: what it measured, its balances, its time, its settings, what was amiss.
+"""The report of a run as one page that needs nothing beside it: what it measured, its balances, its time, its settings,
+what was amiss.
 
-Usage: runReport CASE FILE.html        CASE has run or is running: everything is taken from its log and the files it writes
+Usage: runReport CASE FILE.html        CASE has run or is running: everything is taken from its log and the files it
+writes
 """
 
 import argparse
@@ -12,7 +14,8 @@ from pathlib import Path
 
 from clepsydra import case_files, flow, flow_drawing, picture_style, whole_files
 
-# What the conservation check's summary says, in words. Numbers count over all parts of a run that was resumed, errors are the largest.
+# What the conservation check's summary says, in words. Numbers count over all parts of a run that was resumed, errors
+# are the largest.
 COUNTED = {
     "particlesInserted": "particles inserted",
     "particlesLeft": "particles left through outlets",
@@ -42,9 +45,12 @@ SETTINGS = (
 # Headings of the log's first part that are reported as they stand.
 SECTIONS = ("Versions", "Models", "Time scales", "Sizes")
 STYLE = """body { font: 16px/1.45 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222; }
-h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em; border-bottom: 1px solid #ccc } td, th { padding: .15em 1em .15em 0; text-align: left; vertical-align: top }
-td.number { text-align: right; font-variant-numeric: tabular-nums } pre { background: #f6f6f6; padding: .6em; overflow-x: auto; font-size: 13px }
-.bad { color: #b00 } .bar { background: #9ec5e8; height: .9em; display: inline-block } svg { max-width: 100%; height: auto }"""
+h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em; border-bottom: 1px solid #ccc }
+td, th { padding: .15em 1em .15em 0; text-align: left; vertical-align: top }
+td.number { text-align: right; font-variant-numeric: tabular-nums }
+pre { background: #f6f6f6; padding: .6em; overflow-x: auto; font-size: 13px }
+.bad { color: #b00 } .bar { background: #9ec5e8; height: .9em; display: inline-block }
+svg { max-width: 100%; height: auto }"""
 
 
 def main():
@@ -228,7 +234,8 @@ def phases(balances):
 
 
 def amiss(log):
-    """Errors, warnings; among them which files of the case nobody has read. An entry that is unknown is an error at the start."""
+    """Errors, warnings; among them which files of the case nobody has read. An entry that is unknown is an error at the
+    start."""
     said = ['<h2 id="amiss">Not read, warnings, errors</h2>']
     said += [preformatted(text, "bad") for text in log.fatal()]
     said += [preformatted(text + (f"\n({count} times)" if count > 1 else "")) for text, count in log.warnings().items()]
@@ -243,7 +250,8 @@ def settings(case):
     for file in files:
         if file.is_file():
             said.append(
-                f"<details><summary>{html.escape(str(file.relative_to(case)))}</summary>{preformatted(file.read_text(errors='replace'))}</details>"
+                f"<details><summary>{html.escape(str(file.relative_to(case)))}</summary>"
+                f"{preformatted(file.read_text(errors='replace'))}</details>"
             )
     return "\n".join(said)
 

@@ -2,15 +2,13 @@
 """A study's answer on conditions that were held back: their measured files are put in, and the study is run again from
 its stored runs. The answer is on disk before the files are looked at.
 
-usage: scoreHeldOut STUDY.yaml CONDITION=FILES ...     CONDITION: a candidate of the study; FILES: one name or 'pattern*'
-
 Writes STUDY's folder/results/heldOut/report.json and .html. The study itself stays as it is.
 """
 
+import argparse
 import glob
 import json
 import subprocess
-import sys
 from pathlib import Path
 
 import yaml
@@ -19,11 +17,20 @@ from clepsydra import environment
 
 
 def main():
-    if len(sys.argv) < 3 or any("=" not in one for one in sys.argv[2:]):
-        raise SystemExit(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", type=Path, metavar="STUDY.yaml")
+    parser.add_argument(
+        "files",
+        nargs="+",
+        metavar="CONDITION=FILES",
+        help="a candidate of the study, and its measured files: one name or 'pattern*'",
+    )
+    given = parser.parse_args()
+    if any("=" not in one for one in given.files):
+        parser.error("CONDITION=FILES: there is no = in it")
     environment.load()
-    original = Path(sys.argv[1]).resolve()
-    study = with_files(yaml.safe_load(original.read_text()), dict(one.split("=", 1) for one in sys.argv[2:]))
+    original = given.study.resolve()
+    study = with_files(yaml.safe_load(original.read_text()), dict(one.split("=", 1) for one in given.files))
     # beside the original, so that its relative paths and stored runs are found
     scored = original.with_name(f".scored.{original.name}")
     scored.write_text(yaml.safe_dump(study, sort_keys=False))

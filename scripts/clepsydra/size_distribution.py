@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Lines of a LIGGGHTS script for particles whose diameters follow a truncated normal distribution.
 
-Usage: sizeDistribution --mean D (--deviation S | --relativeDeviation S/D) [--cut 2] [--classes 9] [--density 2500] [--type 1] [--name particles]
+Usage: sizeDistribution --mean D (--deviation S | --relativeDeviation S/D) [--cut 2] [--classes 9] [--density 2500]
+[--type 1] [--name particles]
 
 LIGGGHTS 3.8 takes one radius per template, so the distribution becomes several templates in one
 particledistribution: classes of equal width from D - cut S to D + cut S [m], each with the diameter that keeps

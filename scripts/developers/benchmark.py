@@ -73,7 +73,8 @@ LONG = (
 )
 
 
-# Not of --realTime: two ranks that wait for each other keep the system's own threads, which write their files, off both cores.
+# Not of --realTime: two ranks that wait for each other keep the system's own threads, which write their files, off both
+# cores.
 TWO_RANKS = (
     "speedupTwoRanks",
     "speedupTwoRanksDry",

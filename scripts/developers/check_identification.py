@@ -1,15 +1,15 @@
 #!/usr/bin/python3
-"""The statistics of traceResidual from end to end, on a surrogate for the solver: false alarms, detection, right names, sets,
+"""The statistics of traceResidual from end to end, on a surrogate for the solver: false alarms, detection, right names,
+sets,
 abstention, coverage, the same answer under other seeds.
 
-usage: checkIdentification                      the table of what has been run, all seeds together (seconds)
-       checkIdentification --run SEED [OPTION ...]    runs one seed, 13 minutes, to identification/results/statistics.SEED.json;
-                                                OPTION: of build/bin/checkIdentification, for instance --libraries 3
+Prints the table of what has been run, all seeds together (seconds). With --run SEED, options of
+build/bin/checkIdentification may follow, for instance --libraries 3.
 """
 
+import argparse
 import json
 import subprocess
-import sys
 
 from scipy.stats import binomtest
 
@@ -21,10 +21,15 @@ USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2,
 
 
 def main():
-    if sys.argv[1:2] == ["--run"] and len(sys.argv) > 2:
-        run(sys.argv[2], sys.argv[3:])
-    elif len(sys.argv) > 1:
-        raise SystemExit(__doc__)
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument(
+        "--run", metavar="SEED", help="run one seed first, 13 minutes, to identification/results/statistics.SEED.json"
+    )
+    given, options = parser.parse_known_args()
+    if given.run:
+        run(given.run, options)
+    elif options:
+        parser.error(f"{options[0]}: only --run SEED has options, those of build/bin/checkIdentification")
     table([json.loads(path.read_text()) for path in sorted(RESULTS.glob("statistics.*.json"))])
 
 

@@ -1,10 +1,13 @@
 #!/usr/bin/python3
-"""Does to a small run, a parameter study and a study what goes wrong in long ones: nothing may be lost, or silently wrong.
+"""Does to a small run, a parameter study and a study what goes wrong in long ones: nothing may be lost, or silently
+wrong.
 
 Usage: faults [--quick] [--json FILE] [--keep] [NAME ...]
 
-Without NAME all kinds of fault; with --quick a part of them, a minute. Each is tried several times, against an undisturbed
-run. Prints a line per kind and ends with status 1 where one does not hold. A fault that cannot be made on this machine is
+Without NAME all kinds of fault; with --quick a part of them, a minute. Each is tried several times, against an
+undisturbed
+run. Prints a line per kind and ends with status 1 where one does not hold. A fault that cannot be made on this machine
+is
 skipped, with the reason. --page writes the table of a JSON file into the page.
 """
 
@@ -19,7 +22,6 @@ import time
 from pathlib import Path
 
 from clepsydra import environment
-
 from developers.fault_kinds import (
     damage,
     disk,

@@ -21,8 +21,10 @@ exec 9>&"$report"
 def type_lines(enter, folder, lines, log):
     """Yields (line, seconds, ok) as they come.
 
-    enter: the words before `bash`, such as those that lead into another root; lines: dictionaries with `command`, and where wanted `in`
-    (a folder to type it in), `before` (what is typed first and not timed), `answer` (what is typed when it asks), `left` (not typed).
+    enter: the words before `bash`, such as those that lead into another root; lines: dictionaries with `command`, and
+    where wanted `in`
+    (a folder to type it in), `before` (what is typed first and not timed), `answer` (what is typed when it asks),
+    `left` (not typed).
     """
     receives, sends = os.pipe()
     script = SHELL + "\n".join(call(number, line) for number, line in enumerate(lines) if "left" not in line)

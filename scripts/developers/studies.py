@@ -1,12 +1,14 @@
 #!/usr/bin/python3
-"""All studies on real measurements, in one table: what was lacking, and the error before and after on what no fit has seen.
+"""All studies on real measurements, in one table: what was lacking, and the error before and after on what no fit has
+seen.
 
 usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --run: the studies are run again first
        studies --leaveOut STUDY ...    each training condition in turn is left out and predicted from the others
        studies --picture FILE STUDY ...    measured, model before, model after, in the conditions that no fit has seen
 
 Errors are those of held-out conditions: the study's own (results/), or those that were held back (results/heldOut, by
-scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote the
+scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote
+the
 library may have. In this order; the table says which.
 """
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
-"""scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials ErgunTestMPI and
-settlingTestMPI. What it writes is run, and held against the law that the old case states; what it cannot carry over is an error.
+"""scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials
+ErgunTestMPI and
+settlingTestMPI. What it writes is run, and held against the law that the old case states; what it cannot carry over is
+an error.
 """
 
 import re
@@ -69,7 +71,8 @@ class Runs(Folder):
         self.assertLess(abs(speed / law - 1), 0.05)
 
     def test_packed_column(self):
-        """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the pressure drop."""
+        """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the
+        pressure drop."""
         self.imported(HERE / "packedColumn")
         self.run_()
         probes = np.loadtxt(self.target / "postProcessing/probes/0/p")
@@ -80,7 +83,8 @@ class Runs(Folder):
             self.assertLess(abs(drop / law - 1), 0.05)
 
     def ergun(self, time, velocity):
-        """Over the layers of cells between the two probes, which are the middles of the lowest layer and of one above the bed."""
+        """Over the layers of cells between the two probes, which are the middles of the lowest layer and of one above
+        the bed."""
         void_fraction = case_files.field(self.target, time, "voidFraction")[:, 0]  # one cell a layer
         bed = void_fraction < 0.95
         weight = np.where(np.arange(30) == 0, 0.5, 1.0)[bed]

@@ -3,7 +3,8 @@
 
 usage: installTests.py BUILD [unittest's options]
 
-The programs run where an empty file system lies over the repository, the build and OpenFOAM's headers; in a shell that has
+The programs run where an empty file system lies over the repository, the build and OpenFOAM's headers; in a shell that
+has
 HOME and PATH and nothing else. Where the machine does not let us mount, that cover is missing.
 """
 
@@ -179,7 +180,8 @@ class Installed(unittest.TestCase):
 
 
 class Package(Installed):
-    """The same from the package, unpacked beside what is there; as far as it is not shown by its files being the same."""
+    """The same from the package, unpacked beside what is there; as far as it is not shown by its files being the
+    same."""
 
     test_manual_pages = (
         test_completions
@@ -198,7 +200,8 @@ class Package(Installed):
         cls.prefix = cls.folder / "usr"
 
     def test_holds_what_is_installed(self):
-        """All files of `cmake --install`, byte by byte but for the programs, from which debugging symbols are stripped."""
+        """All files of `cmake --install`, byte by byte but for the programs, from which debugging symbols are
+        stripped."""
         installed = self.folder / "installed"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", installed], check=True, stdout=subprocess.DEVNULL)
         files = [

@@ -1,21 +1,25 @@
 #!/usr/bin/python3
 """Runs the commands of the pages (every *.md of the repository) as a reader does who has just opened a shell.
 
-usage: pages.py table BUILD                 each command of the pages has its row in commands.yaml, each row its command,
-                                            the tests that rows name are tests of BUILD, links within the repository lead
+usage: pages.py table BUILD                 each command of the pages has its row in commands.yaml, each row its
+command,
+                                            the tests that rows name are tests of BUILD, links within the repository
+                                            lead
                                             to files, and README.md has at most 900 words
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
-A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a program
-(developers/page_text.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and nothing else.
+A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a
+program
+(developers/page_text.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and
+nothing else.
 """
 
+import argparse
 import json
 import os
 import re
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
@@ -30,12 +34,20 @@ PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
 def main():
-    if len(sys.argv) == 3 and sys.argv[1] == "table":
-        check_table(Path(sys.argv[2]))
-    elif len(sys.argv) in (5, 6) and sys.argv[1] == "run":
-        run_page(sys.argv[2], Path(sys.argv[3]), Path(sys.argv[4]), "long" if sys.argv[5:] == ["--long"] else "run")
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    table = commands.add_parser("table")
+    table.add_argument("build", type=Path)
+    run = commands.add_parser("run")
+    run.add_argument("page")
+    run.add_argument("build", type=Path)
+    run.add_argument("headers", type=Path)
+    run.add_argument("--long", action="store_const", const="long", default="run")
+    given = parser.parse_args()
+    if given.command == "table":
+        check_table(given.build)
     else:
-        sys.exit(__doc__)
+        run_page(given.page, given.build, given.headers, given.long)
 
 
 def pages():
@@ -100,7 +112,8 @@ def run_page(page, build, headers, kind):
 
 
 def copy_repository(home):
-    """The files as they are now, without what git ignores, and a git of their own: some commands ask it what is committed."""
+    """The files as they are now, without what git ignores, and a git of their own: some commands ask it what is
+    committed."""
     listed = subprocess.run(
         ["git", "-C", ROOT, "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
         check=True,

@@ -207,7 +207,8 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertRegex(self.call("run", "--only", "noSuchRun").stderr, "no run 'noSuchRun'; there are: one, other")
 
     def test_only_runs_without_results(self):
-        """As in a fresh copy of a repository that holds the results of one run, by an earlier program: that one is neither run
+        """As in a fresh copy of a repository that holds the results of one run, by an earlier program: that one is
+        neither run
         nor written again, and of two fills only the other's is made."""
         self.write(case=str(Path(__file__).parent / "surrogate"), steps=["dry"], packings=[1, 2], runs={"one": {}})
         earlier = self.folder / "results" / "one.1.dry.json"
@@ -279,7 +280,8 @@ class ParameterStudyOnSlurm(ParameterStudyTest):
 
 class ParameterStudyOfHoppers(ParameterStudyTest):
     def test_the_quick_hopper_through_the_real_program(self):
-        """300 particles, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very same
+        """300 particles, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very
+        same
         mass, the smoother particles must leave faster, and no row may be lost or doubled by the stop."""
         self.write(
             case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"),

@@ -16,7 +16,8 @@ REPOSITORY = Path(__file__).resolve().parent.parent.parent
 
 DRY, SUBMERGED = 0.8, 0.6  # s
 WINDOW = (0.95, 0.85)  # of the fill, which is four particles deep: hence not the rates of the paper's
-# g/s in WINDOW: mean and standard deviation of three packings (100003, 100019, 100043). Other rounding is another packing.
+# g/s in WINDOW: mean and standard deviation of three packings (100003, 100019, 100043). Other rounding is another
+# packing.
 RATES = {"dry": (7.21, 0.21), "submerged": (5.46, 0.46)}
 OF_ONE_MORE = 3 * np.sqrt(1 + 1 / 3)  # deviations that one packing more may be from the mean of three
 
@@ -64,7 +65,8 @@ class FreshRun(unittest.TestCase):
         self.assertEqual(self.runs["dry"].mass[0], self.runs["submerged"].mass[0])
 
     def test_water_slows_the_flow(self):
-        """By more than the 5 % that two packings differ by; a run whose water does nothing would leave at the dry rate."""
+        """By more than the 5 % that two packings differ by; a run whose water does nothing would leave at the dry
+        rate."""
         left = {step: 1e3 * (run.mass[0] - np.interp(0.5, run.time, run.mass)) for step, run in self.runs.items()}
         print(f"left in 0.5 s: dry {left['dry']:.2f} g, submerged {left['submerged']:.2f} g")
         self.assertGreater(left["submerged"], 1)
@@ -79,7 +81,8 @@ class FreshRun(unittest.TestCase):
             self.assertAlmostEqual(rate, expected, delta=OF_ONE_MORE * deviation, msg=step)
 
     def test_no_particle_is_faster_than_it_can_fall(self):
-        """Particles that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at several m/s."""
+        """Particles that meet unseen, as with neighbour lists that are looked at too seldom, are thrown apart at
+        several m/s."""
         # from the top of the particles, of which none lies higher than 2 cm, to the floor of the tank
         limit = np.sqrt(2 * 9.81 * (self.runs["dry"].parameters["tankDepth"] + 0.02))
         case = self.folder / "work" / "runs" / self.runs["dry"].name / "steps" / "dry"

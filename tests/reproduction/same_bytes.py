@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""scripts/reproduce/all writes the committed pictures, numbers and comparison to the last byte: on this processor, and where
+"""scripts/reproduce/all writes the committed pictures, numbers and comparison to the last byte: on this processor, and
+where
 numpy, the C library and a library of linear algebra have to do without its wider instructions.
 
 usage: same_bytes.py [-v]

@@ -1,4 +1,5 @@
-"""cases/tutorials/hopperQuick/Allrun as its user meets it: stops, changed parameters, mistakes. The solver is a surrogate; seconds."""
+"""cases/tutorials/hopperQuick/Allrun as its user meets it: stops, changed parameters, mistakes. The solver is a
+surrogate; seconds."""
 
 import contextlib
 import re
@@ -14,9 +15,12 @@ from clepsydra import parameter_file
 
 class Stops(HopperCase):
     def test_ctrl_c_and_sigterm_write_a_checkpoint_and_the_plain_command_goes_on(self):
-        """Stopped in the filling by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked, the status tells
-        which, and the plain `Allrun` goes on: no row is lost or doubled and the filling is not done again. An Allrun that
-        wipes first would start the filling three times; one that knows no SIGINT would end with another status and no word.
+        """Stopped in the filling by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked,
+        the status tells
+        which, and the plain `Allrun` goes on: no row is lost or doubled and the filling is not done again. An Allrun
+        that
+        wipes first would start the filling three times; one that knows no SIGINT would end with another status and no
+        word.
         """
         status, said = self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.assertEqual(status, 130, said)
@@ -38,7 +42,8 @@ class Stops(HopperCase):
         return True
 
     def test_a_stopped_filling_is_not_discharged(self):
-        """All particles lie in the hopper, yet the filling was stopped: discharging must be refused, with the command that goes on."""
+        """All particles lie in the hopper, yet the filling was stopped: discharging must be refused, with the command
+        that goes on."""
         self.interrupted("mesh", "filling", by=signal.SIGTERM, steps=["filling"])
         said = self.refuses("dry")
         self.assertIn("the filling has not come to its end: './Allrun filling' resumes it", said)
@@ -47,7 +52,8 @@ class Stops(HopperCase):
         self.assertEqual(self.starts(), ["filling", "filling", "dry"])
 
     def test_a_packing_of_an_earlier_filling_does_not_count(self):
-        """A filling that goes on, for its time was raised, and is stopped leaves no packing, though one was there before."""
+        """A filling that goes on, for its time was raised, and is stopped leaves no packing, though one was there
+        before."""
         self.succeeds("mesh", "filling")
         table = self.table("filling")
         table.write_text("".join(table.read_text().splitlines(keepends=True)[:5]))
@@ -81,7 +87,8 @@ class Stops(HopperCase):
         self.assertEqual(self.rows("filling"), 20)
 
     def test_another_mesh_or_packing_than_the_parameters_say_is_not_used(self):
-        """A friction of the discharge's own is allowed: one packing serves all frictions. Other particles or cells are not."""
+        """A friction of the discharge's own is allowed: one packing serves all frictions. Other particles or cells are
+        not."""
         self.succeeds("mesh", "filling")
         self.set(friction=0.3)
         self.succeeds("dry")
@@ -93,7 +100,8 @@ class Stops(HopperCase):
 
 class Results(HopperCase):
     def test_without_particles_written_all_but_their_picture_is_made(self):
-        """What draws particles fails here, as it does where none were written; with particles it is called, and its failure reported."""
+        """What draws particles fails here, as it does where none were written; with particles it is called, and its
+        failure reported."""
         self.program(self.folder / "bin" / "xvfb-run", "#!/bin/sh\nexit 1\n")
         self.refuses()
         self.set(drawParticles="off")
@@ -103,8 +111,10 @@ class Results(HopperCase):
 
 class Ranks(HopperCase):
     def test_their_boxes_all_reach_the_particles(self):
-        """As many as ranks, at most two along x and y, said once however often a step is prepared, also for a step that was
-        begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the second
+        """As many as ranks, at most two along x and y, said once however often a step is prepared, also for a step that
+        was
+        begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the
+        second
         number."""
         shares = {
             1: (1, 1, 1),

@@ -1,4 +1,5 @@
-"""What scripts/parameterStudy does with damaged state, a full disk and mistaken files. With the surrogate of tests/parameterStudy; seconds."""
+"""What scripts/parameterStudy does with damaged state, a full disk and mistaken files. With the surrogate of
+tests/parameterStudy; seconds."""
 
 import errno
 import os
@@ -56,8 +57,10 @@ class DamagedState(ParameterStudyFile):
         return folder
 
     def test_half_a_line_of_attempts_is_dropped(self):
-        """A kill in the midst of a write leaves half a line: `status` shows the run, and the next attempt begins a line of
-        its own. A reader that takes each line for JSON ends with a traceback; a writer that appends spoils its own line.
+        """A kill in the midst of a write leaves half a line: `status` shows the run, and the next attempt begins a line
+        of
+        its own. A reader that takes each line for JSON ends with a traceback; a writer that appends spoils its own
+        line.
         """
         start = '{"start": 10.0, "host": "here", "ranks": 1}\n'
         folder = self.attempts(start + '{"end": 20.0, "sta')
@@ -144,7 +147,8 @@ class MistakenFiles(ParameterStudyFile):
             self.assertFalse((self.folder / "work").exists())
 
     def test_machines_of_slurm_are_not_this_one(self):
-        """More ranks than this machine can bear are refused here, and are none of its business where Slurm places them."""
+        """More ranks than this machine can bear are refused here, and are none of its business where Slurm places
+        them."""
         self.write(case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"), packings=[100003], ranks=100000)
         self.assertIn("100000 ranks; allowed", self.refused())
         outcome = self.call("check", "--executor", "slurm")
@@ -165,7 +169,8 @@ class MistakenFiles(ParameterStudyFile):
 
 class Shell(ParameterStudyFile):
     def test_no_name_reaches_a_shell_or_make_as_code(self):
-        """The parameter study's file lies in a folder whose name make, or the shell, would run: the task must get it as it is."""
+        """The parameter study's file lies in a folder whose name make, or the shell, would run: the task must get it as
+        it is."""
         work, command = self.folder / "work", self.folder / "command"
         command.write_text(f'#!/bin/sh\nprintf %s "$2" > {self.folder}/received\n')
         command.chmod(0o755)

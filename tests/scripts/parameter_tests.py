@@ -13,7 +13,8 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 class Reading(unittest.TestCase):
     def test_what_open_foam_allows(self):
-        """Comments, references, words, vectors, tables, strings and #eval, as the cases of this repository have them."""
+        """Comments, references, words, vectors, tables, strings and #eval, as the cases of this repository have
+        them."""
         text = """FoamFile { version 2.0; }
         /* a comment; over
            lines */
@@ -44,7 +45,8 @@ class Reading(unittest.TestCase):
             parameter_file.parameters(path)
 
     def test_what_is_refused(self):
-        """Each in one line with the line's number. Python's own float would take nan, inf and 1_000; a reader that looks for
+        """Each in one line with the line's number. Python's own float would take nan, inf and 1_000; a reader that
+        looks for
         `;` only would swallow the next entry where one is missing."""
         for text, words in (
             ("a ;", "1: entry 'a' has no value"),
@@ -103,7 +105,8 @@ class Changing(unittest.TestCase):
 
 
 class OldNames(unittest.TestCase):
-    """Entries were renamed in version 1.0.0. Without the table an old entry would be unknown to some readers, unseen by others."""
+    """Entries were renamed in version 1.0.0. Without the table an old entry would be unknown to some readers, unseen by
+    others."""
 
     def test_an_old_entry_is_refused_with_its_new_name(self):
         with self.assertRaisesRegex(ParameterError, r"parameters:2: entry 'pourTime' .* allowed: 'fillingTime'"):

@@ -222,7 +222,8 @@ class Report(Pictures):
 
 class Studies(Pictures):
     def test_what_no_fit_has_seen(self):
-        """Measured in black, the model before and after in red and blue; a study that held nothing out has no picture."""
+        """Measured in black, the model before and after in red and blue; a study that held nothing out has no
+        picture."""
         self.makes("studies", "--picture", "studies.png", "particlesInTwoLiquids")
         red, green, blue = np.moveaxis(matplotlib.image.imread(self.folder / "studies.png")[:, :, :3], 2, 0)
         for drawn in (red > blue + 0.4, blue > red + 0.4, red + green + blue < 0.1):

@@ -1,4 +1,5 @@
-"""meshes/hopperFromSurface: a surface of the user's own becomes the walls of particles and water, or is refused in words."""
+"""meshes/hopperFromSurface: a surface of the user's own becomes the walls of particles and water, or is refused in
+words."""
 
 import struct
 import subprocess
@@ -52,7 +53,8 @@ class Surface(unittest.TestCase):
         self.file.write_text(hopper_walls.stl("hopper", triangles))
 
     def test_particles_and_water_have_the_same_walls(self):
-        """And those of the particles, plugged, are open at the rim only: an edge of one triangle elsewhere would be a leak."""
+        """And those of the particles, plugged, are open at the rim only: an edge of one triangle elsewhere would be a
+        leak."""
         self.assertEqual(self.made().returncode, 0)
         wall, plate, plug = (
             corners(self.case / f"DEM/meshes/{name}.stl") for name in ("hopperWall", "hopperPlate", "plug")

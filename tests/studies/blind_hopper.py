@@ -3,11 +3,16 @@
 
 usage: blindHopper FOLDER     for copies and one run, made again
 
-Fails where a set was answered again with another experiment than the program had asked for, where the false alarms on nulls are
-not those listed, where a truth or an answer is not the one whose hash was committed, where results/score.json or the table is not what
-the reports and the truths give, where the record or the measurements come out of their files other than they went in, or where the
-real solver, with what set6's truth says was in it (a lid and a lagging scale), does not give a measurement of that set once more.
-That the checks can fail is tried on copies in which one digit of a truth or of an answer is changed, in the archive or beside it,
+Fails where a set was answered again with another experiment than the program had asked for, where the false alarms on
+nulls are
+not those listed, where a truth or an answer is not the one whose hash was committed, where results/score.json or the
+table is not what
+the reports and the truths give, where the record or the measurements come out of their files other than they went in,
+or where the
+real solver, with what set6's truth says was in it (a lid and a lagging scale), does not give a measurement of that set
+once more.
+That the checks can fail is tried on copies in which one digit of a truth or of an answer is changed, in the archive or
+beside it,
 and on the same measurement of the other sets, which is another one.
 """
 
@@ -100,7 +105,8 @@ def changes_are_found(folder):
 
 
 def nothing_is_lost_in_files(folder):
-    """The archive has the same bytes when it is packed once more; the measurements of a set are as many as its truth has seeds for, and
+    """The archive has the same bytes when it is packed once more; the measurements of a set are as many as its truth
+    has seeds for, and
     the files that traceResidual reads give the set's own file back."""
     record.write(record.archived(), folder / "again.tar.xz")
     require(
@@ -142,7 +148,8 @@ def old_names_are_read():
             require(effect["name"] in undeclared.BY_NAME, f"{name}: nobody knows the effect '{effect['name']}'")
     old = {path: content.decode() for path, content in record.archived().items() if path.endswith(".json")}
     require(
-        any(old_names.OLD_NAME.search(text) for text in old.values()), "the record has none of the names of old_names.py"
+        any(old_names.OLD_NAME.search(text) for text in old.values()),
+        "the record has none of the names of old_names.py",
     )
     for path, text in old.items():
         today = json.dumps(old_names.today(json.loads(text)))
@@ -158,7 +165,8 @@ def copy(target):
 
 
 def study_is_changed_where_asked(folder):
-    """What ./next and ./nulls make of study.yaml: traceResidual reads it, with what was added and without what was left out."""
+    """What ./next and ./nulls make of study.yaml: traceResidual reads it, with what was added and without what was left
+    out."""
     require(studies.study({}) == (CASE / "study.yaml").read_text(), "a study with nothing changed is another one")
     as_written = yaml.safe_load((CASE / "study.yaml").read_text())
     absolute = {

@@ -1,18 +1,17 @@
 #!/usr/bin/python3
 """A small version of a committed study, run by the real solver: fewer effects, the same numbers and conditions.
 
-usage: reduced_study.py STUDY FOLDER    STUDY: a name below; FOLDER: for its runs and report, made again
-
-Fails where a run fails, where the solver's numbers are not those that the committed report rests on, or where the answer
+Fails where a run fails, where the solver's numbers are not those that the committed report rests on, or where the
+answer
 is not of the kind that a program with working parts must give. An empty simulator, effects that are not switched on, or
 held-out data that were trained on are reported by the numbers.
 """
 
+import argparse
 import json
 import math
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import yaml
@@ -21,7 +20,11 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 def main():
-    name, folder = sys.argv[1], Path(sys.argv[2])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("study", metavar="STUDY", choices=CHECKS)
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="for its runs and report, made again")
+    given = parser.parse_args()
+    name, folder = given.study, given.folder
     original = ROOT / "cases" / "studies" / name / "study.yaml"
     study = yaml.safe_load(original.read_text())
     study["simulator"]["case"] = str(original.parent / study["simulator"]["case"])
@@ -32,18 +35,10 @@ def main():
     study["effectsFrom"] = [str(original.parent / one) for one in libraries]
     study["executor"] = {"kind": "pool", "processes": 1}  # ctest runs other tests beside it
     study["inference"] = {"draws": 500}
-    if (
-        name != "startingSpheres"
-    ):  # one is enough to try what is to be measured next, of other particles in the same liquids
+    # One is enough to try what is to be measured next, of other particles in the same liquids.
+    if name != "startingSpheres":
         without_candidates(study)
-    check = {
-        "startingSpheres": starting_spheres,
-        "bouncesInOil": bounces_in_oil,
-        "glycerineParticlesTall": glycerine_particles_tall,
-        "particlesInTwoLiquids": particles_in_two_liquids,
-        "settledGlycerol": settled_glycerol,
-        "paperRates": paper_rates,
-    }[name]
+    check = CHECKS[name]
     check(study)
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -67,7 +62,8 @@ def without_candidates(study):
 
 
 def with_longer_intervals(study, factor):
-    """Where one particle sinks steadily through liquid at rest nothing hangs on the coupling step: 3e-4 of a speed for four times."""
+    """Where one particle sinks steadily through liquid at rest nothing hangs on the coupling step: 3e-4 of a speed for
+    four times."""
     for one in study["conditions"]:
         one["set"]["couplingTimeStep"] = factor * float(one["set"]["couplingTimeStep"])
 
@@ -188,6 +184,15 @@ def require(holds, message):
     if not holds:
         raise SystemExit(message)
 
+
+CHECKS = {
+    "startingSpheres": starting_spheres,
+    "bouncesInOil": bounces_in_oil,
+    "glycerineParticlesTall": glycerine_particles_tall,
+    "particlesInTwoLiquids": particles_in_two_liquids,
+    "settledGlycerol": settled_glycerol,
+    "paperRates": paper_rates,
+}
 
 if __name__ == "__main__":
     main()

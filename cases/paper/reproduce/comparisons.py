@@ -124,7 +124,8 @@ def matching_friction():
 
 
 def stiff():
-    """The same of the paper's fill with stiffer particles on a finer mesh: the fit's shape through the rates of those runs."""
+    """The same of the paper's fill with stiffer particles on a finer mesh: the fit's shape through the rates of those
+    runs."""
     friction, found, rates, frictions, used = paper.MATCHING_FRICTION["dry"], [], {}, {}, []
     for step in paper.STEPS:
         runs_of, law, sweep = series.stiff_runs(step), series.stiff_law(step), series.friction_law(step)
@@ -165,7 +166,8 @@ def stiff():
 
 
 def surge():
-    """How straight m(t) is, at both frictions that the paper finds to match; what is claimed is of the one with three packings."""
+    """How straight m(t) is, at both frictions that the paper finds to match; what is claimed is of the one with three
+    packings."""
     found, rises, gain = surge_at(paper.MATCHING_FRICTION["dry"])
     first = gain[series.SURGE[0]]["submerged over dry"]
     require(
@@ -182,7 +184,8 @@ def surge():
 
 
 def surge_at(friction):
-    """Rows, what the rate gains while half of the fill leaves, and what it is late over what it was early, by window."""
+    """Rows, what the rate gains while half of the fill leaves, and what it is late over what it was early, by
+    window."""
     runs_of = series.deepest_of_both(friction)
     rises = {step: series.mean([run.rise for run in runs]) for step, runs in runs_of.items()}
     found = [
@@ -206,7 +209,8 @@ def surge_at(friction):
 
 
 def gains(runs_of, late, early, of_what):
-    """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the other, which
+    """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the
+    other, which
     frees it of the heap."""
     what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(of_what, *late, *early)
     gains_of = {step: [run.gain(late, early) for run in runs] for step, runs in runs_of.items()}

@@ -22,7 +22,8 @@ SLAB_COLUMNS = ("x [m]", "y [m]", "z [m]", "u [m/s]", "v [m/s]", "w [m/s]", "rad
 
 
 def keep(folder):
-    """Writes <run>.slab.csv (particles cut by the mid-plane at one time) and <run>.profile.csv (shares at all times)."""
+    """Writes <run>.slab.csv (particles cut by the mid-plane at one time) and <run>.profile.csv (shares at all
+    times)."""
     step = folder.name.rsplit(".", 1)[1]
     case = folder / "steps" / step
     radius = parameter_file.parameters(folder / "parameters")["orificeDiameter"] / 2
@@ -45,7 +46,8 @@ def keep(folder):
 
 
 def cross_sections(position, size, velocity, radius):
-    """Of the circle above and below the orifice, at each height: share inside particles, and share times their speed down."""
+    """Of the circle above and below the orifice, at each height: share inside particles, and share times their speed
+    down."""
     distance = np.hypot(position[:, 0], position[:, 1])
     shares, fluxes = [], []
     for height in HEIGHTS:

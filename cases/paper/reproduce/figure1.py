@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Figure 1: particles that the mid-plane cuts near the orifice, coloured by speed, dry and submerged; packing at the exit."""
+"""Figure 1: particles that the mid-plane cuts near the orifice, coloured by speed, dry and submerged; packing at the
+exit."""
 
 
 import exit_flow

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Figure 6: rate at the start against friction, dry and submerged, with the paper's fit and what was measured; dashed: of the paper's
+"""Figure 6: rate at the start against friction, dry and submerged, with the paper's fit and what was measured; dashed:
+of the paper's
 fill with stiffer particles on a finer mesh."""
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Figure 7: mass in the hopper against time with the straight line through its upper half; inset: how far m(t) leaves it."""
+"""Figure 7: mass in the hopper against time with the straight line through its upper half; inset: how far m(t) leaves
+it."""
 
 
 import output

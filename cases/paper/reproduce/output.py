@@ -25,7 +25,8 @@ MARKER = {"dry": dict(marker="o", markerfacecolor="none"), "submerged": dict(mar
 MEASURED = {"dry": dict(marker="x", color="tab:red"), "submerged": dict(marker="+", color="tab:blue")}
 PANEL = {"dry": "(a) dry", "submerged": "(b) submerged"}
 
-# Of s, g and g/s, what is drawn and written: far below what a particle (.01 g) makes, far above what processors and libraries of
+# Of s, g and g/s, what is drawn and written: far below what a particle (.01 g) makes, far above what processors and
+# libraries of
 # linear algebra differ by, some 1e-9 after a fit. So the files are the same everywhere.
 DECIMALS = 3
 
@@ -84,7 +85,8 @@ def significant(values):
 
 
 def band(axes, curves, colour, label, **style):
-    """Curves (x, y) of several packings as their mean and, shaded, one standard deviation to each side; one curve as it is."""
+    """Curves (x, y) of several packings as their mean and, shaded, one standard deviation to each side; one curve as it
+    is."""
     common = np.linspace(max(x[0] for x, _ in curves), min(x[-1] for x, _ in curves), 400)
     if len(curves) == 1:
         x, y = curves[0]

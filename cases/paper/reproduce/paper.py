@@ -21,7 +21,8 @@ EMPTYING_MASS, EMPTYING_FRICTION = 500, 0.8
 EMPTYING_TIME = {"dry": 52, "submerged": 90}
 
 SMOOTH_FRICTION = 1e-6  # "like a Newtonian fluid"
-# The slope of a parabola under Gaussian weights "in a 2 s window": read here as the full width at half maximum. The other
+# The slope of a parabola under Gaussian weights "in a 2 s window": read here as the full width at half maximum. The
+# other
 # readings, a standard deviation of .5 s or 1 s, are narrower and wider by less than a factor of two.
 WINDOW_DEVIATION = 2 / 2.3548
 
@@ -41,7 +42,8 @@ TABLE_1 = (Particle(0.5e-3, 37, 1.76, 34.0e-4), Particle(1e-3, 151, 0.86, 17.0e-
 
 
 def wilson_rate(upper, lower, surge=0.25, mass=187):
-    """Mean rate between two masses, of W = 1 + S/(1 + m/M): rises by up to S as the hopper empties, as Wilson et al., Papers
+    """Mean rate between two masses, of W = 1 + S/(1 + m/M): rises by up to S as the hopper empties, as Wilson et al.,
+    Papers
     in Physics 6, 060009 (2014) measured under water in another hopper."""
     # the time that it takes, the integral of dm/W
     time = upper - lower - surge * mass * log((mass * (1 + surge) + upper) / (mass * (1 + surge) + lower))

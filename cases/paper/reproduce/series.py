@@ -15,12 +15,16 @@ from clepsydra import flow, parameter_study_results
 START = (0.95, 0.75)  # of the fill: "the beginning", 380 to 300 g of 400 g
 LINEAR = (0.95, 0.5)  # of the fill: 400 to 200 g of 400 g, where the paper fits its straight line
 CURVED = (0.95, 0.35)  # of the fill: down to where the heap on the bottom shows
-# The surge: the mean rate while so many g are left, over that in LINEAR. The paper sees it below 200 g. Fixed on 2026-11-24,
-# when submerged runs of 400 g ended at 97 g (the first window was seen, the second was not) and the dry one was whole; below
+# The surge: the mean rate while so many g are left, over that in LINEAR. The paper sees it below 200 g. Fixed on
+# 2026-11-24,
+# when submerged runs of 400 g ended at 97 g (the first window was seen, the second was not) and the dry one was whole;
+# below
 # 50 g the heap on the bottom slows the dry flow. What the heap does above that, the dry run in the same window tells.
 SURGE = ((200, 100), (100, 50))
-# For particles of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared with. Fixed on
-# 2026-11-25, before any of 1 mm was run. The second leaves out how the flow of 150 g sets in, and was chosen after the run.
+# For particles of 1 mm, which start from 150 g, and for those of 2 mm beside them: the window and what it is compared
+# with. Fixed on
+# 2026-11-25, before any of 1 mm was run. The second leaves out how the flow of 150 g sets in, and was chosen after the
+# run.
 SURGE_OF_150, BEFORE_IT, BEFORE_IT_STEADY = (100, 50), (142.5, 100), (130, 100)
 BINS_OF_START, BINS_OF_CURVE = 5, 12
 STOPPED = 0.05  # of the rate at the start: below it the hopper counts as empty
@@ -94,7 +98,8 @@ class HopperRun:
         return self.mass[-1] < CURVED[-1] * self.mass[0]
 
     def rate_between(self, upper, lower):
-        """Mean rate while the hopper holds between two parts of its fill; its error from how the rate varies meanwhile."""
+        """Mean rate while the hopper holds between two parts of its fill; its error from how the rate varies
+        meanwhile."""
         _, rates = self.rates(upper, lower, BINS_OF_START)
         return Value(self.mean_rate(upper, lower), np.std(rates, ddof=1) / np.sqrt(len(rates)))
 
@@ -241,7 +246,8 @@ def deepest(step, friction, whole=False):
 
 
 def deepest_of_both(friction):
-    """{step: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the difference."""
+    """{step: runs} of the largest fill that has been run dry and submerged, so that the water alone makes the
+    difference."""
     found = {step: by_fill(step, friction) for step in paper.STEPS}
     common = set.intersection(*map(set, found.values()))
     if not common:
@@ -283,7 +289,8 @@ class FrictionLaw:
         return np.percentile(drawn, [16, 84], axis=0)
 
     def through(self, rates, common):
-        """The same shape through other runs' rates at some frictions, {friction: rate}: one factor for all, each draw's to rates
+        """The same shape through other runs' rates at some frictions, {friction: rate}: one factor for all, each draw's
+        to rates
         drawn within their errors, which count for more where they scatter more, and all off by one common part."""
         frictions = np.array(list(rates))
         means, errors = np.array([rate.mean for rate in rates.values()]), np.array(
@@ -304,7 +311,8 @@ class FrictionLaw:
         return FrictionLaw(self.fits * np.hstack([scale, scale, np.ones_like(scale)]))
 
     def over(self, other, friction):
-        """The one's rate over the other's, of which it is the shape: draw by draw, so that what both share does not count."""
+        """The one's rate over the other's, of which it is the shape: draw by draw, so that what both share does not
+        count."""
         return self._value(
             np.array([self.rate(friction, fit) / other.rate(friction, fit) for fit in range(len(self.fits))])
         )
@@ -367,7 +375,8 @@ def scatter_over_errors(residuals, errors, parameters):
 
 
 def matching(step, whole=False):
-    """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger fill or
+    """The deepest runs at the friction that the paper finds to match; at the dry one's, where those are from a larger
+    fill or
     of more packings."""
 
     def worth(friction):
@@ -378,7 +387,8 @@ def matching(step, whole=False):
 
 
 def variants(step):
-    """Runs that differ from one of the entry fill100 by their mesh or by how stiff the particles are, by what differs."""
+    """Runs that differ from one of the entry fill100 by their mesh or by how stiff the particles are, by what
+    differs."""
     found = {}
     for run in all_runs():
         if run.step == step and run.entry == "cells":

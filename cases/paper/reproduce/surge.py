@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The surge: rate against what is left, from every fill and particle at the friction that the paper finds to match the dry rate, and
+"""The surge: rate against what is left, from every fill and particle at the friction that the paper finds to match the
+dry rate, and
 from the largest fill at that of the submerged one.
 
 No figure of the paper's: its figure 8 shows the rate against time.

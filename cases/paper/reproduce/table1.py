@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Table I: Re, C_d and I of the three particles, from measured terminal velocities' fit (Brown & Lawler) and the drag laws."""
+"""Table I: Re, C_d and I of the three particles, from measured terminal velocities' fit (Brown & Lawler) and the drag
+laws."""
 
 
 import comparisons

@@ -99,7 +99,8 @@ def prime(random):
 
 
 def measure(folder, condition, friction, effects, seed, random, numerics=NUMERICS):
-    """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for pauses."""
+    """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for
+    pauses."""
     step, entries, _ = (conditions() | candidates())[condition]
     acting = [(BY_NAME[name], a) for name, a in effects if acts(BY_NAME[name], step)]
     make_case(folder, {**entries, **numerics, "friction": friction, "seed": seed}, acting)

@@ -30,7 +30,8 @@ def seal(truth):
 
 
 def cipher(name, data, *direction):
-    """The key is the set's name: whoever wants to can read it, but nobody does by looking at the repository, in which it
+    """The key is the set's name: whoever wants to can read it, but nobody does by looking at the repository, in which
+    it
     stays from one day of measuring to the next."""
     command = ["openssl", "enc", "-aes-256-cbc", "-pbkdf2", "-pass", f"pass:{name}", *direction]
     return subprocess.run(command, input=data, stdout=subprocess.PIPE, check=True).stdout

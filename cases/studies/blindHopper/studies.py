@@ -1,4 +1,5 @@
-"""study.yaml with other files, further conditions, or nothing held out. As text: numbers keep the form that stored runs know."""
+"""study.yaml with other files, further conditions, or nothing held out. As text: numbers keep the form that stored runs
+know."""
 
 import json
 import re

@@ -1,4 +1,5 @@
-"""What a blind hopper may have in it that its description does not say. Of the model's own effects (inLibrary) and others.
+"""What a blind hopper may have in it that its description does not say. Of the model's own effects (inLibrary) and
+others.
 
 Every effect is one function of its amplitude a, with 1 (or -1) the end of what is plausible:
   entries     {entry: value} from the case's other entries

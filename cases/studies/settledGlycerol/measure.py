@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""The numbers of study.yaml from the tracks, where these are (they are not ours to keep here): mean speeds in four parts of the way.
+"""The numbers of study.yaml from the tracks, where these are (they are not ours to keep here): mean speeds in four
+parts of the way.
 
 usage: measure.py FILE ...     prints a line for each track
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,9 @@ PARTS = ((20, 65), (65, 120), (120, 180), (180, 240))
 
 
 def main():
-    if len(sys.argv) < 2:
-        raise SystemExit(__doc__)
-    for name in sys.argv[1:]:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("files", metavar="FILE", nargs="+")
+    for name in parser.parse_args().files:
         time, position = np.loadtxt(name, skiprows=2).T
         seen = position > 0
         print(Path(name).stem, *(f"{mean_speed(time[seen], position[seen], *part):.4f}" for part in PARTS))

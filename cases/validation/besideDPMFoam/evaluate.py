@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """Puts what pimpleDemFoam and DPMFoam make of the same case side by side.
 
-Equations: DPMFoam keeps the whole pressure gradient in the fluid and none on the particles, and its ErgunWenYuDrag carries
-one 1/alpha more than model A's law: model B with GidaspowDrag, to the letter. What differs: DPMFoam counts a particle in the
-cell of its centre and smooths nothing, so alpha jumps when a particle passes a face, and d(alpha)/dt makes the pressure jump
+Equations: DPMFoam keeps the whole pressure gradient in the fluid and none on the particles, and its ErgunWenYuDrag
+carries
+one 1/alpha more than model A's law: model B with GidaspowDrag, to the letter. What differs: DPMFoam counts a particle
+in the
+cell of its centre and smooths nothing, so alpha jumps when a particle passes a face, and d(alpha)/dt makes the pressure
+jump
 with it; it chooses DEM sub-steps by the speed of impacts, so that a bed at rest is never quite at rest; its friction
 forgets its spring when it slips.
 """
@@ -65,7 +68,8 @@ class Theirs(Ours):
 
 
 def late(time, values):
-    """Mean over the later part of a run, and its standard error from the means of ten blocks: DPMFoam's pressure jumps by
+    """Mean over the later part of a run, and its standard error from the means of ten blocks: DPMFoam's pressure jumps
+    by
     thousands of Pa from step to step, up and down."""
     part = values[time > LATE * time[-1]]
     blocks = [block.mean() for block in np.array_split(part, min(10, len(part)))]

@@ -90,7 +90,8 @@ def hopper_rows(pairs):
             f" {pair.cpu_seconds()[1]}"
         )
     title = f"{len(pairs)} packing" + ("s" if len(pairs) > 1 else "")
-    # a sum of two packings' scatter: the paths part after some 1000 steps. Three standard errors of that are allowed, so
+    # a sum of two packings' scatter: the paths part after some 1000 steps. Three standard errors of that are allowed,
+    # so
     # that one run in 400 is refused for its scatter alone
     allowed = 300 * PACKING_SCATTER * np.sqrt(2 / len(pairs))
     return [validation.row(f"rate, {title}", "1/s", theirs.mean(), SOURCE, "otherCode", ours.mean(), error, allowed)]

@@ -1,11 +1,10 @@
 #!/usr/bin/python3
-"""usage: particlesToData lattice|DUMP
-
-Writes DEM/particles.data, which LIGGGHTS and LAMMPS both read: particles at rest, where the last entry of a LIGGGHTS dump has
+"""Writes DEM/particles.data, which LIGGGHTS and LAMMPS both read: particles at rest, where the last entry of a LIGGGHTS
+dump has
 them, or on a lattice in the box, moved at random by less than their gaps.
 """
 
-import sys
+import argparse
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +22,9 @@ def lattice(p):
 
 
 def main():
-    source = sys.argv[1]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("source", metavar="lattice|DUMP")
+    source = parser.parse_args().source
     p = parameter_file.parameters("parameters")
     if source == "lattice":
         points, types, low, high = lattice(p), 2, -p["particleDiameter"], p["height"]

@@ -115,7 +115,8 @@ def rows(name, bounces, measured):
     forces = {"addedMass": name not in ("neither", "lubrication"), "history": KERNELS.get(name)}
     down, up = ours["impact speed"][0], ours["rebound speed"][0]
     if name in KERNELS:
-        # The history force slows the sphere most just after the bounce: what the first 12 ms extend to is less than what
+        # The history force slows the sphere most just after the bounce: what the first 12 ms extend to is less than
+        # what
         # it left the wall with. That is what it has without this force.
         up = down * bounces["both"]["rebound speed"][0] / bounces["both"]["impact speed"][0]
     found = []

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Continuity errors of the conservation check; the water's flux against the particles'; where a closed tank's imbalance went."""
+"""Continuity errors of the conservation check; the water's flux against the particles'; where a closed tank's imbalance
+went."""
 
 import json
 import re

@@ -43,7 +43,8 @@ def rows(run):
 
 
 def brenner(gap):
-    """Drag over Stokes' of a sphere that moves towards a plane, its gap over the radius given. Both hyperbolic sines of the
+    """Drag over Stokes' of a sphere that moves towards a plane, its gap over the radius given. Both hyperbolic sines of
+    the
     series are scaled by exp(-(2n + 1) alpha), so that nothing overflows."""
     alpha = np.arccosh(1 + gap)
     n = np.arange(1, max(10, int(40 / alpha)))

@@ -131,7 +131,8 @@ def rows(name, runs, measured):
 
 
 def edge_velocity(p):
-    """Beside a plane wall, creeping: at speed v the particle feels the drag of the free one at v, times Faxen's factor."""
+    """Beside a plane wall, creeping: at speed v the particle feels the drag of the free one at v, times Faxen's
+    factor."""
     diameter = p["particleDiameter"]
     particle = {
         "dragLaw": p["dragLaw"],

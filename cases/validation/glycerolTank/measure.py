@@ -43,8 +43,7 @@ def main():
     Path("measured").write_text(
         "// Written by ./measure.py from kyleyhw/PHY324_motion_in_fluids (GitHub), 1f0af8ed. SI units; errors are"
         " standard\n// errors of the mean of four repeats. fluidViscosity (kinematic) is fitted to particle 3 on the"
-        " axis.\n"
-        + "".join(f"{name:<20}{value:.5g};\n" for name, value in entries.items())
+        " axis.\n" + "".join(f"{name:<20}{value:.5g};\n" for name, value in entries.items())
     )
 
 

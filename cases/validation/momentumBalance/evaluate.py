@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The conservation check's momentum error, the momentum balance of the whole column from what was written, and the faults found."""
+"""The conservation check's momentum error, the momentum balance of the whole column from what was written, and the
+faults found."""
 
 import json
 import re
@@ -68,7 +69,8 @@ def of_run(run):
 
 def balance(run):
     """From the start to the end, along z [N s]: the impulse of all that acts on the column from outside, and what water
-    and particles gained, what is on its way between them included. No particle touches a wall, the sides slip, and the water
+    and particles gained, what is on its way between them included. No particle touches a wall, the sides slip, and the
+    water
     rests at the ends."""
     column = Column(run)
     time, bottom = case_files.surface_values(run, "bottomPressure")
@@ -90,7 +92,8 @@ def balance(run):
 
 
 def pressure_on_its_way(column, end):
-    """The pressure force on the particles is that of the interval before, its reaction on the water in model A is not."""
+    """The pressure force on the particles is that of the interval before, its reaction on the water in model A is
+    not."""
     if column["modelType"] != "A":
         return 0
     p, void_fraction = (

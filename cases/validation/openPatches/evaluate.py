@@ -39,20 +39,13 @@ def balances_row(run, balance):
     """The engine's particles as the conservation check counts them, against what the table and the start say."""
     summary = json.loads(next((run / "postProcessing/conservation").glob("*/summary.json")).read_text())
     inside = summary["particlesEnd"] * balance.particle_mass
-    expected = (
-        balance.column["particleCount"] * balance.particle_mass
-        + balance.inserted[-1]
-        - balance.left[-1]
-    )
+    expected = balance.column["particleCount"] * balance.particle_mass + balance.inserted[-1] - balance.left[-1]
     print(
         f"{run.name}: {balance.inserted_particles[-1]:.0f} particles inserted,"
         f" {balance.left_particles[-1]:.0f} left, {summary['particlesEnd']} inside; error of the volume"
         f" that came and went {summary['insertionError']:.1e}, of momentum {summary['momentumError']:.1e}"
     )
-    largest = (
-        balance.column["particleCount"] * balance.particle_mass
-        + balance.inserted[-1]
-    )
+    largest = balance.column["particleCount"] * balance.particle_mass + balance.inserted[-1]
     return validation.row(
         f"left and inside over start and inserted, {run.name}",
         "-",
@@ -85,10 +78,7 @@ def water_row(run, balance):
 def rate_row(runs):
     """Over all hoppers: what leaves in the second part of the steady time over what leaves in the first."""
     middle = (1 + STEADY) / 2
-    ratios = [
-        balance.rate(middle, 1) / balance.rate(STEADY, middle)
-        for balance in runs
-    ]
+    ratios = [balance.rate(middle, 1) / balance.rate(STEADY, middle) for balance in runs]
     # Particles are counted one by one, and leave a hopper more evenly than by chance.
     particles = sum((balance.left_particles[-1] for balance in runs))
     print("rate of the hopper, later over earlier: " + ", ".join(f"{ratio:.3f}" for ratio in ratios))

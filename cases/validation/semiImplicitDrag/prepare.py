@@ -1,12 +1,7 @@
 #!/usr/bin/python3
-"""prepare START MOTION DRAG_TIME: in a run, what its water does at first, where the particles are, and their drag.
+"""In a run: what its water does at first, where the particles are, and their drag."""
 
-START      wave: up and down, a cosine across, through open ends; vortex: closed; uniform: up, through open ends
-MOTION     held or free
-DRAG_TIME  K couplingTimeStep over the water's mass
-"""
-
-import sys
+import argparse
 from pathlib import Path
 
 from layer import Layer
@@ -15,7 +10,16 @@ HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}
 
 
 def main():
-    start, motion, drag_time = sys.argv[1:]
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument(
+        "start",
+        choices=("wave", "vortex", "uniform"),
+        help="wave: up and down, a cosine across, through open ends; vortex: closed; uniform: up, through open ends",
+    )
+    parser.add_argument("motion", choices=("held", "free"))
+    parser.add_argument("drag_time", type=float, help="K couplingTimeStep over the water's mass")
+    given = parser.parse_args()
+    start, motion, drag_time = given.start, given.motion, given.drag_time
     layer = Layer(".")
     closed = start == "vortex"
     write_field(
@@ -28,7 +32,7 @@ def main():
         "".join(f"create_atoms 1 single {x:.15g} {y:.15g} {z:.15g} units box\n" for x, y, z in layer.centres())
         + ("fix motion all nve/sphere\n" if motion == "free" else "")
     )
-    Path("constant/drag").write_text(f"factor {layer.drag_factor(float(drag_time)):.15g};\n")
+    Path("constant/drag").write_text(f"factor {layer.drag_factor(drag_time):.15g};\n")
     with open("constant/couplingProperties", "a") as properties:
         properties.write(Path("constant/more").read_text())
 

@@ -19,7 +19,8 @@ REMAINING = (
 )
 # U: what fits of the drag of spheres scatter by. tau_95: the fit of an exponential to a curve that is none.
 OF_U, OF_TAU, OF_DISTANCE = 5, 10, 5
-# The run against its own equation of motion: the particle feels 1 % of its own wake, and tau_95 is where the curve is flat
+# The run against its own equation of motion: the particle feels 1 % of its own wake, and tau_95 is where the curve is
+# flat
 OF_THE_EQUATION = 3
 
 

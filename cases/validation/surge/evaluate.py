@@ -62,11 +62,11 @@ def against(rises, case, reference, its_error, source, kind, tolerance, finding=
 
 
 def of_lid(cases):
-    """What the lid takes from the rate at the start. The reference is the committed runs', also of a short fresh run."""
+    """What the lid takes from the rate at the start. The reference is the committed runs', also of a short fresh
+    run."""
     ratio = {
-        name: np.mean([start_rate(run) for run in found["closedLid"]]) / np.mean(
-            [start_rate(run) for run in found["open"]]
-        )
+        name: np.mean([start_rate(run) for run in found["closedLid"]])
+        / np.mean([start_rate(run) for run in found["open"]])
         for name, found in (
             ("now", cases),
             ("committed", parameter_study_results.by_case(parameter_study_results.read("results/runs"))),
@@ -85,7 +85,8 @@ def of_lid(cases):
 
 
 def require_mechanism(cases, rises):
-    """With the lid the water must come up through the orifice, against the particles: far slower, beyond any scatter."""
+    """With the lid the water must come up through the orifice, against the particles: far slower, beyond any
+    scatter."""
     for case, (mean, error) in sorted(rises.items()):
         print(f"surge: late over early rate, {case}: {mean:.3f} +- {error:.3f}")
     rates = {

@@ -400,7 +400,9 @@ class Import:
             chosen = (
                 inside
                 if inside.entries
-                else self.read(f"CFD/constant/{model}") if model and self.has(f"CFD/constant/{model}") else inside
+                else self.read(f"CFD/constant/{model}")
+                if model and self.has(f"CFD/constant/{model}")
+                else inside
             )
             name = chosen.text("RASModel") or chosen.text("LESModel") or "none"
             if kind != "laminar" and name != "laminar" and chosen.text("turbulence", "on") not in OFF:

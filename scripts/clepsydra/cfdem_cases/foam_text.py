@@ -60,7 +60,8 @@ class Dictionary:
                 yield from value.unread()
 
     def matching(self, name):
-        """The dictionary that OpenFOAM takes for a name: its own, else that of the last pattern which fits; None where none does."""
+        """The dictionary that OpenFOAM takes for a name: its own, else that of the last pattern which fits; None where
+        none does."""
         if name in self.entries:
             return self.sub(name)
         fitting = [pattern for pattern in self.entries if is_pattern(pattern) and re.fullmatch(pattern, name)]

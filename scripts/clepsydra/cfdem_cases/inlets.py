@@ -1,4 +1,5 @@
-"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the particles here."""
+"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the particles
+here."""
 
 import re
 
@@ -91,8 +92,10 @@ def vector(parts):
 
 
 def expression(table):
-    """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after. Variables, and the
-    three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read more than
+    """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after.
+    Variables, and the
+    three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read
+    more than
     1024 characters at a time.
     """
     variables, parts = [], []

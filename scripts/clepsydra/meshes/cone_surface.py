@@ -1,12 +1,11 @@
 #!/usr/bin/python3
 """Surface of a hopper whose bottom is a cone, for hopperFromSurface: STL on standard output.
 
-Usage: coneSurface PARAMETERS ANGLE > hopper.stl
-
 Reads orificeDiameter, hopperDiameter and hopperHeight from the dictionary PARAMETERS. ANGLE is the cone's between wall
 and axis [degrees].
 """
 
+import argparse
 import sys
 from math import radians, tan
 
@@ -17,13 +16,17 @@ ROWS = 3  # of triangles in the cone, so that they stay compact
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    p = parameter_file.parameters(sys.argv[1])
+    parser = argparse.ArgumentParser(
+        prog="coneSurface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("parameters", metavar="PARAMETERS")
+    parser.add_argument("angle", metavar="ANGLE")
+    given = parser.parse_args()
+    p = parameter_file.parameters(given.parameters)
     try:
-        angle = float(sys.argv[2])
+        angle = float(given.angle)
     except ValueError:
-        sys.exit(f"coneSurface: ANGLE is {sys.argv[2]}; allowed: a number of degrees")
+        sys.exit(f"coneSurface: ANGLE is {given.angle}; allowed: a number of degrees")
     orifice, hopper, height = p["orificeDiameter"] / 2, p["hopperDiameter"] / 2, p["hopperHeight"]
     if not 0 < angle < 90 or (hopper - orifice) / tan(radians(angle)) >= height:
         sys.exit(

@@ -1,18 +1,17 @@
 #!/usr/bin/python3
 """A flat-bottomed cylindrical hopper inside a square tank of water, meshed by snappyHexMesh.
 
-Usage: hopperBySnappy PARAMETERS CASE
-       hopperBySnappy --cells PARAMETERS   makes nothing, prints about how many cells the mesh will have
-
 Reads the dimensions and the level (meshLevel) from the dictionary PARAMETERS and writes, into CASE,
-  constant/triSurface/hopper.stl, exit.stl                          surfaces of the hopper (hopperWalls.py)
+  constant/triSurface/hopper.stl, exit.stl                          surfaces of the hopper (hopper_walls.py)
   system/blockMeshDict, surfaceFeatureExtractDict, snappyHexMeshDict, meshQualityDict
                                                                     the fluid's mesh
   system/meshSteps                                                  the programs that make it
   DEM/meshes/hopperWall.stl, hopperPlate.stl, plug.stl              the particles' walls
 
-The background is of nearly cubic cells; the planes of the plate and of the rim are planes of its faces. It is refined in
-the hopper, near its walls and round the orifice. The tank is as wide as tankDiameter; the particles' tank is the cylinder in it.
+The background is of nearly cubic cells; the planes of the plate and of the rim are planes of its faces. It is refined
+in
+the hopper, near its walls and round the orifice. The tank is as wide as tankDiameter; the particles' tank is the
+cylinder in it.
 
 Patches: hopper (inside of cylinder and plate), exit (land, bevel and, of walls that are thick, the outside), tankFloor,
 tankSide, tankTop.
@@ -20,10 +19,10 @@ tankSide, tankTop.
 
 import sys
 from math import pi
-from pathlib import Path
 
 from clepsydra import parameter_file
 from clepsydra.meshes import hopper_walls
+from clepsydra.meshes.generator import read_options
 
 # Size of the background's cells [m], and how often they are halved: in the hopper, near its walls, round the orifice
 LEVELS = {
@@ -191,11 +190,8 @@ def cells(p, size, inside, walls, orifice):
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    only_count = sys.argv[1] == "--cells"
-    source = sys.argv[2] if only_count else sys.argv[1]
-    p, case = parameter_file.parameters(source), Path(sys.argv[2])
+    only_count, source, case = read_options("hopperBySnappy", __doc__)
+    p = parameter_file.parameters(source)
     problem = hopper_walls.check(p)
     if not problem and p.get("meshLevel") not in LEVELS:
         problem = f"meshLevel is '{p.get('meshLevel')}'; allowed: {', '.join(LEVELS)}"

@@ -7,9 +7,11 @@ Usage: hopperFromSurface PARAMETERS CASE
 
 CASE/hopper.stl (text or binary, metres, z upwards) is one surface without thickness, open at two places only: at the
 orifice, an edge in the plane z = 0 round the origin, and at the rim, z = hopperHeight. Its upper part is a cylinder of
-hopperDiameter, where particles are filled in; below, it is of any shape within that cylinder. A surface with another hole is refused.
+hopperDiameter, where particles are filled in; below, it is of any shape within that cylinder. A surface with another
+hole is refused.
 
-Particles and water get their walls from the same triangles: DEM/meshes/hopperWall.stl (those of the cylinder), hopperPlate.stl
+Particles and water get their walls from the same triangles: DEM/meshes/hopperWall.stl (those of the cylinder),
+hopperPlate.stl
 (all others), plug.stl (closes the orifice) and constant/triSurface/hopper.stl. All else is as hopperBySnappy writes it.
 """
 
@@ -18,10 +20,10 @@ import subprocess
 import sys
 from collections import Counter
 from math import hypot, pi, sqrt
-from pathlib import Path
 
 from clepsydra import environment, parameter_file
 from clepsydra.meshes import hopper_walls
+from clepsydra.meshes.generator import read_options
 
 SNAPPY = environment.REPOSITORY / "meshes" / "hopperBySnappy"
 SAME_POINT = 1e-4  # of the hopper's diameter: points nearer than this are one
@@ -145,13 +147,11 @@ def is_on_cylinder(triangle, radius):
 
 
 def main():
-    if len(sys.argv) == 4 and sys.argv[1] == "--check":
+    if sys.argv[1:2] == ["--check"] and len(sys.argv) == 4:
         read_surface(Path(sys.argv[3]), parameter_file.parameters(sys.argv[2]))
         return
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    only_count = sys.argv[1] == "--cells"
-    text = parameter_file.read(sys.argv[2] if only_count else sys.argv[1])  # once: it may be a pipe
+    only_count, source, case = read_options("hopperFromSurface", __doc__)
+    text = parameter_file.read(source)  # once: it may be a pipe
     p = parameter_file.parameters_in(text)
     if any(p.get(name) != 0 for name in ("landHeight", "bevelHeight", "wallThickness")):
         sys.exit(
@@ -159,12 +159,11 @@ def main():
             " it all"
         )
     made = subprocess.run(
-        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", sys.argv[2]])], input=text, text=True
+        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", case])], input=text, text=True
     )
     if made.returncode != 0 or only_count:
         sys.exit(made.returncode)
 
-    case = Path(sys.argv[2])
     surface, orifice, cylinder, rest = read_surface(case / "hopper.stl", p)
     centre = tuple(sum(parts) / len(orifice) for parts in zip(*orifice))
     hopper_walls.write({"hopper": surface}, case / "constant" / "triSurface")

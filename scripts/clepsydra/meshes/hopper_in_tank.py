@@ -1,9 +1,6 @@
 #!/usr/bin/python3
 """A flat-bottomed cylindrical hopper inside a closed tank of water.
 
-Usage: hopperInTank PARAMETERS CASE
-       hopperInTank --cells PARAMETERS     makes nothing, prints how many cells the mesh will have
-
 Reads the dimensions from the dictionary PARAMETERS and writes, into CASE,
   system/blockMeshDict, topoSetDict, createBafflesDict   the fluid's mesh
   system/meshSteps                                       the programs that make it
@@ -14,15 +11,15 @@ orifice, at the hopper's wall and at the tank's wall. The hopper's cylinder and
 plate are faces of that grid, turned into walls without thickness. With `lid on;`
 the hopper's open top is such a wall too: no water comes in from above.
 
-Circles become polygons of the same area, see hopperWalls.py.
+Circles become polygons of the same area, see hopper_walls.py.
 """
 
 import sys
 from math import ceil, cos, log, pi, sin
-from pathlib import Path
 
 from clepsydra import parameter_file
 from clepsydra.meshes import hopper_walls
+from clepsydra.meshes.generator import read_options
 from clepsydra.meshes.hopper_walls import equal_area_radius
 
 
@@ -231,11 +228,8 @@ baffles
 
 
 def main():
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    only_count = sys.argv[1] == "--cells"
-    source = sys.argv[2] if only_count else sys.argv[1]
-    p, case = parameter_file.parameters(source), Path(sys.argv[2])
+    only_count, source, case = read_options("hopperInTank", __doc__)
+    p = parameter_file.parameters(source)
     problem = hopper_walls.check(p)
     if not problem and p["landHeight"] + p["bevelHeight"] + p["wallThickness"] > 0:
         problem = "landHeight, bevelHeight and wallThickness must be 0 with this mesh; hopperBySnappy can do more"

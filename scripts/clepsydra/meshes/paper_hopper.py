@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 """Makes the mesh of the paper's hopper (cases/paper/hopper.yaml) at one level, checks it and draws it.
 
-Usage: paperHopper quick|coarse|medium|paper [PARAMETER=VALUE ...]       e.g. paperHopper coarse wallThickness=3e-3
-
-The mesh lies in meshes/made/<level>/constant/polyMesh then, its picture in meshes/made/<level>.png. Printed: cells, seconds
+The mesh lies in meshes/made/<level>/constant/polyMesh then, its picture in meshes/made/<level>.png. Printed: cells,
+seconds
 of computing, and memory of the largest program.
 """
 
+import argparse
 import json
 import resource
 import shutil
@@ -21,9 +21,15 @@ MESHES = REPOSITORY / "meshes"
 
 
 def main():
-    if len(sys.argv) < 2 or not all("=" in word for word in sys.argv[2:]):
-        sys.exit(__doc__)
-    level, wishes = sys.argv[1], dict(word.split("=", 1) for word in sys.argv[2:])
+    parser = argparse.ArgumentParser(
+        prog="paperHopper", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("level", choices=("quick", "coarse", "medium", "paper"))
+    parser.add_argument("wishes", metavar="PARAMETER=VALUE", nargs="*", help="for instance wallThickness=3e-3")
+    given = parser.parse_args()
+    if not all("=" in word for word in given.wishes):
+        parser.error("PARAMETER=VALUE: there is no = in it")
+    level, wishes = given.level, dict(word.split("=", 1) for word in given.wishes)
     parameter_study = ParameterStudy(REPOSITORY / "cases/paper/reference.yaml")
     parameter_study.work = MESHES / "made"
     overrides = {**parameter_study.common, "meshLevel": level, **wishes}
@@ -53,9 +59,10 @@ def main():
     subprocess.run([SCRIPTS / "renderMesh", folder, parameter_study.work / f"{level}.png"], check=True)
 
 
-try:
-    main()
-except ParameterStudyError as problem:
-    sys.exit(f"paperHopper: {problem}")
-except subprocess.CalledProcessError as problem:
-    sys.exit(problem.returncode)
+if __name__ == "__main__":
+    try:
+        main()
+    except ParameterStudyError as problem:
+        sys.exit(f"paperHopper: {problem}")
+    except subprocess.CalledProcessError as failure:
+        sys.exit(failure.returncode)

@@ -1,5 +1,7 @@
-"""The cost model of coupling/run/costModel.h with speeds by particles and cells: measured, fitted, for runs that are planned.
-fit_cost_model.py beside this file writes scripts/clepsydra/costModel.json. A run that has begun measures its own speeds."""
+"""The cost model of coupling/run/costModel.h with speeds by particles and cells: measured, fitted, for runs that are
+planned.
+fit_cost_model.py beside this file writes scripts/clepsydra/costModel.json. A run that has begun measures its own
+speeds."""
 
 
 import numpy as np

@@ -1,4 +1,5 @@
-"""OpenFOAM's own DPMFoam on the cases of cases/validation/besideDPMFoam: particles, mesh, inlet, drag and contact law alike."""
+"""OpenFOAM's own DPMFoam on the cases of cases/validation/besideDPMFoam: particles, mesh, inlet, drag and contact law
+alike."""
 
 import shutil
 

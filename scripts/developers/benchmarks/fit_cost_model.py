@@ -1,15 +1,11 @@
 #!/usr/bin/python3
 """Measures hoppers of several sizes, fits the cost model to them and writes it to costModel.json beside this file.
 
-Usage: fitCostModel [--realTime | --predict]
-  --realTime   timed programs push all other work on this machine aside; root only
-  --predict    fit nothing, print the estimates for large runs from the file that is there
-
 10 minutes on a machine that has nothing else to do. One rank for the coefficients, two for the serial fraction.
 """
 
+import argparse
 import json
-import sys
 import tempfile
 from pathlib import Path
 
@@ -17,8 +13,10 @@ from clepsydra import whole_files
 from developers.benchmarks import cost_model, report, timing
 from developers.benchmarks.hopper import Hopper
 
-# The paper's hopper: mass [kg], particle diameter [m], cells, simulated time [s], DEM step [s]. The step goes with the diameter.
-# Times: 9.8 g/s of 2 mm particles through 1 cm as the quick hopper has it, smaller particles by Beverloo's (D - 1.4 d)^2.5.
+# The paper's hopper: mass [kg], particle diameter [m], cells, simulated time [s], DEM step [s]. The step goes with the
+# diameter.
+# Times: 9.8 g/s of 2 mm particles through 1 cm as the quick hopper has it, smaller particles by Beverloo's (D - 1.4
+# d)^2.5.
 PAPER = {
     "500 g of 2 mm particles, 1.5 million cells": (0.5, 2e-3, 1.5e6, 51, 4e-5),
     "500 g of 1 mm particles, 1.5 million cells": (0.5, 1e-3, 1.5e6, 33, 2e-5),
@@ -29,12 +27,21 @@ INTERVAL = 2e-3
 
 
 def main():
-    if sys.argv[1:] == ["--predict"]:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    choice = parser.add_mutually_exclusive_group()
+    choice.add_argument(
+        "--realTime", dest="real_time", action="store_true", help="timed programs push all other work aside; root only"
+    )
+    choice.add_argument(
+        "--predict",
+        action="store_true",
+        help="fit nothing, print the estimates for large runs from the file that is there",
+    )
+    given = parser.parse_args()
+    if given.predict:
         predict(json.loads(cost_model.FILE.read_text()))
         return
-    timing.real_time = sys.argv[1:] == ["--realTime"]
-    if sys.argv[1:] and not timing.real_time:
-        sys.exit(__doc__)
+    timing.real_time = given.real_time
     with tempfile.TemporaryDirectory(prefix="clepsydraCost") as folder:
         model = fitted(Path(folder))
     whole_files.write(cost_model.FILE, json.dumps(model, indent=2) + "\n")

@@ -1,12 +1,13 @@
-"""The flow rates of the programs that the benchmark compares: dry particles from one packing through the same hopper."""
+"""The flow rates of the programs that the benchmark compares: dry particles from one packing through the same
+hopper."""
 
 import numpy as np
 
 from clepsydra import flow  # of scripts/, which .hopper puts on the path
-from clepsydra import parameter_file
+from clepsydra import case_files, parameter_file
 
 from . import timing
-from .hopper import Hopper, case_files, forget_results, solver
+from .hopper import Hopper, forget_results, solver
 from .other_programs import require, yade_engines
 
 DUMP_EVERY = 250
@@ -81,16 +82,18 @@ def mean_rate(time, inside, p):
 def yade_script(p):
     """DEM/particles.data, at rest, and the hopper's own surfaces of triangles."""
     return f"""from yade import geom, ymport
-glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["particleDensity"]},
-                                    frictionAngle=atan({p["friction"]})))
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]},
+                                    density={p["particleDensity"]}, frictionAngle=atan({p["friction"]})))
 particles = []
 for line in open("DEM/particles.data").read().split("Atoms\\n\\n")[1].splitlines():
-    particles.append(O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["particleDiameter"] / 2}, material=glass)))
+    centre = [float(x) for x in line.split()[-3:]]
+    particles.append(O.bodies.append(sphere(centre, {p["particleDiameter"] / 2}, material=glass)))
 for name in ("hopperWall", "hopperPlate"):
     O.bodies.append(ymport.stl(f"DEM/meshes/{{name}}.stl", material=glass))
-O.bodies.append(geom.facetCylinder((0, 0, {(p["hopperHeight"] + p["waterAboveRim"] - p["tankDepth"]) / 2}), {p["tankDiameter"] / 2},
-                                   {p["hopperHeight"] + p["waterAboveRim"] + p["tankDepth"]}, segmentsNumber=40, wallMask=4,
-                                   material=glass))
+O.bodies.append(geom.facetCylinder((0, 0, {(p["hopperHeight"] + p["waterAboveRim"] - p["tankDepth"]) / 2}),
+                                   {p["tankDiameter"] / 2},
+                                   {p["hopperHeight"] + p["waterAboveRim"] + p["tankDepth"]},
+                                   segmentsNumber=40, wallMask=4, material=glass))
 O.bodies.append(wall({-p["tankDepth"]}, axis=2, material=glass))
 {yade_engines(p)}with open("yade.dat", "w") as out:
     for part in range({round(p["dryTime"] / p["demStep"] / DUMP_EVERY)} + 1):

@@ -1,4 +1,5 @@
-"""A million particles in a million cells on two ranks against a fiftieth of both: what grows faster than the bed does."""
+"""A million particles in a million cells on two ranks against a fiftieth of both: what grows faster than the bed
+does."""
 
 import functools
 import shutil
@@ -10,7 +11,8 @@ RANKS = 2
 INTERVALS = 40
 DEM_STEPS = 20  # in an interval
 
-# Particles along a side and up, cells along a side and up. As many coupling steps of both: the first finds all particles again.
+# Particles along a side and up, cells along a side and up. As many coupling steps of both: the first finds all
+# particles again.
 SMALL = (20, 50), (20, 50)
 LARGE = (100, 100), (100, 100)
 
@@ -48,7 +50,8 @@ def growth(hopper, repetitions, fluid, phases, said, unit):
 
 
 def per_unit(seconds, phases, size, unit):
-    """Seconds of each phase, of which there are fewer without fluid, for one particle and DEM step or one cell and step of the fluid."""
+    """Seconds of each phase, of which there are fewer without fluid, for one particle and DEM step or one cell and step
+    of the fluid."""
     (across, up), (cells_across, cells_up) = size
     units = INTERVALS * (across**2 * up * DEM_STEPS if unit == "particle" else cells_across**2 * cells_up)
     return {phase: seconds[phase] / units for phase in phases if phase in seconds}

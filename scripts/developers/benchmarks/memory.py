@@ -11,7 +11,8 @@ from .hopper import REPOSITORY, Hopper, forget_results
 COLUMN = REPOSITORY / "cases" / "validation" / "common" / "column"
 DIAMETER = 1e-3
 
-# Particles along a side and up, cells along a side and up. The paper's hopper: .02 million particles, 1.5 million cells.
+# Particles along a side and up, cells along a side and up. The paper's hopper: .02 million particles, 1.5 million
+# cells.
 QUICK = [((20, 50), (10, 25)), ((40, 60), (10, 25)), ((20, 50), (40, 60)), ((40, 60), (40, 60))]
 FULL = QUICK + [((100, 100), (50, 50)), ((20, 50), (100, 150)), ((70, 100), (35, 50)), ((20, 50), (60, 100))]
 

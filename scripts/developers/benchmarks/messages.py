@@ -1,4 +1,5 @@
-"""What the ranks of one run send each other in an interval, and their memory, against their number: counts, no times."""
+"""What the ranks of one run send each other in an interval, and their memory, against their number: counts, no
+times."""
 
 import functools
 import json
@@ -44,7 +45,8 @@ def largest(of_ranks):
 
 @functools.cache
 def measured(hopper):
-    """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are counts."""
+    """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are
+    counts."""
     if not counter().exists():
         raise timing.Skipped(
             f"there is no {counter()}: 'cmake --build {environment.build()} --target countMessages' makes it"

@@ -13,7 +13,8 @@ STEPS_PER_LIST = 25
 
 
 def over_lammps(hopper, repetitions):
-    """The bed in the closed hopper, in our program and in LAMMPS with pair granular: the same contact law (Hertz, Mindlin
+    """The bed in the closed hopper, in our program and in LAMMPS with pair granular: the same contact law (Hertz,
+    Mindlin
     with history, Tsuji's damping), walls, step and neighbour lists."""
     require("lmp")
     steps = 5000
@@ -41,7 +42,8 @@ def over_lammps(hopper, repetitions):
 
 
 def over_yade(hopper, repetitions):
-    """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour lists
+    """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour
+    lists
     of the same width. Yade takes so long that it does fewer steps."""
     require("yade")
     steps, yade_steps = 5000, 1000 if hopper.quick else 400
@@ -106,8 +108,8 @@ def yade_script(p, steps):
     radius = p["hopperDiameter"] / 2
     return f"""from yade import geom
 import time
-glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]}, density={p["particleDensity"]},
-                                    frictionAngle=atan({p["friction"]})))
+glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]},
+                                    density={p["particleDensity"]}, frictionAngle=atan({p["friction"]})))
 text = open("particles.data").read().split("Atoms # sphere\\n\\n")[1]
 for line in text.splitlines():
     O.bodies.append(sphere([float(x) for x in line.split()[-3:]], {p["particleDiameter"] / 2}, material=glass))
@@ -126,7 +128,8 @@ def yade_engines(p):
     return f"""law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
 O.engines = [
     ForceResetter(),
-    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist={0.25 * p["particleDiameter"]}),
+    InsertionSortCollider([Bo1_Sphere_Aabb(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()],
+                          verletDist={0.25 * p["particleDiameter"]}),
     InteractionLoop([Ig2_Sphere_Sphere_ScGeom(), Ig2_Facet_Sphere_ScGeom(), Ig2_Wall_Sphere_ScGeom()], [law],
                     [Law2_ScGeom_MindlinPhys_Mindlin()]),
     NewtonIntegrator(damping=0, gravity=(0, 0, -9.81)),
@@ -143,7 +146,8 @@ def write_lammps_data(hopper, folder):
     subprocess.run(liggghts("dump"), cwd=folder, check=True, stdout=subprocess.DEVNULL)
     lines = (folder / "particles.dump").read_text().splitlines()
     particles = [
-        line.split() for line in lines[lines.index(next(line for line in lines if line.startswith("ITEM: ATOMS"))) + 1 :]
+        line.split()
+        for line in lines[lines.index(next(line for line in lines if line.startswith("ITEM: ATOMS"))) + 1 :]
     ]
     half, top = 0.51 * p["tankDiameter"], 1.02 * (p["hopperHeight"] + p["waterAboveRim"])
     (folder / "particles.data").write_text(

@@ -1,4 +1,5 @@
-"""The quick hopper under water on two cores: from the first particle that leaves to the last, and against an earlier version."""
+"""The quick hopper under water on two cores: from the first particle that leaves to the last, and against an earlier
+version."""
 
 import os
 import shutil

@@ -281,7 +281,8 @@ def files(manifest):
 
 
 def differences(case, reference):
-    """What a case lacks or has otherwise than an undisturbed one: states, drawings of the particles and rows of m(t)."""
+    """What a case lacks or has otherwise than an undisturbed one: states, drawings of the particles and rows of
+    m(t)."""
     found = []
     for pattern in ("[0-9]*/**/*", "processor*/[0-9]*/**/*", "checkpoints/*/particles.*", "VTK/*.vtp"):
         for file in sorted(reference.glob(pattern)):

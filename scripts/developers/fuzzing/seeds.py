@@ -1,4 +1,5 @@
-"""What the mutations begin with: the repository's own files. Each function fills a target's working folder and gives texts."""
+"""What the mutations begin with: the repository's own files. Each function fills a target's working folder and gives
+texts."""
 
 import re
 import shutil
@@ -34,7 +35,8 @@ def tables(_):
 
 
 def studies(folder):
-    """Beside the surrogate for a case, a small library and a measured file, which the texts name in place of their own."""
+    """Beside the surrogate for a case, a small library and a measured file, which the texts name in place of their
+    own."""
     (folder / "case").mkdir()
     shutil.copy(SURROGATE / "case/parameters", folder / "case")
     (folder / "curve.csv").write_text(CURVE.read_text()[:1500])
@@ -58,9 +60,12 @@ measured:
   value: { column: 2, unit: g, factor: -1, offset: 0.1, valid: [0, 1] }
 conditions:
   - { name: one, role: training, measured: { files: [curve.csv, curve.csv] } }
-  - { name: two, role: heldOut, set: { friction: 0.2 }, measured: { numbers: [ { feature: rate, unit: g/s, relativeError: 0.01, values: [11] } ] } }
+  - { name: two, role: heldOut, set: { friction: 0.2 },
+      measured: { numbers: [ { feature: rate, unit: g/s, relativeError: 0.01, values: [11] } ] } }
 parameters: [ { name: mu, set: { friction: "mu*1.5" }, prior: { mean: 0.15, sd: 0.05 }, range: [0.02, 0.8] } ]
-effects: [ { name: wall, set: { frictionWall: "frictionWall*(1 + a)" }, amplitude: [-1, 1] }, { name: on, set: { lubrication: 1 }, switch: true } ]
+effects: [
+  { name: wall, set: { frictionWall: "frictionWall*(1 + a)" }, amplitude: [-1, 1] },
+  { name: on, set: { lubrication: 1 }, switch: true } ]
 withoutEffects: on
 """
 

@@ -17,7 +17,8 @@ from .builds import is_python
 SECONDS_PER_INPUT = 10
 MEGABYTES = 3000
 
-#: OpenFOAM's parser loses memory where a refusal is an exception, as it is in the fuzzer; in the solver it ends the program.
+# : OpenFOAM's parser loses memory where a refusal is an exception, as it is in the fuzzer; in the solver it ends the
+# program.
 LEAKS_EXPECTED = ("couplingProperties",)
 
 #: By name: what it reads; a function that fills its working folder and gives the texts to begin with; the longest
@@ -108,7 +109,8 @@ def started(name, build, folder, arguments):
     variables = dict(
         os.environ,
         FOAM_CASE=str(folder),
-        # Less of what makes memory slow: short stacks of allocations, and little freed memory kept from being used again.
+        # Less of what makes memory slow: short stacks of allocations, and little freed memory kept from being used
+        # again.
         ASAN_OPTIONS=f"detect_leaks={int(name not in LEAKS_EXPECTED)}:malloc_context_size=5:quarantine_size_mb=16",
         LSAN_OPTIONS=f"suppressions={sanitizers}/leaks.suppressions:print_suppressions=0",
         UBSAN_OPTIONS="halt_on_error=1:print_stacktrace=1",

@@ -4,7 +4,8 @@
 A text is either refused with ParameterError, or its last entry can be set, is then read as what it was set to, and all
 other entries keep their values. (traceResidual reads the same files by itself: entries.cpp.)
 
-A small fuzzer with libFuzzer's options, as far as scripts/fuzz uses them, and its words for what it has done. It keeps a
+A small fuzzer with libFuzzer's options, as far as scripts/fuzz uses them, and its words for what it has done. It keeps
+a
 text where no other before had such an outcome; what it reports as reached are lines of Python, not edges.
 """
 
@@ -47,7 +48,8 @@ def read_text(path):
 
 
 def execute(text, options):
-    """Its outcome, in few words. A text that takes too long ends this program by SIGALRM, Python's own loops included."""
+    """Its outcome, in few words. A text that takes too long ends this program by SIGALRM, Python's own loops
+    included."""
     signal.setitimer(signal.ITIMER_REAL, float(options.get("timeout", 10)))
     try:
         before = parameter_file.parameters_in(text)
