@@ -20,6 +20,7 @@ import subprocess
 import sys
 from collections import Counter
 from math import hypot, pi, sqrt
+from pathlib import Path
 
 from clepsydra import environment, parameter_file
 from clepsydra.meshes import hopper_walls
