@@ -30,7 +30,7 @@ def columns(case, name):
 
 def balances(case):
     """The conservation check's summaries of a run, in order of time. A part that is killed writes none."""
-    files = [directory / "summary.json" for directory in start_directories(case, "conservationCheck")]
+    files = [directory / "summary.json" for directory in start_directories(case, "conservation")]
     return [json.loads(file.read_text()) for file in files if file.exists()]
 
 

@@ -126,7 +126,7 @@ def solver(ranks=1):
 
 def conservation(folder):
     """What the run in this folder wrote at its end: particles, errors, seconds of each phase, bytes exchanged."""
-    return json.loads((folder / "postProcessing" / "conservationCheck" / "0" / "summary.json").read_text())
+    return json.loads((folder / "postProcessing" / "conservation" / "0" / "summary.json").read_text())
 
 
 def forget_results(folder):
