@@ -45,7 +45,7 @@ class Column:
 
     def closure_options(self):
         return {
-            name: getattr(self, name)
+            name: self[name]
             for name in ("dragLaw", "particleDiameter", "particleDensity", "fluidDensity", "fluidViscosity")
         }
 
