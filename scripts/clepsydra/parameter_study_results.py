@@ -3,8 +3,10 @@ list."""
 
 import csv
 import json
+import zipfile
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Union
 
 import numpy as np
 
@@ -21,15 +23,29 @@ class Run:
     cost: dict
 
 
+File = Union[Path, zipfile.Path]
+
+
+def files(folder: Path) -> dict[str, File]:
+    """The JSON files of all runs whose results lie in a folder, or in an archive beside it (results/runs.zip, for studies
+    that are finished), by the run's name. A file in the folder takes the place of one in the archive."""
+    archive = folder.parent / f"{folder.name}.zip"
+    found: dict[str, File] = {}
+    if archive.exists():
+        found = {path.name: path for path in zipfile.Path(archive).iterdir() if path.name.endswith(".json")}
+    found.update({path.name: path for path in folder.glob("*.json")})
+    return {name.removesuffix(".json"): path for name, path in sorted(found.items())}
+
+
 def read(folder):
-    """All runs whose results lie in a folder, by name."""
-    return [read_run(path) for path in sorted(Path(folder).glob("*.json"))]
+    """All runs whose results lie in a folder or in the archive beside it, by name."""
+    return [read_run(path) for path in files(Path(folder)).values()]
 
 
 def read_run(path):
     inputs = json.loads(path.read_text())
-    with path.with_suffix(".csv").open() as stream:
-        rows = np.array([[float(value) for value in row] for row in list(csv.reader(stream))[1:]])
+    table = (path.parent / f"{path.name.removesuffix('.json')}.csv").read_text()
+    rows = np.array([[float(value) for value in row] for row in list(csv.reader(table.splitlines()))[1:]])
     return Run(
         inputs["run"],
         inputs["run"].rsplit(".", 2)[0],

@@ -16,6 +16,7 @@ import yaml
 from clepsydra import arithmetic
 from clepsydra import case_rules
 from clepsydra import parameter_file
+from clepsydra import parameter_study_results
 
 PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
                     "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
@@ -93,7 +94,8 @@ class ParameterStudy:
         return None if kept == "all" else kept
 
     def _dropPublished(self):
-        left = [task for task in self.tasks.values() if task.publish and not (self.results / f"{task.publish}.json").exists()]
+        published = parameter_study_results.files(self.results)
+        left = [task for task in self.tasks.values() if task.publish and task.publish not in published]
         names = {task.name for task in left}
         for task in left:
             names.update(task.needs, *(self.tasks[need].needs for need in task.needs))

@@ -76,6 +76,6 @@ INSTANTIATE_TEST_SUITE_P(Lies, LibrarySelfTest,
         Lie{"lyingMember", {"has the member 'radius'", "at another place than its headers"}},
         Lie{"lyingTag", {"the id (tag) of particle 2 as 0 instead of 2"}},
         Lie{"lyingForce", {"a component of the Hertz force of two particles (LIGGGHTS' loop) as"}}),
-    [](const auto& info) { return std::string(info.param.library); });
+    [](const auto& lie) { return std::string(lie.param.library); });
 
 } // namespace clepsydra::tests
