@@ -41,15 +41,15 @@ class EffectTable(GeneratedText):
         rows = ["| effect | meaning | what it sets | how to measure it by itself |", "|---|---|---|---|"]
         for effect in library["effects"]:
             changes = effect.get("set") or effect["chain"]
-            told = ", ".join(
+            text = ", ".join(
                 f"`{name}` {'to' if effect.get('switch') and 'set' in effect else '='} `{value}`"
                 for name, value in changes.items()
             )
             if not effect.get("switch"):
-                told += f", $a$ from {effect.get('amplitude', [0, 1])[0]} to {effect.get('amplitude', [0, 1])[1]}"
+                text += f", $a$ from {effect.get('amplitude', [0, 1])[0]} to {effect.get('amplitude', [0, 1])[1]}"
             where = "".join(f"; {tag}: {listed(values)}" for tag, values in effect.get("actsIn", {}).items())
             rows.append(
-                f"| `{effect['name']}` | {effect.get('meaning', '')}{where} | {told} | {effect.get('hint', '')} |"
+                f"| `{effect['name']}` | {effect.get('meaning', '')}{where} | {text} | {effect.get('hint', '')} |"
             )
         return "\n".join(rows)
 

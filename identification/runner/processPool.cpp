@@ -46,7 +46,7 @@ struct Running
     bool ending = false;
 };
 
-/// After an error, all remaining runs are told to end before the first of them is waited for.
+/// After an error, all remaining runs are asked to end before the first of them is waited for.
 struct AllRunning : std::list<Running>
 {
     AllRunning() = default;

@@ -15,7 +15,7 @@ namespace clepsydra::identification
 /// parent.
 ///
 /// A separate process watches the program and inherits every orphan (PR_SET_CHILD_SUBREAPER). When the program ends,
-/// when it is told to end, or when the calling process has died (even by SIGKILL), all remaining processes receive
+/// when it is asked to end, or when the calling process has died (even by SIGKILL), all remaining processes receive
 /// SIGTERM and, after a grace period, SIGKILL.
 class ProcessTree
 {

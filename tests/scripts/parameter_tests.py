@@ -126,7 +126,7 @@ class OldNames(unittest.TestCase):
 
 
 class Typed(unittest.TestCase):
-    def test_mistakes_are_told(self):
+    def test_mistakes_are_reported(self):
         """What a shell passes on, in words, never in a traceback."""
         for arguments, status, words in (
             ((), 2, "usage: "),

@@ -27,7 +27,7 @@ together:
   - {require: count < 5, here: yes, message: "count here"}
   - {fact: "area {area:g} m2"}
   - {fact: "of the tube {tubeArea:.3f} m2"}
-  - {fact: "never told: {withoutValue}"}
+  - {fact: "never reported: {withoutValue}"}
 """
 
 

@@ -83,7 +83,7 @@ class Tutorials(unittest.TestCase):
                 self.assertAlmostEqual(float(last[0]), float(end))
 
     def testAllrunInACopyAndAgain(self) -> None:
-        """The same by Allrun. Called again it does nothing again, or begins anew; Allclean leaves what was copied."""
+        """The same by Allrun. Called again it does nothing again, or begins again; Allclean leaves what was copied."""
         for name in ("settlingParticle", "hopperDry"):
             with self.subTest(name):
                 case = self.shortened(name)
@@ -96,7 +96,7 @@ class Tutorials(unittest.TestCase):
                 self.assertEqual(sorted(case.rglob("*")), before)
 
     def testCheckAndMistakes(self) -> None:
-        """`check` makes nothing; a mistake is told before anything is made, a program that fails with the end of its
+        """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of its
         log; without Clepsydra's environment a copy says what to do."""
         for name in BY_HAND:
             with self.subTest(name):
