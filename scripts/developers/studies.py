@@ -4,7 +4,7 @@ seen.
 
 usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --run: the studies are run again first
        studies --leaveOut STUDY ...    each training condition in turn is left out and predicted from the others
-       studies --picture FILE STUDY ...    measured, model before, model after, in the conditions that no fit has seen
+       studies --picture FILE STUDY ...    the candidates, and measured and simulated values that no fit has seen
 
 Errors are those of held-out conditions: the study's own (results/), or those that were held back (results/heldOut, by
 scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote
@@ -116,59 +116,97 @@ def unseen(name, report):
     return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
 
 
+CANDIDATES = 5  # effects in the picture's left panel
+
+
 def picture(names, file):
+    """A row for each study, from the measurement to the answer: how well each effect explains the training measurements;
+    then each condition that no fit has seen, as measured and as simulated without and with the effect that was named.
+    """
     from clepsydra import picture_style
     from clepsydra.picture_style import pyplot
 
-    panels = [
-        (STUDIES[name][0], label, each["heldOut"]["numbers"])
+    rows = [
+        (name, report, [(label, each["heldOut"]["numbers"]) for label, each in unseen(name, report).items()])
         for name in names
         for report in [read(CASES / name / "results/report.json")]
-        if report
-        for label, each in unseen(name, report).items()
+        if report and unseen(name, report)
     ]
-    if not panels:
+    if not rows:
         raise SystemExit("no condition of these studies was held out, or left out: nothing to draw")
-    figure, row = pyplot.subplots(
-        1,
-        len(panels),
-        figsize=(1 + 2.6 * len(panels), 3.2),
+    most = max(len(panels) for _, _, panels in rows)
+    figure, axes = pyplot.subplots(
+        len(rows),
+        1 + most,
+        figsize=(3.4 + 2.7 * most, 3.4 * len(rows)),
         squeeze=False,
         constrained_layout=True,
-        width_ratios=[1 + len(numbers) for _, _, numbers in panels],
+        width_ratios=[1.3] + most * [1],
     )
+    for row, (name, report, panels) in zip(axes, rows):
+        draw_candidates(row[0], report)
+        study = yaml.safe_load((CASES / name / "study.yaml").read_text())
+        for place, panel in enumerate(row[1:]):
+            panel.set_visible(place < len(panels))
+            if place < len(panels):
+                draw_unseen(panel, panels[place], study, picture_style, place == 0)
+    figure.savefig(file, dpi=picture_style.DPI)
+
+
+def draw_candidates(axes, report):
+    judged = [one for one in report["effects"] if one["logOdds"] is not None and one.get("chiSquare") is not None]
+    best = sorted(judged, key=lambda one: one["chiSquare"])[:CANDIDATES]
+    bars = [("no effect", report["null"]["chiSquare"]), *((one["name"], one["chiSquare"]) for one in reversed(best))]
+    colours = ["0.6" if name != report["name"] else "tab:blue" for name, _ in bars]
+    axes.barh([name for name, _ in bars], [value for _, value in bars], color=colours)
+    axes.set(xscale="log", xlabel="discrepancy (chi-square) of the best fit", title=f"answer: {answer(report)}")
+    axes.tick_params(labelsize=7)
+    axes.title.set_fontsize(9)
+
+
+def draw_unseen(axes, panel, study, picture_style, first):
+    where, numbers = panel
+    features = {one.get("name", one["kind"]): one for one in study["observable"]["features"]}
     marks = [
         ("measured", "measured", "black", "o", "black"),
-        ("before", "model before", picture_style.STEPS["dry"], "s", "none"),
-        ("after", "model after", picture_style.LINE, "D", "none"),
+        ("before", "simulated, without the effect", picture_style.STEPS["dry"], "s", "none"),
+        ("after", "simulated, with the effect", picture_style.LINE, "D", "none"),
     ]
-    for axes, (study, where, numbers) in zip(row[0], panels):
-        for kind, label, colour, mark, filling in marks:
-            shown = [
-                (place, one[kind]["value"], one[kind]["standardError"])
-                for place, one in enumerate(numbers)
-                if one[kind]
-            ]
-            axes.errorbar(
-                *(zip(*shown) if shown else ([], [], [])),
-                color=colour,
-                marker=mark,
-                markerfacecolor=filling,
-                linestyle="",
-                label=label,
+    # speeds against the way over which they are means, where all features are such
+    ways = [features[one["feature"]] for one in numbers]
+    are_speeds = all("peed" in way["kind"] and "to" in way for way in ways)
+    for kind, label, colour, mark, filling in marks:
+        shown = [
+            (
+                500 * (way["from"] + way["to"]) if are_speeds else place,
+                (1000 if are_speeds else 1) * one[kind]["value"],
+                (1000 if are_speeds else 1) * one[kind]["standardError"],
             )
-        several = len({one["condition"] for one in numbers}) > 1
-        axes.set_xticks(
-            range(len(numbers)),
-            [f"{one['condition']}\n{one['feature']}" if several else one["feature"] for one in numbers],
-        )
-        axes.set(yscale="log", title=f"{study}:\n{where}", xlim=(-0.6, len(numbers) - 0.4))
-        axes.tick_params(labelsize=7, which="both")
-        axes.title.set_fontsize(8)
-        axes.grid(alpha=0.3)
-    row[0][0].set_ylabel("SI units")
-    row[0][0].legend(fontsize=7)
-    figure.savefig(file, dpi=picture_style.DPI)
+            for place, (one, way) in enumerate(zip(numbers, ways))
+            if one[kind]
+        ]
+        x, y, error = zip(*shown) if shown else ([], [], [])
+        axes.errorbar(x, y, error, color=colour, marker=mark, markerfacecolor=filling, linestyle="", label=label)
+    if are_speeds:
+        axes.set_xlabel("position [mm]")
+    else:
+        axes.set_xticks(range(len(numbers)), [one["feature"] for one in numbers])
+    axes.set(title=f"predicted: {shown_condition(study, where)}", ylim=(0, None))
+    axes.tick_params(labelsize=7)
+    axes.title.set_fontsize(9)
+    axes.grid(alpha=0.3)
+    if first:
+        axes.set_ylabel("velocity [mm/s]" if are_speeds else "SI units")
+        axes.legend(fontsize=6, loc="lower left")
+
+
+def shown_condition(study, where):
+    """The particle's diameter where the conditions differ by it, else their names."""
+    name = where.split(" (")[0]
+    for one in study["conditions"]:
+        if one["name"] == name and "particleDiameter" in one.get("set", {}):
+            return f"sphere of {1000 * float(one['set']['particleDiameter']):g} mm"
+    return name
 
 
 def errors(report):
