@@ -120,7 +120,7 @@ CANDIDATES = 5  # effects in the picture's left panel
 
 
 def picture(names, file):
-    """A row for each study, from the measurement to the answer: how well each effect explains the training measurements;
+    """A row for each study, from the measurement to the answer: how well each effect explains the training data;
     then each condition that no fit has seen, as measured and as simulated without and with the effect that was named.
     """
     from clepsydra import picture_style
