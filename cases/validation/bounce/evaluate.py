@@ -112,7 +112,7 @@ def rows(name, bounces, measured):
         return [sensitivity(name, bounces)]
     ours = bounces[name]
     particle = equation_of_motion.Particle.of(parameter_file.parameters(Path("runs") / name / "parameters"))
-    forces = {"addedMass": name not in ("neither", "lubrication"), "history": KERNELS.get(name)}
+    forces = {"added_mass": name not in ("neither", "lubrication"), "history": KERNELS.get(name)}
     down, up = ours["impact speed"][0], ours["rebound speed"][0]
     if name in KERNELS:
         # The history force slows the sphere most just after the bounce: what the first 12 ms extend to is less than

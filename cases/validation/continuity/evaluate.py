@@ -77,7 +77,7 @@ def of_clipped(run):
     before, now = (case_files.field(run, time, "voidFractionInContinuity")[:, 0] for time in times[-2:])
     recorded = [
         float(value)
-        for value in re.findall(r"spread over the closed tank (\S+)", (run / "log.pimpleDemFoam").read_text())
+        for value in re.findall(r"imbalance of a closed tank (\S+)", (run / "log.pimpleDemFoam").read_text())
     ]
     changes = [case_files.field(run, time, "voidFraction")[:, 0].mean() for time in times]
     column = Column(run)

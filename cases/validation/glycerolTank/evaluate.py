@@ -83,7 +83,7 @@ def rows(name, runs, measured):
             ),
         ]
     if name == "edge":
-        centre = runs["bead3"][0]
+        centre = runs["particle3"][0]
         ratio = measured["edgeOverCentre"]
         return [
             validation.row(
@@ -183,7 +183,7 @@ def plot(runs, measured):
     left.set(xlabel="particle diameter [mm]", ylabel="velocity / diameter$^2$ [1/(m s)]")
     left.legend()
 
-    names = [name for name in runs if name in ("bead3", "edge") or name.startswith("twoWay")]
+    names = [name for name in runs if name in ("particle3", "edge") or name.startswith("twoWay")]
     right.bar(names, [runs[name][0] / measured["velocity3"] for name in names])
     right.axhline(1, color="k", label="measured, centre")
     right.axhline(measured["edgeOverCentre"], color="k", ls="--", label="measured, edge")

@@ -107,7 +107,7 @@ def pressure_on_its_way(column, end):
 def semi_implicit_momentum(run):
     """At the end, along z [N s]."""
     log = run / ("log.mpirun" if run.name.endswith("-2") else "log.pimpleDemFoam")
-    return float(re.findall(r"in advance \(\S+ \S+ (\S+)\)", log.read_text())[-1])
+    return float(re.findall(r"of which semi-implicit \(\S+ \S+ (\S+)\)", log.read_text())[-1])
 
 
 def of_faults(file):
