@@ -20,12 +20,12 @@ namespace clepsydra::closures
 
 struct SettlingParticle
 {
-    double diameter;               // m
-    double particleDensity;        // kg/m3
-    double fluidDensity;           // kg/m3
-    double dynamicViscosity;       // Pa s
+    double diameter;                 // m
+    double particleDensity;          // kg/m3
+    double fluidDensity;             // kg/m3
+    double dynamicViscosity;         // Pa s
     double gravity = defaultGravity; // m/s2
-    double voidFraction = 1.0;     // 1: an isolated particle
+    double voidFraction = 1.0;       // 1: an isolated particle
 };
 
 /// Speed of the particle relative to the fluid between the particles (interstitial) [m/s], >= 0. The particle sinks

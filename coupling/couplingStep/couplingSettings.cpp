@@ -18,9 +18,9 @@ namespace
 
 const ModelLines fluids(
     "fluid", {{"incompressible", "solved by PIMPLE"}, {"none", "DEM only: the particles move without fluid"}});
-const ModelLines momentumCouplings("momCoupleModels",
-    {{"implicitCouple", "the fluid's equation holds the drag of the next coupling step"},
-        {"explicitCouple", "the fluid receives the drag afterwards: short coupling steps only"}});
+const ModelLines momentumCouplings(
+    "momCoupleModels", {{"implicitCouple", "the fluid's equation holds the drag of the next coupling step"},
+                           {"explicitCouple", "the fluid receives the drag afterwards: short coupling steps only"}});
 
 /// Relative tolerance in comparisons of times, because decimal fractions are rounded.
 constexpr double sameTime = 1e-6;

@@ -27,9 +27,9 @@ double latticePeak(double bandwidthSqr, double cellSize)
 /// 0.2527/h, the Green's function of the simple cubic lattice at its origin (Watson's integral).
 constexpr double latticeBandwidthSqr = 0.126;
 
-const ModelLines selfInducedVelocityCorrections("selfInducedVelocityCorrection",
-    {{"off", "forces use the sampled velocity as it is (the default)"},
-        {"Oseen", "the self-induced velocity is subtracted from the sampled one"}});
+const ModelLines selfInducedVelocityCorrections(
+    "selfInducedVelocityCorrection", {{"off", "forces use the sampled velocity as it is (the default)"},
+                                         {"Oseen", "the self-induced velocity is subtracted from the sampled one"}});
 
 bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
 {

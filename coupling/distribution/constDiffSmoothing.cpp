@@ -69,8 +69,8 @@ private:
 
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, ConstDiffSmoothing, dictionary);
-const ModelLines lines("smoothingModel",
-    {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of `bandwidth`, stopped by walls"}});
+const ModelLines lines(
+    "smoothingModel", {{ConstDiffSmoothing::typeName_(), "diffusion to a Gaussian of `bandwidth`, stopped by walls"}});
 
 } // namespace
 

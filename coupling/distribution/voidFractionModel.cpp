@@ -85,9 +85,9 @@ defineTypeNameAndDebug(Divided, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
 defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
-const ModelLines lines("voidFractionModel",
-    {{Divided::typeName_(), "each cell holds the part of the sphere in it"},
-        {Centre::typeName_(), "the cell of the centre holds all of it; use with smoothing only"}});
+const ModelLines lines(
+    "voidFractionModel", {{Divided::typeName_(), "each cell holds the part of the sphere in it"},
+                             {Centre::typeName_(), "the cell of the centre holds all of it; use with smoothing only"}});
 
 } // namespace
 

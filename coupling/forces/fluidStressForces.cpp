@@ -114,8 +114,7 @@ addToRunTimeSelectionTable(ForceModel, ViscousForce, dictionary);
 defineTypeNameAndDebug(Archimedes, 0);
 addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
 const ModelLines lines(
-    "forceModels", {{PressureGradientForce::typeName_(),
-                        "-V grad p, p without its hydrostatic part (model A)"},
+    "forceModels", {{PressureGradientForce::typeName_(), "-V grad p, p without its hydrostatic part (model A)"},
                        {ViscousForce::typeName_(), "viscous force V div(tau) (model A)"},
                        {Archimedes::typeName_(), "buoyancy; necessary with either modelType"}});
 

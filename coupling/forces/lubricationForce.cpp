@@ -131,8 +131,8 @@ private:
 
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
-const ModelLines lines("forceModels",
-    {{LubricationForce::typeName_(), "lubrication between particles and at walls (Cox 1974)"}});
+const ModelLines lines(
+    "forceModels", {{LubricationForce::typeName_(), "lubrication between particles and at walls (Cox 1974)"}});
 
 } // namespace
 

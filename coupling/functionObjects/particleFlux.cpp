@@ -18,8 +18,7 @@ namespace clepsydra
 defineTypeNameAndDebug(ParticleFlux, 0);
 addToRunTimeSelectionTable(functionObject, ParticleFlux, dictionary);
 static const ModelLines lines("functions { type }",
-    {{ParticleFlux::typeName_(),
-        "number, mass, momentum and rate of particles inserted or leaving"}});
+    {{ParticleFlux::typeName_(), "number, mass, momentum and rate of particles inserted or leaving"}});
 
 namespace
 {

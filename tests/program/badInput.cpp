@@ -210,8 +210,11 @@ TEST(BadInput, UnknownModels)
 TEST(BadInput, EntriesThatNobodyReads)
 {
     expectRefused(
-        [](TestCase& test) { test.coupling().set("selfInducedVelocityCorection", "Oseen").set("dividdProps/alphaMin", "0.2"); },
-        {couplingProperties, "'selfInducedVelocityCorection' is unknown (did you mean 'selfInducedVelocityCorrection'?)",
+        [](TestCase& test) {
+            test.coupling().set("selfInducedVelocityCorection", "Oseen").set("dividdProps/alphaMin", "0.2");
+        },
+        {couplingProperties,
+            "'selfInducedVelocityCorection' is unknown (did you mean 'selfInducedVelocityCorrection'?)",
             "'dividdProps' is unknown (did you mean 'dividedProps'?)", "allowed:"},
         SeenBy::dictionaries);
     expectEntryRefused("DiFeliceDragProps/facotr", "2", {"did you mean 'factor'?"});

@@ -64,8 +64,8 @@ Outcome QuickHopper::run(const std::string& step)
 
 Outcome QuickHopper::runVariant(const std::string& step, const std::string& name, const std::string& entries)
 {
-    return inCase("./Allrun -np 1 -prepare " + step + "\ncp -r steps/" + step + " steps/" + name + "\ncat >> steps/" + name
-                  + "/step << 'END'\n" + entries + "\nEND\n./Allrun -np 1 " + name + '\n');
+    return inCase("./Allrun -np 1 -prepare " + step + "\ncp -r steps/" + step + " steps/" + name + "\ncat >> steps/"
+                  + name + "/step << 'END'\n" + entries + "\nEND\n./Allrun -np 1 " + name + '\n');
 }
 
 std::vector<std::vector<double>> QuickHopper::table(const std::string& step, const std::string& file) const
