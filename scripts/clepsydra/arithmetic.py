@@ -4,8 +4,9 @@ run."""
 import ast
 import math
 import operator
+from typing import Any, Callable, Mapping
 
-OPERATORS = {
+OPERATORS: dict[type, Callable[..., float]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
@@ -14,7 +15,7 @@ OPERATORS = {
     ast.USub: operator.neg,
     ast.UAdd: operator.pos,
 }
-FUNCTIONS = {
+FUNCTIONS: dict[str, Callable[..., float]] = {
     "sqrt": math.sqrt,
     "pow": math.pow,
     "exp": math.exp,
@@ -31,7 +32,7 @@ FUNCTIONS = {
 MOST_CHARACTERS = 1000
 
 
-def evaluate(expression, names={}):
+def evaluate(expression: str, names: Mapping[str, Any] = {}) -> float:
     """The value, a finite float. ValueError, in words, where there is none."""
     if len(expression) > MOST_CHARACTERS:
         raise ValueError(f"is longer than {MOST_CHARACTERS} characters")
@@ -44,7 +45,7 @@ def evaluate(expression, names={}):
     return value
 
 
-def value_of(node, names):
+def value_of(node: ast.expr, names: Mapping[str, Any]) -> float:
     if isinstance(node, ast.Constant) and type(node.value) in (int, float):
         return float(node.value)
     if isinstance(node, ast.Name):

@@ -3,19 +3,20 @@
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 TIME_ROUNDING = 1e-5  # a part's start is the name of a folder, in six digits
 
 
-def start_directories(case, name):
+def start_directories(case: Path | str, name: str) -> list[Path]:
     """postProcessing/<name>/<startTime>, in order of start time."""
     found = (Path(case) / "postProcessing" / name).glob("[0-9]*")
     return sorted(found, key=lambda directory: float(directory.name))
 
 
-def columns(case, name):
+def columns(case: Path | str, name: str) -> np.ndarray:
     """The columns of an observable. Where a run was resumed, the later part wins."""
     rows = np.empty((0, 0))
     for directory in start_directories(case, name):
@@ -28,13 +29,13 @@ def columns(case, name):
     return rows.T
 
 
-def balances(case):
+def balances(case: Path | str) -> list[dict[str, Any]]:
     """The conservation check's summaries of a run, in order of time. A part that is killed writes none."""
     files = [directory / "summary.json" for directory in start_directories(case, "conservation")]
     return [json.loads(file.read_text()) for file in files if file.exists()]
 
 
-def missing_balances(case, parts, end):
+def missing_balances(case: Path | str, parts: list[dict[str, Any]], end: float) -> list[tuple[float, float]]:
     """(from, to) of each piece of a run, up to `end`, that none of these balances are of."""
     starts = [float(directory.name) for directory in Path(case).glob("postProcessing/*/[0-9]*")]
     missing, reached = [], min(starts)
@@ -45,13 +46,13 @@ def missing_balances(case, parts, end):
     return missing
 
 
-def times(case):
+def times(case: Path | str) -> list[str]:
     """Names of the time directories after the start, in order."""
     found = [path.name for path in Path(case).iterdir() if re.fullmatch(r"[0-9][0-9.e-]*", path.name)]
     return sorted((name for name in found if float(name) > 0), key=float)
 
 
-def field(case, time, name):
+def field(case: Path | str, time: str, name: str) -> np.ndarray:
     """Values of a field in all cells, one row per cell; of one row where the field is uniform. Written as ascii."""
     text = (Path(case) / time / name).read_text()
     entry = re.search(
@@ -65,7 +66,7 @@ def field(case, time, name):
     return np.array([[float(part) for part in line.strip("() ").split()] for line in lines])
 
 
-def surface_values(case, name):
+def surface_values(case: Path | str, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Times and values, one row per time, of a function object surfaceFieldValue."""
     directory = start_directories(case, name)[0]
     lines = (directory / "surfaceFieldValue.dat").read_text().replace("(", " ").replace(")", " ").splitlines()
@@ -73,7 +74,7 @@ def surface_values(case, name):
     return rows[:, 0], rows[:, 1:]
 
 
-def dumped_particles(case, dump="DEM/particles.dump"):
+def dumped_particles(case: Path | str, dump: str = "DEM/particles.dump") -> list[tuple[int, np.ndarray]]:
     """The entries of a LIGGGHTS dump: step, and an array with a row per particle and the columns that the dump has."""
     lines = (Path(case) / dump).read_text().splitlines()
     entries, at = [], 0

@@ -1,18 +1,19 @@
 """Values of the closed formulas in coupling/closures, from the program `closures`."""
 
 import subprocess
+from typing import Any
 
 import numpy as np
 
 from clepsydra import environment
 
 
-def value(formula, **options):
+def value(formula: str, **options: Any) -> float:
     """One number: value("terminalVelocity", dragLaw="DiFeliceDrag", particleDiameter=2e-3, ...)."""
     return float(values(formula, **options)[0])
 
 
-def values(formula, **options):
+def values(formula: str, **options: Any) -> np.ndarray:
     """An array, for options that take several numbers: values("drag", ..., slipSpeed=[.1, .2])."""
     command = [str(environment.program("closures")), formula]
     for name, given in options.items():

@@ -16,23 +16,23 @@ import math
 from scipy.optimize import brentq
 
 
-def tsuji_damping(restitution):
+def tsuji_damping(restitution: float) -> float:
     """alpha."""
     logarithm = math.log(restitution)
     return math.sqrt(5) * -logarithm / math.sqrt(logarithm**2 + math.pi**2)
 
 
-def tsuji_restitution(restitution):
+def tsuji_restitution(restitution: float) -> float:
     """What to give to LAMMPS, so that its polynomial returns alpha."""
     coefficients = (1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218)
 
-    def excess(given):
+    def excess(given: float) -> float:
         return sum(c * given**power for power, c in enumerate(coefficients)) - tsuji_damping(restitution)
 
     return brentq(excess, 0.1, 0.9999)
 
 
-def tangential_damping(poisson_ratio):
+def tangential_damping(poisson_ratio: float) -> float:
     """Tangential over normal damping."""
     return 2 * math.sqrt((1 - poisson_ratio) / (2 * (2 - poisson_ratio)))
 
@@ -44,7 +44,7 @@ FORMULAS = {
 }
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(
         description="A contact law's coefficient as another code wants it, from LIGGGHTS'."
     )

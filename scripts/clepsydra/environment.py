@@ -8,20 +8,23 @@ SCRIPTS = Path(__file__).resolve().parents[1]
 REPOSITORY = SCRIPTS.parent
 
 
-def load():
+def load() -> None:
     """Sets it for this process and all that it starts. SystemExit where nothing has been built."""
     said = subprocess.run(
         ["bash", "-c", '. "$0" && env -0', str(SCRIPTS / "environment")], stdout=subprocess.PIPE, check=True
     )
-    os.environ.update(entry.split("=", 1) for entry in said.stdout.decode().split("\0") if "=" in entry)
+    for entry in said.stdout.decode().split("\0"):
+        name, equals, value = entry.partition("=")
+        if equals:
+            os.environ[name] = value
     if not program("pimpleDemFoam").exists():
         raise SystemExit(f"there is no {program('pimpleDemFoam')}: run {SCRIPTS}/setup")
 
 
-def program(name):
+def program(name: str) -> Path:
     """One of ours."""
     return build() / "bin" / name
 
 
-def build():
+def build() -> Path:
     return Path(os.environ.get("CLEPSYDRA_BUILD", REPOSITORY / "build"))

@@ -4,6 +4,7 @@
 """
 
 from dataclasses import dataclass
+from typing import Any, Callable
 
 import numpy as np
 
@@ -19,7 +20,7 @@ class Particle:
     drag_law: str
 
     @classmethod
-    def of(cls, parameters):
+    def of(cls, parameters: dict[str, Any]) -> "Particle":
         """The particle of a case's parameters."""
         return cls(
             particle_diameter=parameters["particleDiameter"],
@@ -29,7 +30,7 @@ class Particle:
             drag_law=parameters["dragLaw"],
         )
 
-    def drag(self, fastest):
+    def drag(self, fastest: float) -> Callable[[float], Any]:
         """Sp(|v|) [kg/s], a table of the law's values."""
         speeds = np.linspace(0, fastest, 801)
         coefficients = closures.values(
@@ -43,12 +44,16 @@ class Particle:
         return lambda speed: np.interp(speed, speeds, coefficients)
 
 
-def basset(lag, speed, particle):
+# K(lag, speed, particle)
+Kernel = Callable[[Any, float, Particle], Any]
+
+
+def basset(lag: np.ndarray | float, speed: float, particle: Particle) -> Any:
     """K of creeping flow, and of any flow for short lags: Basset (1888)."""
     return 0.5 * particle.particle_diameter / np.sqrt(np.pi * particle.fluid_viscosity * lag)
 
 
-def mei_adrian(lag, speed, particle):
+def mei_adrian(lag: np.ndarray | float, speed: float, particle: Particle) -> Any:
     """K for finite Re, which forgets faster: R. Mei & R. J. Adrian, J. Fluid Mech. 237, 323 (1992)."""
     radius, viscosity = 0.5 * particle.particle_diameter, particle.fluid_viscosity
     f = 0.75 + 0.105 * 2 * radius * speed / viscosity
@@ -57,7 +62,16 @@ def mei_adrian(lag, speed, particle):
     return (short + long) ** -2
 
 
-def motion(particle, end_time, start=0.0, jump=0.0, added_mass=True, history=None, fastest=1.0, steps=1500):
+def motion(
+    particle: Particle,
+    end_time: float,
+    start: float = 0.0,
+    jump: float = 0.0,
+    added_mass: bool = True,
+    history: Kernel | None = None,
+    fastest: float = 1.0,
+    steps: int = 1500,
+) -> tuple[np.ndarray, np.ndarray]:
     """t and v of a particle that moves with v = start at t = 0, just after its velocity has jumped by `jump`."""
     volume = np.pi / 6 * particle.particle_diameter**3
     drag = particle.drag(fastest)

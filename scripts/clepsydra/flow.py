@@ -7,7 +7,9 @@ import numpy as np
 DEVIATION = 0.08
 
 
-def smoothed_rate(time, mass, deviation=DEVIATION, points=400):
+def smoothed_rate(
+    time: np.ndarray, mass: np.ndarray, deviation: float = DEVIATION, points: int = 400
+) -> tuple[np.ndarray, np.ndarray]:
     """-dm/dt, as the paper takes it: slope of a parabola fitted under Gaussian weights.
 
     Times nearer than one deviation to an end are left out: the fit leans there.
@@ -23,7 +25,7 @@ def smoothed_rate(time, mass, deviation=DEVIATION, points=400):
     return at, rate
 
 
-def time_at_mass(time, mass, level):
+def time_at_mass(time: np.ndarray, mass: np.ndarray, level: float) -> float | None:
     """When the mass in the hopper first falls to level; None if it never does."""
     below = np.flatnonzero(mass <= level)
     if not len(below):
@@ -35,13 +37,13 @@ def time_at_mass(time, mass, level):
     return time[after - 1] + part * (time[after] - time[after - 1])
 
 
-def mean_rate(time, mass, upper, lower):
+def mean_rate(time: np.ndarray, mass: np.ndarray, upper: float, lower: float) -> float | None:
     """Mean outflow while the hopper holds between two fractions of its fill."""
     start, end = (time_at_mass(time, mass, fraction * mass[0]) for fraction in (upper, lower))
-    return None if end is None else (upper - lower) * mass[0] / (end - start)
+    return None if start is None or end is None else (upper - lower) * mass[0] / (end - start)
 
 
-def emptying_time(time, mass, level):
+def emptying_time(time: np.ndarray, mass: np.ndarray, level: float) -> float | None:
     """When the smoothed rate falls below level [kg/s] for good; None if it does not.
 
     Not "the last particle": single particles trickle off the heap on a flat bottom for seconds.

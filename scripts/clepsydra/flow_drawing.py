@@ -2,11 +2,15 @@
 movie."""
 
 import sys
+from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
 import vtk
+from matplotlib.axes import Axes
 from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.figure import Figure
 from vtk.util.numpy_support import vtk_to_numpy
 
 from clepsydra import case_files, foam_mesh, parameter_file, particle_files, picture_style
@@ -23,7 +27,7 @@ class View:
     """A part of the plane y = 0 in m, with the walls in it. Left alone, a hopper and the water below it, or the whole
     mesh."""
 
-    def __init__(self, case, extent=None):
+    def __init__(self, case: Path, extent: tuple[float, float, float, float] | list[float] | None = None) -> None:
         _, patches = foam_mesh.read(case)
         self.walls = [line for patch in patches.values() for line in walls_of(patch)]
         if not self.walls:
@@ -33,14 +37,14 @@ class View:
         self.z = np.linspace(self.z0, self.z1, max(2, int(POINTS * self.height / self.width)))
 
     @property
-    def width(self):
+    def width(self) -> float:
         return self.x1 - self.x0
 
     @property
-    def height(self):
+    def height(self) -> float:
         return self.z1 - self.z0
 
-    def shows(self, position):
+    def shows(self, position: np.ndarray) -> np.ndarray:
         return (
             (position[:, 0] > self.x0)
             & (position[:, 0] < self.x1)
@@ -49,7 +53,7 @@ class View:
         )
 
 
-def walls_of(patch):
+def walls_of(patch: vtk.vtkPolyData) -> list[list[list[float]]]:
     """The lines in which the plane y = 0 cuts a patch: pairs of (x, z) in m."""
     plane = vtk.vtkPlane()
     # not in the faces of a mesh that has some at y = 0
@@ -62,7 +66,7 @@ def walls_of(patch):
     ]
 
 
-def hoppers_extent(case):
+def hoppers_extent(case: Path) -> tuple[float, float, float, float] | None:
     """From well below its orifice to its rim."""
     if not (case / "parameters").exists():
         return None
@@ -73,7 +77,7 @@ def hoppers_extent(case):
     return -half, half, -half, p["hopperHeight"]
 
 
-def whole_extent(walls):
+def whole_extent(walls: Any) -> tuple[float, float, float, float]:
     points = np.reshape(walls, (-1, 2))
     (x0, z0), (x1, z1) = points.min(axis=0), points.max(axis=0)
     edge = 0.02 * max(x1 - x0, z1 - z0)
@@ -83,23 +87,23 @@ def whole_extent(walls):
 class Moment:
     """What is drawn of one written time."""
 
-    def __init__(self, case, view, at, particles, folder):
+    def __init__(self, case: Path, view: View, at: float, particles: Path, folder: str | None) -> None:
         """particles, folder: of writtenTimes()."""
         self.at = at
         self.position, self.radius, velocity = particle_files.read_particles(particles)
         self.speed = np.linalg.norm(velocity, axis=1)
         self.across, self.up = water(case, folder, view) if folder else (None, None)
 
-    def fastest_particle(self, view):
+    def fastest_particle(self, view: View) -> float:
         """The fastest few of a crowd do not count: one that bounces would take the colours from all others."""
         seen = self.speed[view.shows(self.position)]
         return np.percentile(seen, 99) if len(seen) else 0
 
-    def fastest_water(self):
-        return 0 if self.across is None else np.nanmax(np.hypot(self.across, self.up))
+    def fastest_water(self) -> float:
+        return 0 if self.across is None or self.up is None else np.nanmax(np.hypot(self.across, self.up))
 
 
-def field_times(case):
+def field_times(case: Path) -> dict[float, str]:
     """Folders with U by their times; none in a run without water. What it began with is no field of the solver's."""
     times = {float(name): name for name in case_files.times(case) if (case / name / "U").exists()}
     if not times and (case / "processor0").exists():
@@ -107,7 +111,7 @@ def field_times(case):
     return times
 
 
-def written_times(case):
+def written_times(case: Path) -> dict[float, tuple[Path, str | None]]:
     """{time: (file of particles, folder with U or None)}: in a run with water the times of which both are there."""
     fields, particles = field_times(case), particle_files.written_times(case)
     # a folder's name has fewer digits than the particles' time
@@ -115,7 +119,7 @@ def written_times(case):
     return {at: (file, named[at]) for at, file in particles.items() if named[at] or not fields}
 
 
-def water(case, time, view):
+def water(case: Path, time: str, view: View) -> tuple[np.ndarray, np.ndarray]:
     """Velocity in x and z at the points of the view's grid; NaN outside of the mesh. Arrays of rows at one height."""
     cells, _ = foam_mesh.read(case, time)
     grid = vtk.vtkStructuredGrid()
@@ -135,7 +139,7 @@ def water(case, time, view):
     return velocity[:, :, 0], velocity[:, :, 2]
 
 
-def observable(case):
+def observable(case: Path) -> tuple[str, str, np.ndarray, np.ndarray] | None:
     """What stands beside the particles: label, title, times, values. None where the case writes none of them."""
     for name, (label, title) in OBSERVABLES.items():
         if case_files.start_directories(case, name):
@@ -144,7 +148,9 @@ def observable(case):
     return None
 
 
-def draw(case, view, moment, fastest_particle, fastest_water, height=6.2):
+def draw(
+    case: Path, view: View, moment: Moment, fastest_particle: float, fastest_water: float, height: float = 6.2
+) -> Figure:
     """A figure of this height in inches: the plane, and beside it what a scale reads."""
     beside = observable(case)
     wide = height * (view.width / view.height) + (1.4 if moment.across is None else 2.6)
@@ -162,7 +168,7 @@ def draw(case, view, moment, fastest_particle, fastest_water, height=6.2):
     return figure
 
 
-def draw_cases(cases, views, moments, height=6.2):
+def draw_cases(cases: list[Path], views: list[View], moments: list[Moment], height: float = 6.2) -> Figure:
     """A figure with the planes of several cases side by side, all in the same colours."""
     fastest_particle = max(moment.fastest_particle(view) for moment, view in zip(moments, views))
     fastest_water = max(moment.fastest_water() for moment in moments)
@@ -177,9 +183,11 @@ def draw_cases(cases, views, moments, height=6.2):
     return figure
 
 
-def draw_plane(figure, axes, case, view, moment, fastest_particle, fastest_water):
+def draw_plane(
+    figure: Figure, axes: Axes, case: Path, view: View, moment: Moment, fastest_particle: float, fastest_water: float
+) -> None:
     """Particles, water and walls, and the bars of their colours."""
-    if moment.across is not None:
+    if moment.across is not None and moment.up is not None:
         x, z = 1e3 * view.x, 1e3 * view.z
         shown = axes.pcolormesh(
             x,
@@ -217,7 +225,7 @@ def draw_plane(figure, axes, case, view, moment, fastest_particle, fastest_water
     figure.colorbar(circles, ax=axes, location="right", shrink=0.7, label="particles [m/s]", extend="max")
 
 
-def draw_particles(axes, view, moment, fastest):
+def draw_particles(axes: Axes, view: View, moment: Moment, fastest: float) -> Any:
     """Whole spheres, of the particles that the plane cuts, the farthest first. Returns what a colour bar is made of."""
     cut = np.flatnonzero((np.abs(moment.position[:, 1]) < moment.radius) & view.shows(moment.position))
     cut = cut[np.argsort(-moment.position[cut, 1])]

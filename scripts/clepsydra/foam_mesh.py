@@ -2,6 +2,7 @@
 
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import vtk
 
@@ -11,7 +12,7 @@ CONTROL = (
 )
 
 
-def read(case, time=None, polyhedra="decomposed"):
+def read(case: Path, time: Any = None, polyhedra: str = "decomposed") -> tuple[Any, dict[str, Any]]:
     """The cells, with U where a time is given, and the patches by name.
 
     polyhedra "whole": as they are, which is quicker and is drawn rightly where no cell is cut.
@@ -48,7 +49,7 @@ def read(case, time=None, polyhedra="decomposed"):
     return cells, patches
 
 
-def cut(data, plane):
+def cut(data: Any, plane: Any) -> Any:
     """What a plane cuts of a mesh's cells or of a patch."""
     cutter = vtk.vtkCutter()
     cutter.SetCutFunction(plane)

@@ -16,8 +16,10 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
-from clepsydra import case_files, flow_drawing
+from clepsydra import case_files, flow_drawing, picture_style
+from clepsydra.picture_style import pyplot
 
 EVEN = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white"  # players want even sizes
 SMALL = "scale={width}:-1:flags=lanczos"
@@ -36,7 +38,7 @@ ENDINGS = {
 }
 
 
-def main():
+def main() -> None:
     given = read_options()
     times = flow_drawing.written_times(given.case)
     first, last = given.between
@@ -47,17 +49,18 @@ def main():
     moments = [flow_drawing.Moment(given.case, view, at, *times[at]) for at in chosen]
     fastest_particle = max(moment.fastest_particle(view) for moment in moments)
     fastest_water = max(moment.fastest_water() for moment in moments)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as temporary:
+        folder = Path(temporary)
         for number, moment in enumerate(moments):
             figure = flow_drawing.draw(given.case, view, moment, fastest_particle, fastest_water)
-            figure.savefig(Path(folder) / f"{number:05d}.png", dpi=flow_drawing.picture_style.DPI)
-            flow_drawing.pyplot.close(figure)
+            figure.savefig(folder / f"{number:05d}.png", dpi=picture_style.DPI)
+            pyplot.close(figure)
         for file in given.files:
             encode(folder, file, given)
             print(f"{file}: {len(moments)} pictures, {file.stat().st_size / 1e6:.2f} MB")
 
 
-def read_options():
+def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--every", type=int, default=1, metavar="N", help="each N-th written time only")
     parser.add_argument(
@@ -99,14 +102,14 @@ def read_options():
     return given
 
 
-def is_whole(case, at):
+def is_whole(case: Path, at: float) -> bool:
     """Not what a running case is writing at this very moment."""
     times = {float(name): name for name in case_files.times(case)}
     newest = max(times, default=None)
     return newest is None or at < 0.999999 * newest or (case / "checkpoints" / times[newest] / "complete").exists()
 
 
-def encode(folder, file, given):
+def encode(folder: Path, file: Path, given: argparse.Namespace) -> None:
     """A film is there whole or not at all."""
     unfinished = file.with_name(f"unfinished.{file.name}")
     options = [option.format(width=given.width) for option in ENDINGS[file.suffix]]

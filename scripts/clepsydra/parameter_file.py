@@ -7,7 +7,7 @@ import difflib
 import math
 import re
 from pathlib import Path
-from typing import Callable
+from typing import Any, Callable, Iterable, Iterator, Mapping
 
 from clepsydra import arithmetic, whole_files
 from clepsydra.old_names import NEW_NAMES
@@ -27,13 +27,13 @@ class ParameterError(SystemExit):
     """What is wrong with a file, entry or value, in one line. Uncaught, it ends the program with that line."""
 
 
-def parameters(path):
+def parameters(path: Path | str) -> dict[str, Any]:
     """The entries of a file, by name: numbers as float, all else as text."""
     return parameters_in(read(path), path)
 
 
-def parameters_in(text, path="parameters"):
-    found = {}
+def parameters_in(text: str, path: Path | str = "parameters") -> dict[str, Any]:
+    found: dict[Any, Any] = {}
     for name, value, line in entries(text, path):
         if name in NEW_NAMES:
             raise ParameterError(f"{path}:{line}: entry '{name}' has another name now; allowed: '{NEW_NAMES[name]}'")
@@ -43,7 +43,7 @@ def parameters_in(text, path="parameters"):
     return found
 
 
-def read(path):
+def read(path: Path | str) -> str:
     try:
         return Path(path).read_text()
     except OSError as problem:
@@ -52,7 +52,7 @@ def read(path):
         raise ParameterError(f"{path}: is no text") from None
 
 
-def entries(text, path):
+def entries(text: str, path: Path | str) -> Iterator[tuple[str, str, int]]:
     """(name, value as it is written, line) of each."""
     for piece in pieces(text, path):
         if piece["name"]:
@@ -64,7 +64,7 @@ def entries(text, path):
             yield piece["name"], piece["value"].strip(), line
 
 
-def pieces(text, path):
+def pieces(text: str, path: Path | str) -> Iterator[re.Match[str]]:
     at = 0
     while at < len(text):
         piece = PIECE.match(text, at)
@@ -77,7 +77,7 @@ def pieces(text, path):
         at = piece.end()
 
 
-def resolved(value, before, where):
+def resolved(value: str, before: Mapping[str, Any], where: str) -> Any:
     """Its number or text. before: the entries above it, to which $name refers; what refers to others stays as it is."""
     reference = re.fullmatch(r"\$(?:(\w+)|\{(\w+)\})", value)
     if reference:
@@ -98,7 +98,7 @@ def resolved(value, before, where):
     return float(value)
 
 
-def with_parameters(text, values, path="parameters"):
+def with_parameters(text: str, values: Mapping[str, str], path: Path | str = "parameters") -> str:
     """The dictionary's text with other values, all text, of entries that it has."""
     known = [name for name, _, _ in entries(text, path)]
     for name, value in values.items():
@@ -117,7 +117,7 @@ def with_parameters(text, values, path="parameters"):
     return "".join(changed)
 
 
-def meant(word, known):
+def meant(word: str, known: Iterable[str]) -> str:
     """The new name of an old entry, or the known word that is most like a misspelt one, in words."""
     if word in NEW_NAMES:
         return f" (its name is '{NEW_NAMES[word]}' now)"
@@ -125,37 +125,37 @@ def meant(word, known):
     return f" (is '{near[0]}' meant?)" if near else ""
 
 
-def changed_names(before, now):
+def changed_names(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
     """Names of the entries that are not alike, or in one only."""
     return [name for name in dict.fromkeys([*before, *now]) if before.get(name) != now.get(name)]
 
 
-def shown(value):
+def shown(value: Any) -> str:
     return f"{value:.10g}" if isinstance(value, float) else value
 
 
 # --- for shell scripts ---------------------------------------------------------------------------
 
 
-def get(path, name):
+def get(path: str, name: str) -> None:
     found = parameters(path)
     if name not in found:
         raise ParameterError(f"{path}: entry '{name}' is missing{meant(name, found)}")
     print(shown(found[name]))
 
 
-def set_values(path, *wishes):
+def set_values(path: str, *wishes: str) -> None:
     for wish in wishes:
         if "=" not in wish:
             raise ParameterError(f"'{wish}' sets nothing; allowed: NAME=VALUE")
     change(path, dict(wish.split("=", 1) for wish in wishes))
 
 
-def merge(path, other):
+def merge(path: str, other: str) -> None:
     change(path, {name: value for name, value, _ in entries(read(other), other)})
 
 
-def change(path, values):
+def change(path: Path | str, values: Mapping[str, str]) -> None:
     text = with_parameters(read(path), values, path)
     try:
         whole_files.write(path, text)
@@ -163,19 +163,19 @@ def change(path, values):
         raise ParameterError(f"{path}: {problem.strerror}") from None
 
 
-def numbers(path):
+def numbers(path: Path | str) -> None:
     for name, value in parameters(path).items():
         if isinstance(value, float):
             print(name, shown(value))
 
 
-def differences(before, now):
-    before, now = parameters(before), parameters(now)
-    for name in changed_names(before, now):
-        print(f"{name} {shown(before.get(name, '(none)'))} -> {shown(now.get(name, '(none)'))}")
+def differences(before: str, now: str) -> None:
+    old, new = parameters(before), parameters(now)
+    for name in changed_names(old, new):
+        print(f"{name} {shown(old.get(name, '(none)'))} -> {shown(new.get(name, '(none)'))}")
 
 
-def evaluate(expression):
+def evaluate(expression: str) -> None:
     try:
         print(f"{arithmetic.evaluate(expression):.6g}")
     except ValueError as problem:

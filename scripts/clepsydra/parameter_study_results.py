@@ -6,7 +6,7 @@ import json
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Union
+from typing import Any, Iterable, Union
 
 import numpy as np
 
@@ -37,12 +37,12 @@ def files(folder: Path) -> dict[str, File]:
     return {name.removesuffix(".json"): path for name, path in sorted(found.items())}
 
 
-def read(folder):
+def read(folder: Path | str) -> list[Run]:
     """All runs whose results lie in a folder or in the archive beside it, by name."""
     return [read_run(path) for path in files(Path(folder)).values()]
 
 
-def read_run(path):
+def read_run(path: File) -> Run:
     inputs = json.loads(path.read_text())
     table = (path.parent / f"{path.name.removesuffix('.json')}.csv").read_text()
     rows = np.array([[float(value) for value in row] for row in list(csv.reader(table.splitlines()))[1:]])
@@ -58,21 +58,21 @@ def read_run(path):
     )
 
 
-def by_case(runs):
+def by_case(runs: list[Run]) -> dict[str, list[Run]]:
     """The runs of each case, as {case: [Run, ...]}: repeats that differ by their packing."""
-    found = {}
+    found: dict[Any, Any] = {}
     for run in runs:
         found.setdefault(run.case, []).append(run)
     return found
 
 
-def pooled_deviation(groups):
+def pooled_deviation(groups: Iterable[np.ndarray]) -> float:
     """Standard deviation of one run, taken to be the same in all groups of repeats."""
     groups = [np.asarray(group, dtype=float) for group in groups]
     freedom = sum(len(group) - 1 for group in groups)
     return np.sqrt(sum(((group - group.mean()) ** 2).sum() for group in groups) / freedom)
 
 
-def mean_and_error(values, deviation):
+def mean_and_error(values: np.ndarray, deviation: float) -> tuple[float, float]:
     """Mean of repeats and its standard error, from the deviation of one run."""
     return np.mean(values), deviation / np.sqrt(len(values))

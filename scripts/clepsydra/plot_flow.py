@@ -8,11 +8,13 @@ named after it.
 import argparse
 from pathlib import Path
 
+import numpy as np
+
 from clepsydra import case_files, flow, picture_style
 from clepsydra.picture_style import pyplot
 
 
-def draw(path, curves, ylabel, title):
+def draw(path: Path, curves: list[tuple[str, np.ndarray, np.ndarray]], ylabel: str, title: str) -> None:
     figure, axes = pyplot.subplots(figsize=(6, 4), constrained_layout=True)
     for name, x, y in curves:
         axes.plot(x, y, label=name, color=picture_style.STEPS.get(name))
@@ -22,7 +24,7 @@ def draw(path, curves, ylabel, title):
     figure.savefig(path, dpi=picture_style.DPI)
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=Path, metavar="FOLDER")
     parser.add_argument("cases", type=Path, metavar="CASE", nargs="+")

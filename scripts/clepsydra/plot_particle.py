@@ -9,7 +9,7 @@ from clepsydra import case_files, closures, parameter_file, picture_style
 from clepsydra.picture_style import pyplot
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
         "case", type=Path, metavar="CASE", help="a case with `parameters` as tutorials/settlingParticle has"

@@ -4,6 +4,7 @@ on the right."""
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import vtk
@@ -11,11 +12,12 @@ from matplotlib.collections import LineCollection, PolyCollection
 from vtk.util.numpy_support import vtk_to_numpy
 
 from clepsydra import flow_drawing, foam_mesh, parameter_file, picture_style
+from clepsydra.picture_style import pyplot
 
 WALLS = ("hopper", "exit")
 
 
-def faces_seen(cells):
+def faces_seen(cells: Any) -> list[np.ndarray]:
     """Corners of the faces that one sees from the front where only the cells behind the plane are there, the farthest
     first, in mm."""
     plane = vtk.vtkPlane()
@@ -38,7 +40,7 @@ def faces_seen(cells):
     return [face[:, [0, 2]] for face in sorted(front, key=lambda face: -face[:, 1].mean())]
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", type=Path, metavar="CASE")
     parser.add_argument("picture", type=Path, metavar="PICTURE")
@@ -55,7 +57,7 @@ def main():
     )
     near = 1.5e3 * p["orificeDiameter"]
 
-    figure, panels = flow_drawing.pyplot.subplots(1, 2, figsize=(11, 8), constrained_layout=True)
+    figure, panels = pyplot.subplots(1, 2, figsize=(11, 8), constrained_layout=True)
     for axes, (x, z), title, thick in zip(
         panels,
         (((-half, half), (bottom, top)), ((-near, near), (-near, near))),
@@ -73,7 +75,7 @@ def main():
     print(f"{picture}: {cells.GetNumberOfCells()} cells")
 
 
-def inside(face, x, z):
+def inside(face: np.ndarray, x: tuple[float, float], z: tuple[float, float]) -> bool:
     (x0, z0), (x1, z1) = face.min(axis=0), face.max(axis=0)
     return x1 > x[0] and x0 < x[1] and z1 > z[0] and z0 < z[1]
 

@@ -11,8 +11,10 @@ import html
 import io
 import re
 from pathlib import Path
+from typing import Any, Iterable, Iterator, Sequence
 
 from clepsydra import case_files, flow, flow_drawing, picture_style, whole_files
+from clepsydra.picture_style import pyplot
 
 # What the conservation check's summary says, in words. Numbers count over all parts of a run that was resumed, errors
 # are the largest.
@@ -53,7 +55,7 @@ pre { background: #f6f6f6; padding: .6em; overflow-x: auto; font-size: 13px }
 svg { max-width: 100%; height: auto }"""
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("case", type=Path, metavar="CASE")
     parser.add_argument("file", type=Path, metavar="FILE.html")
@@ -64,7 +66,7 @@ def main():
     print(given.file)
 
 
-def page(case):
+def page(case: Path) -> str:
     log = Log((case / "log.pimpleDemFoam").read_text(errors="replace"))
     balances = case_files.balances(case)
     name = html.escape(case.resolve().name)
@@ -88,15 +90,15 @@ def page(case):
 class Log:
     """log.pimpleDemFoam, of one start or of several; what a run consists of is reported by the last."""
 
-    def __init__(self, text):
+    def __init__(self, text: str) -> None:
         self.starts = re.split(r"(?=^Exec  *:)", text, flags=re.M)[1:] or [text]
         self.last = self.starts[-1]
 
-    def reached(self):
+    def reached(self) -> float | None:
         """The time that the last start has come to."""
         return max(map(float, re.findall(r"^(?:t|Time) = ([-+.\de]+)", self.last, flags=re.M)), default=None)
 
-    def state(self):
+    def state(self) -> str:
         at = self.reached()
         up_to = "" if at is None else f" at t = {at:g} s"
         if "FOAM FATAL" in self.last:
@@ -105,25 +107,25 @@ class Log:
             return "stopped" + up_to + "; it can go on"
         return ("ended" if re.search(r"^End$", self.last, flags=re.M) else "has not ended:") + up_to
 
-    def sections(self):
+    def sections(self) -> Iterator[tuple[str, str]]:
         for heading in SECTIONS:
             found = re.search(rf"^({heading}[^\n]*)\n((?:    [^\n]*\n)+)", self.last, flags=re.M)
             if found:
                 yield html.escape(found[1]), found[2]
 
-    def fatal(self):
+    def fatal(self) -> list[str]:
         return re.findall(r"^--> FOAM FATAL.*?(?=^FOAM \w+ing|\Z)", self.last, flags=re.M | re.S)
 
-    def warnings(self):
+    def warnings(self) -> dict[str, int]:
         """Each once, with how often it was said."""
-        said = {}
+        said: dict[str, int] = {}
         for start in self.starts:
             for text in re.findall(r"^--> FOAM Warning.*?(?=\n\n|\Z)|^WARNING: [^\n]*", start, flags=re.M | re.S):
                 said[text.strip()] = said.get(text.strip(), 0) + 1
         return said
 
 
-def first_sentences(case, log, balances):
+def first_sentences(case: Path, log: Log, balances: list[dict[str, Any]]) -> str:
     """What one looks for first: did it end, is anything amiss, do the balances balance."""
     sentences = [f"{len(log.starts)} starts." if len(log.starts) > 1 else ""]
     if balances:
@@ -148,11 +150,11 @@ def first_sentences(case, log, balances):
     return f"<p>{' '.join(filter(None, sentences))}</p>"
 
 
-def largest(balances, name):
+def largest(balances: list[dict[str, Any]], name: str) -> float:
     return max(abs(part.get(name, 0)) for part in balances)
 
 
-def measured(case):
+def measured(case: Path) -> str:
     """Curves of what the function objects observed."""
     shown = flow_drawing.observable(case)
     if not shown:
@@ -161,7 +163,7 @@ def measured(case):
     curves = [(label, time, value)]
     if label.startswith("mass") and time[-1] - time[0] > 4 * flow.DEVIATION:
         curves.append(("rate of outflow [g/s]", *flow.smoothed_rate(time, value)))
-    figure, panels = flow_drawing.pyplot.subplots(
+    figure, panels = pyplot.subplots(
         1, len(curves), figsize=(5.2 * len(curves), 3.4), constrained_layout=True, squeeze=False
     )
     for axes, (name, at, values) in zip(panels[0], curves):
@@ -171,7 +173,7 @@ def measured(case):
         axes.grid(alpha=0.3)
     text = io.StringIO()
     figure.savefig(text, format="svg")
-    flow_drawing.pyplot.close(figure)
+    pyplot.close(figure)
     return (
         "<h2>Measured</h2>"
         + re.sub(r"^.*?(?=<svg)", "", text.getvalue(), flags=re.S)
@@ -181,7 +183,7 @@ def measured(case):
     )
 
 
-def table(rows):
+def table(rows: Iterable[Sequence[tuple[str, bool]]]) -> str:
     return (
         "<table>"
         + "".join(
@@ -192,7 +194,7 @@ def table(rows):
     )
 
 
-def conservation(balances):
+def conservation(balances: list[dict[str, Any]]) -> str:
     if not balances:
         return ""
     rows = [((text, False), (str(sum(part.get(name, 0) for part in balances)), True)) for name, text in COUNTED.items()]
@@ -209,10 +211,10 @@ def conservation(balances):
     )
 
 
-def phases(balances):
+def phases(balances: list[dict[str, Any]]) -> str:
     if not balances:
         return ""
-    seconds = {}
+    seconds: dict[Any, Any] = {}
     for part in balances:
         for phase, time in part["phaseSeconds"].items():
             seconds[phase] = seconds.get(phase, 0) + time
@@ -233,7 +235,7 @@ def phases(balances):
     )
 
 
-def amiss(log):
+def amiss(log: Log) -> str:
     """Errors, warnings; among them which files of the case nobody has read. An entry that is unknown is an error at the
     start."""
     said = ['<h2 id="amiss">Not read, warnings, errors</h2>']
@@ -244,7 +246,7 @@ def amiss(log):
     return "\n".join(said)
 
 
-def settings(case):
+def settings(case: Path) -> str:
     said = ["<h2>Settings</h2><p>As they are now; what a resumed run began with may have been another.</p>"]
     files = [case / name for name in SETTINGS] + sorted((case / "DEM").glob("in.*"))
     for file in files:
@@ -256,7 +258,7 @@ def settings(case):
     return "\n".join(said)
 
 
-def preformatted(text, kind=""):
+def preformatted(text: str, kind: str = "") -> str:
     return f"<pre{f' class={kind}' if kind else ''}>{html.escape(text.rstrip())}</pre>"
 
 

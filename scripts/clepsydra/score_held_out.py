@@ -10,13 +10,14 @@ import glob
 import json
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 from clepsydra import environment
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=Path, metavar="STUDY.yaml")
     parser.add_argument(
@@ -44,7 +45,7 @@ def main():
             print(f"{model}: {100 * error['rmsLogError']:.2f} +- {100 * error['standardError']:.2f} %")
 
 
-def with_files(study, files):
+def with_files(study: dict[str, Any], files: dict[str, str]) -> dict[str, Any]:
     """The study, with the named candidates held out and measured by these files."""
     conditions = {one["name"]: one for one in study["conditions"]}
     for name, pattern in files.items():

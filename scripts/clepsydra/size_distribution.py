@@ -16,15 +16,15 @@ import math
 from clepsydra import seeds
 
 
-def density(x):
+def density(x: float) -> float:
     return math.exp(-0.5 * x * x) / math.sqrt(2 * math.pi)
 
 
-def probability(low, high):
+def probability(low: float, high: float) -> float:
     return 0.5 * (math.erf(high / math.sqrt(2)) - math.erf(low / math.sqrt(2)))
 
 
-def mean_cube(mean, deviation, low, high):
+def mean_cube(mean: float, deviation: float, low: float, high: float) -> float:
     """Of mean + deviation x over the standard normal in [low, high], by Simpson's rule."""
     steps = 200
     width = (high - low) / steps
@@ -36,7 +36,7 @@ def mean_cube(mean, deviation, low, high):
     return total * width / 3 / probability(low, high)
 
 
-def classes(mean, deviation, cut, count):
+def classes(mean: float, deviation: float, cut: float, count: int) -> list[tuple[float, float]]:
     """Pairs of diameter and share by number."""
     edges = [-cut + 2 * cut * i / count for i in range(count + 1)]
     whole = probability(-cut, cut)
@@ -46,7 +46,7 @@ def classes(mean, deviation, cut, count):
     ]
 
 
-def script(options):
+def script(options: argparse.Namespace) -> str:
     of_templates = seeds.seeds_from(seeds.ABOVE)
     sizes = classes(options.mean, options.deviation, options.cut, options.classes)
     lines = [
@@ -68,7 +68,7 @@ def script(options):
     return "\n".join(lines)
 
 
-def checked(options, parser):
+def checked(options: argparse.Namespace, parser: argparse.ArgumentParser) -> argparse.Namespace:
     if options.deviation is None:
         options.deviation = options.relativeDeviation * options.mean
     if not options.mean > 0 or not options.deviation > 0 or not options.cut > 0 or options.classes < 1:
@@ -78,7 +78,7 @@ def checked(options, parser):
     return options
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter, usage=argparse.SUPPRESS
     )

@@ -11,6 +11,7 @@ import json
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 from clepsydra import environment, validation, whole_files
 
@@ -18,7 +19,7 @@ CASES = environment.REPOSITORY / "cases" / "validation"
 LEFT_OUT = 77  # exit status of an Allrun that lacks another program
 
 
-def main():
+def main() -> int:
     options = read_options()
     status = {case.name: run(case, options.quick) for case in options.cases}
     failed = [name for name in status if status[name] not in (0, LEFT_OUT)]
@@ -47,7 +48,7 @@ def main():
     return 0 if done else LEFT_OUT
 
 
-def read_options():
+def read_options() -> Any:
     known = sorted(path.parent for path in CASES.glob("*/Allrun"))
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("cases", nargs="*", metavar="CASE", help="all of cases/validation unless named")
@@ -64,7 +65,7 @@ def read_options():
     return options
 
 
-def run(case, quick):
+def run(case: Path, quick: bool) -> int:
     """Exit status of the case's Allrun."""
     print(f"--- {case.name}", flush=True)
     return subprocess.run([case / "Allrun"] + ["--quick"] * quick).returncode

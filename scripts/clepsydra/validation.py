@@ -7,6 +7,7 @@ against what is recorded.
 import json
 from math import hypot
 from pathlib import Path
+from typing import Any
 
 from clepsydra import whole_files
 
@@ -17,7 +18,18 @@ ALLOWED_ERRORS = 3
 SHOWN_PERCENT = 0.1
 
 
-def row(quantity, unit, reference, source, kind, ours, uncertainty, tolerance_percent, finding=None, repeats=None):
+def row(
+    quantity: str,
+    unit: str,
+    reference: float,
+    source: str,
+    kind: str,
+    ours: float,
+    uncertainty: float,
+    tolerance_percent: float,
+    finding: str | None = None,
+    repeats: float | None = None,
+) -> dict[str, Any]:
     """One comparison. `quantity` names it, once in its case.
 
     kind: what the reference is - measured by somebody, computed from a closed formula, or the result of another code.
@@ -47,24 +59,24 @@ def row(quantity, unit, reference, source, kind, ours, uncertainty, tolerance_pe
     return found
 
 
-def percent(ours, reference):
+def percent(ours: float, reference: float) -> float:
     return 100 * (ours - reference) / reference if reference else float("inf") * (ours != 0)
 
 
-def write(rows, case=Path(".")):
+def write(rows: list[dict[str, Any]], case: Path = Path(".")) -> None:
     """results/rows.json of a case, each row with the case's name."""
-    case = Path(case).resolve()
+    case = case.resolve()
     results = case / "results"
     results.mkdir(exist_ok=True)
     named = [{"case": case.name} | found for found in rows]
     whole_files.write(results / "rows.json", json.dumps(named, indent=2) + "\n")
 
 
-def key(found):
+def key(found: dict[str, Any]) -> tuple[str, str]:
     return found["case"], found["quantity"]
 
 
-def judge(rows, recorded):
+def judge(rows: list[dict[str, Any]], recorded: list[dict[str, Any]]) -> None:
     """Adds `holds` to each row. What is recorded as a finding holds while it is found again: a finding that changes is
     news, also for the better. Every other row must agree with its reference.
 
@@ -83,7 +95,7 @@ def judge(rows, recorded):
             found["holds"] = found["agrees"]
 
 
-def complaint(found):
+def complaint(found: dict[str, Any]) -> str:
     """Of a row that does not hold: what is wrong."""
     text = f"{found['case']}, {found['quantity']}: {found['errorPercent']:+.2f} % "
     if "expectedErrorPercent" in found:
@@ -97,16 +109,16 @@ def complaint(found):
     )
 
 
-def missing(rows, recorded):
+def missing(rows: list[dict[str, Any]], recorded: list[dict[str, Any]]) -> list[str]:
     """What is wrong where rows are no longer compared that are recorded."""
     absent = {key(found) for found in recorded} - {key(found) for found in rows}
     return [f"{case}, {quantity}: is recorded, but was not compared" for case, quantity in sorted(absent)]
 
 
-def table(rows):
+def table(rows: list[dict[str, Any]]) -> str:
     """The rows, judged, as lines of text."""
 
-    def value(number):
+    def value(number: float | None) -> str:
         return f"{number:.4g}"
 
     head = ("case", "quantity", "unit", "reference", "ours", "+-", "error %", "expected %", "holds", "kind")

@@ -4,6 +4,7 @@ import re
 import shutil
 import tempfile
 from pathlib import Path
+from typing import Any, Iterable
 
 from clepsydra.cfdem_cases import foam_text, inlets
 from clepsydra.cfdem_cases.dem_script import DemScript, output_folders, with_seeds
@@ -59,7 +60,7 @@ repository=${{CLEPSYDRA:?source scripts/environment of Clepsydra first}}
 """
 
 
-def import_case(case, target, without=()):
+def import_case(case: Path, target: Path, without: Iterable[str] = ()) -> Report:
     """The report. Writes target only where it has no errors."""
     report = Report(without)
     if not (case / "CFD").is_dir() or not (case / "DEM").is_dir():
@@ -78,7 +79,7 @@ def import_case(case, target, without=()):
     return report
 
 
-def write(files, report, target):
+def write(files: dict[str, Any], report: Report, target: Path) -> None:
     """files: path -> text, or a Path to copy, or None for an empty folder. All of it or nothing."""
     target.parent.mkdir(parents=True, exist_ok=True)
     folder = Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
@@ -101,8 +102,10 @@ def write(files, report, target):
 
 
 class Import:
-    def __init__(self, case, report):
-        self.case, self.report, self.files, self.open_files = case, report, {}, []
+    def __init__(self, case: Path, report: Report) -> None:
+        self.case, self.report = case, report
+        self.files: dict[str, Any] = {}
+        self.open_files: list[foam_text.Dictionary] = []
         self.settings = Settings(self.read("CFD/constant/couplingProperties"), report)
         self.script = self.dem_script()
         self.control = self.read("CFD/system/controlDict")
@@ -119,17 +122,17 @@ class Import:
             for where, name in old.unread():
                 report.error(where, name, "is stated, and nothing here reads it")
 
-    def read(self, name):
+    def read(self, name: str) -> foam_text.Dictionary:
         found = foam_text.read(self.case / name, name)
         self.open_files.append(found)
         return found
 
-    def has(self, name):
+    def has(self, name: str) -> bool:
         return (self.case / name).exists()
 
     # --- particles ---------------------------------------------------------------------------------------
 
-    def dem_script(self):
+    def dem_script(self) -> DemScript:
         name = Path(self.settings.script).name
         where = f"DEM/{name}"
         if not self.settings.script.startswith("../DEM/") or not self.has(where):
@@ -145,7 +148,7 @@ class Import:
         self.before_it = self.script_that_writes(script.restart)
         return script
 
-    def script_that_writes(self, restart):
+    def script_that_writes(self, restart: str | None) -> str | None:
         """The script that makes the particles which the other reads; it runs as it is."""
         if restart is None:
             return None
@@ -166,7 +169,7 @@ class Import:
 
     # --- time ----------------------------------------------------------------------------------------
 
-    def chosen_interval(self):
+    def chosen_interval(self) -> float:
         """[s]. There the fluid's step and the coupling step are two things, here one."""
         step, delta_t = self.script.time_step, self.control.number("deltaT")
         there = self.settings.interval_in_steps * (step or 1)
@@ -183,8 +186,8 @@ class Import:
         )
         return chosen
 
-    def coupling_properties(self):
-        entries = {
+    def coupling_properties(self) -> None:
+        entries: dict[str, Any] = {
             "fluid": self.settings.entries.pop("fluid"),
             "couplingTimeStep": f"{self.interval:.10g}",
             **self.settings.entries,
@@ -203,7 +206,7 @@ class Import:
         self.liggghts_commands(entries["DEM"])
         self.files["constant/couplingProperties"] = foam_text.file("couplingProperties", "dictionary", entries)
 
-    def liggghts_commands(self, dem):
+    def liggghts_commands(self, dem: dict[str, Any]) -> None:
         if not self.has("CFD/constant/liggghtsCommands"):
             return
         old = self.read("CFD/constant/liggghtsCommands")
@@ -226,9 +229,9 @@ class Import:
                 old.sub(name).is_read()
                 self.report.left_out(old.where, name, "of a command that is not chosen")
 
-    def control_dict(self):
+    def control_dict(self) -> None:
         old, where = self.control, self.control.where
-        entries = {"application": "pimpleDemFoam"}
+        entries: dict[str, Any] = {"application": "pimpleDemFoam"}
         old.text("application")
         for name in ("startFrom", "startTime", "stopAt", "endTime"):
             entries[name] = old.needed(name)
@@ -272,7 +275,7 @@ class Import:
         entries["functions"] = self.functions()
         self.files["system/controlDict"] = foam_text.file("controlDict", "dictionary", entries)
 
-    def functions(self):
+    def functions(self) -> dict[str, Any]:
         old = self.control.entries.get("functions")
         self.control.asked.add("functions")
         if isinstance(old, str):
@@ -310,7 +313,7 @@ class Import:
 
     # --- fluid ---------------------------------------------------------------------------------------
 
-    def solvers(self):
+    def solvers(self) -> None:
         old = self.read("CFD/system/fvSolution")
         solvers = old.sub("solvers")
         found = {}
@@ -333,7 +336,7 @@ class Import:
         piso = old.sub("PISO" if "PISO" in old else "PIMPLE")
         old.sub("PIMPLE").is_read()
         pimple = {"nOuterCorrectors": "1", **piso.is_read().entries}
-        entries = {"solvers": new, "PIMPLE": pimple}
+        entries: dict[str, Any] = {"solvers": new, "PIMPLE": pimple}
         if "relaxationFactors" in old:
             entries["relaxationFactors"] = old.sub("relaxationFactors").is_read()
         self.files["system/fvSolution"] = foam_text.file("fvSolution", "dictionary", entries)
@@ -350,7 +353,7 @@ class Import:
         if self.has("CFD/system/decomposeParDict"):
             self.files["system/decomposeParDict"] = self.case / "CFD/system/decomposeParDict"
 
-    def mesh(self):
+    def mesh(self) -> None:
         for name in ("system", "constant/polyMesh"):
             if self.has(f"CFD/{name}/blockMeshDict"):
                 self.files["system/blockMeshDict"] = self.case / f"CFD/{name}/blockMeshDict"
@@ -363,7 +366,7 @@ class Import:
             )
         self.files["constant/polyMesh"] = self.case / "CFD/constant/polyMesh"
 
-    def fluid(self):
+    def fluid(self) -> None:
         transport = self.read("CFD/constant/transportProperties")
         if transport.text("transportModel", "Newtonian") != "Newtonian":
             self.report.error(
@@ -385,7 +388,7 @@ class Import:
         self.turbulence()
         self.gravity()
 
-    def turbulence(self):
+    def turbulence(self) -> None:
         """Only laminar flow: every file that names a model must name none."""
         if self.has("CFD/constant/turbulenceProperties"):
             old = self.read("CFD/constant/turbulenceProperties")
@@ -413,7 +416,7 @@ class Import:
             "turbulenceProperties", "dictionary", {"simulationType": "laminar"}
         )
 
-    def gravity(self):
+    def gravity(self) -> None:
         of_particles = self.script.gravity or [0, 0, 0]
         for name in ("g", "environmentalProperties"):
             if self.has(f"CFD/constant/{name}"):
@@ -437,7 +440,7 @@ class Import:
             {"dimensions": "[0 1 -2 0 0 0 0]", "value": inlets.vector(of_particles)},
         )
 
-    def fields(self):
+    def fields(self) -> None:
         U, p, void_fraction = (self.read(f"CFD/0/{name}") for name in ("U", "p", "voidfraction"))
         inlets.converted(U, void_fraction.is_read(), self.report)
         for field, kind in ((U, "volVectorField"), (p, "volScalarField")):
@@ -446,7 +449,7 @@ class Import:
 
     # --- the rest ------------------------------------------------------------------------------------
 
-    def other_files(self):
+    def other_files(self) -> None:
         read = {old.where for old in self.open_files}
         for folder, known in (
             ("0", FIELDS_WITHOUT_COUNTERPART),
@@ -485,7 +488,7 @@ class Import:
                 elif not path.name.startswith("."):
                     self.files[name] = path
 
-    def allrun(self):
+    def allrun(self) -> None:
         steps = ["logged blockMesh"] if self.makes_mesh else []
         if self.before_it:  # -log none: LIGGGHTS' own log has the name of the one that `logged` writes
             steps.append(f"(cd DEM && logged liggghts -log none -in {self.before_it})")

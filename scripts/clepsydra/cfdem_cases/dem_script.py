@@ -1,8 +1,10 @@
 """A LIGGGHTS script of CFDEMcoupling, rewritten for pimpleDemFoam, which runs LIGGGHTS itself."""
 
 import re
+from typing import Any, Iterator
 
 from clepsydra import seeds
+from clepsydra.cfdem_cases.report import Report
 
 COUPLING_FIXES = (
     "couple/cfd",
@@ -18,7 +20,7 @@ REFUSED = ("jump", "label", "next", "rerun", "minimize")
 MAKES_PARTICLES = ("insert/pack", "insert/rate/region", "insert/stream", "read_restart", "read_data", "create_atoms")
 
 
-def output_folders(text):
+def output_folders(text: str) -> Iterator[str]:
     """Folders that the lines of a script write into: LIGGGHTS does not make them."""
     for line in text.splitlines():
         words = line.split("#")[0].split()
@@ -37,11 +39,11 @@ def output_folders(text):
             yield file[0].rsplit("/", 1)[0]
 
 
-def with_seeds(text, where, report):
+def with_seeds(text: str, where: str, report: Report) -> str:
     """A script with seeds that LIGGGHTS 3.8 takes: primes above 10000, no two alike."""
     taken = set()
 
-    def replaced(line):
+    def replaced(line: re.Match[str]) -> str:
         seed = int(line["seed"])
         good = next(number for number in seeds.seeds_from(seed) if number not in taken)
         taken.add(good)
@@ -65,11 +67,14 @@ def with_seeds(text, where, report):
 class DemScript:
     """lines: the new script. Beside it what was learnt of the old one."""
 
-    def __init__(self, text, where, report):
+    def __init__(self, text: str, where: str, report: Report) -> None:
         self.where, self.report = where, report
-        self.time_step = self.gravity = self.couple_every = self.restart = None
+        self.time_step: float | None = None
+        self.gravity: list[float] | None = None
+        self.couple_every: int | None = None
+        self.restart: str | None = None
         self.gone = {f"f_{name}" for name in MADE_BY_COUPLING}
-        self.variables = {}
+        self.variables: dict[Any, Any] = {}
         self.lines = []
         makers = re.findall(rf"^\s*(?!#).*?\b({'|'.join(MAKES_PARTICLES)})\b.*$", text, re.MULTILINE)
         self.is_one_particle = makers == ["create_atoms"] and bool(
@@ -90,10 +95,10 @@ class DemScript:
             if value is None:
                 report.error(where, name, "is missing")
 
-    def text(self):
+    def text(self) -> str:
         return "\n".join(self.lines) + "\n"
 
-    def joined(self, text):
+    def joined(self, text: str) -> Iterator[str]:
         """Lines, those that end with & put together."""
         whole = ""
         for line in text.splitlines():
@@ -103,7 +108,7 @@ class DemScript:
                 yield (whole + line).replace("../DEM/", "DEM/")
                 whole = ""
 
-    def translated(self, words, line):
+    def translated(self, words: list[str], line: str) -> Any:
         """The line as it goes into the new script; None where it is left out."""
         command = words[0]
         if command == "fix" and len(words) > 3 and words[3].startswith("couple/cfd"):
@@ -136,7 +141,7 @@ class DemScript:
             self.take_gravity(words, line)
         return self.without_gone(words, line)
 
-    def coupling_fix(self, words):
+    def coupling_fix(self, words: list[str]) -> Any:
         line = " ".join(words)
         if words[3] not in COUPLING_FIXES:
             self.report.error(self.where, line, f"'{words[3]}' has no counterpart; known: {', '.join(COUPLING_FIXES)}")
@@ -146,7 +151,7 @@ class DemScript:
             self.couple_every = int(self.number(words[words.index("couple_every") + 1], line))
         return self.left_out(line, "pimpleDemFoam couples by itself")
 
-    def run(self, words, line):
+    def run(self, words: list[str], line: str) -> Any:
         steps = self.number(words[1], line)
         if steps > 1:
             self.report.error(
@@ -159,7 +164,7 @@ class DemScript:
             )
         return self.left_out(line, "the coupling runs LIGGGHTS, from interval to interval")
 
-    def take_gravity(self, words, line):
+    def take_gravity(self, words: list[str], line: str) -> None:
         try:
             size, at = self.number(words[4], line), words.index("vector")
             direction = [self.number(word, line) for word in words[at + 1 : at + 4]]
@@ -169,7 +174,7 @@ class DemScript:
         length = sum(part * part for part in direction) ** 0.5
         self.gravity = [size * part / length for part in direction]
 
-    def without_gone(self, words, line):
+    def without_gone(self, words: list[str], line: str) -> str:
         """What refers to a fix of the coupling goes with it: columns one by one, other commands as a whole."""
         gone = [word for word in words if self.refers_to_gone(word)]
         if not gone:
@@ -183,17 +188,17 @@ class DemScript:
             self.gone.add(("c_" if words[0] == "compute" else "v_") + words[1])
         return self.left_out(line, f"refers to {' '.join(gone)} of the coupling's fixes, which are not there")
 
-    def refers_to_gone(self, word):
+    def refers_to_gone(self, word: str) -> bool:
         return any(
             re.search(rf"\b{re.escape(name)}\b", word) or f"${{{name[2:]}}}" in word and name.startswith("v_")
             for name in self.gone
         )
 
-    def left_out(self, line, why):
+    def left_out(self, line: str, why: str) -> Any:
         self.report.left_out(self.where, " ".join(line.split()), why)
         return None
 
-    def number(self, word, line):
+    def number(self, word: str, line: str) -> float:
         variable = re.fullmatch(r"\$\{(\w+)\}", word)
         try:
             return float(self.variables.get(variable[1], word) if variable else word)

@@ -2,6 +2,7 @@
 
 import re
 from pathlib import Path
+from typing import Any, Iterator
 
 TOKEN = re.compile(r'\s+|//[^\n]*|/\*.*?\*/|(?P<token>"[^"]*"|[{}()\[\];]|[^\s{}()\[\];"]+)', re.DOTALL)
 CLOSES = {"(": ")", "[": "]", "{": "}"}
@@ -14,13 +15,15 @@ class FoamError(Exception):
 class Dictionary:
     """Entries by name: text, or another Dictionary. It remembers which of them were asked for."""
 
-    def __init__(self, where):
-        self.where, self.entries, self.asked = where, {}, set()
+    def __init__(self, where: str) -> None:
+        self.where = where
+        self.entries: dict[str, Any] = {}
+        self.asked: set[str] = set()
 
-    def __contains__(self, name):
+    def __contains__(self, name: str) -> bool:
         return name in self.entries
 
-    def text(self, name, default=None):
+    def text(self, name: str, default: str | None = None) -> str:
         """The entry's words; the default where there is none."""
         self.asked.add(name)
         value = self.entries.get(name, default)
@@ -28,12 +31,12 @@ class Dictionary:
             raise FoamError(f"{self.where}: '{name}' is a dictionary; allowed: a value")
         return value
 
-    def needed(self, name):
+    def needed(self, name: str) -> Any:
         if name not in self.entries:
             raise FoamError(f"{self.where}: entry '{name}' is missing")
         return self.text(name)
 
-    def number(self, name):
+    def number(self, name: str) -> float:
         """The last number of the entry, behind a name and dimensions if it has them."""
         words = self.needed(name).split()
         try:
@@ -41,17 +44,17 @@ class Dictionary:
         except (ValueError, IndexError):
             raise FoamError(f"{self.where}: entry '{name}' is '{' '.join(words)}'; allowed: a number") from None
 
-    def words(self, name):
+    def words(self, name: str) -> list[str]:
         """Of a list in brackets, or of a single word, without quotes."""
         return self.text(name, "").replace("(", " ").replace(")", " ").replace('"', " ").split()
 
-    def sub(self, name):
+    def sub(self, name: str) -> "Dictionary":
         """The dictionary of that name; an empty one where there is none."""
         self.asked.add(name)
         value = self.entries.get(name)
         return value if isinstance(value, Dictionary) else Dictionary(f"{self.where}/{name}")
 
-    def unread(self):
+    def unread(self) -> Iterator[tuple[str, str]]:
         """Names of the entries that nobody asked for, those of dictionaries that were asked for as well."""
         for name, value in self.entries.items():
             if name not in self.asked:
@@ -59,7 +62,7 @@ class Dictionary:
             elif isinstance(value, Dictionary):
                 yield from value.unread()
 
-    def matching(self, name):
+    def matching(self, name: str) -> "Dictionary | None":
         """The dictionary that OpenFOAM takes for a name: its own, else that of the last pattern which fits; None where
         none does."""
         if name in self.entries:
@@ -67,7 +70,7 @@ class Dictionary:
         fitting = [pattern for pattern in self.entries if is_pattern(pattern) and re.fullmatch(pattern, name)]
         return self.sub(fitting[-1]) if fitting else None
 
-    def is_read(self):
+    def is_read(self) -> "Dictionary":
         """Everything in it counts as asked for."""
         self.asked |= set(self.entries)
         for value in self.entries.values():
@@ -76,11 +79,11 @@ class Dictionary:
         return self
 
 
-def is_pattern(name):
+def is_pattern(name: str) -> bool:
     return not re.fullmatch(r"[\w.:-]+", name)
 
 
-def read(path, where=None):
+def read(path: Path, where: str | None = None) -> Dictionary:
     where = where or str(path)
     try:
         text = Path(path).read_text()
@@ -91,7 +94,7 @@ def read(path, where=None):
     return found
 
 
-def parse(text, where):
+def parse(text: str, where: str) -> Dictionary:
     tokens = []
     at = 0
     while at < len(text):
@@ -107,7 +110,7 @@ def parse(text, where):
     return found
 
 
-def body(tokens, at, where):
+def body(tokens: list[str], at: int, where: str) -> tuple[Dictionary, int]:
     """Entries from a place on, to the brace that ends them."""
     found = Dictionary(where)
     while at < len(tokens) and tokens[at] != "}":
@@ -123,8 +126,8 @@ def body(tokens, at, where):
                 raise FoamError(f"{where}: the '{{' of '{name}' is not closed")
             at += 1
         else:
-            start, open_ = at + 1, []
-            at = start
+            start = at = at + 1
+            open_: list[str] = []
             while at < len(tokens) and (open_ or tokens[at] != ";"):
                 if tokens[at] in CLOSES:
                     open_.append(CLOSES[tokens[at]])
@@ -140,12 +143,12 @@ def body(tokens, at, where):
     return found, at
 
 
-def listed(text, where):
+def listed(text: str, where: str) -> Dictionary:
     """The dictionaries in a list of them: `functions ( name { } );`, as older versions of OpenFOAM write it."""
     return parse(text.strip()[1:-1], where)
 
 
-def written(entries, indent=0):
+def written(entries: Any, indent: int = 0) -> str:
     """Text of a Dictionary, or of a plain dict."""
     lines, blank = [], " " * indent
     for name, value in (entries.entries if isinstance(entries, Dictionary) else entries).items():
@@ -158,6 +161,6 @@ def written(entries, indent=0):
     return "\n".join(lines)
 
 
-def file(name, kind, entries):
+def file(name: str, kind: str, entries: Any) -> str:
     """A whole file."""
     return f"FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n\n{written(entries)}\n"

@@ -12,7 +12,7 @@ from clepsydra.cfdem_cases import foam_text
 from clepsydra.cfdem_cases.case_import import import_case
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("case", type=Path, metavar="CASE", help="the old case: a folder with CFD/ and DEM/")
     parser.add_argument("target", type=Path, metavar="TARGET", help="the new case, a folder that is not there yet")

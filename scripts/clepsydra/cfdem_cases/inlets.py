@@ -2,14 +2,16 @@
 here."""
 
 import re
+from typing import Any, Iterable
 
 from clepsydra.cfdem_cases import foam_text
+from clepsydra.cfdem_cases.report import Report
 
 TERMS_OF_A_VARIABLE = 10
 FIXED = ("fixedValue", "uniformFixedValue")
 
 
-def converted(U, void_fraction, report):
+def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, report: Report) -> Any:
     """Changes the patches of U, a Dictionary, whose velocity is superficial."""
     for patch, entries in U.sub("boundaryField").entries.items():
         if not isinstance(entries, foam_text.Dictionary) or entries.text("type") not in FIXED:
@@ -47,7 +49,7 @@ def converted(U, void_fraction, report):
         )
 
 
-def fixed_fraction(void_fraction, patch):
+def fixed_fraction(void_fraction: foam_text.Dictionary, patch: str) -> Any:
     """The value at the patch; None where it follows the cells, as it does here. voidFraction: the boundary field."""
     entries = (
         void_fraction.sub(patch)
@@ -73,7 +75,7 @@ def fixed_fraction(void_fraction, patch):
     return float(value.split()[1])
 
 
-def velocities(entries):
+def velocities(entries: foam_text.Dictionary) -> Any:
     """Rows of a time and a velocity; one row where it does not change."""
     text = entries.needed("value" if entries.text("type") == "fixedValue" else "uniformValue")
     numbers = [float(word) for word in re.findall(r"[-+.\d][-+.\deE]*", text)]
@@ -87,18 +89,19 @@ def velocities(entries):
     )
 
 
-def vector(parts):
+def vector(parts: Iterable[float]) -> str:
     return f"({' '.join(f'{part:.10g}' for part in parts)})"
 
 
-def expression(table):
+def expression(table: list[tuple[float, list[float]]]) -> Any:
     """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after.
     Variables, and the
     three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read
     more than
     1024 characters at a time.
     """
-    variables, parts = [], []
+    variables: list[str] = []
+    parts: list[str] = []
     for axis, name in enumerate("xyz"):
         terms = component(table, axis)
         pieces = [" + ".join(terms[at : at + TERMS_OF_A_VARIABLE]) for at in range(0, len(terms), TERMS_OF_A_VARIABLE)]
@@ -110,9 +113,9 @@ def expression(table):
     return " ".join(variables), parts
 
 
-def component(table, axis):
+def component(table: list[tuple[float, list[float]]], axis: int) -> list[str]:
     """The terms of a sum: the first value, and ramps that begin at the table's times."""
-    terms, slope = [f"{table[0][1][axis]:.10g}"], 0
+    terms, slope = [f"{table[0][1][axis]:.10g}"], 0.0
     for (before, low), (after, high) in zip(table, table[1:]):
         rise = high[axis] - low[axis]
         if after == before:
@@ -123,5 +126,5 @@ def component(table, axis):
     return terms + ramp(-slope, table[-1][0])
 
 
-def ramp(slope, start):
+def ramp(slope: float, start: float) -> list[str]:
     return [f"{slope:.10g}*max(time() - {start:.10g}, 0)"] if abs(slope) > 1e-12 else []

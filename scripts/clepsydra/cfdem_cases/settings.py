@@ -1,6 +1,9 @@
 """constant/couplingProperties of CFDEMcoupling: which entry is which of ours."""
 
+from typing import Any, Iterable
+
 from clepsydra.cfdem_cases import foam_text
+from clepsydra.cfdem_cases.report import Report
 
 # Entry -> the values for which there is nothing to do. None: any.
 WITHOUT_COUNTERPART = {
@@ -69,12 +72,12 @@ SWITCHED_OFF = ("off", "false", "no")
 class Settings:
     """What the rest of the import needs to know; `entries` are those of the new file."""
 
-    def __init__(self, old, report):
+    def __init__(self, old: foam_text.Dictionary, report: Report) -> None:
         self.old, self.report, self.where = old, report, old.where
         self.interval_in_steps = old.number("couplingInterval")
         self.script = self.script_of("twoWayMPI")
         self.without_counterpart()
-        self.entries = {
+        self.entries: dict[str, Any] = {
             "fluid": "incompressible",
             "modelType": self.one_of("modelType", ("A", "B")),
             "voidFractionModel": self.one_of("voidFractionModel", ("divided", "centre", "Gaussian", "Gauss")),
@@ -88,10 +91,10 @@ class Settings:
         self.dilation()
         self.other_props()
 
-    def script_of(self, exchange):
+    def script_of(self, exchange: str) -> str:
         return self.old.sub(f"{exchange}Props").needed("liggghtsPath").strip('"')
 
-    def without_counterpart(self):
+    def without_counterpart(self) -> None:
         for name, harmless in WITHOUT_COUNTERPART.items():
             if name in self.old:
                 value = self.old.text(name).strip('"')
@@ -100,20 +103,20 @@ class Settings:
                 else:
                     self.report.error(self.where, name, f"is '{value}'; allowed: {', '.join(harmless)}")
 
-    def one_of(self, name, allowed):
+    def one_of(self, name: str, allowed: Iterable[str]) -> str:
         value = self.old.needed(name).strip('"')
         if value not in allowed:
             self.report.error(self.where, name, f"is '{value}'; allowed: {', '.join(allowed)}")
         return value
 
-    def void_fraction_props(self):
+    def void_fraction_props(self) -> None:
         model = self.old.text("voidFractionModel").strip('"')
         props = self.old.sub(f"{model}Props")
         self.plain_words(props)
         if "alphaMin" in props:
             self.entries[f"{self.entries['voidFractionModel']}Props"] = {"alphaMin": props.text("alphaMin")}
 
-    def smoothing(self):
+    def smoothing(self) -> None:
         model = self.one_of("smoothingModel", ("off", "constDiffSmoothing"))
         self.entries["smoothingModel"] = model
         if model != "constDiffSmoothing":
@@ -131,7 +134,7 @@ class Settings:
             ),
         )
 
-    def forces(self):
+    def forces(self) -> None:
         chosen = []
         for name in self.old.words("forceModels"):
             if name in DIAGNOSTICS:
@@ -160,7 +163,7 @@ class Settings:
             )
         self.entries["forceModels"] = f"( {' '.join(chosen)} )"
 
-    def force_props(self, name):
+    def force_props(self, name: str) -> None:
         props = self.old.sub(f"{name}Props")
         self.plain_words(props)
         if props.text("interpolation") not in (None, *SWITCHED_OFF):
@@ -170,7 +173,7 @@ class Settings:
                 "the fluid at a particle is always the mean over what the particle acts on",
             )
 
-    def plain_words(self, props):
+    def plain_words(self, props: foam_text.Dictionary) -> None:
         """Those that need nothing done, and those that must have the value for which nothing need be done."""
         for name in (*NAMES_OF_FIELDS, *NOTHING_TO_DO):
             props.text(name)
@@ -190,7 +193,7 @@ class Settings:
             if name in props and props.text(name) not in SWITCHED_OFF:
                 self.report.error(props.where, name, "is on; allowed: off, it has no counterpart")
 
-    def momentum_models(self):
+    def momentum_models(self) -> list[str]:
         models = self.old.words("momCoupleModels")
         for name in models:
             if name not in ("implicitCouple", "explicitCouple"):
@@ -205,7 +208,7 @@ class Settings:
             return ["implicitCouple"]
         return models
 
-    def dilation(self):
+    def dilation(self) -> None:
         """In CFDEMcoupling off where the word is missing."""
         on = "useDDTvoidfraction" in self.old and self.old.text("useDDTvoidfraction") not in SWITCHED_OFF
         self.entries["useDDTvoidfraction"] = "on" if on else "off"
@@ -219,7 +222,7 @@ class Settings:
                 ),
             )
 
-    def other_props(self):
+    def other_props(self) -> None:
         """Of models that are not chosen: nobody read them there either."""
         for name, value in self.old.entries.items():
             if name.endswith("Props") and name not in self.old.asked and isinstance(value, foam_text.Dictionary):

@@ -15,7 +15,7 @@ from clepsydra.meshes import hopper_walls
 ROWS = 3  # of triangles in the cone, so that they stay compact
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(
         prog="coneSurface", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )

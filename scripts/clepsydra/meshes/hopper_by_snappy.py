@@ -19,10 +19,12 @@ tankSide, tankTop.
 
 import sys
 from math import pi
+from typing import Any
 
 from clepsydra import parameter_file
 from clepsydra.meshes import hopper_walls
 from clepsydra.meshes.generator import read_options
+from clepsydra.meshes.hopper_walls import Triangle
 
 # Size of the background's cells [m], and how often they are halved: in the hopper, near its walls, round the orifice
 LEVELS = {
@@ -38,7 +40,7 @@ FoamFile {{ version 2.0; format ascii; class dictionary; object {0}; }}
 """
 
 
-def block_mesh_dict(p, size):
+def block_mesh_dict(p: dict[str, Any], size: float) -> str:
     half = p["tankDiameter"] / 2
     heights = [-p["tankDepth"], 0, p["hopperHeight"], p["hopperHeight"] + p["waterAboveRim"]]
     across = 2 * max(1, round(half / size))
@@ -85,7 +87,7 @@ boundary
     )
 
 
-def surface_feature_extract_dict(surfaces):
+def surface_feature_extract_dict(surfaces: dict[str, list[Triangle]]) -> str:
     return HEADER.format("surfaceFeatureExtractDict") + "\n".join(
         f"""{name}.stl
 {{
@@ -102,7 +104,9 @@ def surface_feature_extract_dict(surfaces):
     )
 
 
-def snappy_hex_mesh_dict(p, surfaces, size, inside, walls, orifice):
+def snappy_hex_mesh_dict(
+    p: dict[str, Any], surfaces: dict[str, list[Triangle]], size: float, inside: int, walls: int, orifice: int
+) -> str:
     hopper, height, radius = p["hopperDiameter"] / 2, p["hopperHeight"], p["orificeDiameter"] / 2
     levels = {"hopper": walls, "exit": orifice}
     geometry = "\n".join(f"    {name}.stl {{ type triSurfaceMesh; name {name}; }}" for name in surfaces)
@@ -170,7 +174,7 @@ mergeTolerance  1e-6;
     )
 
 
-def mesh_quality_dict():
+def mesh_quality_dict() -> str:
     return (
         HEADER.format("meshQualityDict")
         + """#includeEtc "caseDicts/mesh/generation/meshQualityDict.cfg"
@@ -178,7 +182,7 @@ def mesh_quality_dict():
     )
 
 
-def cells(p, size, inside, walls, orifice):
+def cells(p: dict[str, Any], size: float, inside: int, walls: int, orifice: int) -> float:
     """About how many: within 30 % of the four levels of the paper's hopper (README.md)."""
     radius, height, mouth = p["hopperDiameter"] / 2, p["hopperHeight"], p["orificeDiameter"] / 2
     tank = p["tankDiameter"] ** 2 * (p["tankDepth"] + height + p["waterAboveRim"])
@@ -189,7 +193,7 @@ def cells(p, size, inside, walls, orifice):
     ) / size**3
 
 
-def main():
+def main() -> None:
     only_count, source, case = read_options("hopperBySnappy", __doc__)
     p = parameter_file.parameters(source)
     problem = hopper_walls.check(p)

@@ -21,17 +21,19 @@ import sys
 from collections import Counter
 from math import hypot, pi, sqrt
 from pathlib import Path
+from typing import Any
 
 from clepsydra import environment, parameter_file
 from clepsydra.meshes import hopper_walls
 from clepsydra.meshes.generator import read_options
+from clepsydra.meshes.hopper_walls import Point, Triangle
 
 SNAPPY = environment.REPOSITORY / "meshes" / "hopperBySnappy"
 SAME_POINT = 1e-4  # of the hopper's diameter: points nearer than this are one
 ROUNDNESS = 0.01  # by which the corners of a polygon may miss the circle
 
 
-def triangles(file):
+def triangles(file: Path) -> list[Triangle]:
     data = file.read_bytes()
     count = struct.unpack_from("<I", data, 80)[0] if len(data) >= 84 else 0
     if len(data) == 84 + 50 * count:
@@ -50,11 +52,11 @@ def triangles(file):
     return list(zip(points[::3], points[1::3], points[2::3]))
 
 
-def merged(found, tolerance):
+def merged(found: list[Triangle], tolerance: float) -> list[Triangle]:
     """With one point for all that are nearer than the tolerance, and without triangles that have become lines."""
-    seen = {}
+    seen: dict[Any, Any] = {}
 
-    def point(corner):
+    def point(corner: Point) -> Point:
         place = tuple(int(part // tolerance) for part in corner)
         near = (
             seen.get((place[0] + i, place[1] + j, place[2] + k))
@@ -67,11 +69,11 @@ def merged(found, tolerance):
                 return other
         return seen.setdefault(place, corner)
 
-    moved = (tuple(map(point, triangle)) for triangle in found)
+    moved = ((point(a), point(b), point(c)) for a, b, c in found)
     return [triangle for triangle in moved if len(set(triangle)) == 3]
 
 
-def open_edges(surface):
+def open_edges(surface: list[Triangle]) -> list[tuple[Point, Point]]:
     edges = Counter(frozenset((triangle[i - 1], triangle[i])) for triangle in surface for i in range(3))
     for edge, count in edges.items():
         if count > 2:
@@ -79,16 +81,17 @@ def open_edges(surface):
                 f"has an edge of {count} triangles, at {place(next(iter(edge)))}; allowed: a surface that does not"
                 " branch"
             )
-    return [tuple(edge) for edge, count in edges.items() if count == 1]
+    # in no order; of two points, for a triangle with two corners at one place has been left out
+    return [(one, other) for (one, other), count in edges.items() if count == 1]
 
 
-def place(point):
+def place(point: Point) -> str:
     return "({:.4g} {:.4g} {:.4g}) m".format(*point)
 
 
-def loop(edges, name):
+def loop(edges: list[tuple[Point, Point]], name: str) -> list[Point]:
     """The points of the one closed line that the edges are."""
-    after = {}
+    after: dict[Any, Any] = {}
     for a, b in edges:
         after.setdefault(a, []).append(b)
         after.setdefault(b, []).append(a)
@@ -105,7 +108,7 @@ def loop(edges, name):
     return line[:-1]
 
 
-def checked(surface, p):
+def checked(surface: list[Triangle], p: dict[str, Any]) -> list[Point]:
     """The orifice's edge; ValueError says what is wrong with the surface."""
     radius, height = p["hopperDiameter"] / 2, p["hopperHeight"]
     near = ROUNDNESS * radius
@@ -118,7 +121,7 @@ def checked(surface, p):
                 f"has the point {place(point)}; allowed: from z = 0 to hopperHeight {height:g} m, within hopperDiameter"
                 f" {p['hopperDiameter']:g} m. Are its lengths in metres?"
             )
-    edges = {"orifice": [], "rim": []}
+    edges: Any = {"orifice": [], "rim": []}
     for edge in open_edges(surface):
         ends = [end for end, z in (("orifice", 0), ("rim", height)) if all(abs(point[2] - z) < near for point in edge)]
         if not ends:
@@ -141,13 +144,13 @@ def checked(surface, p):
     return orifice
 
 
-def is_on_cylinder(triangle, radius):
+def is_on_cylinder(triangle: Triangle, radius: float) -> bool:
     return abs(hopper_walls.unit_normal(*triangle)[2]) < ROUNDNESS and all(
         abs(hypot(*point[:2]) - radius) < ROUNDNESS * radius for point in triangle
     )
 
 
-def main():
+def main() -> None:
     if sys.argv[1:2] == ["--check"] and len(sys.argv) == 4:
         read_surface(Path(sys.argv[3]), parameter_file.parameters(sys.argv[2]))
         return
@@ -160,7 +163,7 @@ def main():
             " it all"
         )
     made = subprocess.run(
-        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", case])], input=text, text=True
+        [SNAPPY, *(["--cells", "/dev/stdin"] if only_count else ["/dev/stdin", str(case)])], input=text, text=True
     )
     if made.returncode != 0 or only_count:
         sys.exit(made.returncode)
@@ -180,7 +183,8 @@ def read_surface(file, p):
     try:
         surface = merged(triangles(file), SAME_POINT * p["hopperDiameter"])
         orifice = checked(surface, p)
-        cylinder, rest = [], []
+        cylinder: list[Triangle] = []
+        rest: list[Triangle] = []
         for triangle in surface:
             (cylinder if is_on_cylinder(triangle, radius) else rest).append(triangle)
         if not cylinder or not rest:

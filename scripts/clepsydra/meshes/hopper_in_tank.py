@@ -16,6 +16,7 @@ Circles become polygons of the same area, see hopper_walls.py.
 
 import sys
 from math import ceil, cos, log, pi, sin
+from typing import Any
 
 from clepsydra import parameter_file
 from clepsydra.meshes import hopper_walls
@@ -23,11 +24,11 @@ from clepsydra.meshes.generator import read_options
 from clepsydra.meshes.hopper_walls import equal_area_radius
 
 
-def cells(length, size):
+def cells(length: float, size: float) -> int:
     return max(1, round(length / size))
 
 
-def cells_graded(length, size, expansion):
+def cells_graded(length: float, size: float, expansion: float) -> int:
     """How many cells fill length when they grow from size to expansion * size."""
     growth = log(expansion)
     return max(1, round(length / size * growth / (expansion - 1)))
@@ -44,7 +45,7 @@ FoamFile {{ version 2.0; format ascii; class dictionary; object {0}; }}
 class Grid:
     """Radii and heights of the O-grid's block corners, and its cell counts."""
 
-    def __init__(self, p):
+    def __init__(self, p: dict[str, Any]) -> None:
         size = p["cellSize"]
         orifice, hopper, tank = (p[f"{name}Diameter"] / 2 for name in ("orifice", "hopper", "tank"))
         # as wide as asked half-way between the orifice's edge and the hopper's wall
@@ -62,18 +63,18 @@ class Grid:
         ]
         self.layer_expansion = [1 / deepen, 1, 1]
 
-    def cells(self):
+    def cells(self) -> int:
         return (self.per_quarter**2 + 4 * self.per_quarter * sum(self.ring_cells)) * sum(self.layer_cells)
 
-    def vertex(self, level, circle, corner):
+    def vertex(self, level: int, circle: int, corner: int) -> int:
         return (level * len(self.radii) + circle) * 4 + corner % 4
 
-    def point(self, level, circle, degrees):
+    def point(self, level: int, circle: int, degrees: float) -> str:
         radius, angle = self.radii[circle], degrees * pi / 180
         return f"({radius * cos(angle):.9g} {radius * sin(angle):.9g} {self.heights[level]:.9g})"
 
 
-def block_mesh_dict(grid):
+def block_mesh_dict(grid: Grid) -> str:
     levels, circles = range(len(grid.heights)), range(len(grid.radii))
     vertices = [
         grid.point(level, circle, 45 + 90 * corner) for level in levels for circle in circles for corner in range(4)
@@ -87,16 +88,19 @@ def block_mesh_dict(grid):
         for corner in range(4)
     ]
 
-    blocks, floor, side, top = [], [], [], []
+    blocks: list[str] = []
+    floor: list[list[int]] = []
+    side: list[list[int]] = []
+    top: list[list[int]] = []
 
-    def block(corners, counts, expansions):
+    def block(corners: Any, counts: Any, expansions: Any) -> None:
         blocks.append(
             "hex ({}) ({}) simpleGrading ({})".format(
                 *(" ".join(str(item) for item in items) for items in (corners, counts, expansions))
             )
         )
 
-    def horizontal(level):
+    def horizontal(level: int) -> Any:
         core = [grid.vertex(level, 0, corner) for corner in range(4)]
         rings = [
             [
@@ -131,11 +135,11 @@ def block_mesh_dict(grid):
         core, rings = horizontal(level)
         faces += [core] + rings
 
-    def patch(name, faces):
+    def patch(name: str, faces: Any) -> str:
         listed = "\n".join("            (" + " ".join(map(str, face)) + ")" for face in faces)
         return f"    {name}\n    {{\n        type wall;\n        faces\n        (\n{listed}\n        );\n    }}"
 
-    def section(name, lines):
+    def section(name: str, lines: list[str]) -> str:
         return f"{name}\n(\n" + "\n".join("    " + line for line in lines) + "\n);\n\n"
 
     return (
@@ -149,7 +153,7 @@ def block_mesh_dict(grid):
     )
 
 
-def topo_set_dict(grid, p):
+def topo_set_dict(grid: Grid, p: dict[str, Any]) -> str:
     """Faces of the plate and of the cylinder, gathered in one zone."""
     thin = 1e-3 * p["cellSize"]
     # mid-chords and corners of the polygon lie on either side of the circle
@@ -195,12 +199,12 @@ actions
     )
 
 
-def baffles(p):
+def baffles(p: dict[str, Any]) -> list[str]:
     """Names of the walls without thickness: each a patch, and a zone <name>Faces."""
     return ["hopper"] + ["lid"] * (p["lid"] == "on")
 
 
-def create_baffles_dict(p):
+def create_baffles_dict(p: dict[str, Any]) -> str:
     return (
         HEADER.format("createBafflesDict")
         + """internalFacesOnly true;
@@ -227,7 +231,7 @@ baffles
     )
 
 
-def main():
+def main() -> None:
     only_count, source, case = read_options("hopperInTank", __doc__)
     p = parameter_file.parameters(source)
     problem = hopper_walls.check(p)

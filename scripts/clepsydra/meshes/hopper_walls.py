@@ -9,23 +9,28 @@ orifice is not made smaller by its corners.
 """
 
 from math import cos, hypot, log, pi, sin, sqrt
+from pathlib import Path
+from typing import Any
+
+Point = tuple[float, ...]  # x, y, z [m]
+Triangle = tuple[Point, Point, Point]
 
 PARTICLE_CORNERS = 48  # of the particles' walls: each triangle costs time at every step
 WATER_CORNERS = 192  # of the surfaces that the fluid's mesh is fitted to
 
 
-def equal_area_radius(radius, corners):
+def equal_area_radius(radius: float, corners: int) -> float:
     """Distance of the corners of the regular polygon with the circle's area."""
     return radius * sqrt((2 * pi / corners) / sin(2 * pi / corners))
 
 
-def particle_walls(p):
+def particle_walls(p: dict[str, Any]) -> dict[str, list[Triangle]]:
     """Triangles of the cylinder, of the plate with its orifice, and of the plug, by name."""
     orifice, hopper, height = p["orificeDiameter"] / 2, p["hopperDiameter"] / 2, p["hopperHeight"]
     rows = max(1, round(height / (2 * p["cellSize"])))
     # rings wider apart as they grow, so that triangles stay compact
     count = max(1, round(log(hopper / orifice) / 0.25))
-    rings = [(orifice * (hopper / orifice) ** (ring / count), 0) for ring in range(count + 1)]
+    rings = [(orifice * (hopper / orifice) ** (ring / count), 0.0) for ring in range(count + 1)]
     return {
         "hopperWall": revolved([(hopper, height * row / rows) for row in range(rows + 1)], PARTICLE_CORNERS),
         "hopperPlate": revolved(exit_profile(p)[:0:-1] + rings, PARTICLE_CORNERS),
@@ -33,7 +38,7 @@ def particle_walls(p):
     }
 
 
-def water_walls(p):
+def water_walls(p: dict[str, Any]) -> dict[str, list[Triangle]]:
     """Triangles of the hopper's inside, and of the rest of its surface if there is any, by name."""
     orifice, hopper, height = p["orificeDiameter"] / 2, p["hopperDiameter"] / 2, p["hopperHeight"]
     rest = exit_profile(p)
@@ -46,10 +51,10 @@ def water_walls(p):
     return walls
 
 
-def exit_profile(p):
+def exit_profile(p: dict[str, Any]) -> list[tuple[float, float]]:
     """(radius, height) from the orifice's edge downwards."""
     orifice, land, bevel = p["orificeDiameter"] / 2, p["landHeight"], p["bevelHeight"]
-    profile = [(orifice, 0)]
+    profile = [(orifice, 0.0)]
     if land > 0:
         profile.append((orifice, -land))
     if bevel > 0:
@@ -57,7 +62,7 @@ def exit_profile(p):
     return profile
 
 
-def check(p):
+def check(p: dict[str, Any]) -> str | None:
     """What is wrong with the dimensions, in words; empty if nothing."""
     for name in (
         "orificeDiameter",
@@ -82,19 +87,19 @@ def check(p):
     return ""
 
 
-def revolved(profile, corners):
+def revolved(profile: list[tuple[float, float]], corners: int) -> list[Triangle]:
     """Triangles of a surface of revolution; the profile is a list of (radius, height)."""
     rings = [circle(radius, height, corners) for radius, height in profile]
     return [triangle for first, second in zip(rings, rings[1:]) for triangle in band(first, second)]
 
 
-def circle(radius, height, corners):
+def circle(radius: float, height: float, corners: int) -> list[Point]:
     outer = equal_area_radius(radius, corners)
     angles = [2 * pi * index / corners for index in range(corners)]
     return [(outer * cos(angle), outer * sin(angle), height) for angle in angles]
 
 
-def band(first, second):
+def band(first: list[Point], second: list[Point]) -> list[Triangle]:
     """Triangles between two rings of equally many points."""
     triangles = []
     for index in range(len(first)):
@@ -104,18 +109,18 @@ def band(first, second):
     return triangles
 
 
-def fan(ring, centre):
+def fan(ring: list[Point], centre: Point) -> list[Triangle]:
     return [(centre, point, after) for point, after in zip(ring, ring[1:] + ring[:1])]
 
 
-def write(walls, folder):
+def write(walls: dict[str, list[Triangle]], folder: Path) -> None:
     """One STL file for each surface."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, triangles in walls.items():
         (folder / f"{name}.stl").write_text(stl(name, triangles))
 
 
-def stl(name, triangles):
+def stl(name: str, triangles: list[Triangle]) -> str:
     lines = [f"solid {name}"]
     for a, b, c in triangles:
         lines.append("facet normal {:.8g} {:.8g} {:.8g}".format(*unit_normal(a, b, c)))
@@ -124,13 +129,13 @@ def stl(name, triangles):
     return "\n".join(lines + [f"endsolid {name}"]) + "\n"
 
 
-def normal(a, b, c):
+def normal(a: Point, b: Point, c: Point) -> Point:
     """As long as twice the triangle's area."""
     u, v = ([end - start for start, end in zip(a, other)] for other in (b, c))
     return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
 
 
-def unit_normal(a, b, c):
+def unit_normal(a: Point, b: Point, c: Point) -> Point:
     along = normal(a, b, c)
     length = hypot(*along)
     return tuple(part / length for part in along)

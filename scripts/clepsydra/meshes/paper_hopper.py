@@ -20,7 +20,7 @@ from parameterStudies.task import makeFolder
 MESHES = REPOSITORY / "meshes"
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(
         prog="paperHopper", description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
