@@ -615,7 +615,9 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
 
 def read_ranks(said: str | None) -> int:
     text = (
-        said if said is not None else str(parameter_file.shown(parameter_file.parameters("parameters").get("ranks", 1.0)))
+        said
+        if said is not None
+        else str(parameter_file.shown(parameter_file.parameters("parameters").get("ranks", 1.0)))
     )
     if not re.fullmatch("[1-9][0-9]{0,5}", text):
         raise Failure(f"the number of ranks is a whole number above 0, not '{text}'")

@@ -27,8 +27,8 @@ File = Union[Path, zipfile.Path]
 
 
 def files(folder: Path) -> dict[str, File]:
-    """The JSON files of all runs whose results lie in a folder, or in an archive beside it (results/runs.zip, for studies
-    that are finished), by the run's name. A file in the folder takes the place of one in the archive."""
+    """The JSON files of all runs, by the run's name: those in a folder, and those in the archive beside it (runs.zip,
+    for studies that are finished). A file in the folder takes the place of one in the archive."""
     archive = folder.parent / f"{folder.name}.zip"
     found: dict[str, File] = {}
     if archive.exists():
@@ -44,7 +44,8 @@ def read(folder: Path | str) -> list[Run]:
 
 def read_run(path: File) -> Run:
     inputs = json.loads(path.read_text())
-    table = (path.parent / f"{path.name.removesuffix('.json')}.csv").read_text()
+    beside: Any = path.parent  # zipfile.Path does not say that it is one of its own kind
+    table = (beside / f"{path.name.removesuffix('.json')}.csv").read_text()
     rows = np.array([[float(value) for value in row] for row in list(csv.reader(table.splitlines()))[1:]])
     return Run(
         inputs["run"],

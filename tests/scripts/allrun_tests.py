@@ -306,15 +306,21 @@ class Quickstart(HopperCase):
     """The front page's first command."""
 
     def quickstart(self, *arguments):
-        return subprocess.run([self.folder / "scripts/quickstart", *arguments], env=self.environment, capture_output=True, text=True,
-                              stdin=subprocess.DEVNULL, timeout=60)
+        return subprocess.run(
+            [self.folder / "scripts/quickstart", *arguments],
+            env=self.environment,
+            capture_output=True,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            timeout=60,
+        )
 
     def testItSetsUpAndThenRunsTheHopper(self):
         """In this order: where set-up fails nothing is run. It says where the results are."""
         outcome = self.quickstart()
         self.assertEqual(outcome.returncode, 1)
         self.assertFalse((self.case / "starts").exists())
-        self.program(self.folder / "scripts" / "setup", f"#!/bin/sh\necho \"$*\" > {self.folder}/options\n")
+        self.program(self.folder / "scripts" / "setup", f'#!/bin/sh\necho "$*" > {self.folder}/options\n')
         outcome = self.quickstart()
         self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
         self.assertEqual((self.folder / "options").read_text(), "--programs\n")

@@ -48,7 +48,15 @@ def findings(name: str, text: str) -> list[str]:
 class Words(unittest.TestCase):
     def test_a_word_is_found_in_whatever_name(self) -> None:
         """Otherwise the next test finds nothing anywhere."""
-        for line in ("beadDiameter", "n_beads", "BEADS", "// a lone sphere", "theLedger", "StandIns", "the case is told"):
+        for line in (
+            "beadDiameter",
+            "n_beads",
+            "BEADS",
+            "// a lone sphere",
+            "theLedger",
+            "StandIns",
+            "the case is told",
+        ):
             self.assertEqual(len(findings("file", line)), 1, line)
         for line in ("rigid", "bead3_trial_1.txt", "alone", "glass beads of 2 mm", "standing"):
             self.assertEqual(findings("file", line), [], line)

@@ -3,7 +3,7 @@
 
 Usage: hopperFromSurface PARAMETERS CASE
        hopperFromSurface --cells PARAMETERS   makes nothing, prints about how many cells the mesh will have
-       hopperFromSurface --check PARAMETERS SURFACE   makes nothing, exit status 1 where the surface, an STL file, is refused
+       hopperFromSurface --check PARAMETERS SURFACE   makes nothing, exit status 1 where the STL file is refused
 
 CASE/hopper.stl (text or binary, metres, z upwards) is one surface without thickness, open at two places only: at the
 orifice, an edge in the plane z = 0 round the origin, and at the rim, z = hopperHeight. Its upper part is a cylinder of
@@ -178,7 +178,7 @@ def main() -> None:
 
 
 def read_surface(file, p):
-    """All triangles, the orifice's edge, the triangles of the cylinder, all others. Exits where the surface is refused."""
+    """All triangles, the orifice's edge, the triangles of the cylinder, all others. Exits where it is refused."""
     radius = p["hopperDiameter"] / 2
     try:
         surface = merged(triangles(file), SAME_POINT * p["hopperDiameter"])
@@ -199,7 +199,6 @@ def read_surface(file, p):
     except ValueError as error:
         sys.exit(f"hopperFromSurface: {file} {error}")
     return surface, orifice, cylinder, rest
-
 
 
 if __name__ == "__main__":

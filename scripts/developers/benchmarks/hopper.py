@@ -29,9 +29,7 @@ class Hopper:
         self.folder = folder
         self.case = folder / "cases" / "tutorials" / "hopperQuick"
         self.quick = quick
-        shutil.copytree(
-            case_of(repository), self.case, ignore=shutil.ignore_patterns("steps", "results", "polyMesh")
-        )
+        shutil.copytree(case_of(repository), self.case, ignore=shutil.ignore_patterns("steps", "results", "polyMesh"))
         for name in ("meshes", "scripts"):
             (folder / name).symlink_to(repository / name)
         self.set_parameters(self.case / "parameters", parameters if quick else {**FULL_SIZE, **parameters})
