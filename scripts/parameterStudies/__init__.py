@@ -1,1 +1,1 @@
-"""The parts of scripts/parameterStudy: plan (which tasks there are), task (runs one), status (what is done), executors."""
+"""Parts of scripts/parameterStudy: plan (which tasks there are), task (runs one), status (what is done), executors."""

@@ -14,7 +14,8 @@ COMMAND = os.path.abspath(sys.argv[0])
 
 
 def local(parameterStudy, cores):
-    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal that asked
+    """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal
+    that asked
     it to stop, or None."""
     slots = max(1, cores // max(task.ranks for task in parameterStudy.tasks.values()))
     makefile = parameterStudy.work / "Makefile"
@@ -23,13 +24,19 @@ def local(parameterStudy, cores):
     left = [targets[name] for name, task in parameterStudy.tasks.items() if not isDone(parameterStudy, task)]
     rules = [f"all: {' '.join(targets.values())}", f".PHONY: {' '.join(left)}"]
     for name, task in parameterStudy.tasks.items():
-        rules += [f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
-                  # exec: the signals of make must reach the task, not a shell before it
-                  "\t@exec " + shlex.join([COMMAND, "task", str(parameterStudy.path), name]).replace("$", "$$") + " 2>&1"]
+        rules += [
+            f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
+            # exec: the signals of make must reach the task, not a shell before it
+            "\t@exec " + shlex.join([COMMAND, "task", str(parameterStudy.path), name]).replace("$", "$$") + " 2>&1",
+        ]
     whole_files.write(makefile, "\n".join(rules) + "\n")
     # without make's own words on what failed: the tasks say it themselves
-    make = subprocess.Popen(["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
-                            cwd=parameterStudy.work, stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    make = subprocess.Popen(
+        ["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
+        cwd=parameterStudy.work,
+        stdin=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     received = []
 
     def stop(number, _):
@@ -55,8 +62,16 @@ def slurm(parameterStudy, options):
         levels[level].append(name)
     jobs, before = [], []
     for names in filter(None, levels):
-        here = [submit(parameterStudy, [name for name in names if parameterStudy.tasks[name].ranks == ranks], ranks, before, options)
-                for ranks in sorted({parameterStudy.tasks[name].ranks for name in names})]
+        here = [
+            submit(
+                parameterStudy,
+                [name for name in names if parameterStudy.tasks[name].ranks == ranks],
+                ranks,
+                before,
+                options,
+            )
+            for ranks in sorted({parameterStudy.tasks[name].ranks for name in names})
+        ]
         jobs += here
         before = here
     return jobs
@@ -70,8 +85,17 @@ def submit(parameterStudy, names, ranks, before, options):
     name = f'"$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})"'
     # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
     script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(parameterStudy.path)])} {name}\n"
-    command = ["sbatch", "--parsable", f"--job-name={parameterStudy.path.stem}", f"--array=1-{len(names)}", "--nodes=1",
-               f"--ntasks={ranks}", "--signal=B:TERM@300", f"--output={parameterStudy.work}/slurm.%A_%a.log", *options]
+    command = [
+        "sbatch",
+        "--parsable",
+        f"--job-name={parameterStudy.path.stem}",
+        f"--array=1-{len(names)}",
+        "--nodes=1",
+        f"--ntasks={ranks}",
+        "--signal=B:TERM@300",
+        f"--output={parameterStudy.work}/slurm.%A_%a.log",
+        *options,
+    ]
     if before:
         # after any end of the others: a task whose needs are not done says so by itself
         command.append("--dependency=afterany:" + ":".join(before))

@@ -18,10 +18,18 @@ from clepsydra import case_rules
 from clepsydra import parameter_file
 from clepsydra import parameter_study_results
 
-PARAMETER_STUDY_ENTRIES = {"base": "a file with more of these entries", "case": "the template's folder", "work": "folder of the runs (default: work)",
-                    "results": "folder of the results (default: results)", "ranks": "of each run (default: 1)",
-                    "steps": "of each run", "packings": "values of the template's seed",
-                    "parameters": "of all runs", "runs": "the list", "keepTimes": "all, or a number (default: all)"}
+PARAMETER_STUDY_ENTRIES = {
+    "base": "a file with more of these entries",
+    "case": "the template's folder",
+    "work": "folder of the runs (default: work)",
+    "results": "folder of the results (default: results)",
+    "ranks": "of each run (default: 1)",
+    "steps": "of each run",
+    "packings": "values of the template's seed",
+    "parameters": "of all runs",
+    "runs": "the list",
+    "keepTimes": "all, or a number (default: all)",
+}
 TEMPLATE_ENTRIES = ("shared", "steps", "mayChange", "seed", "summary", "derived")
 REPOSITORY = Path(__file__).resolve().parents[2]
 RUN_ENTRIES = ("sweep", "parameters", "filling", "steps", "packings", "ranks")
@@ -33,14 +41,14 @@ class ParameterStudyError(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    name: str           # also its folder below the parameter study's work folder
-    part: str           # what Allrun is asked for
+    name: str  # also its folder below the parameter study's work folder
+    part: str  # what Allrun is asked for
     ranks: int
-    overrides: tuple    # (parameter, text) pairs
-    needs: tuple        # names of tasks
-    links: tuple        # (path in the case, task that makes it) pairs
-    publish: str        # stem of its result files; empty: none
-    entry: str          # the parameter study's entry that it belongs to
+    overrides: tuple  # (parameter, text) pairs
+    needs: tuple  # names of tasks
+    links: tuple  # (path in the case, task that makes it) pairs
+    publish: str  # stem of its result files; empty: none
+    entry: str  # the parameter study's entry that it belongs to
 
 
 class ParameterStudy:
@@ -65,8 +73,11 @@ class ParameterStudy:
             base = readYaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
             parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
             # paths are relative to the file that has them
-            base |= {name: str(found(base[name], self._folder("base").parent))
-                     for name in ("case", "work", "results") if name in base}
+            base |= {
+                name: str(found(base[name], self._folder("base").parent))
+                for name in ("case", "work", "results")
+                if name in base
+            }
             self.settings = {**base, **self.settings, "parameters": parameters}
         for name in ("case", "steps", "runs"):
             if name not in self.settings:
@@ -77,8 +88,9 @@ class ParameterStudy:
         self.case = self.frozenCase if self.frozenCase.exists() else self._folder("case")
         self.results = self._folder("results", "results")
         requirePlain(self.work, REPOSITORY)
-        self.template = readYaml(self.case / "template.yaml", TEMPLATE_ENTRIES,
-                                 required=("shared", "steps", "seed", "summary"))
+        self.template = readYaml(
+            self.case / "template.yaml", TEMPLATE_ENTRIES, required=("shared", "steps", "seed", "summary")
+        )
         self.derived = self.template.get("derived", {})
         self.defaults = parameter_file.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
@@ -109,7 +121,8 @@ class ParameterStudy:
         return self._resolved(dict(task.overrides))
 
     def check(self, executor):
-        """{name: what is known of it} of all tasks; ParameterStudyError where the template's parameters.rules refuse the parameters of any.
+        """{name: what is known of it} of all tasks; ParameterStudyError where the template's parameters.rules refuse
+        the parameters of any.
 
         Slurm's tasks run on other machines than this one: what fits there, each finds when it starts."""
         if not (self.case / case_rules.FILE).exists():
@@ -125,8 +138,12 @@ class ParameterStudy:
             # runs of one set of parameters are checked once
             key = task.overrides, task.ranks, task.part
             if key not in seen:
-                seen[key] = rules.check(self.parameterText(task), task.ranks if executor == "local" else None, task.part,
-                                        f"{self.path}: {name}")
+                seen[key] = rules.check(
+                    self.parameterText(task),
+                    task.ranks if executor == "local" else None,
+                    task.part,
+                    f"{self.path}: {name}",
+                )
             known[name] = seen[key]
             problems += [problem for problem in known[name].problems if problem not in problems]
         if problems:
@@ -154,8 +171,11 @@ class ParameterStudy:
         for name in given or {}:
             if name not in self.defaults and name not in self.derived:
                 known = [*self.defaults, *self.derived]
-                raise self._error(entry, name, f"the template's parameters{parameter_file.meant(str(name), known)}, which are "
-                                  + ", ".join(known))
+                raise self._error(
+                    entry,
+                    name,
+                    f"the template's parameters{parameter_file.meant(str(name), known)}, which are " + ", ".join(known),
+                )
         return {name: parameterValue(value) for name, value in (given or {}).items()}
 
     def _derive(self, overrides):
@@ -167,7 +187,9 @@ class ParameterStudy:
             try:
                 plain[rule["sets"]] = str(arithmetic.evaluate(rule["to"], known | {name: float(overrides[name])}))
             except ValueError as problem:
-                raise ParameterStudyError(f"{self.path}: '{name}' is {overrides[name]!r}, and {rule['to']!r} {problem}") from None
+                raise ParameterStudyError(
+                    f"{self.path}: '{name}' is {overrides[name]!r}, and {rule['to']!r} {problem}"
+                ) from None
         return plain
 
     def _plan(self, only):
@@ -176,7 +198,10 @@ class ParameterStudy:
             raise self._error("runs", runs, "a list of `name: { ... }`")
         unknown = [name for name in only or [] if name not in runs]
         if unknown:
-            raise ParameterStudyError(f"{self.path}: no run '{unknown[0]}'{parameter_file.meant(unknown[0], runs)}; there are: {', '.join(map(str, runs))}")
+            raise ParameterStudyError(
+                f"{self.path}: no run '{unknown[0]}'{parameter_file.meant(unknown[0], runs)}; "
+                f"there are: {', '.join(map(str, runs))}"
+            )
         for name, entry in runs.items():
             if only and name not in only:
                 continue
@@ -227,8 +252,11 @@ class ParameterStudy:
     def _shared(self, part, overrides, keep=()):
         """The task of a shared part, named by the values of the parameters on which it depends."""
         about = self.template["shared"][part]
-        own = {name: value for name, value in overrides.items() if name in about["dependsOn"] and
-               (name not in about.get("fixed", ()) or name in keep)}
+        own = {
+            name: value
+            for name, value in overrides.items()
+            if name in about["dependsOn"] and (name not in about.get("fixed", ()) or name in keep)
+        }
         overrides = {**self.common, **own}
         values = self._resolved(overrides)
         code = hashlib.sha256(repr([(name, values[name]) for name in about["dependsOn"]]).encode()).hexdigest()[:8]
@@ -246,7 +274,7 @@ class ParameterStudy:
 
 
 def found(path, folder):
-    """Where a path of a parameter study's file leads. It is relative to the file's folder, and may begin with $CLEPSYDRA."""
+    """Where a path of a parameter study's file leads: relative to the file's folder, or it begins with $CLEPSYDRA."""
     return (folder / str(path).replace("$CLEPSYDRA", str(REPOSITORY))).resolve()
 
 
@@ -263,7 +291,9 @@ class OnceEach(yaml.SafeLoader):
         keys = [key.value for key, _ in node.value]
         for key, _ in node.value:
             if keys.count(key.value) > 1:
-                raise yaml.constructor.ConstructorError(None, None, f"entry '{key.value}' is there twice", key.start_mark)
+                raise yaml.constructor.ConstructorError(
+                    None, None, f"entry '{key.value}' is there twice", key.start_mark
+                )
         return super().construct_mapping(node, deep)
 
 
@@ -278,8 +308,10 @@ def readYaml(path, allowed, required):
         raise ParameterStudyError(f"{path}: must be a list of `entry: value`; allowed entries: {', '.join(allowed)}")
     for name in found:
         if name not in allowed:
-            raise ParameterStudyError(f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}"
-                                + parameter_file.meant(str(name), allowed))
+            raise ParameterStudyError(
+                f"{path}: unknown entry '{name}'; allowed: {', '.join(allowed)}"
+                + parameter_file.meant(str(name), allowed)
+            )
     for name in required:
         if name not in found:
             raise ParameterStudyError(f"{path}: entry '{name}' is missing")

@@ -14,7 +14,7 @@ ORDER = ("done", "running", "stopped", "waiting", "blocked", "failed")
 def states(parameterStudy):
     """State of every task, by name."""
     found = {}
-    for name, task in parameterStudy.tasks.items():     # needs come before those that need them
+    for name, task in parameterStudy.tasks.items():  # needs come before those that need them
         folder = parameterStudy.folder(task)
         if isDone(parameterStudy, task):
             found[name] = "done"
@@ -60,15 +60,24 @@ def remainingSeconds(parameterStudy, found):
         spent = wallSeconds(parameterStudy.folder(task)) if attemptsOf(parameterStudy.folder(task)) else 0
         if found[name] == "done":
             whole[name] = spent
-        elif task.part in parameterStudy.template["steps"] and (now := progress(parameterStudy, task)) and now["share"] > 0.02:
+        elif (
+            task.part in parameterStudy.template["steps"]
+            and (now := progress(parameterStudy, task))
+            and now["share"] > 0.02
+        ):
             whole[name] = spent / now["share"]
     left = {}
     for name, task in parameterStudy.tasks.items():
         if found[name] == "done":
             continue
-        alike = [whole[other] for other, its in parameterStudy.tasks.items() if other in whole and its.part == task.part]
-        nearer = [whole[other] for other, its in parameterStudy.tasks.items()
-                  if other in whole and (its.part, its.entry) == (task.part, task.entry)]
+        alike = [
+            whole[other] for other, its in parameterStudy.tasks.items() if other in whole and its.part == task.part
+        ]
+        nearer = [
+            whole[other]
+            for other, its in parameterStudy.tasks.items()
+            if other in whole and (its.part, its.entry) == (task.part, task.entry)
+        ]
         spent = wallSeconds(parameterStudy.folder(task)) if attemptsOf(parameterStudy.folder(task)) else 0
         guesses = [whole[name]] if name in whole else nearer or alike
         left[name] = max(0, sum(guesses) / len(guesses) - spent) if guesses else None
@@ -82,9 +91,16 @@ def table(parameterStudy, cores):
     rows = [("task", "state", "simulated", "in the hopper", "spent", "left")]
     for name, task in sorted(parameterStudy.tasks.items(), key=lambda item: ORDER.index(found[item[0]])):
         now = progress(parameterStudy, task) if parameterStudy.endTime(task) else None
-        rows.append((name, found[name], f"{now['time']:.2f} of {parameterStudy.endTime(task):g} s" if now else "-",
-                     f"{1e3 * now['mass']:.1f} g" if now else "-", duration(spent(parameterStudy, task)),
-                     "" if found[name] == "done" else duration(left[name])))
+        rows.append(
+            (
+                name,
+                found[name],
+                f"{now['time']:.2f} of {parameterStudy.endTime(task):g} s" if now else "-",
+                f"{1e3 * now['mass']:.1f} g" if now else "-",
+                duration(spent(parameterStudy, task)),
+                "" if found[name] == "done" else duration(left[name]),
+            )
+        )
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
     return lines + ["", headline(parameterStudy, found, left, cores)]
@@ -102,8 +118,10 @@ def headline(parameterStudy, found, left, cores):
         seconds = max(work / cores, max(known.values()))
         unknown = len(counted) - len(known)
         at = time.strftime("%a %H:%M", time.localtime(time.time() + seconds))
-        parts.append(f"{'not before' if unknown else 'ends about'} {at} ({duration(seconds)} on {cores} cores"
-                     + (f"; nothing known yet of {unknown} tasks)" if unknown else ")"))
+        parts.append(
+            f"{'not before' if unknown else 'ends about'} {at} ({duration(seconds)} on {cores} cores"
+            + (f"; nothing known yet of {unknown} tasks)" if unknown else ")")
+        )
     return ", ".join(parts)
 
 
@@ -121,5 +139,8 @@ def duration(seconds):
 
 def failures(parameterStudy):
     """Name and log's tail of what failed."""
-    return [(name, Path(parameterStudy.folder(parameterStudy.tasks[name]), "failed").read_text())
-            for name, state in states(parameterStudy).items() if state == "failed"]
+    return [
+        (name, Path(parameterStudy.folder(parameterStudy.tasks[name]), "failed").read_text())
+        for name, state in states(parameterStudy).items()
+        if state == "failed"
+    ]

@@ -1,6 +1,7 @@
 """Runs one task of a parameterStudy: makes its folder, runs or resumes it, publishes its results.
 
-The folder of a task holds, beside the copy of the case: `log` (what Allrun said), `attempts` (start and end of each, one
+The folder of a task holds, beside the copy of the case: `log` (what Allrun said), `attempts` (start and end of each,
+one
 JSON object per line), and then `done` or `failed`. Whoever runs it holds a lock on `attempts`.
 """
 
@@ -23,10 +24,10 @@ from parameterStudies.plan import ParameterStudyError
 
 # What a template's outputs are called, which must not be copied with it.
 OUTPUTS = ("steps", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
-STOPPED = 143           # exit status of Allrun, and of a task, that SIGTERM ended with a checkpoint
-BETWEEN_LOOKS = 1       # s
-BETWEEN_PRUNINGS = 60   # s
-MOST_ROWS = 5000        # of a published m(t), beside the last
+STOPPED = 143  # exit status of Allrun, and of a task, that SIGTERM ended with a checkpoint
+BETWEEN_LOOKS = 1  # s
+BETWEEN_PRUNINGS = 60  # s
+MOST_ROWS = 5000  # of a published m(t), beside the last
 NICENESS = "10"
 
 
@@ -59,14 +60,18 @@ def isDone(parameterStudy, task):
     """A run is not done once it is to last longer than it did."""
     folder, endTime = parameterStudy.folder(task), parameterStudy.template["steps"].get(task.part)
     return (folder / "done").exists() and (
-        endTime is None or parameter_file.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task))
+        endTime is None or parameter_file.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task)
+    )
 
 
 def hasEnded(parameterStudy, task):
     """True where the last attempt came to its end, and only its results may be missing."""
     folder = parameterStudy.folder(task)
-    return (events(folder)[-1:] != [] and events(folder)[-1].get("status") == 0
-            and (folder / "parameters").read_text() == parameterStudy.parameterText(task))
+    return (
+        events(folder)[-1:] != []
+        and events(folder)[-1].get("status") == 0
+        and (folder / "parameters").read_text() == parameterStudy.parameterText(task)
+    )
 
 
 def attempt(parameterStudy, task, attempts):
@@ -78,15 +83,23 @@ def attempt(parameterStudy, task, attempts):
 
 
 def makeFolder(parameterStudy, task):
-    """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how long
+    """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how
+    long
     the steps last."""
     folder = parameterStudy.folder(task)
     if folder.exists():
-        changed = [name for name in parameter_file.changed_names(parameter_file.parameters(folder / "parameters"), parameterStudy.parameters(task))
-                   if name not in parameterStudy.template["steps"].values()]
+        changed = [
+            name
+            for name in parameter_file.changed_names(
+                parameter_file.parameters(folder / "parameters"), parameterStudy.parameters(task)
+            )
+            if name not in parameterStudy.template["steps"].values()
+        ]
         if changed:
-            raise SystemExit(f"parameterStudy: {folder} was begun with other parameters than the parameter study's file has now "
-                             f"({', '.join(changed)}); remove that folder to begin again, or give the run another name")
+            raise SystemExit(
+                f"parameterStudy: {folder} was begun with other parameters than the parameter study's file has now "
+                f"({', '.join(changed)}); remove that folder to begin again, or give the run another name"
+            )
         return
     unfinished = folder.with_name(folder.name + ".unfinished")
     copyCase(parameterStudy.case, unfinished)
@@ -99,7 +112,8 @@ def makeFolder(parameterStudy, task):
 
 
 def copyCase(case, folder):
-    """A case without what runs have left in it. Its programs become links: they find the repository's scripts from where
+    """A case without what runs have left in it. Its programs become links: they find the repository's scripts from
+    where
     they really are."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(case, folder, ignore=shutil.ignore_patterns(*OUTPUTS))
@@ -143,9 +157,15 @@ def runAllrun(parameterStudy, task):
     environment = os.environ | {"CLEPSYDRA_BUILD": str(program), "LD_LIBRARY_PATH": ":".join(libraries)}
     with open(folder / "log", "a") as log:
         # a session of its own: an interrupt from the terminal reaches this program only, which asks for a checkpoint
-        process = subprocess.Popen(["nice", "-n", NICENESS, "./Allrun", "-np", str(task.ranks), task.part], cwd=folder,
-                                   env=environment, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT,
-                                   start_new_session=True)
+        process = subprocess.Popen(
+            ["nice", "-n", NICENESS, "./Allrun", "-np", str(task.ranks), task.part],
+            cwd=folder,
+            env=environment,
+            stdin=subprocess.DEVNULL,
+            stdout=log,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+        )
     onStop(lambda *_: process.send_signal(signal.SIGTERM))
     nextPruning = time.time() + BETWEEN_PRUNINGS
     while process.poll() is None:
@@ -169,9 +189,11 @@ def prune(parameterStudy, task):
     step = stepFolder(parameterStudy, task)
     if parameterStudy.keepTimes is None or not (step / "checkpoints").is_dir():
         return
-    complete = sorted((marker.parent for marker in (step / "checkpoints").glob("*/complete")),
-                      key=lambda checkpoint: float(checkpoint.name))
-    for checkpoint in complete[:-parameterStudy.keepTimes]:
+    complete = sorted(
+        (marker.parent for marker in (step / "checkpoints").glob("*/complete")),
+        key=lambda checkpoint: float(checkpoint.name),
+    )
+    for checkpoint in complete[: -parameterStudy.keepTimes]:
         for part in [step, *step.glob("processor*")]:
             shutil.rmtree(part / checkpoint.name, ignore_errors=True)
         shutil.rmtree(checkpoint)
@@ -187,6 +209,7 @@ def tail(path, lines=25):
 
 # --- results -------------------------------------------------------------------------------------
 
+
 def publish(parameterStudy, task):
     """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
     parameterStudy.results.mkdir(parents=True, exist_ok=True)
@@ -200,12 +223,24 @@ def publish(parameterStudy, task):
         table.writerows((f"{t:.6g}", f"{m:.7g}", int(particles)) for t, m, particles, *_ in rows)
 
     parameters = parameterStudy.parameters(task)
-    text = subprocess.run([*parameterStudy.template["summary"], task.part],
-                          cwd=parameterStudy.folder(task), stdout=subprocess.PIPE, check=True).stdout
-    record = {"parameterStudy": parameterStudy.path.stem, "run": task.publish, "entry": task.entry, "step": task.part,
-              "seed": parameters[parameterStudy.template["seed"]], "parameters": parameters,
-              "packing": packing(parameterStudy, task), "code": codeVersions(step / "log.pimpleDemFoam"),
-              "cost": cost(parameterStudy, task), "summary": json.loads(text)}
+    text = subprocess.run(
+        [*parameterStudy.template["summary"], task.part],
+        cwd=parameterStudy.folder(task),
+        stdout=subprocess.PIPE,
+        check=True,
+    ).stdout
+    record = {
+        "parameterStudy": parameterStudy.path.stem,
+        "run": task.publish,
+        "entry": task.entry,
+        "step": task.part,
+        "seed": parameters[parameterStudy.template["seed"]],
+        "parameters": parameters,
+        "packing": packing(parameterStudy, task),
+        "code": codeVersions(step / "log.pimpleDemFoam"),
+        "cost": cost(parameterStudy, task),
+        "summary": json.loads(text),
+    }
     whole_files.write(parameterStudy.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
 
 
@@ -232,12 +267,18 @@ def events(folder):
         try:
             event = json.loads(line)
             # a start has a time and a number of ranks; an end, a time and a status, and comes after a start
-            numbers = (event["start"], event["ranks"]) if "start" in event else (event["end"], event["status"], found[-1]["start"])
+            numbers = (
+                (event["start"], event["ranks"])
+                if "start" in event
+                else (event["end"], event["status"], found[-1]["start"])
+            )
             if not all(isinstance(one, (int, float)) for one in numbers):
                 raise ValueError
         except (ValueError, KeyError, TypeError, IndexError, AttributeError):
-            raise ParameterStudyError(f"{path}:{number}: {line[:60]!r} is no start or end of an attempt, as JSON; remove that line: "
-                                "only the time that was spent gets lost") from None
+            raise ParameterStudyError(
+                f"{path}:{number}: {line[:60]!r} is no start or end of an attempt, as JSON; remove that line: "
+                "only the time that was spent gets lost"
+            ) from None
         found.append(event)
     return found
 
@@ -267,10 +308,16 @@ def wallSeconds(folder):
 
 def cost(parameterStudy, task):
     attempts = attemptsOf(parameterStudy.folder(task))
-    return {"wallSeconds": round(wallSeconds(parameterStudy.folder(task)), 1), "attempts": len(attempts),
-            "coreHours": round(sum((end - start) * ranks for start, end, ranks in attempts) / 3600, 4),
-            "ranks": task.ranks, "host": socket.gethostname(), "processor": processorName(),
-            "loadAverage": round(os.getloadavg()[2], 2), "finished": time.strftime("%Y-%m-%dT%H:%M:%S%z")}
+    return {
+        "wallSeconds": round(wallSeconds(parameterStudy.folder(task)), 1),
+        "attempts": len(attempts),
+        "coreHours": round(sum((end - start) * ranks for start, end, ranks in attempts) / 3600, 4),
+        "ranks": task.ranks,
+        "host": socket.gethostname(),
+        "processor": processorName(),
+        "loadAverage": round(os.getloadavg()[2], 2),
+        "finished": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
+    }
 
 
 def processorName():

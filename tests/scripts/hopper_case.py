@@ -1,4 +1,5 @@
-"""cases/tutorials/hopperQuick in a copy of the repository's layout, with surrogates for solver, mesh programs and pictures."""
+"""cases/tutorials/hopperQuick in a copy of the repository's layout, with surrogates for solver, mesh programs and
+pictures."""
 
 import os
 import shutil

@@ -96,7 +96,8 @@ class Tutorials(unittest.TestCase):
                 self.assertEqual(sorted(case.rglob("*")), before)
 
     def testCheckAndMistakes(self) -> None:
-        """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of its
+        """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of
+        its
         log; without Clepsydra's environment a copy says what to do."""
         for name in BY_HAND:
             with self.subTest(name):

@@ -1,6 +1,7 @@
 """No word of our own where the field has another: CHANGELOG.md says what each was replaced by.
 
-A repository in which one file still speaks of beads, ledgers or rigs fails, with file and line. Names that stand in data of
+A repository in which one file still speaks of beads, ledgers or rigs fails, with file and line. Names that stand in
+data of
 others (bead3_trial_1.txt), in sealed records and in the table of old names are the only exceptions.
 """
 
@@ -13,12 +14,13 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 OLD = set(
-    "bead beads ledger ledgers booked turnover visitor visitors misfit misfits foil foils rig rigs anew lone mended told "
-    "campaign campaigns poured".split()
+    "bead beads ledger ledgers booked turnover visitor visitors misfit misfits foil foils rig rigs anew lone mended "
+    "told campaign campaigns poured".split()
 )
 OLD_PHRASES = re.compile(r"\bstand-?ins?\b", re.IGNORECASE)
 
-# What must keep its bytes or names things of others: records that are sealed or hashed, inputs that a fuzzer found, the licence;
+# What must keep its bytes or names things of others: records that are sealed or hashed, inputs that a fuzzer found,
+# the licence;
 # what exists to name the old words.
 EXEMPT = re.compile(
     r"CHANGELOG\.md|LICENSE|cases/paper/README\.md|cases/studies/blindHopper/(oldNames\.py|old_names\.py|results/)"
@@ -27,7 +29,8 @@ EXEMPT = re.compile(
 )
 # Names of the files, columns and runs of measurements, and the material of the paper.
 OF_DATA = re.compile(
-    r"beadfall_glycerol|glycerine_beads_tall|nylon_beads_water|(?:glycerol|water)bead\w*|\bbead_?[0-9*][\w.*]*|[Gg]lass[ -]beads?"
+    r"beadfall_glycerol|glycerine_beads_tall|nylon_beads_water|(?:glycerol|water)bead\w*"
+    r"|\bbead_?[0-9*][\w.*]*|[Gg]lass[ -]beads?"
 )
 
 
