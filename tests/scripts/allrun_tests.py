@@ -102,7 +102,7 @@ class Results(HopperCase):
     def test_without_particles_written_all_but_their_picture_is_made(self):
         """What draws particles fails here, as it does where none were written; with particles it is called, and its
         failure reported."""
-        self.program(self.folder / "bin" / "xvfb-run", "#!/bin/sh\nexit 1\n")
+        self.program(self.folder / "scripts" / "renderFlow", "#!/bin/sh\nexit 1\n")
         self.refuses()
         self.set(drawParticles="off")
         self.succeeds()
