@@ -53,7 +53,7 @@ def rows(name, runs, measured):
     axis = measure.axis_velocity(diameter, viscosity)
 
     if name.startswith("particle"):
-        number = int(name[4:])
+        number = int(name.removeprefix("particle"))
         velocity = measured[f"velocity{number}"]
         # the diameter's .02 mm, the repeats, and the fit's own
         error = float(np.hypot(2 * 0.02e-3 / diameter * velocity, measured[f"velocityError{number}"]))
