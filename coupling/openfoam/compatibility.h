@@ -1,7 +1,7 @@
 #pragma once
 
-// Where OpenFOAM's interface differs between the versions that Clepsydra compiles with (ESI, v1912 and later), the
-// difference stands here and nowhere else. FindOpenFOAM.cmake defines OPENFOAM (2312 for v2312).
+// All differences of OpenFOAM's interface between the versions with which Clepsydra compiles (ESI, v1912 and later) are
+// handled in this file. FindOpenFOAM.cmake defines OPENFOAM (2312 for v2312).
 
 #include "IOobject.H"
 #include "Time.H"
@@ -11,7 +11,7 @@
 namespace clepsydra
 {
 
-/// What function objects keep from one write time to the next: their counters, triggers and results.
+/// State that function objects store from one write time to the next: their counters, triggers and results.
 inline const Foam::dictionary& functionObjectState(const Foam::Time& time)
 {
 #if OPENFOAM >= 2112
@@ -21,7 +21,7 @@ inline const Foam::dictionary& functionObjectState(const Foam::Time& time)
 #endif
 }
 
-/// The solutions of each linear system in the current time step, by the name of the field.
+/// Solver performance of each linear system in the current time step, by the name of the field.
 inline const Foam::dictionary& solverPerformanceDict(const Foam::fvMesh& mesh)
 {
 #if OPENFOAM >= 2312
@@ -31,7 +31,7 @@ inline const Foam::dictionary& solverPerformanceDict(const Foam::fvMesh& mesh)
 #endif
 }
 
-/// The file that an object of this type is read from; empty where there is none.
+/// File from which an object of this type is read; empty where there is none.
 template<class Type>
 Foam::fileName typeFilePath(const Foam::IOobject& object)
 {

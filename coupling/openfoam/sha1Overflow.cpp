@@ -1,17 +1,18 @@
 /// \file
-/// OpenFOAM's stream buffer for checksums, with the member that its own one lacks.
+/// A replacement of OpenFOAM's stream buffer for checksums that has the missing member overflow().
 ///
-/// OpenFOAM takes the SHA-1 of a dictionary by printing it into an osha1stream, as it does for every function object. That
-/// stream's buffer takes sequences of characters (xsputn), but no single character (overflow). Until version 13,
-/// libstdc++ wrote `os << 'c'` as a sequence of one; since version 14 it writes a single character. The stream then fails,
-/// and the run ends with "error in IOstream sha1". It is the library at run time that decides: Debian 13 has OpenFOAM v1912
-/// and libstdc++ 14, and so has Ubuntu 24.04, although the compiler there is GCC 13.
+/// OpenFOAM computes the SHA-1 of a dictionary by printing it into an osha1stream, as it does for every function
+/// object. The buffer of that stream accepts sequences of characters (xsputn) but no single character (overflow). Until
+/// version 13, libstdc++ wrote `os << 'c'` as a sequence of one; since version 14 it writes a single character. The
+/// stream then fails, and the run ends with "error in IOstream sha1". The library at run time is decisive: Debian 13
+/// has OpenFOAM v1912 and libstdc++ 14, and so has Ubuntu 24.04, although its compiler is GCC 13.
 ///
-/// The class here has the name and the members of OpenFOAM's. The dynamic linker gives libOpenFOAM the first table of
-/// virtual functions of that name: this one, because programs need libcoupling before libOpenFOAM. OpenFOAM's header
-/// OSHA1stream.H must not be included in our programs: its table would come first.
+/// The class in this file has the name and the members of OpenFOAM's class. The dynamic linker gives libOpenFOAM the
+/// first table of virtual functions of that name. That is the one in this file, because programs load libcoupling
+/// before libOpenFOAM. OpenFOAM's header OSHA1stream.H must not be included in this project, because the table it
+/// creates would come first.
 ///
-/// CMakeLists.txt compiles this file where OpenFOAM's header has no overflow.
+/// CMakeLists.txt compiles this file where OpenFOAM's header has no overflow().
 
 #include "SHA1.H"
 
@@ -27,7 +28,7 @@ class osha1stream
 
 class osha1stream::sha1buf : public std::streambuf
 {
-    // The only member of OpenFOAM's class, too.
+    // This is also the only member of OpenFOAM's class.
     SHA1 sha1_;
 
 protected:
@@ -35,7 +36,7 @@ protected:
     int_type overflow(int_type character) override;
 };
 
-/// The first virtual function that is not inline: the compiler puts the table of virtual functions beside it.
+/// The first virtual function that is not inline. The compiler places the table of virtual functions in the same file.
 std::streamsize osha1stream::sha1buf::xsputn(const char* characters, std::streamsize count)
 {
     sha1_.append(characters, static_cast<std::size_t>(count));

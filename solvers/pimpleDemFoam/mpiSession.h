@@ -20,8 +20,8 @@ public:
         if (!initialised)
         {
 #if defined(OMPI_MAJOR_VERSION) && OMPI_MAJOR_VERSION >= 5
-            // Open MPI 5 keeps files in a folder of TMPDIR. Where it cannot make that folder, MPI_Init reports success all
-            // the same, and a later call ends the program by a signal.
+            // Open MPI 5 stores files in a folder in TMPDIR. Where it cannot create that folder, MPI_Init still reports
+            // success, and a later call ends the program by a signal.
             const ScratchFolder canBeMade;
 #endif
             MPI_Init(nullptr, nullptr);

@@ -45,7 +45,7 @@ namespace
 namespace lmp = LAMMPS_NS;
 
 constexpr const char* versionAllowed = "3.8";
-/// Of values that are calculated there and here.
+/// Relative tolerance of values that both the library and this program compute.
 constexpr double tolerance = 1e-12;
 
 [[noreturn]] void refuse(const std::string& difference)
@@ -66,7 +66,7 @@ std::string asText(const T& value)
     return text.str();
 }
 
-/// Two particles in contact, as the scripts below make them. SI units.
+/// Two particles in contact, as the commands below create them. SI units.
 struct Particle
 {
     int id;
@@ -81,7 +81,7 @@ constexpr double youngsModulus = 5e6;
 constexpr double poissonsRatio = 0.25;
 constexpr double timeStep = 1e-6;
 
-/// What LIGGGHTS writes to the screen, in memory.
+/// A file in memory for LIGGGHTS' screen output.
 class Screen
 {
 public:
@@ -97,7 +97,7 @@ public:
     Screen(const Screen&) = delete;
     Screen& operator=(const Screen&) = delete;
 
-    /// As a name for fopen().
+    /// Name of the file for fopen().
     std::string name() const
     {
         return "/proc/self/fd/" + std::to_string(file_);
@@ -116,7 +116,8 @@ private:
     int file_;
 };
 
-/// An instance that the library allocates itself: where its class LAMMPS is larger than ours, one of ours would be too small.
+/// An instance of LIGGGHTS that the library allocates. One that this program allocated would be too small where the
+/// library's class LAMMPS is larger.
 class ScratchInstance
 {
 public:
@@ -139,7 +140,7 @@ public:
         }
     }
 
-    /// An instance that failed stays in memory, since its destructor may fail, too.
+    /// An instance that has failed stays in memory, because its destructor may fail, too.
     void close()
     {
         lammps_close(instance_);
@@ -157,7 +158,7 @@ public:
         }
     }
 
-    /// As LIGGGHTS prints it before anything else, whatever its classes look like.
+    /// Version as LIGGGHTS prints it before anything else, independently of the layout of its classes.
     std::string versionLine() const
     {
         return screen_.firstLine();
@@ -180,7 +181,7 @@ private:
 
 void requireVersion(const std::string& line)
 {
-    // LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled ...)
+    // The line is "LIGGGHTS (Version LIGGGHTS-PUBLIC 3.8.0, compiled ...)".
     const std::size_t name = line.find("Version LIGGGHTS");
     const std::size_t blank = line.find(' ', name == std::string::npos ? name : name + std::string("Version ").size());
     const std::string number = blank == std::string::npos ? "" : line.substr(blank + 1);
@@ -190,11 +191,11 @@ void requireVersion(const std::string& line)
     }
 }
 
-/// \param object  as the library has allocated it
+/// \param object  an object that the library has allocated
 template<class T>
 void requireSize(const char* name, T* object)
 {
-    // Allocators round sizes up, and glibc's adds a remainder of up to 16 bytes, which is too small to be used by itself.
+    // Allocators round sizes up, and glibc adds a remainder of up to 16 bytes that is too small for other uses.
     constexpr std::size_t remainder = 16;
     const std::size_t there = malloc_usable_size(object);
     const std::unique_ptr<void, decltype(&std::free)> own(std::malloc(sizeof(T)), &std::free);
@@ -247,7 +248,7 @@ void makeParticles(ScratchInstance& liggghts)
     liggghts.execute("timestep " + asText(timeStep));
 }
 
-/// No fix integrates: the particles stay where they are.
+/// Runs one step. No fix integrates, so the particles do not move.
 void makeOneStep(ScratchInstance& liggghts)
 {
     liggghts.execute("pair_style gran model hertz tangential history");
@@ -257,7 +258,7 @@ void makeOneStep(ScratchInstance& liggghts)
     requireSize("NeighList", liggghts->force->pair->list);
 }
 
-/// Where a member lies by the library, and by its headers.
+/// Position of a member according to the library and according to its headers.
 struct Member
 {
     const char* name;
@@ -309,7 +310,7 @@ void requireEqual(const std::string& name, const T& there, const T& expected)
 
 void requireNear(const std::string& name, double there, double expected)
 {
-    // Written so that "not a number" is refused.
+    // In this form the condition also refuses "not a number".
     if (!(std::abs(there - expected) <= tolerance * std::abs(expected)))
     {
         refuse("gives " + name + " as " + asText(there) + " instead of " + asText(expected));
@@ -338,8 +339,8 @@ void requireState(const ScratchInstance& liggghts)
     }
 }
 
-/// Two spheres of one material at rest relative to each other: F = 4/3 E* sqrt(r) delta^(3/2), E* = E / (2 (1 - nu^2)),
-/// 1/r = 1/r1 + 1/r2 (K. L. Johnson, Contact Mechanics, 1985, eq. 4.23).
+/// Hertz force of two spheres of one material at rest relative to each other: F = 4/3 E* sqrt(r) delta^(3/2) with
+/// E* = E/(2 (1 - nu^2)) and 1/r = 1/r1 + 1/r2 (K. L. Johnson, Contact Mechanics, 1985, eq. 4.23).
 void requireHertzForce(const ScratchInstance& liggghts, const char* whose)
 {
     const auto& [first, second] = particles;
@@ -375,7 +376,7 @@ void testLiggghtsLibrary()
     requireMembers(liggghts);
     requireState(liggghts);
     requireHertzForce(liggghts, "LIGGGHTS' loop");
-    // It reads more of LIGGGHTS' classes.
+    // This program's loop reads more of LIGGGHTS' classes.
     registerHertzPairStyle();
     makeOneStep(liggghts);
     requireHertzForce(liggghts, "this program's loop");

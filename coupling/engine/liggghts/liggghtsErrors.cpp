@@ -14,7 +14,7 @@ namespace clepsydra
 
 void replaceLiggghtsErrors()
 {
-    // All the members below.
+    // All members that are defined below.
     replaceFunctions(
         {
             "_ZN9LAMMPS_NS5Error3allEPKciS2_",
@@ -68,7 +68,7 @@ void LAMMPS_NS::Error::universe_one(const char*, int, const char* message)
     throw LiggghtsStopped(message, true);
 }
 
-/// LIGGGHTS' command `quit`.
+/// LIGGGHTS' command `quit` calls this member.
 void LAMMPS_NS::Error::done()
 {
     throw LiggghtsStopped(

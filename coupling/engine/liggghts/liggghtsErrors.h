@@ -6,12 +6,12 @@
 namespace clepsydra
 {
 
-/// Thrown instead of LIGGGHTS ending the process.
+/// Exception that is thrown where LIGGGHTS would end the process.
 ///
-/// LIGGGHTS ends in members of its class Error alone: they print to its own log and call exit() or MPI_Abort(). Linking
-/// liggghtsErrors.cpp into the program replaces all of those members (the dynamic linker prefers the program's
-/// definition to the library's; see replaceFunctions()), so that the message reaches the caller with the place where it
-/// happened.
+/// LIGGGHTS ends the process only in members of its class Error, which print to LIGGGHTS' log and call exit() or
+/// MPI_Abort(). Linking liggghtsErrors.cpp into the program replaces these members (the dynamic linker prefers the
+/// program's definition to the library's; see replaceFunctions()), so that the message reaches the caller with the
+/// place where the error occurred.
 class LiggghtsStopped : public std::runtime_error
 {
 public:
@@ -30,7 +30,7 @@ private:
     bool onOneRankOnly_;
 };
 
-/// To be called before LIGGGHTS is.
+/// Call before LIGGGHTS is started.
 /// \throws DemEngineError where LIGGGHTS' library cannot be made to use the replacements
 void replaceLiggghtsErrors();
 

@@ -5,8 +5,9 @@
 namespace clepsydra
 {
 
-/// While it lives, std::cerr prints nothing. LIGGGHTS registers its pair styles for the whole process, and warns there of
-/// each that a second instance, or this program, registers again: a hundred lines that mean nothing to the user.
+/// Suppresses the output of std::cerr while the object exists. LIGGGHTS registers its pair styles for the whole
+/// process, and warns of each that a second instance or this program registers again: a hundred lines without
+/// information for the user.
 class QuietRegistration
 {
 public:

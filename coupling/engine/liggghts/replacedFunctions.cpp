@@ -24,7 +24,7 @@ namespace clepsydra
 namespace
 {
 
-/// A shared library, or the program, as it lies in memory.
+/// A shared library or the program, as it is loaded in memory.
 struct LoadedObject
 {
     std::string file;
@@ -44,7 +44,7 @@ LoadedObject objectAt(const void* address)
     return {info.dli_fname, info.dli_fbase, static_cast<const link_map*>(map)};
 }
 
-/// An object's dynamic section; 0 for what it does not have.
+/// The dynamic section of an object; values that it does not have are 0.
 class DynamicSection
 {
 public:
@@ -65,14 +65,14 @@ public:
     template<class T>
     const T* table(ElfW(Sxword) tag) const
     {
-        // Already moved to where the object lies, by most C libraries.
+        // Most C libraries have already added the load address.
         const ElfW(Addr) address = value(tag);
         const ElfW(Addr) moved = address < object_.map->l_addr ? address + object_.map->l_addr : address;
         return reinterpret_cast<const T*>(moved); // NOLINT(performance-no-int-to-ptr)
     }
 
 private:
-    /// The last one where there is none of this tag.
+    /// The entry with this tag; the last entry where there is none.
     const ElfW(Dyn) & entry(ElfW(Sxword) tag) const
     {
         const ElfW(Dyn)* entry = object_.map->l_ld;
@@ -86,7 +86,7 @@ private:
     const LoadedObject& object_;
 };
 
-/// Those of some functions that an object leaves to the dynamic linker to find by name.
+/// The given functions as far as the object leaves it to the dynamic linker to find them by name.
 std::set<std::string_view> lookedUpOf(const std::vector<std::string>& functions, const LoadedObject& object)
 {
     const DynamicSection dynamic(object);
@@ -115,14 +115,14 @@ std::set<std::string_view> lookedUpOf(const std::vector<std::string>& functions,
     return found;
 }
 
-/// Looks up names in itself before anything else.
+/// Whether the object looks up names in itself before anywhere else.
 bool prefersItself(const LoadedObject& object)
 {
     const DynamicSection dynamic(object);
     return (dynamic.value(DT_FLAGS) & DF_SYMBOLIC) != 0 || dynamic.has(DT_SYMBOLIC);
 }
 
-/// As a programmer writes it.
+/// The name of a symbol as a programmer writes it.
 std::string readable(const std::string& symbol)
 {
     int status = 0;
@@ -131,17 +131,17 @@ std::string readable(const std::string& symbol)
     return status == 0 ? text.get() : symbol;
 }
 
-/// A function as the dynamic linker's tables have it.
+/// Address and size of a function in the dynamic linker's tables.
 struct Function
 {
     void* address = nullptr;
     std::size_t size = 0;
 };
 
-/// The library's own, whatever other objects have under this name.
+/// The library's own function, whatever other objects have a function of this name.
 Function functionOf(const LoadedObject& library, const std::string& symbol)
 {
-    // Loaded already: this only counts its users.
+    // The library is loaded already, so this only increases its reference count.
     const auto close = [](void* handle) { dlclose(handle); };
     const std::unique_ptr<void, decltype(close)> handle(dlopen(library.file.c_str(), RTLD_LAZY | RTLD_NOLOAD), close);
     void* const address = handle ? dlsym(handle.get(), symbol.c_str()) : nullptr;
@@ -155,7 +155,7 @@ Function functionOf(const LoadedObject& library, const std::string& symbol)
     return {address, static_cast<const ElfW(Sym)*>(entry)->st_size};
 }
 
-/// Instructions that jump to a function, however far it lies. They use a register that no argument is passed in.
+/// Instructions that jump to a function at any distance. They use a register in which no argument is passed.
 std::vector<unsigned char> jumpTo(const void* function)
 {
 #if defined(__x86_64__)
@@ -173,8 +173,9 @@ std::vector<unsigned char> jumpTo(const void* function)
 #endif
 }
 
-/// Lets a function of a library begin with a jump to another one, in this process's copy of the library.
-/// \return why that cannot be; empty where it is done
+/// Overwrites the beginning of a library's function by a jump to another function, in this process's copy of the
+/// library.
+/// \return why that is impossible; empty where it was done
 std::string redirect(const Function& from, const void* to)
 {
     const std::vector<unsigned char> code = jumpTo(to);
@@ -196,7 +197,7 @@ std::string redirect(const Function& from, const void* to)
     const std::uintptr_t begin = address / page * page;
     void* const pages = reinterpret_cast<void*>(begin); // NOLINT(performance-no-int-to-ptr)
     const std::size_t length = address + code.size() - begin;
-    // Writable and executable at once: where the system forbids either, it does so here, before anything is changed.
+    // Both writable and executable: where the system forbids this, it does so here, before anything has been changed.
     if (mprotect(pages, length, PROT_READ | PROT_WRITE | PROT_EXEC) != 0)
     {
         return std::string("the system forbids to change it in memory (") + std::strerror(errno) + ")";
@@ -241,8 +242,8 @@ void replaceFunctions(const std::vector<std::string>& symbols, const void* inLib
         {
             throw DemEngineError(
                 "The library " + library.file + " calls its own " + readable(symbol)
-                + ", not this program's, which hands errors on: one would end the run without a word. It cannot be "
-                  "replaced: "
+                + ", not this program's, which reports errors: an error would end the run without a message. It cannot "
+                  "be replaced: "
                 + obstacle
                 + "; allowed: LIGGGHTS linked without -Bsymbolic and -Bsymbolic-functions, as Debian's libliggghts is. "
                   "Ubuntu's is linked with the latter; to build it without, set "
