@@ -289,7 +289,7 @@ std::vector<std::string> nextOf(const Findings& findings)
                        < std::abs(b.estimate.value) / b.estimate.standardError;
             });
         const Feature& feature = study.features[largest->feature];
-        all.push_back("The residual is largest in condition " + study.conditions[largest->condition].name
+        all.push_back("The residual is most significant in condition " + study.conditions[largest->condition].name
                       + ", feature '" + feature.name + "': measured minus simulated is "
                       + Scale(feature.kind->isLog())(largest->estimate) + '.');
     }
