@@ -49,7 +49,7 @@ install(FILES ${_pages} DESTINATION share/man/man1)
 
 # What git tracks, since cases leave the results of runs beside their files; not the record of the blind test, which no case needs.
 install(CODE "
-    execute_process(COMMAND git -C \"${PROJECT_SOURCE_DIR}\" ls-files -- cases scripts meshes identification/effects \"*.md\" LICENSE CITATION.cff
+    execute_process(COMMAND git -C \"${PROJECT_SOURCE_DIR}\" ls-files -- cases cmake scripts meshes identification/effects \"*.md\" LICENSE CITATION.cff
             \":(exclude,glob)cases/**/blindHopper/**\"
         OUTPUT_VARIABLE files OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
     string(REPLACE \"\\n\" \";\" files \"\${files}\")

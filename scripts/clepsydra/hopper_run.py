@@ -63,6 +63,11 @@ def require_program(name: str) -> None:
         raise Failure(f"OpenFOAM's etc/ is not in '{os.environ.get('WM_PROJECT_DIR', '')}': run {SCRIPTS}/setup")
 
 
+def environment_of(folder: Path) -> dict[str, str]:
+    """The environment of a program that is started in a folder: OpenFOAM warns where PWD names another one."""
+    return {**os.environ, "PWD": str(folder.absolute())}
+
+
 def run_logged(folder: Path, *command: str) -> None:
     """Runs a program in a folder, with its output in log.<program> there."""
     name = Path(command[0]).name
@@ -70,7 +75,12 @@ def run_logged(folder: Path, *command: str) -> None:
     log = folder / f"log.{name}"
     with open(log, "w") as output:
         process = subprocess.Popen(
-            command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT
+            command,
+            cwd=folder,
+            env=environment_of(folder),
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
         )
         try:
             status = process.wait()
@@ -173,6 +183,7 @@ class Step:
             return subprocess.Popen(
                 command,
                 cwd=self.folder,
+                env=environment_of(self.folder),
                 stdin=subprocess.DEVNULL,
                 stdout=output,
                 stderr=subprocess.STDOUT,
@@ -301,7 +312,9 @@ class HopperCase:
                 if step != self.filling:
                     (copy.folder / "steps" / self.filling).symlink_to(self.folder / "steps" / self.filling)
                 self.say(f"step {step}")
-                tried = subprocess.run([SOLVER, "-dryRun"], cwd=folder, capture_output=True, text=True)
+                tried = subprocess.run(
+                    [SOLVER, "-dryRun"], cwd=folder, env=environment_of(folder), capture_output=True, text=True
+                )
                 if tried.returncode != 0:
                     print(tried.stdout + tried.stderr, file=sys.stderr)
                     raise Failure(f"step {step} cannot run as it is")

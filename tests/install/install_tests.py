@@ -205,7 +205,11 @@ class Package(Installed):
         installed = self.folder / "installed"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", installed], check=True, stdout=subprocess.DEVNULL)
         files = [
-            {path.relative_to(root): path for path in root.rglob("*") if path.is_file()}
+            {
+                path.relative_to(root): path
+                for path in root.rglob("*")
+                if path.is_file() and path.parent.name != "__pycache__"  # of the commands that were run
+            }
             for root in (installed, self.prefix)
         ]
         self.assertGreater(len(files[0]), 100)
