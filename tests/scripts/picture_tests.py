@@ -156,7 +156,7 @@ class Report(Pictures):
         phases = dict(re.findall(r"<tr><td>(\w+)</td><td class=number>([.\d]+) s</td>", page))
         self.assertEqual(phases, {name: f"{seconds:.1f}" for name, seconds in balances["phaseSeconds"].items()})
         for said in (
-            "Clepsydra 0.1.0, commit",
+            "Clepsydra 1.0.0, commit",
             "LIGGGHTS-PUBLIC 3.8.0",
             "DiFeliceDrag: fluid density",
             "Rayleigh time",
