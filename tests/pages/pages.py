@@ -52,7 +52,7 @@ def main():
 
 def pages():
     """Path in the repository -> text. Not the changelog, which names commands of the past."""
-    made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|runs|steps)/")
+    made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|work-quick|runs|steps)/")
     found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
     return {page: (ROOT / page).read_text() for page in found if page != "CHANGELOG.md" and not made.match(page)}
 
