@@ -45,10 +45,7 @@ from typing import Any, Union
 
 import yaml
 
-from clepsydra import arithmetic
-from clepsydra import environment
-from clepsydra import parameter_file
-from clepsydra import seeds
+from clepsydra import arithmetic, environment, parameter_file, seeds
 
 REPOSITORY = Path(os.environ.get("CLEPSYDRA", Path(__file__).resolve().parents[2]))
 FILE = "parameters.rules"

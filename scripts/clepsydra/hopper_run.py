@@ -24,8 +24,7 @@ from types import FrameType
 
 import yaml
 
-from clepsydra import case_rules
-from clepsydra import parameter_file
+from clepsydra import case_rules, parameter_file
 
 # scripts/environment, which every Allrun sources, names the repository or the package that is used.
 CLEPSYDRA = Path(os.environ.get("CLEPSYDRA", Path(__file__).resolve().parents[2]))

@@ -13,8 +13,8 @@ from unittest import mock
 import yaml
 
 from clepsydra import whole_files
-from parameterStudies import executors, task
-from parameterStudies.plan import ParameterStudy
+from clepsydra.parameter_studies import executors, task
+from clepsydra.parameter_studies.plan import ParameterStudy
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SURROGATE = REPOSITORY / "tests" / "parameterStudy" / "surrogate"
@@ -69,11 +69,11 @@ class DamagedState(ParameterStudyFile):
         self.assertRegex(outcome.stdout, r"one\.1\.dry +stopped")
         with task.locked(folder / "attempts") as attempts:
             with mock.patch("builtins.print") as said:
-                task.dropHalfLine(attempts)
+                task.drop_half_line(attempts)
             task.note(attempts, {"end": 30.0, "status": 1})
         self.assertIn("dropped half a line", said.call_args[0][0])
         self.assertEqual((folder / "attempts").read_text(), start + '{"end": 30.0, "status": 1}\n')
-        self.assertEqual(task.attemptsOf(folder), [[10.0, 30.0, 1]])
+        self.assertEqual(task.attempts_of(folder), [[10.0, 30.0, 1]])
 
     def test_other_damage_of_attempts_is_named(self):
         for line in ("no JSON", "[]", '{"start": "x", "ranks": 1}', '{"end": 1, "status": 0}', "{}"):

@@ -14,8 +14,8 @@ import subprocess
 import sys
 
 from clepsydra.environment import REPOSITORY, SCRIPTS
-from parameterStudies.plan import ParameterStudy, ParameterStudyError, Task
-from parameterStudies.task import makeFolder
+from clepsydra.parameter_studies.plan import ParameterStudy, ParameterStudyError, Task
+from clepsydra.parameter_studies.task import make_folder
 
 MESHES = REPOSITORY / "meshes"
 
@@ -43,7 +43,7 @@ def main() -> None:
     )
     folder = parameter_study.folder(task)
     shutil.rmtree(folder, ignore_errors=True)
-    makeFolder(parameter_study, task)
+    make_folder(parameter_study, task)
     subprocess.run(["./Allrun", "mesh"], cwd=folder, check=True)
 
     used = resource.getrusage(resource.RUSAGE_CHILDREN)

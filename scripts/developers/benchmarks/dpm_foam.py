@@ -29,7 +29,7 @@ def over(hopper, repetitions, run, make, said):
     if not shutil.which("DPMFoam"):
         raise timing.Skipped("there is no program DPMFoam in this OpenFOAM")
     folder = hopper.validation_case("besideDPMFoam")
-    Hopper.in_folder(folder, f"sed '$d' Allrun > functions; . ./functions; rm -rf runs; {make}; inEachRun solveInBoth")
+    Hopper.in_folder(folder, f". ./Allrun; rm -rf runs; {make}; inEachRun solveInBoth")
     ours = folder / "runs" / run
     theirs = ours / "DPMFoam"
     times = timing.interleaved(

@@ -26,7 +26,7 @@ def rates(hopper, repetitions):
     Hopper.in_folder(
         folder,
         (
-            "sed '$d' Allrun > functions; . ./functions; rm -rf runs; caseTemplate=../../tutorials/hopperQuick; "
+            ". ./Allrun; rm -rf runs; caseTemplate=../../tutorials/hopperQuick; "
             f"makeRun hopper {QUICK if hopper.quick else WHOLE}; inEachRun solveInBoth"
         ),
     )

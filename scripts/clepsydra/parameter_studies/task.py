@@ -17,10 +17,8 @@ import subprocess
 import time
 from pathlib import Path
 
-from clepsydra import case_files
-from clepsydra import parameter_file
-from clepsydra import whole_files
-from parameterStudies.plan import ParameterStudyError
+from clepsydra import case_files, parameter_file, whole_files
+from clepsydra.parameter_studies.plan import ParameterStudyError
 
 # What a template's outputs are called, which must not be copied with it.
 OUTPUTS = ("steps", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
@@ -31,24 +29,24 @@ MOST_ROWS = 5000  # of a published m(t), beside the last
 NICENESS = "10"
 
 
-def execute(parameterStudy, task):
+def execute(parameter_study, task):
     """Returns the exit status: 0 done, 1 failed, 143 stopped with a checkpoint."""
-    folder = parameterStudy.folder(task)
-    if isDone(parameterStudy, task):
+    folder = parameter_study.folder(task)
+    if is_done(parameter_study, task):
         return 0
-    makeFolder(parameterStudy, task)
+    make_folder(parameter_study, task)
     with locked(folder / "attempts") as attempts:
-        dropHalfLine(attempts)
+        drop_half_line(attempts)
         for mark in ("done", "failed"):
             (folder / mark).unlink(missing_ok=True)
-        status = 0 if hasEnded(parameterStudy, task) else attempt(parameterStudy, task, attempts)
+        status = 0 if has_ended(parameter_study, task) else attempt(parameter_study, task, attempts)
         if status == STOPPED:
             return status
         try:
             if status != 0:
                 raise RuntimeError(tail(folder / "log"))
             if task.publish:
-                publish(parameterStudy, task)
+                publish(parameter_study, task)
         except (Exception, SystemExit) as problem:  # whatever it is, the other runs go on, and status shows it
             whole_files.write(folder / "failed", f"{problem}\n")
             return 1
@@ -56,44 +54,44 @@ def execute(parameterStudy, task):
     return 0
 
 
-def isDone(parameterStudy, task):
+def is_done(parameter_study, task):
     """A run is not done once it is to last longer than it did."""
-    folder, endTime = parameterStudy.folder(task), parameterStudy.template["steps"].get(task.part)
+    folder, end_time = parameter_study.folder(task), parameter_study.template["steps"].get(task.part)
     return (folder / "done").exists() and (
-        endTime is None or parameter_file.parameters(folder / "parameters")[endTime] >= parameterStudy.endTime(task)
+        end_time is None or parameter_file.parameters(folder / "parameters")[end_time] >= parameter_study.end_time(task)
     )
 
 
-def hasEnded(parameterStudy, task):
+def has_ended(parameter_study, task):
     """True where the last attempt came to its end, and only its results may be missing."""
-    folder = parameterStudy.folder(task)
+    folder = parameter_study.folder(task)
     return (
         events(folder)[-1:] != []
         and events(folder)[-1].get("status") == 0
-        and (folder / "parameters").read_text() == parameterStudy.parameterText(task)
+        and (folder / "parameters").read_text() == parameter_study.parameter_text(task)
     )
 
 
-def attempt(parameterStudy, task, attempts):
+def attempt(parameter_study, task, attempts):
     note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
-    whole_files.write(parameterStudy.folder(task) / "parameters", parameterStudy.parameterText(task))
-    status = runAllrun(parameterStudy, task)
+    whole_files.write(parameter_study.folder(task) / "parameters", parameter_study.parameter_text(task))
+    status = run_allrun(parameter_study, task)
     note(attempts, {"end": time.time(), "status": status})
     return status
 
 
-def makeFolder(parameterStudy, task):
+def make_folder(parameter_study, task):
     """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how
     long
     the steps last."""
-    folder = parameterStudy.folder(task)
+    folder = parameter_study.folder(task)
     if folder.exists():
         changed = [
             name
             for name in parameter_file.changed_names(
-                parameter_file.parameters(folder / "parameters"), parameterStudy.parameters(task)
+                parameter_file.parameters(folder / "parameters"), parameter_study.parameters(task)
             )
-            if name not in parameterStudy.template["steps"].values()
+            if name not in parameter_study.template["steps"].values()
         ]
         if changed:
             raise SystemExit(
@@ -102,16 +100,16 @@ def makeFolder(parameterStudy, task):
             )
         return
     unfinished = folder.with_name(folder.name + ".unfinished")
-    copyCase(parameterStudy.case, unfinished)
-    (unfinished / "parameters").write_text(parameterStudy.parameterText(task))
+    copy_case(parameter_study.case, unfinished)
+    (unfinished / "parameters").write_text(parameter_study.parameter_text(task))
     for made, maker in task.links:
         (unfinished / made).parent.mkdir(parents=True, exist_ok=True)
-        (unfinished / made).symlink_to(parameterStudy.work / maker / made)
+        (unfinished / made).symlink_to(parameter_study.work / maker / made)
     whole_files.settle_tree(unfinished)
     unfinished.rename(folder)
 
 
-def copyCase(case, folder):
+def copy_case(case, folder):
     """A case without what runs have left in it. Its programs become links: they find the repository's scripts from
     where
     they really are."""
@@ -139,7 +137,7 @@ def note(attempts, event):
     os.fsync(attempts.fileno())
 
 
-def dropHalfLine(attempts):
+def drop_half_line(attempts):
     """What a kill, or a full disk, has left at the end."""
     attempts.seek(0)
     text = attempts.read()
@@ -150,9 +148,9 @@ def dropHalfLine(attempts):
     attempts.seek(0, os.SEEK_END)
 
 
-def runAllrun(parameterStudy, task):
-    folder = parameterStudy.folder(task)
-    program = parameterStudy.work / "program"
+def run_allrun(parameter_study, task):
+    folder = parameter_study.folder(task)
+    program = parameter_study.work / "program"
     libraries = [str(program / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
     environment = os.environ | {"CLEPSYDRA_BUILD": str(program), "LD_LIBRARY_PATH": ":".join(libraries)}
     with open(folder / "log", "a") as log:
@@ -166,41 +164,41 @@ def runAllrun(parameterStudy, task):
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
-    onStop(lambda *_: process.send_signal(signal.SIGTERM))
-    nextPruning = time.time() + BETWEEN_PRUNINGS
+    on_stop(lambda *_: process.send_signal(signal.SIGTERM))
+    next_pruning = time.time() + BETWEEN_PRUNINGS
     while process.poll() is None:
         time.sleep(BETWEEN_LOOKS)
-        if time.time() > nextPruning:
-            prune(parameterStudy, task)
-            nextPruning = time.time() + BETWEEN_PRUNINGS
-    prune(parameterStudy, task)
+        if time.time() > next_pruning:
+            prune(parameter_study, task)
+            next_pruning = time.time() + BETWEEN_PRUNINGS
+    prune(parameter_study, task)
     return process.returncode
 
 
-def onStop(handler):
+def on_stop(handler):
     """Calls it on SIGTERM, Ctrl-C and the end of a terminal; what nohup has switched off stays so."""
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, handler)
 
 
-def prune(parameterStudy, task):
+def prune(parameter_study, task):
     """Removes the older fields and checkpoints, where the parameter study says so."""
-    step = stepFolder(parameterStudy, task)
-    if parameterStudy.keepTimes is None or not (step / "checkpoints").is_dir():
+    step = step_folder(parameter_study, task)
+    if parameter_study.keep_times is None or not (step / "checkpoints").is_dir():
         return
     complete = sorted(
         (marker.parent for marker in (step / "checkpoints").glob("*/complete")),
         key=lambda checkpoint: float(checkpoint.name),
     )
-    for checkpoint in complete[: -parameterStudy.keepTimes]:
+    for checkpoint in complete[: -parameter_study.keep_times]:
         for part in [step, *step.glob("processor*")]:
             shutil.rmtree(part / checkpoint.name, ignore_errors=True)
         shutil.rmtree(checkpoint)
 
 
-def stepFolder(parameterStudy, task):
-    return parameterStudy.folder(task) / "steps" / task.part
+def step_folder(parameter_study, task):
+    return parameter_study.folder(task) / "steps" / task.part
 
 
 def tail(path, lines=25):
@@ -210,48 +208,48 @@ def tail(path, lines=25):
 # --- results -------------------------------------------------------------------------------------
 
 
-def publish(parameterStudy, task):
+def publish(parameter_study, task):
     """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
-    parameterStudy.results.mkdir(parents=True, exist_ok=True)
-    step = stepFolder(parameterStudy, task)
+    parameter_study.results.mkdir(parents=True, exist_ok=True)
+    step = step_folder(parameter_study, task)
     columns = case_files.columns(step, "massInHopper")
     last = columns.shape[1] - 1
     rows = columns.T[[*range(0, last, last // MOST_ROWS + 1), last]]
-    with whole_files.replacing(parameterStudy.results / f"{task.publish}.csv") as file:
+    with whole_files.replacing(parameter_study.results / f"{task.publish}.csv") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["time [s]", "mass [kg]", "particles [-]"])
         table.writerows((f"{t:.6g}", f"{m:.7g}", int(particles)) for t, m, particles, *_ in rows)
 
-    parameters = parameterStudy.parameters(task)
+    parameters = parameter_study.parameters(task)
     text = subprocess.run(
-        [*parameterStudy.template["summary"], task.part],
-        cwd=parameterStudy.folder(task),
+        [*parameter_study.template["summary"], task.part],
+        cwd=parameter_study.folder(task),
         stdout=subprocess.PIPE,
         check=True,
     ).stdout
     record = {
-        "parameterStudy": parameterStudy.path.stem,
+        "parameterStudy": parameter_study.path.stem,
         "run": task.publish,
         "entry": task.entry,
         "step": task.part,
-        "seed": parameters[parameterStudy.template["seed"]],
+        "seed": parameters[parameter_study.template["seed"]],
         "parameters": parameters,
-        "packing": packing(parameterStudy, task),
-        "code": codeVersions(step / "log.pimpleDemFoam"),
-        "cost": cost(parameterStudy, task),
+        "packing": packing(parameter_study, task),
+        "code": code_versions(step / "log.pimpleDemFoam"),
+        "cost": cost(parameter_study, task),
         "summary": json.loads(text),
     }
-    whole_files.write(parameterStudy.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
+    whole_files.write(parameter_study.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
 
 
-def packing(parameterStudy, task):
+def packing(parameter_study, task):
     """Which filling a run began from, and where its parameters differ from the run's."""
-    filling = next(parameterStudy.tasks[name] for name in task.needs if parameterStudy.tasks[name].part == "filling")
-    own, filled = parameterStudy.parameters(task), parameterStudy.parameters(filling)
+    filling = next(parameter_study.tasks[name] for name in task.needs if parameter_study.tasks[name].part == "filling")
+    own, filled = parameter_study.parameters(task), parameter_study.parameters(filling)
     return {"name": filling.name, "otherParameters": {name: filled[name] for name in own if own[name] != filled[name]}}
 
 
-def codeVersions(log):
+def code_versions(log):
     """What the solver says of itself, once for each version that took part."""
     with open(log, errors="replace") as lines:
         return list(dict.fromkeys(line.strip() for line in lines if line.startswith("    Clepsydra ")))
@@ -283,7 +281,7 @@ def events(folder):
     return found
 
 
-def attemptsOf(folder):
+def attempts_of(folder):
     """[start, end, ranks] of each; an attempt that was killed ended when its log was last written."""
     found = []
     for event in events(folder):
@@ -294,33 +292,33 @@ def attemptsOf(folder):
     for number, (_, end, _) in enumerate(found):
         if end is None:
             following = found[number + 1][0] if number + 1 < len(found) else time.time()
-            found[number][1] = min(lastWritten(folder), following)
+            found[number][1] = min(last_written(folder), following)
     return found
 
 
-def lastWritten(folder):
+def last_written(folder):
     return max(path.stat().st_mtime for path in [folder / "attempts", *folder.glob("steps/*/log.pimpleDemFoam")])
 
 
-def wallSeconds(folder):
-    return sum(max(0, end - start) for start, end, _ in attemptsOf(folder))
+def wall_seconds(folder):
+    return sum(max(0, end - start) for start, end, _ in attempts_of(folder))
 
 
-def cost(parameterStudy, task):
-    attempts = attemptsOf(parameterStudy.folder(task))
+def cost(parameter_study, task):
+    attempts = attempts_of(parameter_study.folder(task))
     return {
-        "wallSeconds": round(wallSeconds(parameterStudy.folder(task)), 1),
+        "wallSeconds": round(wall_seconds(parameter_study.folder(task)), 1),
         "attempts": len(attempts),
         "coreHours": round(sum((end - start) * ranks for start, end, ranks in attempts) / 3600, 4),
         "ranks": task.ranks,
         "host": socket.gethostname(),
-        "processor": processorName(),
+        "processor": processor_name(),
         "loadAverage": round(os.getloadavg()[2], 2),
         "finished": time.strftime("%Y-%m-%dT%H:%M:%S%z"),
     }
 
 
-def processorName():
+def processor_name():
     with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith("model name"):

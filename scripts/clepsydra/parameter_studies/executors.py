@@ -7,33 +7,33 @@ import subprocess
 import sys
 
 from clepsydra import whole_files
-from parameterStudies.plan import ParameterStudyError
-from parameterStudies.task import isDone, onStop
+from clepsydra.parameter_studies.plan import ParameterStudyError
+from clepsydra.parameter_studies.task import is_done, on_stop
 
 COMMAND = os.path.abspath(sys.argv[0])
 
 
-def local(parameterStudy, cores):
+def local(parameter_study, cores):
     """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal
     that asked
     it to stop, or None."""
-    slots = max(1, cores // max(task.ranks for task in parameterStudy.tasks.values()))
-    makefile = parameterStudy.work / "Makefile"
-    targets = {name: f"{name}/done" for name in parameterStudy.tasks}
+    slots = max(1, cores // max(task.ranks for task in parameter_study.tasks.values()))
+    makefile = parameter_study.work / "Makefile"
+    targets = {name: f"{name}/done" for name in parameter_study.tasks}
     # whatever marks there are: a run may have been lengthened since
-    left = [targets[name] for name, task in parameterStudy.tasks.items() if not isDone(parameterStudy, task)]
+    left = [targets[name] for name, task in parameter_study.tasks.items() if not is_done(parameter_study, task)]
     rules = [f"all: {' '.join(targets.values())}", f".PHONY: {' '.join(left)}"]
-    for name, task in parameterStudy.tasks.items():
+    for name, task in parameter_study.tasks.items():
         rules += [
             f"{targets[name]}: | {' '.join(targets[need] for need in task.needs)}",
             # exec: the signals of make must reach the task, not a shell before it
-            "\t@exec " + shlex.join([COMMAND, "task", str(parameterStudy.path), name]).replace("$", "$$") + " 2>&1",
+            "\t@exec " + shlex.join([COMMAND, "task", str(parameter_study.path), name]).replace("$", "$$") + " 2>&1",
         ]
     whole_files.write(makefile, "\n".join(rules) + "\n")
     # without make's own words on what failed: the tasks say it themselves
     make = subprocess.Popen(
         ["make", "--keep-going", "--silent", f"--jobs={slots}", "--file", makefile.name, "all"],
-        cwd=parameterStudy.work,
+        cwd=parameter_study.work,
         stdin=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
@@ -45,16 +45,16 @@ def local(parameterStudy, cores):
         if number != signal.SIGINT:
             make.send_signal(signal.SIGTERM)
 
-    onStop(stop)
+    on_stop(stop)
     make.wait()
     return received[0] if received else None
 
 
-def slurm(parameterStudy, options):
+def slurm(parameter_study, options):
     """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
     levels = []
-    for name, task in parameterStudy.tasks.items():
-        if isDone(parameterStudy, task):
+    for name, task in parameter_study.tasks.items():
+        if is_done(parameter_study, task):
             continue
         level = 1 + max((number for number, others in enumerate(levels) if set(task.needs) & set(others)), default=-1)
         while len(levels) <= level:
@@ -64,36 +64,36 @@ def slurm(parameterStudy, options):
     for names in filter(None, levels):
         here = [
             submit(
-                parameterStudy,
-                [name for name in names if parameterStudy.tasks[name].ranks == ranks],
+                parameter_study,
+                [name for name in names if parameter_study.tasks[name].ranks == ranks],
                 ranks,
                 before,
                 options,
             )
-            for ranks in sorted({parameterStudy.tasks[name].ranks for name in names})
+            for ranks in sorted({parameter_study.tasks[name].ranks for name in names})
         ]
         jobs += here
         before = here
     return jobs
 
 
-def submit(parameterStudy, names, ranks, before, options):
+def submit(parameter_study, names, ranks, before, options):
     """One job array. Its tasks find their names by the line of a list."""
-    number = len(list(parameterStudy.work.glob("slurm.*.list")))
-    listed = parameterStudy.work / f"slurm.{number}.list"
+    number = len(list(parameter_study.work.glob("slurm.*.list")))
+    listed = parameter_study.work / f"slurm.{number}.list"
     whole_files.write(listed, "\n".join(names) + "\n")
     name = f'"$(sed -n "$SLURM_ARRAY_TASK_ID"p {shlex.quote(str(listed))})"'
     # exec: Slurm's SIGTERM, ahead of the time limit, must reach the task itself
-    script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(parameterStudy.path)])} {name}\n"
+    script = f"#!/bin/bash\nexec {shlex.join([COMMAND, 'task', str(parameter_study.path)])} {name}\n"
     command = [
         "sbatch",
         "--parsable",
-        f"--job-name={parameterStudy.path.stem}",
+        f"--job-name={parameter_study.path.stem}",
         f"--array=1-{len(names)}",
         "--nodes=1",
         f"--ntasks={ranks}",
         "--signal=B:TERM@300",
-        f"--output={parameterStudy.work}/slurm.%A_%a.log",
+        f"--output={parameter_study.work}/slurm.%A_%a.log",
         *options,
     ]
     if before:

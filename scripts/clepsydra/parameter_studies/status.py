@@ -6,19 +6,19 @@ from collections import Counter
 from pathlib import Path
 
 from clepsydra import case_files
-from parameterStudies.task import attemptsOf, isDone, stepFolder, wallSeconds
+from clepsydra.parameter_studies.task import attempts_of, is_done, step_folder, wall_seconds
 
 ORDER = ("done", "running", "stopped", "waiting", "blocked", "failed")
 
 
-def states(parameterStudy):
+def states(parameter_study):
     """State of every task, by name."""
     found = {}
-    for name, task in parameterStudy.tasks.items():  # needs come before those that need them
-        folder = parameterStudy.folder(task)
-        if isDone(parameterStudy, task):
+    for name, task in parameter_study.tasks.items():  # needs come before those that need them
+        folder = parameter_study.folder(task)
+        if is_done(parameter_study, task):
             found[name] = "done"
-        elif isLocked(folder / "attempts"):
+        elif is_locked(folder / "attempts"):
             found[name] = "running"
         elif (folder / "failed").exists():
             found[name] = "failed"
@@ -29,7 +29,7 @@ def states(parameterStudy):
     return found
 
 
-def isLocked(path):
+def is_locked(path):
     try:
         with open(path) as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -40,11 +40,11 @@ def isLocked(path):
     return False
 
 
-def progress(parameterStudy, task):
+def progress(parameter_study, task):
     """Simulated time, mass now and share done (guessed from the present rate); None before the first row."""
-    end = parameterStudy.endTime(task)
+    end = parameter_study.end_time(task)
     try:
-        now, mass, _, rate = case_files.columns(stepFolder(parameterStudy, task), "massInHopper")[:, -1]
+        now, mass, _, rate = case_files.columns(step_folder(parameter_study, task), "massInHopper")[:, -1]
     except (SystemExit, OSError, ValueError):
         return None
     left = end - now
@@ -53,60 +53,60 @@ def progress(parameterStudy, task):
     return {"time": now, "mass": mass, "share": now / (now + left) if now > 0 else 0.0}
 
 
-def remainingSeconds(parameterStudy, found):
+def remaining_seconds(parameter_study, found):
     """Of wall time for each task that is not done, as far as others like it tell; None where nothing does."""
     whole = {}
-    for name, task in parameterStudy.tasks.items():
-        spent = wallSeconds(parameterStudy.folder(task)) if attemptsOf(parameterStudy.folder(task)) else 0
+    for name, task in parameter_study.tasks.items():
+        spent = wall_seconds(parameter_study.folder(task)) if attempts_of(parameter_study.folder(task)) else 0
         if found[name] == "done":
             whole[name] = spent
         elif (
-            task.part in parameterStudy.template["steps"]
-            and (now := progress(parameterStudy, task))
+            task.part in parameter_study.template["steps"]
+            and (now := progress(parameter_study, task))
             and now["share"] > 0.02
         ):
             whole[name] = spent / now["share"]
     left = {}
-    for name, task in parameterStudy.tasks.items():
+    for name, task in parameter_study.tasks.items():
         if found[name] == "done":
             continue
         alike = [
-            whole[other] for other, its in parameterStudy.tasks.items() if other in whole and its.part == task.part
+            whole[other] for other, its in parameter_study.tasks.items() if other in whole and its.part == task.part
         ]
         nearer = [
             whole[other]
-            for other, its in parameterStudy.tasks.items()
+            for other, its in parameter_study.tasks.items()
             if other in whole and (its.part, its.entry) == (task.part, task.entry)
         ]
-        spent = wallSeconds(parameterStudy.folder(task)) if attemptsOf(parameterStudy.folder(task)) else 0
+        spent = wall_seconds(parameter_study.folder(task)) if attempts_of(parameter_study.folder(task)) else 0
         guesses = [whole[name]] if name in whole else nearer or alike
         left[name] = max(0, sum(guesses) / len(guesses) - spent) if guesses else None
     return left
 
 
-def table(parameterStudy, cores):
+def table(parameter_study, cores):
     """Lines of text."""
-    found = states(parameterStudy)
-    left = remainingSeconds(parameterStudy, found)
+    found = states(parameter_study)
+    left = remaining_seconds(parameter_study, found)
     rows = [("task", "state", "simulated", "in the hopper", "spent", "left")]
-    for name, task in sorted(parameterStudy.tasks.items(), key=lambda item: ORDER.index(found[item[0]])):
-        now = progress(parameterStudy, task) if parameterStudy.endTime(task) else None
+    for name, task in sorted(parameter_study.tasks.items(), key=lambda item: ORDER.index(found[item[0]])):
+        now = progress(parameter_study, task) if parameter_study.end_time(task) else None
         rows.append(
             (
                 name,
                 found[name],
-                f"{now['time']:.2f} of {parameterStudy.endTime(task):g} s" if now else "-",
+                f"{now['time']:.2f} of {parameter_study.end_time(task):g} s" if now else "-",
                 f"{1e3 * now['mass']:.1f} g" if now else "-",
-                duration(spent(parameterStudy, task)),
+                duration(spent(parameter_study, task)),
                 "" if found[name] == "done" else duration(left[name]),
             )
         )
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     lines = ["  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows]
-    return lines + ["", headline(parameterStudy, found, left, cores)]
+    return lines + ["", headline(parameter_study, found, left, cores)]
 
 
-def headline(parameterStudy, found, left, cores):
+def headline(parameter_study, found, left, cores):
     counts = Counter(found.values())
     parts = [f"{counts[state]} {state}" for state in ORDER if counts[state]]
     counted = {name: seconds for name, seconds in left.items() if found[name] not in ("failed", "blocked")}
@@ -114,7 +114,7 @@ def headline(parameterStudy, found, left, cores):
     if counted and not known:
         parts.append("too early to say when it ends")
     elif counted:
-        work = sum(seconds * parameterStudy.tasks[name].ranks for name, seconds in known.items())
+        work = sum(seconds * parameter_study.tasks[name].ranks for name, seconds in known.items())
         seconds = max(work / cores, max(known.values()))
         unknown = len(counted) - len(known)
         at = time.strftime("%a %H:%M", time.localtime(time.time() + seconds))
@@ -125,8 +125,8 @@ def headline(parameterStudy, found, left, cores):
     return ", ".join(parts)
 
 
-def spent(parameterStudy, task):
-    return wallSeconds(parameterStudy.folder(task)) if attemptsOf(parameterStudy.folder(task)) else None
+def spent(parameter_study, task):
+    return wall_seconds(parameter_study.folder(task)) if attempts_of(parameter_study.folder(task)) else None
 
 
 def duration(seconds):
@@ -137,10 +137,10 @@ def duration(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-def failures(parameterStudy):
+def failures(parameter_study):
     """Name and log's tail of what failed."""
     return [
-        (name, Path(parameterStudy.folder(parameterStudy.tasks[name]), "failed").read_text())
-        for name, state in states(parameterStudy).items()
+        (name, Path(parameter_study.folder(parameter_study.tasks[name]), "failed").read_text())
+        for name, state in states(parameter_study).items()
         if state == "failed"
     ]

@@ -13,10 +13,8 @@ from pathlib import Path
 
 import yaml
 
-from clepsydra import arithmetic
-from clepsydra import case_rules
-from clepsydra import parameter_file
-from clepsydra import parameter_study_results
+from clepsydra import arithmetic, case_rules, parameter_file, parameter_study_results
+from clepsydra.environment import REPOSITORY
 
 PARAMETER_STUDY_ENTRIES = {
     "base": "a file with more of these entries",
@@ -31,7 +29,7 @@ PARAMETER_STUDY_ENTRIES = {
     "keepTimes": "all, or a number (default: all)",
 }
 TEMPLATE_ENTRIES = ("shared", "steps", "mayChange", "seed", "summary", "derived")
-REPOSITORY = Path(__file__).resolve().parents[2]
+
 RUN_ENTRIES = ("sweep", "parameters", "filling", "steps", "packings", "ranks")
 
 
@@ -63,14 +61,14 @@ class ParameterStudy:
         try:
             self._read(only)
             if missing:
-                self._dropPublished()
+                self._drop_published()
         except parameter_file.ParameterError as problem:
             raise ParameterStudyError(problem) from None
 
     def _read(self, only):
-        self.settings = readYaml(self.path, PARAMETER_STUDY_ENTRIES, required=())
+        self.settings = read_yaml(self.path, PARAMETER_STUDY_ENTRIES, required=())
         if "base" in self.settings:
-            base = readYaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
+            base = read_yaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
             parameters = {**base.get("parameters", {}), **self.settings.get("parameters", {})}
             # paths are relative to the file that has them
             base |= {
@@ -84,28 +82,28 @@ class ParameterStudy:
                 raise ParameterStudyError(f"{self.path}: entry '{name}' is missing")
         self.work = self._folder("work", "work")
         # the template as it was when the parameter study began, once it has begun
-        self.frozenCase = self.work / "case"
-        self.case = self.frozenCase if self.frozenCase.exists() else self._folder("case")
+        self.frozen_case = self.work / "case"
+        self.case = self.frozen_case if self.frozen_case.exists() else self._folder("case")
         self.results = self._folder("results", "results")
-        requirePlain(self.work, REPOSITORY)
-        self.template = readYaml(
+        require_plain(self.work, REPOSITORY)
+        self.template = read_yaml(
             self.case / "template.yaml", TEMPLATE_ENTRIES, required=("shared", "steps", "seed", "summary")
         )
         self.derived = self.template.get("derived", {})
         self.defaults = parameter_file.parameters(self.case / "parameters")
         self.given = self._overrides(self.settings.get("parameters"), "parameters")
         self.common = self._derive(self.given)
-        self.keepTimes = self._keepTimes()
+        self.keep_times = self._keep_times()
         self.tasks = self._plan(only)
 
-    def _keepTimes(self):
+    def _keep_times(self):
         """How many times of a run stay on disk; None for all."""
         kept = self.settings.get("keepTimes", "all")
         if kept != "all" and not (isinstance(kept, int) and kept > 1):
             raise self._error("keepTimes", kept, "all, or a whole number above 1")
         return None if kept == "all" else kept
 
-    def _dropPublished(self):
+    def _drop_published(self):
         published = parameter_study_results.files(self.results)
         left = [task for task in self.tasks.values() if task.publish and task.publish not in published]
         names = {task.name for task in left}
@@ -113,7 +111,7 @@ class ParameterStudy:
             names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
         self.tasks = {name: task for name, task in self.tasks.items() if name in names}
 
-    def parameterText(self, task):
+    def parameter_text(self, task):
         """The task's file `parameters`."""
         return self._text(dict(task.overrides))
 
@@ -139,7 +137,7 @@ class ParameterStudy:
             key = task.overrides, task.ranks, task.part
             if key not in seen:
                 seen[key] = rules.check(
-                    self.parameterText(task),
+                    self.parameter_text(task),
                     task.ranks if executor == "local" else None,
                     task.part,
                     f"{self.path}: {name}",
@@ -153,7 +151,7 @@ class ParameterStudy:
     def folder(self, task):
         return self.work / task.name
 
-    def endTime(self, task):
+    def end_time(self, task):
         """Simulated seconds, at most; None for a part that simulates nothing."""
         name = self.template["steps"].get(task.part)
         return name and float(self.parameters(task)[name])
@@ -176,7 +174,7 @@ class ParameterStudy:
                     name,
                     f"the template's parameters{parameter_file.meant(str(name), known)}, which are " + ", ".join(known),
                 )
-        return {name: parameterValue(value) for name, value in (given or {}).items()}
+        return {name: parameter_value(value) for name, value in (given or {}).items()}
 
     def _derive(self, overrides):
         """The parameters that follow from what the parameter study says in their place."""
@@ -205,49 +203,49 @@ class ParameterStudy:
         for name, entry in runs.items():
             if only and name not in only:
                 continue
-            for task in self._tasksOf(str(name), entry or {}):
+            for task in self._tasks_of(str(name), entry or {}):
                 known = tasks.setdefault(task.name, task)
                 if known.overrides != task.overrides:
                     raise ParameterStudyError(f"{self.path}: two different runs are both named {task.name}")
         return tasks
 
-    def _tasksOf(self, name, entry):
+    def _tasks_of(self, name, entry):
         unknown = set(entry) - set(RUN_ENTRIES)
         if unknown:
             raise self._error(f"runs/{name}", ", ".join(sorted(unknown)), ", ".join(RUN_ENTRIES))
         if not re.fullmatch(r"[\w.+-]+", name):
             raise self._error("runs", name, "names of letters, digits and . _ + -")
         fixed = self._overrides(entry.get("parameters"), f"runs/{name}/parameters")
-        ofFilling = self._overrides(entry.get("filling"), f"runs/{name}/filling")
+        of_filling = self._overrides(entry.get("filling"), f"runs/{name}/filling")
         sweep = entry.get("sweep") or {}
         self._overrides(sweep, f"runs/{name}/sweep")
-        for values in itertools.product(*(asList(values) for values in sweep.values())):
-            swept = dict(zip(sweep, map(parameterValue, values)))
+        for values in itertools.product(*(as_list(values) for values in sweep.values())):
+            swept = dict(zip(sweep, map(parameter_value, values)))
             case = "-".join([name, *swept.values()])
-            for seed in asList(entry.get("packings", self.settings.get("packings", [None]))):
+            for seed in as_list(entry.get("packings", self.settings.get("packings", [None]))):
                 overrides = self._derive({**self.given, **fixed, **swept})
                 if seed is not None:
-                    overrides[self.template["seed"]] = parameterValue(seed)
-                yield from self._tasksOfRun(name, safeName(case), entry, overrides, ofFilling)
+                    overrides[self.template["seed"]] = parameter_value(seed)
+                yield from self._tasks_of_run(name, safe_name(case), entry, overrides, of_filling)
 
-    def _tasksOfRun(self, entryName, case, entry, overrides, ofFilling):
+    def _tasks_of_run(self, entry_name, case, entry, overrides, of_filling):
         ranks = entry.get("ranks", self.settings.get("ranks", 1))
         if not (isinstance(ranks, int) and ranks > 0):
             raise self._error("ranks", ranks, "a whole number above 0")
-        filling = self._shared("filling", {**overrides, **ofFilling}, keep=ofFilling)
+        filling = self._shared("filling", {**overrides, **of_filling}, keep=of_filling)
         # the packing's own mesh serves no more than to tell where the hopper is: it need not be the run's
-        fillingMesh, mesh = self._shared("mesh", dict(filling.overrides)), self._shared("mesh", overrides)
-        yield fillingMesh
+        filling_mesh, mesh = self._shared("mesh", dict(filling.overrides)), self._shared("mesh", overrides)
+        yield filling_mesh
         yield mesh
-        yield withNeeds(filling, self._links(fillingMesh))
+        yield with_needs(filling, self._links(filling_mesh))
         seed = self._resolved(overrides)[self.template["seed"]]
-        for step in asList(entry.get("steps", self.settings["steps"])):
+        for step in as_list(entry.get("steps", self.settings["steps"])):
             if step not in self.template["steps"] or step in self.template["shared"]:
                 allowed = [name for name in self.template["steps"] if name not in self.template["shared"]]
                 raise self._error("steps", step, ", ".join(allowed))
             name = f"{case}.{seed:.10g}.{step}"
-            run = Task(f"runs/{name}", step, ranks, tuple(sorted(overrides.items())), (), (), name, entryName)
-            yield withNeeds(run, self._links(mesh) + self._links(filling))
+            run = Task(f"runs/{name}", step, ranks, tuple(sorted(overrides.items())), (), (), name, entry_name)
+            yield with_needs(run, self._links(mesh) + self._links(filling))
 
     def _shared(self, part, overrides, keep=()):
         """The task of a shared part, named by the values of the parameters on which it depends."""
@@ -278,7 +276,7 @@ def found(path, folder):
     return (folder / str(path).replace("$CLEPSYDRA", str(REPOSITORY))).resolve()
 
 
-def requirePlain(*folders):
+def require_plain(*folders):
     for folder in folders:
         if re.search(r"[\s\"']", str(folder)):
             raise ParameterStudyError(f"'{folder}' has a space or a quote in it, which OpenFOAM cannot bear; move it")
@@ -297,7 +295,7 @@ class OnceEach(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def readYaml(path, allowed, required):
+def read_yaml(path, allowed, required):
     try:
         found = yaml.load(path.read_text(), OnceEach)
     except OSError as problem:
@@ -318,19 +316,19 @@ def readYaml(path, allowed, required):
     return found
 
 
-def asList(values):
+def as_list(values):
     return values if isinstance(values, list) else [values]
 
 
-def parameterValue(value):
+def parameter_value(value):
     """As an OpenFOAM dictionary has it; YAML reads on and off as booleans."""
     return {True: "on", False: "off"}[value] if isinstance(value, bool) else str(value)
 
 
-def safeName(text):
+def safe_name(text):
     return re.sub(r"[^\w.+-]+", "_", text)
 
 
-def withNeeds(task, links):
+def with_needs(task, links):
     needs = tuple(dict.fromkeys(maker for _, maker in links))
     return Task(**{**task.__dict__, "needs": needs, "links": links})
