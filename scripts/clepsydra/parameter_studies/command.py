@@ -17,13 +17,15 @@ import os
 import shutil
 import signal
 import sys
+from typing import Iterator
 
 from clepsydra import environment, whole_files
+from clepsydra.case_rules import Findings
 from clepsydra.parameter_studies import executors, status, task
 from clepsydra.parameter_studies.plan import ParameterStudy, ParameterStudyError
 
 
-def main():
+def main() -> int:
     options = read_options()
     try:
         parameter_study = ParameterStudy(
@@ -42,7 +44,7 @@ def main():
         return 2
 
 
-def read_options():
+def read_options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(
         usage=(__doc__ or "").split("usage: ")[1].split("\n\n")[0], description=(__doc__ or "").split("\n")[0]
     )
@@ -66,20 +68,20 @@ def read_options():
     return options
 
 
-def split_at(words, mark):
+def split_at(words: list[str], mark: str) -> tuple[list[str], list[str], list[str]]:
     """What stands before the mark, the mark if it is there, and what stands after it."""
     at = words.index(mark) if mark in words else len(words)
     return words[:at], words[at : at + 1], words[at + 1 :]
 
 
-def positive(text):
+def positive(text: str) -> int:
     number = int(text)
     if number < 1:
         raise argparse.ArgumentTypeError("must be above 0")
     return number
 
 
-def run(parameter_study, options):
+def run(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     if not parameter_study.tasks:
         print("parameterStudy: every run has its results")
         return 0
@@ -110,7 +112,7 @@ def run(parameter_study, options):
     return 0 if set(found.values()) == {"done"} else 1
 
 
-def check(parameter_study, options):
+def check(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     known = parameter_study.check(options.executor)
     warn(known)
     for name, found in known.items():
@@ -120,12 +122,12 @@ def check(parameter_study, options):
     return 0
 
 
-def warn(known):
+def warn(known: dict[str, Findings]) -> None:
     for warning in dict.fromkeys(f"{warning}" for found in known.values() for warning in found.warnings):
         print(f"parameterStudy: {warning} (a warning)", file=sys.stderr)
 
 
-def copy_program(parameter_study):
+def copy_program(parameter_study: ParameterStudy) -> None:
     """The whole parameter study runs one build, also where the repository is built again meanwhile."""
     target = parameter_study.work / "program"
     if target.exists():
@@ -143,7 +145,7 @@ def copy_program(parameter_study):
     unfinished.rename(target)
 
 
-def copy_template(parameter_study):
+def copy_template(parameter_study: ParameterStudy) -> None:
     """Nor does it matter that the case is edited meanwhile: all runs are of the case as it was at the start."""
     if parameter_study.frozen_case.exists():
         return
@@ -154,7 +156,7 @@ def copy_template(parameter_study):
 
 
 @contextlib.contextmanager
-def sole_runner(parameter_study):
+def sole_runner(parameter_study: ParameterStudy) -> Iterator[None]:
     """Only one at a time; `stop` finds it through this file."""
     with open(parameter_study.work / "runner", "a+") as file:
         try:
@@ -169,7 +171,7 @@ def sole_runner(parameter_study):
         yield
 
 
-def show_status(parameter_study, options):
+def show_status(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     print(
         "\n".join(status.table(parameter_study, options.cores))
         if parameter_study.tasks
@@ -180,7 +182,7 @@ def show_status(parameter_study, options):
     return 0
 
 
-def stop(parameter_study, _):
+def stop(parameter_study: ParameterStudy, _: argparse.Namespace) -> int:
     runner = parameter_study.work / "runner"
     if not status.is_locked(runner):
         print("parameterStudy: nothing runs here (jobs of Slurm are stopped by scancel)")
@@ -195,7 +197,7 @@ def stop(parameter_study, _):
     return 0
 
 
-def run_task(parameter_study, options):
+def run_task(parameter_study: ParameterStudy, options: argparse.Namespace) -> int:
     if options.name not in parameter_study.tasks:
         raise ParameterStudyError(f"no task '{options.name}'; there are: {', '.join(parameter_study.tasks)}")
     its = parameter_study.tasks[options.name]

@@ -5,15 +5,16 @@ import shlex
 import signal
 import subprocess
 import sys
+from types import FrameType
 
 from clepsydra import whole_files
-from clepsydra.parameter_studies.plan import ParameterStudyError
+from clepsydra.parameter_studies.plan import ParameterStudy, ParameterStudyError
 from clepsydra.parameter_studies.task import is_done, on_stop
 
 COMMAND = os.path.abspath(sys.argv[0])
 
 
-def local(parameter_study, cores):
+def local(parameter_study: ParameterStudy, cores: int) -> int | None:
     """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal
     that asked
     it to stop, or None."""
@@ -39,7 +40,7 @@ def local(parameter_study, cores):
     )
     received = []
 
-    def stop(number, _):
+    def stop(number: int, _: FrameType | None) -> None:
         received.append(number)
         # make hands SIGTERM on to the tasks and waits for them; a terminal's interrupt reaches it by itself
         if number != signal.SIGINT:
@@ -50,9 +51,9 @@ def local(parameter_study, cores):
     return received[0] if received else None
 
 
-def slurm(parameter_study, options):
+def slurm(parameter_study: ParameterStudy, options: list[str]) -> list[str]:
     """Submits the tasks that are not done as job arrays, shared parts first. Returns the jobs' numbers."""
-    levels = []
+    levels: list[list[str]] = []
     for name, task in parameter_study.tasks.items():
         if is_done(parameter_study, task):
             continue
@@ -60,7 +61,8 @@ def slurm(parameter_study, options):
         while len(levels) <= level:
             levels.append([])
         levels[level].append(name)
-    jobs, before = [], []
+    jobs: list[str] = []
+    before: list[str] = []
     for names in filter(None, levels):
         here = [
             submit(
@@ -77,7 +79,7 @@ def slurm(parameter_study, options):
     return jobs
 
 
-def submit(parameter_study, names, ranks, before, options):
+def submit(parameter_study: ParameterStudy, names: list[str], ranks: int, before: list[str], options: list[str]) -> str:
     """One job array. Its tasks find their names by the line of a list."""
     number = len(list(parameter_study.work.glob("slurm.*.list")))
     listed = parameter_study.work / f"slurm.{number}.list"

@@ -4,16 +4,19 @@ A task is one command `Allrun [-np RANKS] PART` in a folder of its own, a copy o
 parameters replaced. What runs have in common (the mesh, the packing) is a task as well, on which they depend.
 """
 
+import dataclasses
 import hashlib
 import itertools
 import re
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
+from typing import Any, Iterable, Iterator
 
 import yaml
 
 from clepsydra import arithmetic, case_rules, parameter_file, parameter_study_results
+from clepsydra.case_rules import Findings
 from clepsydra.environment import REPOSITORY
 
 PARAMETER_STUDY_ENTRIES = {
@@ -56,7 +59,7 @@ class ParameterStudy:
     missing: only runs that have no results yet, and what they need.
     """
 
-    def __init__(self, path, only=None, missing=False):
+    def __init__(self, path: Path | str, only: list[str] | None = None, missing: bool = False) -> None:
         self.path = Path(path).resolve()
         try:
             self._read(only)
@@ -65,7 +68,7 @@ class ParameterStudy:
         except parameter_file.ParameterError as problem:
             raise ParameterStudyError(problem) from None
 
-    def _read(self, only):
+    def _read(self, only: list[str] | None) -> None:
         self.settings = read_yaml(self.path, PARAMETER_STUDY_ENTRIES, required=())
         if "base" in self.settings:
             base = read_yaml(self._folder("base"), PARAMETER_STUDY_ENTRIES, required=())
@@ -96,14 +99,14 @@ class ParameterStudy:
         self.keep_times = self._keep_times()
         self.tasks = self._plan(only)
 
-    def _keep_times(self):
+    def _keep_times(self) -> int | None:
         """How many times of a run stay on disk; None for all."""
         kept = self.settings.get("keepTimes", "all")
         if kept != "all" and not (isinstance(kept, int) and kept > 1):
             raise self._error("keepTimes", kept, "all, or a whole number above 1")
         return None if kept == "all" else kept
 
-    def _drop_published(self):
+    def _drop_published(self) -> None:
         published = parameter_study_results.files(self.results)
         left = [task for task in self.tasks.values() if task.publish and task.publish not in published]
         names = {task.name for task in left}
@@ -111,14 +114,14 @@ class ParameterStudy:
             names.update(task.needs, *(self.tasks[need].needs for need in task.needs))
         self.tasks = {name: task for name, task in self.tasks.items() if name in names}
 
-    def parameter_text(self, task):
+    def parameter_text(self, task: Task) -> str:
         """The task's file `parameters`."""
         return self._text(dict(task.overrides))
 
-    def parameters(self, task):
+    def parameters(self, task: Task) -> dict[str, Any]:
         return self._resolved(dict(task.overrides))
 
-    def check(self, executor):
+    def check(self, executor: str) -> dict[str, Findings]:
         """{name: what is known of it} of all tasks; ParameterStudyError where the template's parameters.rules refuse
         the parameters of any.
 
@@ -130,7 +133,7 @@ class ParameterStudy:
         except case_rules.RulesError as problem:
             raise ParameterStudyError(str(problem)) from None
 
-    def _check(self, rules, executor):
+    def _check(self, rules: Any, executor: str) -> Any:
         known, seen, problems = {}, {}, []
         for name, task in self.tasks.items():
             # runs of one set of parameters are checked once
@@ -148,21 +151,21 @@ class ParameterStudy:
             raise ParameterStudyError("\n".join(problems))
         return known
 
-    def folder(self, task):
+    def folder(self, task: Task) -> Path:
         return self.work / task.name
 
-    def end_time(self, task):
+    def end_time(self, task: Task) -> float:
         """Simulated seconds, at most; None for a part that simulates nothing."""
         name = self.template["steps"].get(task.part)
         return name and float(self.parameters(task)[name])
 
-    def _folder(self, entry, default=None):
+    def _folder(self, entry: str, default: Any = None) -> Path:
         return found(self.settings.get(entry, default), self.path.parent)
 
-    def _error(self, entry, value, allowed):
+    def _error(self, entry: str, value: Any, allowed: str) -> ParameterStudyError:
         return ParameterStudyError(f"{self.path}: entry '{entry}' is {value!r}; allowed: {allowed}")
 
-    def _overrides(self, given, entry):
+    def _overrides(self, given: Any, entry: str) -> dict[Any, Any]:
         """The parameters given, as text, all of them known to the template."""
         if not isinstance(given or {}, dict):
             raise self._error(entry, given, "a list of `name: value`")
@@ -176,7 +179,7 @@ class ParameterStudy:
                 )
         return {name: parameter_value(value) for name, value in (given or {}).items()}
 
-    def _derive(self, overrides):
+    def _derive(self, overrides: dict[str, Any]) -> dict[str, Any]:
         """The parameters that follow from what the parameter study says in their place."""
         plain = {name: value for name, value in overrides.items() if name not in self.derived}
         known = self._resolved(plain) | {"pi": pi}
@@ -190,8 +193,9 @@ class ParameterStudy:
                 ) from None
         return plain
 
-    def _plan(self, only):
-        tasks, runs = {}, self.settings["runs"]
+    def _plan(self, only: list[str] | None) -> dict[str, Any]:
+        tasks: dict[str, Any] = {}
+        runs = self.settings["runs"]
         if not (isinstance(runs, dict) and runs and all(isinstance(entry or {}, dict) for entry in runs.values())):
             raise self._error("runs", runs, "a list of `name: { ... }`")
         unknown = [name for name in only or [] if name not in runs]
@@ -209,7 +213,7 @@ class ParameterStudy:
                     raise ParameterStudyError(f"{self.path}: two different runs are both named {task.name}")
         return tasks
 
-    def _tasks_of(self, name, entry):
+    def _tasks_of(self, name: str, entry: Any) -> Iterator[Task]:
         unknown = set(entry) - set(RUN_ENTRIES)
         if unknown:
             raise self._error(f"runs/{name}", ", ".join(sorted(unknown)), ", ".join(RUN_ENTRIES))
@@ -228,7 +232,9 @@ class ParameterStudy:
                     overrides[self.template["seed"]] = parameter_value(seed)
                 yield from self._tasks_of_run(name, safe_name(case), entry, overrides, of_filling)
 
-    def _tasks_of_run(self, entry_name, case, entry, overrides, of_filling):
+    def _tasks_of_run(
+        self, entry_name: str, case: str, entry: Any, overrides: dict[str, Any], of_filling: Any
+    ) -> Iterator[Task]:
         ranks = entry.get("ranks", self.settings.get("ranks", 1))
         if not (isinstance(ranks, int) and ranks > 0):
             raise self._error("ranks", ranks, "a whole number above 0")
@@ -247,7 +253,7 @@ class ParameterStudy:
             run = Task(f"runs/{name}", step, ranks, tuple(sorted(overrides.items())), (), (), name, entry_name)
             yield with_needs(run, self._links(mesh) + self._links(filling))
 
-    def _shared(self, part, overrides, keep=()):
+    def _shared(self, part: str, overrides: dict[str, Any], keep: Iterable[str] = ()) -> Task:
         """The task of a shared part, named by the values of the parameters on which it depends."""
         about = self.template["shared"][part]
         own = {
@@ -260,23 +266,23 @@ class ParameterStudy:
         code = hashlib.sha256(repr([(name, values[name]) for name in about["dependsOn"]]).encode()).hexdigest()[:8]
         return Task(f"shared/{part}-{code}", part, 1, tuple(sorted(overrides.items())), (), (), "", part)
 
-    def _links(self, task):
+    def _links(self, task: Task) -> tuple[tuple[str, str], ...]:
         return tuple((made, task.name) for made in self.template["shared"][task.part]["makes"])
 
-    def _resolved(self, overrides):
+    def _resolved(self, overrides: dict[str, Any]) -> dict[str, Any]:
         return parameter_file.parameters_in(self._text(overrides), self.case / "parameters")
 
-    def _text(self, overrides):
+    def _text(self, overrides: dict[str, Any]) -> str:
         path = self.case / "parameters"
         return parameter_file.with_parameters(parameter_file.read(path), overrides, path)
 
 
-def found(path, folder):
+def found(path: Path, folder: Path) -> Path:
     """Where a path of a parameter study's file leads: relative to the file's folder, or it begins with $CLEPSYDRA."""
     return (folder / str(path).replace("$CLEPSYDRA", str(REPOSITORY))).resolve()
 
 
-def require_plain(*folders):
+def require_plain(*folders: Any) -> None:
     for folder in folders:
         if re.search(r"[\s\"']", str(folder)):
             raise ParameterStudyError(f"'{folder}' has a space or a quote in it, which OpenFOAM cannot bear; move it")
@@ -285,7 +291,7 @@ def require_plain(*folders):
 class OnceEach(yaml.SafeLoader):
     """YAML in which no key may be there twice: the first would be ignored in silence."""
 
-    def construct_mapping(self, node, deep=False):
+    def construct_mapping(self, node: Any, deep: bool = False) -> dict[Any, Any]:
         keys = [key.value for key, _ in node.value]
         for key, _ in node.value:
             if keys.count(key.value) > 1:
@@ -295,7 +301,7 @@ class OnceEach(yaml.SafeLoader):
         return super().construct_mapping(node, deep)
 
 
-def read_yaml(path, allowed, required):
+def read_yaml(path: Path, allowed: Iterable[str], required: Iterable[str]) -> dict[str, Any]:
     try:
         found = yaml.load(path.read_text(), OnceEach)
     except OSError as problem:
@@ -316,19 +322,19 @@ def read_yaml(path, allowed, required):
     return found
 
 
-def as_list(values):
+def as_list(values: Any) -> list[Any]:
     return values if isinstance(values, list) else [values]
 
 
-def parameter_value(value):
+def parameter_value(value: Any) -> str:
     """As an OpenFOAM dictionary has it; YAML reads on and off as booleans."""
     return {True: "on", False: "off"}[value] if isinstance(value, bool) else str(value)
 
 
-def safe_name(text):
+def safe_name(text: str) -> str:
     return re.sub(r"[^\w.+-]+", "_", text)
 
 
-def with_needs(task, links):
+def with_needs(task: Task, links: tuple[tuple[str, str], ...]) -> Task:
     needs = tuple(dict.fromkeys(maker for _, maker in links))
-    return Task(**{**task.__dict__, "needs": needs, "links": links})
+    return dataclasses.replace(task, needs=needs, links=links)

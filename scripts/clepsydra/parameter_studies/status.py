@@ -4,14 +4,16 @@ import fcntl
 import time
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 from clepsydra import case_files
+from clepsydra.parameter_studies.plan import ParameterStudy, Task
 from clepsydra.parameter_studies.task import attempts_of, is_done, step_folder, wall_seconds
 
 ORDER = ("done", "running", "stopped", "waiting", "blocked", "failed")
 
 
-def states(parameter_study):
+def states(parameter_study: ParameterStudy) -> dict[str, str]:
     """State of every task, by name."""
     found = {}
     for name, task in parameter_study.tasks.items():  # needs come before those that need them
@@ -29,7 +31,7 @@ def states(parameter_study):
     return found
 
 
-def is_locked(path):
+def is_locked(path: Path) -> bool:
     try:
         with open(path) as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -40,7 +42,7 @@ def is_locked(path):
     return False
 
 
-def progress(parameter_study, task):
+def progress(parameter_study: ParameterStudy, task: Task) -> dict[str, Any] | None:
     """Simulated time, mass now and share done (guessed from the present rate); None before the first row."""
     end = parameter_study.end_time(task)
     try:
@@ -53,7 +55,7 @@ def progress(parameter_study, task):
     return {"time": now, "mass": mass, "share": now / (now + left) if now > 0 else 0.0}
 
 
-def remaining_seconds(parameter_study, found):
+def remaining_seconds(parameter_study: ParameterStudy, found: dict[str, str]) -> dict[str, float | None]:
     """Of wall time for each task that is not done, as far as others like it tell; None where nothing does."""
     whole = {}
     for name, task in parameter_study.tasks.items():
@@ -84,7 +86,7 @@ def remaining_seconds(parameter_study, found):
     return left
 
 
-def table(parameter_study, cores):
+def table(parameter_study: ParameterStudy, cores: int) -> list[str]:
     """Lines of text."""
     found = states(parameter_study)
     left = remaining_seconds(parameter_study, found)
@@ -106,7 +108,7 @@ def table(parameter_study, cores):
     return lines + ["", headline(parameter_study, found, left, cores)]
 
 
-def headline(parameter_study, found, left, cores):
+def headline(parameter_study: ParameterStudy, found: dict[str, str], left: dict[str, float | None], cores: int) -> str:
     counts = Counter(found.values())
     parts = [f"{counts[state]} {state}" for state in ORDER if counts[state]]
     counted = {name: seconds for name, seconds in left.items() if found[name] not in ("failed", "blocked")}
@@ -125,11 +127,11 @@ def headline(parameter_study, found, left, cores):
     return ", ".join(parts)
 
 
-def spent(parameter_study, task):
+def spent(parameter_study: ParameterStudy, task: Task) -> float | None:
     return wall_seconds(parameter_study.folder(task)) if attempts_of(parameter_study.folder(task)) else None
 
 
-def duration(seconds):
+def duration(seconds: float | None) -> str:
     if seconds is None:
         return "-"
     if seconds < 120:
@@ -137,7 +139,7 @@ def duration(seconds):
     return f"{seconds / 60:.0f} min" if seconds < 7200 else f"{seconds / 3600:.1f} h"
 
 
-def failures(parameter_study):
+def failures(parameter_study: ParameterStudy) -> list[tuple[str, str]]:
     """Name and log's tail of what failed."""
     return [
         (name, Path(parameter_study.folder(parameter_study.tasks[name]), "failed").read_text())

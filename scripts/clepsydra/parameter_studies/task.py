@@ -16,9 +16,10 @@ import socket
 import subprocess
 import time
 from pathlib import Path
+from typing import IO, Any, Iterator
 
 from clepsydra import case_files, parameter_file, whole_files
-from clepsydra.parameter_studies.plan import ParameterStudyError
+from clepsydra.parameter_studies.plan import ParameterStudy, ParameterStudyError, Task
 
 # What a template's outputs are called, which must not be copied with it.
 OUTPUTS = ("steps", "runs", "results", "polyMesh", "meshes", "log.*", ".git*")
@@ -29,7 +30,7 @@ MOST_ROWS = 5000  # of a published m(t), beside the last
 NICENESS = "10"
 
 
-def execute(parameter_study, task):
+def execute(parameter_study: ParameterStudy, task: Task) -> int:
     """Returns the exit status: 0 done, 1 failed, 143 stopped with a checkpoint."""
     folder = parameter_study.folder(task)
     if is_done(parameter_study, task):
@@ -54,7 +55,7 @@ def execute(parameter_study, task):
     return 0
 
 
-def is_done(parameter_study, task):
+def is_done(parameter_study: ParameterStudy, task: Task) -> bool:
     """A run is not done once it is to last longer than it did."""
     folder, end_time = parameter_study.folder(task), parameter_study.template["steps"].get(task.part)
     return (folder / "done").exists() and (
@@ -62,7 +63,7 @@ def is_done(parameter_study, task):
     )
 
 
-def has_ended(parameter_study, task):
+def has_ended(parameter_study: ParameterStudy, task: Task) -> bool:
     """True where the last attempt came to its end, and only its results may be missing."""
     folder = parameter_study.folder(task)
     return (
@@ -72,7 +73,7 @@ def has_ended(parameter_study, task):
     )
 
 
-def attempt(parameter_study, task, attempts):
+def attempt(parameter_study: ParameterStudy, task: Task, attempts: IO[str]) -> int:
     note(attempts, {"start": time.time(), "host": socket.gethostname(), "ranks": task.ranks})
     whole_files.write(parameter_study.folder(task) / "parameters", parameter_study.parameter_text(task))
     status = run_allrun(parameter_study, task)
@@ -80,7 +81,7 @@ def attempt(parameter_study, task, attempts):
     return status
 
 
-def make_folder(parameter_study, task):
+def make_folder(parameter_study: ParameterStudy, task: Task) -> None:
     """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how
     long
     the steps last."""
@@ -109,7 +110,7 @@ def make_folder(parameter_study, task):
     unfinished.rename(folder)
 
 
-def copy_case(case, folder):
+def copy_case(case: Path, folder: Path) -> None:
     """A case without what runs have left in it. Its programs become links: they find the repository's scripts from
     where
     they really are."""
@@ -122,7 +123,7 @@ def copy_case(case, folder):
 
 
 @contextlib.contextmanager
-def locked(path):
+def locked(path: Path) -> Iterator[IO[str]]:
     with open(path, "a+") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -131,13 +132,13 @@ def locked(path):
         yield file
 
 
-def note(attempts, event):
+def note(attempts: IO[str], event: dict[str, Any]) -> None:
     attempts.write(json.dumps(event) + "\n")
     attempts.flush()
     os.fsync(attempts.fileno())
 
 
-def drop_half_line(attempts):
+def drop_half_line(attempts: IO[str]) -> None:
     """What a kill, or a full disk, has left at the end."""
     attempts.seek(0)
     text = attempts.read()
@@ -148,7 +149,7 @@ def drop_half_line(attempts):
     attempts.seek(0, os.SEEK_END)
 
 
-def run_allrun(parameter_study, task):
+def run_allrun(parameter_study: ParameterStudy, task: Task) -> int:
     folder = parameter_study.folder(task)
     program = parameter_study.work / "program"
     libraries = [str(program / "lib"), *filter(None, [os.environ.get("LD_LIBRARY_PATH")])]
@@ -175,14 +176,14 @@ def run_allrun(parameter_study, task):
     return process.returncode
 
 
-def on_stop(handler):
+def on_stop(handler: Any) -> None:
     """Calls it on SIGTERM, Ctrl-C and the end of a terminal; what nohup has switched off stays so."""
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         if signal.getsignal(number) != signal.SIG_IGN:
             signal.signal(number, handler)
 
 
-def prune(parameter_study, task):
+def prune(parameter_study: ParameterStudy, task: Task) -> None:
     """Removes the older fields and checkpoints, where the parameter study says so."""
     step = step_folder(parameter_study, task)
     if parameter_study.keep_times is None or not (step / "checkpoints").is_dir():
@@ -197,18 +198,18 @@ def prune(parameter_study, task):
         shutil.rmtree(checkpoint)
 
 
-def step_folder(parameter_study, task):
+def step_folder(parameter_study: ParameterStudy, task: Task) -> Path:
     return parameter_study.folder(task) / "steps" / task.part
 
 
-def tail(path, lines=25):
+def tail(path: Path, lines: int = 25) -> str:
     return "\n".join(path.read_text(errors="replace").splitlines()[-lines:]) + "\n"
 
 
 # --- results -------------------------------------------------------------------------------------
 
 
-def publish(parameter_study, task):
+def publish(parameter_study: ParameterStudy, task: Task) -> None:
     """m(t) as CSV, and JSON of what went in, what came out and what it cost."""
     parameter_study.results.mkdir(parents=True, exist_ok=True)
     step = step_folder(parameter_study, task)
@@ -242,25 +243,25 @@ def publish(parameter_study, task):
     whole_files.write(parameter_study.results / f"{task.publish}.json", json.dumps(record, indent=2) + "\n")
 
 
-def packing(parameter_study, task):
+def packing(parameter_study: ParameterStudy, task: Task) -> dict[str, Any]:
     """Which filling a run began from, and where its parameters differ from the run's."""
     filling = next(parameter_study.tasks[name] for name in task.needs if parameter_study.tasks[name].part == "filling")
     own, filled = parameter_study.parameters(task), parameter_study.parameters(filling)
     return {"name": filling.name, "otherParameters": {name: filled[name] for name in own if own[name] != filled[name]}}
 
 
-def code_versions(log):
+def code_versions(log: Any) -> list[Any]:
     """What the solver says of itself, once for each version that took part."""
     with open(log, errors="replace") as lines:
         return list(dict.fromkeys(line.strip() for line in lines if line.startswith("    Clepsydra ")))
 
 
-def events(folder):
+def events(folder: Path) -> list[dict[str, Any]]:
     """Starts and ends of attempts; half a line at the end, which a kill leaves, is not counted."""
     path = folder / "attempts"
     if not path.exists():
         return []
-    found = []
+    found: list[Any] = []
     for number, line in enumerate(path.read_text(errors="replace").split("\n")[:-1], 1):
         try:
             event = json.loads(line)
@@ -281,7 +282,7 @@ def events(folder):
     return found
 
 
-def attempts_of(folder):
+def attempts_of(folder: Path) -> list[list[Any]]:
     """[start, end, ranks] of each; an attempt that was killed ended when its log was last written."""
     found = []
     for event in events(folder):
@@ -296,15 +297,15 @@ def attempts_of(folder):
     return found
 
 
-def last_written(folder):
+def last_written(folder: Path) -> float:
     return max(path.stat().st_mtime for path in [folder / "attempts", *folder.glob("steps/*/log.pimpleDemFoam")])
 
 
-def wall_seconds(folder):
+def wall_seconds(folder: Path) -> float:
     return sum(max(0, end - start) for start, end, _ in attempts_of(folder))
 
 
-def cost(parameter_study, task):
+def cost(parameter_study: ParameterStudy, task: Task) -> dict[str, Any]:
     attempts = attempts_of(parameter_study.folder(task))
     return {
         "wallSeconds": round(wall_seconds(parameter_study.folder(task)), 1),
@@ -318,7 +319,7 @@ def cost(parameter_study, task):
     }
 
 
-def processor_name():
+def processor_name() -> str:
     with contextlib.suppress(OSError):
         for line in Path("/proc/cpuinfo").read_text().splitlines():
             if line.startswith("model name"):
