@@ -12,6 +12,7 @@ import argparse
 import sys
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from clepsydra import environment
 from developers.benchmarks import (
@@ -87,11 +88,11 @@ TWO_RANKS = (
 )
 
 
-def main():
+def main() -> None:
     options = read_options()
     environment.load()
     timing.real_time = options.realTime
-    figures = {}
+    figures: dict[str, timing.Figure | str] = {}
     with tempfile.TemporaryDirectory(prefix="clepsydraBenchmark") as folder:
         hopper = Hopper(Path(folder), quick=options.quick)
         for name in options.entries or [name for name in ENTRIES if not (options.quick and name in LONG)]:
@@ -107,7 +108,7 @@ def main():
     print(report.table(figures))
 
 
-def read_options():
+def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("entries", nargs="*", metavar="ENTRY", help=", ".join(ENTRIES))
     parser.add_argument("--quick", action="store_true", help="3000 particles, short windows")

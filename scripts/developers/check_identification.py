@@ -10,6 +10,7 @@ build/bin/checkIdentification may follow, for instance --libraries 3.
 import argparse
 import json
 import subprocess
+from typing import Any
 
 from scipy.stats import binomtest
 
@@ -20,7 +21,7 @@ RESULTS = ROOT / "identification/results"
 USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2, "again": 2, "draws": 500}
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
         "--run", metavar="SEED", help="run one seed first, 13 minutes, to identification/results/statistics.SEED.json"
@@ -33,7 +34,7 @@ def main():
     table([json.loads(path.read_text()) for path in sorted(RESULTS.glob("statistics.*.json"))])
 
 
-def run(seed, options):
+def run(seed: str, options: list[str]) -> None:
     usual = [word for name, number in USUAL.items() for word in (f"--{name}", str(number))]
     subprocess.run(
         [
@@ -51,7 +52,7 @@ def run(seed, options):
     )
 
 
-def table(seeds):
+def table(seeds: list[dict[str, Any]]) -> None:
     print(f"seeds {', '.join(str(one['seed']) for one in seeds)}; {sum(one['libraries'] for one in seeds)} libraries\n")
     print("| | measured [95 %] |\n|---|---|")
     row("false alarms at nominal 5 %", seeds, "falseAlarms")
@@ -79,12 +80,12 @@ def table(seeds):
     row("of these: of the pair, and no part of it", seeds, "pairs", "namedRightly")
 
 
-def covered(seeds, effect):
+def covered(seeds: list[dict[str, Any]], effect: str) -> float:
     count, of = counted(seeds, "byEffect", effect, "truthInSetWhenDetected")
     return count / of if of else 1
 
 
-def counted(seeds, *keys):
+def counted(seeds: list[dict[str, Any]], *keys: Any) -> tuple[int, int]:
     parts = []
     for one in seeds:
         for key in keys:
@@ -93,7 +94,7 @@ def counted(seeds, *keys):
     return sum(part.get("count", 0) for part in parts), sum(part["of"] for part in parts)
 
 
-def row(name, seeds, *keys):
+def row(name: str, seeds: list[dict[str, Any]], *keys: Any) -> None:
     count, of = counted(seeds, *keys)
     if of:
         lower, upper = binomtest(int(count), int(of)).proportion_ci(method="wilson")

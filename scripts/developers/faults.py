@@ -20,6 +20,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 from clepsydra import environment
 from developers.fault_kinds import (
@@ -35,7 +36,7 @@ from developers.fault_kinds import (
     system_calls,
 )
 from developers.fault_kinds.bench import Bench
-from developers.fault_kinds.kinds import ALL, Skipped, Wrong
+from developers.fault_kinds.kinds import ALL, Fault, Skipped, Wrong
 
 IN_NAMESPACE = "CLEPSYDRA_FAULTS_MAY_MOUNT"
 # In the order of the table. Each module enters its kinds of fault into ALL when it is imported.
@@ -43,7 +44,7 @@ MODULES = (stops, parallel, disk, system_calls, damage, limits, parameter_studie
 KINDS = {name: kind for module in MODULES for name, kind in ALL.items() if kind.tries.__module__ == module.__name__}
 
 
-def main():
+def main() -> int:
     options = read_options()
     if options.page:
         report.write_page(options.page)
@@ -69,7 +70,7 @@ def main():
     return 0 if all(row["holds"] is not False for row in rows) else 1
 
 
-def read_options():
+def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(KINDS))
     parser.add_argument("--quick", action="store_true", help="a part of the kinds and tries: a minute")
@@ -85,7 +86,7 @@ def read_options():
     return options
 
 
-def enter_namespace():
+def enter_namespace() -> None:
     """Where the system allows it: mounts made here are nobody else's, and vanish with this program."""
     if IN_NAMESPACE in os.environ:
         return
@@ -96,9 +97,11 @@ def enter_namespace():
         os.execvp(unshare[0], [*unshare, sys.executable, *sys.argv])
 
 
-def tried(kind, bench, keep):
+def tried(kind: Fault, bench: Bench, keep: bool) -> dict[str, Any]:
     """Makes the fault as often as it says, and counts what was seen."""
-    seen, wrong, began = {}, [], time.monotonic()
+    seen: dict[str, int] = {}
+    wrong: list[str] = []
+    began = time.monotonic()
     try:
         tries = kind.tries(bench)
     except Skipped as reason:

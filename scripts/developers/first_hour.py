@@ -21,6 +21,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -41,7 +42,7 @@ exec chroot "$0" env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin
 """
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--json", type=Path, metavar="FILE", help="what was typed and how long it took")
     parser.add_argument("--list", action="store_true", help="only say what would be typed")
@@ -80,7 +81,7 @@ def main():
     sys.exit(0 if all(step["ok"] for step in steps) else 1)
 
 
-def read_parts(quick):
+def read_parts(quick: bool) -> Any:
     """The table's parts with their pages' lines. Exits where the table speaks of a line that its page has not."""
     parts = []
     for part in yaml.safe_load(TABLE.read_text()):
@@ -97,7 +98,7 @@ def read_parts(quick):
     return parts
 
 
-def line(command, comment, row, quick):
+def line(command: str, comment: str, row: Any, quick: bool) -> Any:
     unknown = set(row) - KEYS
     if unknown:
         sys.exit(f"{TABLE}: '{command}': unknown '{min(unknown)}'; allowed: {', '.join(sorted(KEYS))}")
@@ -113,7 +114,7 @@ def line(command, comment, row, quick):
     return made
 
 
-def require_means():
+def require_means() -> None:
     if os.geteuid() != 0:
         sys.exit("firstHour: needs root, which alone may make a root of its own")
     for program, package in (("debootstrap", "debootstrap"), ("git", "git"), ("unshare", "util-linux")):
@@ -122,11 +123,12 @@ def require_means():
 
 
 class Hour:
-    def __init__(self, folder, given):
-        self.folder, self.given, self.steps = folder, given, []
+    def __init__(self, folder: Path, given: argparse.Namespace) -> None:
+        self.folder, self.given = folder, given
+        self.steps: list[dict[str, Any]] = []
         self.roots = {name: folder / name for name in ("repository", "package")}
 
-    def work(self, parts):
+    def work(self, parts: list[dict[str, Any]]) -> Any:
         self.make_roots()
         for number, part in enumerate(parts):
             if part["root"] == "package" and not (self.roots["package"] / "root/packed").exists():
@@ -141,7 +143,7 @@ class Hour:
                     "bash",
                     "-c",
                     ENTER,
-                    self.roots[part["root"]],
+                    str(self.roots[part["root"]]),
                 ]
                 before = len(self.steps)
                 for line, seconds, ok in shell_typing.type_lines(enter, part["folder"], part["lines"], log):
@@ -154,7 +156,7 @@ class Hour:
                 )
         return self.steps
 
-    def make_roots(self):
+    def make_roots(self) -> None:
         suite, root = "bookworm", self.roots["repository"]
         command = ["debootstrap", "--variant=minbase", suite, root, self.given.mirror]
         start = time.monotonic()
@@ -170,7 +172,7 @@ class Hour:
         subprocess.run(["cp", "-a", root, self.roots["package"]], check=True)
         self.put_repository(root / "root/clepsydra")
 
-    def put_repository(self, target):
+    def put_repository(self, target: Path) -> None:
         commit = subprocess.run(
             ["git", "-C", REPOSITORY, "rev-parse", "--short", "HEAD"], check=True, capture_output=True, text=True
         ).stdout.strip()
@@ -185,14 +187,14 @@ class Hour:
         if self.given.quick:
             subprocess.run(["bash", "-ec", ". tests/pages/smallHopper"], cwd=target, check=True)
 
-    def hand_over(self):
+    def hand_over(self) -> None:
         """The package, to the machine that has nothing else."""
         packed = self.roots["repository"] / "root/clepsydra/packed"
         (self.roots["package"] / "root/packed").mkdir()
         for package in packed.glob("clepsydra_*.deb"):
             shutil.copy(package, self.roots["package"] / "root/packed")
 
-    def note(self, step, command, seconds, ok, line=None):
+    def note(self, step: str, command: str, seconds: float, ok: bool, line: Any = None) -> None:
         entry = {"step": step, "command": command, "seconds": round(seconds, 1), "ok": ok}
         entry |= {key: line[key] for key in ("pageSays", "before", "left") if line and line.get(key)}
         self.steps.append(entry)

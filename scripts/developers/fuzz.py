@@ -16,13 +16,15 @@ FILE. What is found lies in FOLDER/found. Exit status 1 where anything was found
 import argparse
 import sys
 from pathlib import Path
+from typing import Any
 
+from clepsydra.environment import REPOSITORY
 from developers.fuzzing import builds, table, targets
 
 CANNOT_BUILD = 77
 
 
-def main():
+def main() -> Any:
     options = parsed(sys.argv[1:])
     if not builds.fuzzers_can_be_built():
         print("fuzz: clang++ cannot build fuzzers here; scripts/setup installs what it needs (clang, libclang-rt-dev)")
@@ -37,11 +39,11 @@ def main():
     return 1 if any(row["findings"] for row in rows) else 0
 
 
-def parsed(arguments):
+def parsed(arguments: Any) -> Any:
     parser = argparse.ArgumentParser(usage=__doc__.split("\n\n")[1][len("Usage: ") :], add_help=True)
     parser.add_argument("--seconds", type=int, default=60)
     parser.add_argument("--json", type=Path)
-    parser.add_argument("--build", type=Path, default=builds.REPOSITORY / "build-fuzz")
+    parser.add_argument("--build", type=Path, default=REPOSITORY / "build-fuzz")
     parser.add_argument("--build-only", action="store_true")
     parser.add_argument("targets", nargs="*", metavar="TARGET")
     options = parser.parse_args(arguments)

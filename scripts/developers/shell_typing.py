@@ -3,6 +3,7 @@
 import os
 import shlex
 import subprocess
+from typing import IO, Any, Iterator
 
 # Each line by eval in the very shell, so that `cd` and what was sourced hold for the next; its times go to the pipe.
 SHELL = r"""
@@ -18,7 +19,7 @@ exec 9>&"$report"
 """
 
 
-def type_lines(enter, folder, lines, log):
+def type_lines(enter: list[str], folder: Any, lines: Any, log: IO[str]) -> Iterator[Any]:
     """Yields (line, seconds, ok) as they come.
 
     enter: the words before `bash`, such as those that lead into another root; lines: dictionaries with `command`, and
@@ -52,7 +53,7 @@ def type_lines(enter, folder, lines, log):
         shell.wait()
 
 
-def call(number, line):
+def call(number: int, line: dict[str, Any]) -> str:
     steps = [f"echo {shlex.quote('>>> ' + line['command'])}"]
     if "in" in line:
         steps.append(f"back=$PWD; cd {shlex.quote(line['in'])}")

@@ -17,6 +17,8 @@ import json
 import math
 import statistics
 import subprocess
+from pathlib import Path
+from typing import Any, Iterator
 
 import yaml
 
@@ -35,7 +37,7 @@ STUDIES = {
 }
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", nargs="*", help="of " + ", ".join(STUDIES))
     parser.add_argument("--run", action="store_true")
@@ -61,7 +63,7 @@ def main():
         table(chosen)
 
 
-def leave_out(original):
+def leave_out(original: Any) -> None:
     """Reports of the study with each training condition held out in turn, from its stored runs and a few more."""
     study = yaml.safe_load(original.read_text())
     training = [one for one in study["conditions"] if one["role"] == "training"]
@@ -75,7 +77,7 @@ def leave_out(original):
         subprocess.run(["traceResidual", "run", "--output", output, split], check=True, stdout=subprocess.DEVNULL)
 
 
-def table(chosen):
+def table(chosen: Any) -> None:
     print(
         "| data | baseline | what was lacking | held out | error before | after | one more parameter | noise alone |"
         " entered | runs | their time |"
@@ -96,7 +98,7 @@ def table(chosen):
             print("|", " | ".join(first + [label] + score + last), "|")
 
 
-def answer(report):
+def answer(report: Any) -> Any:
     return {"named": report["name"], "noResidual": "nothing", "unknown": "unknown"}.get(
         report["decision"]
     ) or "one of: " + ", ".join(
@@ -104,7 +106,7 @@ def answer(report):
     )
 
 
-def unseen(name, report):
+def unseen(name: str, report: Any) -> dict[str, Any]:
     """Labels and reports of what no fit has seen, one line of the table each."""
     folder = CASES / name / "results"
     if report["heldOut"].get("before"):
@@ -119,7 +121,7 @@ def unseen(name, report):
 CANDIDATES = 5  # effects in the picture's left panel
 
 
-def picture(names, file):
+def picture(names: list[str], file: Path) -> None:
     """A row for each study, from the measurement to the answer: how well each effect explains the training data;
     then each condition that no fit has seen, as measured and as simulated without and with the effect that was named.
     """
@@ -153,7 +155,7 @@ def picture(names, file):
     figure.savefig(file, dpi=picture_style.DPI)
 
 
-def draw_candidates(axes, report):
+def draw_candidates(axes: Any, report: Any) -> None:
     judged = [one for one in report["effects"] if one["logOdds"] is not None and one.get("chiSquare") is not None]
     best = sorted(judged, key=lambda one: one["chiSquare"])[:CANDIDATES]
     bars = [("no effect", report["null"]["chiSquare"]), *((one["name"], one["chiSquare"]) for one in reversed(best))]
@@ -164,7 +166,7 @@ def draw_candidates(axes, report):
     axes.title.set_fontsize(9)
 
 
-def draw_unseen(axes, panel, study, picture_style, first):
+def draw_unseen(axes: Any, panel: Any, study: dict[str, Any], picture_style: Any, first: Any) -> None:
     where, numbers = panel
     features = {one.get("name", one["kind"]): one for one in study["observable"]["features"]}
     marks = [
@@ -200,7 +202,7 @@ def draw_unseen(axes, panel, study, picture_style, first):
         axes.legend(fontsize=6, loc="lower left")
 
 
-def shown_condition(study, where):
+def shown_condition(study: dict[str, Any], where: Any) -> Any:
     """The particle's diameter where the conditions differ by it, else their names."""
     name = where.split(" (")[0]
     for one in study["conditions"]:
@@ -209,7 +211,7 @@ def shown_condition(study, where):
     return name
 
 
-def errors(report):
+def errors(report: Any) -> list[Any]:
     held_out = report["heldOut"]
     scores = [held_out.get(one) for one in ("before", "after", "oneMoreParameter")]
     return [
@@ -220,7 +222,7 @@ def errors(report):
     ]
 
 
-def by_condition(report):
+def by_condition(report: Any) -> Iterator[Any]:
     """Where several conditions were held out together: lines of the table for each."""
     conditions = report["heldOut"]["conditions"]
     for condition in conditions if len(conditions) > 1 else []:
@@ -228,12 +230,12 @@ def by_condition(report):
         yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in ("before", "after")] + ["", "", ""]
 
 
-def rms_log_error(numbers, when):
+def rms_log_error(numbers: Any, when: Any) -> str:
     logs = [math.log(one[when]["value"] / one["measured"]["value"]) for one in numbers if one[when]]
     return f"{100 * math.sqrt(statistics.mean(log * log for log in logs)):.1f} %" if logs else ""
 
 
-def read(path):
+def read(path: Path) -> Any:
     return json.loads(path.read_text()) if path.exists() else None
 
 

@@ -3,11 +3,14 @@ planned.
 fit_cost_model.py beside this file writes scripts/clepsydra/costModel.json. A run that has begun measures its own
 speeds."""
 
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import nnls
 
 from clepsydra import environment
+from developers.benchmarks.hopper import Hopper
 
 from . import timing
 
@@ -19,7 +22,7 @@ ESTIMATED_DURATION = 1
 NOT_MODELLED = ("other", "output")
 
 
-def work(conservation, hopper, cells):
+def work(conservation: dict[str, Any], hopper: Hopper, cells: Any) -> Any:
     """Particle-steps, particle-, cell- and cell^(4/3)-intervals of a run."""
     p, duration = hopper.parameters, conservation["timeEnd"] - conservation["timeStart"]
     intervals, particles = duration / p["couplingTimeStep"], conservation["particlesStart"]
@@ -28,12 +31,12 @@ def work(conservation, hopper, cells):
     )
 
 
-def cell_count(folder):
+def cell_count(folder: Path) -> int:
     header = (folder / "constant" / "polyMesh" / "owner").read_bytes()[:2000].decode(errors="replace")
     return int(header.split("nCells:")[1].split()[0])
 
 
-def measured(hopper, ranks=1):
+def measured(hopper: Hopper, ranks: int = 1) -> tuple[Any, Any]:
     """Terms and seconds of the submerged hopper: processor time of one rank, wall time of more."""
     run = hopper.run("submerged", f"cost{ranks}", DURATION, ranks)
     conservation = timing.timed(run).result
@@ -42,19 +45,19 @@ def measured(hopper, ranks=1):
     return work(conservation, hopper, cell_count(run.folder)), seconds
 
 
-def fit(rows):
+def fit(rows: Any) -> dict[str, Any]:
     """Coefficients >= 0 with the smallest relative errors."""
     terms = np.array([row[0] / row[1] for row in rows])
     scale = terms.max(axis=0)
     return dict(zip(TERMS, nnls(terms / scale, np.ones(len(rows)))[0] / scale))
 
 
-def predicted(model, terms, ranks=1):
+def predicted(model: Any, terms: Any, ranks: int = 1) -> Any:
     one_rank = sum(model[name] * term for name, term in zip(TERMS, terms))
     return one_rank * (model["serialFraction"] + (1 - model["serialFraction"]) / ranks)
 
 
-def cost_model_error_percent(hopper, repetitions):
+def cost_model_error_percent(hopper: Hopper, repetitions: int) -> timing.Figure:
     """What a run itself expects once a hundredth of it is done, from its own first intervals."""
     run = hopper.run("submerged", "estimated", ESTIMATED_DURATION)
     conservations = [time.result for time in timing.interleaved({"run": run}, repetitions)["run"]]
@@ -68,5 +71,5 @@ def cost_model_error_percent(hopper, repetitions):
     )
 
 
-def unseen_hopper(hopper):
+def unseen_hopper(hopper: Hopper) -> Any:
     return hopper.with_cells(2e-3 if hopper.quick else 3e-3)

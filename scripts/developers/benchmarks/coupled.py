@@ -1,6 +1,9 @@
 """What the coupling costs beside the two engines, from the phases of coupled runs and of dry ones in between."""
 
 import functools
+from typing import Any
+
+from developers.benchmarks.hopper import Hopper
 
 from . import timing
 from .stock_liggghts import liggghts
@@ -11,7 +14,7 @@ FLUID = ("momentum", "pressure", "output", "other")
 
 
 @functools.cache
-def runs(hopper, repetitions):
+def runs(hopper: Hopper, repetitions: int) -> dict[Any, Any]:
     """Processor seconds of each phase by name, a dictionary a repetition."""
     duration = 0.2 if hopper.quick else 0.1
     times = timing.interleaved(
@@ -21,7 +24,7 @@ def runs(hopper, repetitions):
     return {name: [time.result["phaseProcessorSeconds"] for time in of] for name, of in times.items()}
 
 
-def coupling_share(hopper, repetitions):
+def coupling_share(hopper: Hopper, repetitions: int) -> timing.Figure:
     coupled = runs(hopper, repetitions)["coupled"]
     shares = [{name: 100 * seconds / sum(phases.values()) for name, seconds in phases.items()} for phases in coupled]
     return timing.Figure(
@@ -32,15 +35,15 @@ def coupling_share(hopper, repetitions):
     )
 
 
-def coupled_over_engines_alone(hopper, repetitions):
+def coupled_over_engines_alone(hopper: Hopper, repetitions: int) -> timing.Figure:
     return over_engines(hopper, repetitions, "<= 1.10", "", [])
 
 
-def coupled_over_engines_alone_without_smoothing(hopper, repetitions):
+def coupled_over_engines_alone_without_smoothing(hopper: Hopper, repetitions: int) -> timing.Figure:
     return over_engines(hopper, repetitions, "<= 1.05", " without the smoothing", ["smooth"])
 
 
-def over_engines(hopper, repetitions, target, said, without):
+def over_engines(hopper: Hopper, repetitions: int, target: Any, said: str, without: Any) -> timing.Figure:
     of = runs(hopper, repetitions)
     ratios = [
         (sum(coupled.values()) - sum(coupled[name] for name in without))
@@ -58,7 +61,7 @@ def over_engines(hopper, repetitions, target, said, without):
     )
 
 
-def coupled_over_liggghts_and_fluid(hopper, repetitions):
+def coupled_over_liggghts_and_fluid(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The same with the DEM steps in the program liggghts, whose contacts are its own: what two programs would cost."""
     duration = 0.2 if hopper.quick else 0.1
     run = hopper.run("submerged", "besideLiggghts", duration)
@@ -86,7 +89,7 @@ def coupled_over_liggghts_and_fluid(hopper, repetitions):
     )
 
 
-def exchange_bytes_per_particle(hopper, repetitions):
+def exchange_bytes_per_particle(hopper: Hopper, repetitions: int) -> timing.Figure:
     """A count, not a time: one run."""
     run = hopper.run("submerged", "exchange", 0.05, 2)
     conservation = timing.timed(run).result

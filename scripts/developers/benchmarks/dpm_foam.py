@@ -2,6 +2,7 @@
 alike."""
 
 import shutil
+from typing import Any
 
 from clepsydra import parameter_file
 
@@ -9,12 +10,12 @@ from . import timing
 from .hopper import Hopper, forget_results
 
 
-def over_dpm_foam(hopper, repetitions):
+def over_dpm_foam(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Contacts are rare: DPMFoam takes few DEM steps."""
     return over(hopper, repetitions, "settling", "settlingCloud 0.06", "391 particles settling in water, .06 s")
 
 
-def over_dpm_foam_bed(hopper, repetitions):
+def over_dpm_foam_bed(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The case's fluid step is as short as DPMFoam needs it for a bed."""
     return over(
         hopper,
@@ -25,7 +26,7 @@ def over_dpm_foam_bed(hopper, repetitions):
     )
 
 
-def over(hopper, repetitions, run, make, said):
+def over(hopper: Hopper, repetitions: int, run: Any, make: Any, said: str) -> timing.Figure:
     if not shutil.which("DPMFoam"):
         raise timing.Skipped("there is no program DPMFoam in this OpenFOAM")
     folder = hopper.validation_case("besideDPMFoam")

@@ -2,6 +2,8 @@
 
 import json
 import shutil
+from pathlib import Path
+from typing import Any
 
 from clepsydra import case_files
 
@@ -14,7 +16,7 @@ REMAINING = (1.0, 0.5, 0.12)
 WINDOW = 0.04
 
 
-def speedup_emptying(hopper, repetitions):
+def speedup_emptying(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Figures of the three windows in `details`; the value is the least of their medians."""
     folder = discharged(hopper)
     speedups = {}
@@ -26,7 +28,7 @@ def speedup_emptying(hopper, repetitions):
         speedups[remaining] = [one / two for one, two in zip(seconds[1], seconds[2])]
     middle = {remaining: timing.Figure(of, "").median for remaining, of in speedups.items()}
     return timing.Figure(
-        speedups[min(middle, key=middle.get)],
+        speedups[min(middle, key=lambda remaining: middle[remaining])],
         target=">= 1.8",
         details={"remaining": speedups},
         meaning=f"wall time on 1 rank over that on 2, submerged, windows of {WINDOW} s; with "
@@ -35,21 +37,21 @@ def speedup_emptying(hopper, repetitions):
     )
 
 
-def discharged(hopper):
+def discharged(hopper: Hopper) -> Any:
     """The submerged step with its checkpoints, until less than the last part remains."""
     folder = hopper.step("submerged", "discharged", 3.0)
     timing.timed(timing.Run(solver(), folder))
     return folder
 
 
-def start_of(folder, remaining):
+def start_of(folder: Path, remaining: Any) -> Any:
     """The write time at which most nearly this part of the fill remains."""
     at, _, particles = case_files.columns(folder, "massInHopper")[:3]
     written = [float(path.name) for path in (folder / "checkpoints").iterdir() if path.name != "beginning"]
     return min([0.0, *written], key=lambda time: abs(particles[abs(at - time).argmin()] / particles[0] - remaining))
 
 
-def window(folder, start, ranks):
+def window(folder: Path, start: Any, ranks: int) -> Any:
     """A run of this length from the checkpoint at `start`."""
     name = f"{start:g}"
     part = folder.parent / f"from{name}On{ranks}"
@@ -68,7 +70,7 @@ def window(folder, start, ranks):
     return timing.Run(solver(ranks), part, prepare=lambda: forget(part, name), result=lambda: newest_balance(part))
 
 
-def forget(part, kept):
+def forget(part: Any, kept: Any) -> None:
     """What a window wrote; what it starts from stays."""
     for pattern in ("postProcessing", "VTK", "[0-9]*", "processor*/[0-9]*", "checkpoints/[0-9]*"):
         for path in part.glob(pattern):
@@ -76,5 +78,5 @@ def forget(part, kept):
                 shutil.rmtree(path)
 
 
-def newest_balance(part):
+def newest_balance(part: Any) -> Any:
     return json.loads(next((part / "postProcessing/conservation").glob("*/summary.json")).read_text())

@@ -8,6 +8,7 @@ import argparse
 import json
 import tempfile
 from pathlib import Path
+from typing import Any
 
 from clepsydra import whole_files
 from developers.benchmarks import cost_model, report, timing
@@ -26,7 +27,7 @@ DENSITY = 2540
 INTERVAL = 2e-3
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     choice = parser.add_mutually_exclusive_group()
     choice.add_argument(
@@ -48,7 +49,7 @@ def main():
     predict(model)
 
 
-def fitted(folder):
+def fitted(folder: Path) -> Any:
     small, large = Hopper(folder / "small", quick=True), Hopper(folder / "large", quick=False)
     hoppers = [small.with_cells(4e-3), small, small.with_cells(1.5e-3), large.with_cells(4e-3), large]
     rows = []
@@ -77,7 +78,7 @@ def fitted(folder):
     return model
 
 
-def predict(model):
+def predict(model: Any) -> None:
     print(f"Estimates from {model['machine']}")
     for name, (mass, diameter, cells, duration, dem_step) in PAPER.items():
         particles = mass / (DENSITY * 3.14159265 / 6 * diameter**3)

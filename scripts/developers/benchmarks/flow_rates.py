@@ -1,6 +1,8 @@
 """The flow rates of the programs that the benchmark compares: dry particles from one packing through the same
 hopper."""
 
+from typing import Any
+
 import numpy as np
 
 from clepsydra import flow  # of scripts/, which .hopper puts on the path
@@ -18,7 +20,7 @@ QUICK = "particleCount=900 hopperDiameter=0.02 hopperHeight=0.05 tankDiameter=0.
 WHOLE = "dryTime=1.2"
 
 
-def rates(hopper, repetitions):
+def rates(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Once: the packing's own scatter, 3.5 % from one to the next, is larger than what a repetition shows."""
     require("lmp")
     require("yade")
@@ -63,7 +65,7 @@ def rates(hopper, repetitions):
     )
 
 
-def dumped(run, p, dump):
+def dumped(run: Any, p: dict[str, Any], dump: Any) -> tuple[Any, Any]:
     """Times, and the particles above the orifice."""
     entries = case_files.dumped_particles(run, dump)
     return (
@@ -72,14 +74,16 @@ def dumped(run, p, dump):
     )
 
 
-def mean_rate(time, inside, p):
+def mean_rate(time: np.ndarray, inside: Any, p: dict[str, Any]) -> tuple[Any, Any]:
     """While WINDOW of the fill remains, with its standard error [g/s]."""
     mass = 1e3 * inside * p["particleDensity"] * np.pi / 6 * p["particleDiameter"] ** 3
     parts = [flow.mean_rate(time, mass, *part) for part in zip(WINDOW, WINDOW[1:])]
-    return flow.mean_rate(time, mass, WINDOW[0], WINDOW[-1]), np.std(parts, ddof=1) / np.sqrt(len(parts))
+    return flow.mean_rate(time, mass, WINDOW[0], WINDOW[-1]), np.std(np.array(parts, dtype=float), ddof=1) / np.sqrt(
+        len(parts)
+    )
 
 
-def yade_script(p):
+def yade_script(p: dict[str, Any]) -> str:
     """DEM/particles.data, at rest, and the hopper's own surfaces of triangles."""
     return f"""from yade import geom, ymport
 glass = O.materials.append(FrictMat(young={p["youngsModulus"]}, poisson={p["poissonRatio"]},

@@ -6,6 +6,8 @@ import shlex
 import shutil
 import subprocess
 import sys
+from pathlib import Path
+from typing import Any
 
 from clepsydra import parameter_file
 from clepsydra.environment import REPOSITORY
@@ -25,7 +27,7 @@ FULL_SIZE = {
 
 
 class Hopper:
-    def __init__(self, folder, quick, repository=REPOSITORY, **parameters):
+    def __init__(self, folder: Path, quick: bool, repository: Any = REPOSITORY, **parameters: Any) -> None:
         self.folder = folder
         self.case = folder / "cases" / "tutorials" / "hopperQuick"
         self.quick = quick
@@ -37,12 +39,12 @@ class Hopper:
         self._filled = False
 
     @functools.cache
-    def quick_one(self):
+    def quick_one(self) -> Any:
         """The hopper of 3000 particles: this one, or another."""
         return self if self.quick else Hopper(self.folder / "quickOne", quick=True)
 
     @functools.cache
-    def with_cells(self, cell_size):
+    def with_cells(self, cell_size: Any) -> Any:
         """The same packing in another mesh."""
         other = Hopper(self.folder / f"cells{cell_size}", self.quick, cellSize=cell_size)
         other.allrun("mesh")
@@ -50,7 +52,7 @@ class Hopper:
         other._filled = True
         return other
 
-    def validation_case(self, name):
+    def validation_case(self, name: str) -> Any:
         """A copy of that case that may be run in, with the folders that it refers to."""
         cases = self.folder / "cases" / "validation"
         for part in (name, "common"):
@@ -62,14 +64,14 @@ class Hopper:
             )
         return cases / name
 
-    def run(self, template, name, duration, ranks=1, **entries):
+    def run(self, template: Any, name: str, duration: Any, ranks: int = 1, **entries: Any) -> Any:
         """A timing.Run of such a step, its result what the conservation check says."""
         folder = self.step(template, name, duration, ranks, **entries)
         return timing.Run(
             solver(ranks), folder, prepare=lambda: forget_results(folder), result=lambda: conservation(folder)
         )
 
-    def step(self, template, name, duration, ranks=1, **entries):
+    def step(self, template: Any, name: str, duration: Any, ranks: int = 1, **entries: Any) -> Any:
         """A step like `dry` or `submerged`, from the packing, that ends after `duration` [s]; its folder."""
         self._pour()
         folder = self.case / "steps" / name
@@ -84,15 +86,15 @@ class Hopper:
         return folder
 
     @property
-    def packing(self):
+    def packing(self) -> Path:
         self._pour()
         return self.case / "steps" / "filling" / "packing.restart"
 
-    def allrun(self, *arguments, ranks=1):
+    def allrun(self, *arguments: Any, ranks: int = 1) -> None:
         self.in_folder(self.case, shlex.join(["./Allrun", "-np", str(ranks), *arguments]))
 
     @staticmethod
-    def in_folder(folder, commands):
+    def in_folder(folder: Path, commands: Any) -> Any:
         done = subprocess.run(
             ["bash", "-euo", "pipefail", "-c", commands],
             cwd=folder,
@@ -104,35 +106,35 @@ class Hopper:
             sys.exit(f"{done.stdout[-2000:]}{done.stderr[-2000:]}\nbenchmark: failed in {folder}: {commands}")
         return done.stdout
 
-    def _pour(self):
+    def _pour(self) -> None:
         if not self._filled:
             self.allrun("mesh", "filling")
             self._filled = True
 
     @staticmethod
-    def set_parameters(file, values):
+    def set_parameters(file: Path, values: Any) -> None:
         file.write_text(
             parameter_file.with_parameters(file.read_text(), {name: str(value) for name, value in values.items()})
         )
 
 
-def case_of(repository):
+def case_of(repository: Any) -> Any:
     """The case, also of an earlier version."""
     case = repository / "cases/tutorials/hopperQuick"
     return case if case.exists() else repository / "cases/hopperQuick"
 
 
-def solver(ranks=1):
+def solver(ranks: int = 1) -> Any:
     command = ["pimpleDemFoam"]
     return command if ranks == 1 else ["mpirun", "-np", str(ranks), *command, "-parallel"]
 
 
-def conservation(folder):
+def conservation(folder: Path) -> Any:
     """What the run in this folder wrote at its end: particles, errors, seconds of each phase, bytes exchanged."""
     return json.loads((folder / "postProcessing" / "conservation" / "0" / "summary.json").read_text())
 
 
-def forget_results(folder):
+def forget_results(folder: Path) -> None:
     """Lets a step begin again: it would go on from its last checkpoint."""
     for pattern in ("checkpoints", "postProcessing", "VTK", "[0-9]*", "processor*/[0-9]*"):
         for path in folder.glob(pattern):

@@ -3,9 +3,12 @@ does."""
 
 import functools
 import shutil
+from typing import Any
+
+from clepsydra.environment import REPOSITORY
 
 from . import memory, timing
-from .hopper import REPOSITORY, Hopper, conservation, forget_results, solver
+from .hopper import Hopper, conservation, forget_results, solver
 
 RANKS = 2
 INTERVALS = 40
@@ -20,19 +23,19 @@ OF_PARTICLES = ("DEM", "locate", "distribute", "exchange", "forces")
 OF_CELLS = ("momentum", "pressure", "smooth")
 
 
-def million_particles(hopper, repetitions):
+def million_particles(hopper: Hopper, repetitions: int) -> timing.Figure:
     return growth(hopper, repetitions, "incompressible", OF_PARTICLES, "a particle and DEM step", "particle")
 
 
-def million_particles_dry(hopper, repetitions):
+def million_particles_dry(hopper: Hopper, repetitions: int) -> timing.Figure:
     return growth(hopper, repetitions, "none", OF_PARTICLES, "a particle and DEM step, without fluid", "particle")
 
 
-def million_cells(hopper, repetitions):
+def million_cells(hopper: Hopper, repetitions: int) -> timing.Figure:
     return growth(hopper, repetitions, "incompressible", OF_CELLS, "a cell and step of the fluid", "cell")
 
 
-def growth(hopper, repetitions, fluid, phases, said, unit):
+def growth(hopper: Hopper, repetitions: int, fluid: Any, phases: Any, said: str, unit: str) -> timing.Figure:
     times = measured(hopper, repetitions, fluid)
     seconds = {
         name: [per_unit(time.result["phaseSeconds"], phases, size, unit) for time in times[name]]
@@ -49,7 +52,7 @@ def growth(hopper, repetitions, fluid, phases, said, unit):
     )
 
 
-def per_unit(seconds, phases, size, unit):
+def per_unit(seconds: Any, phases: Any, size: Any, unit: str) -> dict[Any, Any]:
     """Seconds of each phase, of which there are fewer without fluid, for one particle and DEM step or one cell and step
     of the fluid."""
     (across, up), (cells_across, cells_up) = size
@@ -58,12 +61,12 @@ def per_unit(seconds, phases, size, unit):
 
 
 @functools.cache
-def measured(hopper, repetitions, fluid):
+def measured(hopper: Hopper, repetitions: int, fluid: Any) -> Any:
     beds = {name: bed(hopper, name, fluid, *size) for name, size in (("small", SMALL), ("large", LARGE))}
     return timing.interleaved(beds, repetitions)
 
 
-def bed(hopper, name, fluid, particles, cells):
+def bed(hopper: Hopper, name: str, fluid: Any, particles: Any, cells: Any) -> Any:
     """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
     folder = memory.column(
         hopper, particles, cells, fluid=fluid, couplingTimeStep=DEM_STEPS * 1e-5, endTime=INTERVALS * DEM_STEPS * 1e-5

@@ -2,11 +2,14 @@
 
 import functools
 import shutil
+from typing import Any
 
 import numpy as np
 
+from clepsydra.environment import REPOSITORY
+
 from . import timing
-from .hopper import REPOSITORY, Hopper, forget_results
+from .hopper import Hopper, forget_results
 
 COLUMN = REPOSITORY / "cases" / "validation" / "common" / "column"
 DIAMETER = 1e-3
@@ -32,15 +35,15 @@ fix motion all nve/sphere
 """
 
 
-def bytes_per_particle(hopper, repetitions):
+def bytes_per_particle(hopper: Hopper, repetitions: int) -> timing.Figure:
     return slope(hopper, repetitions, "particles")
 
 
-def bytes_per_cell(hopper, repetitions):
+def bytes_per_cell(hopper: Hopper, repetitions: int) -> timing.Figure:
     return slope(hopper, repetitions, "cells")
 
 
-def slope(hopper, repetitions, quantity):
+def slope(hopper: Hopper, repetitions: int, quantity: str) -> timing.Figure:
     fits = measured(hopper, repetitions)
     return timing.Figure(
         [fit[quantity] for fit in fits],
@@ -50,7 +53,7 @@ def slope(hopper, repetitions, quantity):
 
 
 @functools.cache
-def measured(hopper, repetitions):
+def measured(hopper: Hopper, repetitions: int) -> Any:
     """A fit a repetition; memory hardly scatters, so that where the benchmark is not quick there is only one."""
     sizes = QUICK if hopper.quick else FULL
     fits = []
@@ -76,7 +79,7 @@ def measured(hopper, repetitions):
     return fits
 
 
-def column(hopper, particles, cells, **entries):
+def column(hopper: Hopper, particles: Any, cells: Any, **entries: Any) -> Any:
     (across, up), (cells_across, cells_up) = particles, cells
     folder = hopper.folder / "memory"
     shutil.rmtree(folder, ignore_errors=True)

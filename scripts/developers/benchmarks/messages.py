@@ -3,8 +3,11 @@ times."""
 
 import functools
 import json
+from pathlib import Path
+from typing import Any, Callable
 
 from clepsydra import environment
+from developers.benchmarks.hopper import Hopper
 
 from . import timing
 
@@ -12,7 +15,7 @@ RANKS = (2, 4, 8)
 INTERVALS = 5
 
 
-def messages_per_interval(hopper, repetitions):
+def messages_per_interval(hopper: Hopper, repetitions: int) -> timing.Figure:
     return figure(
         hopper,
         "messages that the busiest rank sends in a coupling step",
@@ -20,11 +23,11 @@ def messages_per_interval(hopper, repetitions):
     )
 
 
-def bytes_per_rank(hopper, repetitions):
+def bytes_per_rank(hopper: Hopper, repetitions: int) -> timing.Figure:
     return figure(hopper, "bytes of memory of the largest rank", lambda rank: rank["peakMemory"])
 
 
-def figure(hopper, meaning, quantity):
+def figure(hopper: Hopper, meaning: str, quantity: Callable[[dict[str, Any]], float]) -> timing.Figure:
     """Of the most ranks; of fewer in the details."""
     counts = measured(hopper)
     values = {ranks: max(quantity(rank) for rank in of) for ranks, of in counts.items()}
@@ -35,7 +38,7 @@ def figure(hopper, meaning, quantity):
     )
 
 
-def largest(of_ranks):
+def largest(of_ranks: Any) -> dict[Any, Any]:
     """Of each phase and quantity, the most that a rank has."""
     return {
         phase: {name: max(rank["phases"][phase][name] for rank in of_ranks) for name in of}
@@ -44,7 +47,7 @@ def largest(of_ranks):
 
 
 @functools.cache
-def measured(hopper):
+def measured(hopper: Hopper) -> dict[Any, Any]:
     """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are
     counts."""
     if not counter().exists():
@@ -54,11 +57,11 @@ def measured(hopper):
     return {ranks: counted(hopper, ranks) for ranks in RANKS}
 
 
-def counter():
+def counter() -> Path:
     return environment.build() / "lib" / "libcountMessages.so"
 
 
-def counted(hopper, ranks):
+def counted(hopper: Hopper, ranks: int) -> list[Any]:
     run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingTimeStep"], ranks)
     counts = run.folder / "counts"
     counts.mkdir()

@@ -3,6 +3,10 @@
 import re
 import shutil
 import subprocess
+from pathlib import Path
+from typing import Any
+
+from developers.benchmarks.hopper import Hopper
 
 from . import timing
 from .hopper import conservation, forget_results, solver
@@ -12,7 +16,7 @@ from .stock_liggghts import STOCK_STEP, liggghts, script
 STEPS_PER_LIST = 25
 
 
-def over_lammps(hopper, repetitions):
+def over_lammps(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The bed in the closed hopper, in our program and in LAMMPS with pair granular: the same contact law (Hertz,
     Mindlin
     with history, Tsuji's damping), walls, step and neighbour lists."""
@@ -41,7 +45,7 @@ def over_lammps(hopper, repetitions):
     )
 
 
-def over_yade(hopper, repetitions):
+def over_yade(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour
     lists
     of the same width. Yade takes so long that it does fewer steps."""
@@ -62,7 +66,7 @@ def over_yade(hopper, repetitions):
     )
 
 
-def closed_hopper(hopper, name, steps):
+def closed_hopper(hopper: Hopper, name: str, steps: Any) -> Any:
     """A step with the packing in the closed hopper, for our program; the packing as LAMMPS' data beside it."""
     (hopper.case / "DEM" / "in.bed").write_text(liggghts_script(hopper))
     folder = hopper.step("dry", name, steps * hopper.parameters["demStep"], stepScript='"DEM/in.bed"')
@@ -70,7 +74,7 @@ def closed_hopper(hopper, name, steps):
     return folder
 
 
-def bed(folder):
+def bed(folder: Path) -> Any:
     return timing.Run(
         solver(),
         folder,
@@ -79,7 +83,9 @@ def bed(folder):
     )
 
 
-def per_step_ratio(hopper, times, other, steps, target, said, took):
+def per_step_ratio(
+    hopper: Hopper, times: Any, other: Any, steps: Any, target: Any, said: str, took: Any
+) -> timing.Figure:
     """Loops only, without the start of the programs."""
     per_step = {name: [time.result / steps[name] for time in of] for name, of in times.items()}
     return timing.Figure(
@@ -93,18 +99,19 @@ def per_step_ratio(hopper, times, other, steps, target, said, took):
     )
 
 
-def require(program):
+def require(program: Any) -> None:
     if not shutil.which(program):
         raise timing.Skipped(f"there is no program {program}; scripts/setup --with otherCodes installs it")
 
 
-def loop_time(log):
+def loop_time(log: Path) -> float:
     """Processor seconds of LAMMPS' loop."""
     text = log.read_text()
-    return float(re.search(r"Loop time of (\S+)", text)[1]) * float(re.search(r"(\S+)% CPU use", text)[1]) / 100
+    (wall,), (percent,) = re.findall(r"Loop time of (\S+)", text)[:1], re.findall(r"(\S+)% CPU use", text)[:1]
+    return float(wall) * float(percent) / 100
 
 
-def yade_script(p, steps):
+def yade_script(p: dict[str, Any], steps: Any) -> str:
     radius = p["hopperDiameter"] / 2
     return f"""from yade import geom
 import time
@@ -123,7 +130,7 @@ open("seconds", "w").write(str(time.process_time() - start))
 """
 
 
-def yade_engines(p):
+def yade_engines(p: dict[str, Any]) -> str:
     """Contacts as Hertz and Mindlin have them, gravity, and the step."""
     return f"""law = Ip2_FrictMat_FrictMat_MindlinPhys(en={p["restitution"]}, es={p["restitution"]})
 O.engines = [
@@ -138,7 +145,7 @@ O.dt = {p["demStep"]}
 """
 
 
-def write_lammps_data(hopper, folder):
+def write_lammps_data(hopper: Hopper, folder: Path) -> None:
     """The packing, read by LIGGGHTS, as a data file of LAMMPS."""
     p = hopper.parameters
     set_up = script(hopper, 0).split("thermo")[0]
@@ -160,7 +167,7 @@ def write_lammps_data(hopper, folder):
     )
 
 
-def lammps_script(p, steps):
+def lammps_script(p: dict[str, Any], steps: Any) -> str:
     law = (
         f"hertz/material {p['youngsModulus']} {p['restitution']} {p['poissonRatio']} "
         f"tangential mindlin NULL 1.0 {p['friction']} damping tsuji"
@@ -184,7 +191,7 @@ run {steps}
 """
 
 
-def liggghts_script(hopper):
+def liggghts_script(hopper: Hopper) -> str:
     p = hopper.parameters
     set_up = script(hopper, 0).split("fix cylinder")[0].replace(f"timestep {STOCK_STEP}", f"timestep {p['demStep']}")
     return (

@@ -1,5 +1,10 @@
 """What the pressure costs a cell as the mesh grows: the quick hopper's particles in three meshes."""
 
+from pathlib import Path
+from typing import Any
+
+from developers.benchmarks.hopper import Hopper
+
 from . import timing
 from .cost_model import cell_count
 
@@ -7,7 +12,7 @@ from .cost_model import cell_count
 MESHES = ((2.5e-3, 0.1), (1.5e-3, 0.05), (5e-4, 0.01))
 
 
-def microseconds_per_cell(hopper, repetitions):
+def microseconds_per_cell(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Of one step of the fluid, processor time on one rank."""
     quick = hopper.quick_one()
     runs = {}
@@ -34,7 +39,7 @@ def microseconds_per_cell(hopper, repetitions):
     )
 
 
-def cell_steps(conservation, folder, hopper):
+def cell_steps(conservation: dict[str, Any], folder: Path, hopper: Hopper) -> Any:
     return (
         cell_count(folder)
         * (conservation["timeEnd"] - conservation["timeStart"])

@@ -5,11 +5,12 @@ import json
 import os
 import platform
 from pathlib import Path
+from typing import Any
 
 from clepsydra import whole_files
 
 
-def table(figures):
+def table(figures: Any) -> str:
     """Figures by name; a text in place of a figure is the reason why there is none."""
     lines = [f"{'':36}{'median':>9}{'min':>9}{'max':>9}  target"]
     for name, figure in figures.items():
@@ -23,7 +24,7 @@ def table(figures):
     return "\n".join(lines + [machine()])
 
 
-def write(file, figures, options):
+def write(file: Path, figures: Any, options: Any) -> None:
     whole_files.write(
         file,
         json.dumps(
@@ -39,7 +40,7 @@ def write(file, figures, options):
     )
 
 
-def entry(figure):
+def entry(figure: Any) -> dict[str, Any]:
     if isinstance(figure, str):
         return {"skipped": figure}
     return {
@@ -53,7 +54,7 @@ def entry(figure):
     }
 
 
-def machine():
+def machine() -> str:
     """Processor, cores, date, and how busy the machine was: above the number of cores no time is to be trusted."""
     model = next(
         (

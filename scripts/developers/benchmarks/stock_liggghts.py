@@ -1,11 +1,15 @@
 """Our way to run the particles against stock LIGGGHTS: mesh walls, every particle integrated, half the step."""
 
+from typing import Any
+
+from developers.benchmarks.hopper import Hopper
+
 from . import timing
 
 STOCK_STEP = 2e-5
 
 
-def dem_over_stock_liggghts(hopper, repetitions):
+def dem_over_stock_liggghts(hopper: Hopper, repetitions: int) -> timing.Figure:
     duration = 0.3
     ours = hopper.run("dry", "ours", duration)
     folder = ours.folder
@@ -26,16 +30,16 @@ def dem_over_stock_liggghts(hopper, repetitions):
     )
 
 
-def liggghts(name):
+def liggghts(name: str) -> list[str]:
     """The command that runs in.<name> and logs in log.<name>."""
     return ["liggghts", "-in", f"in.{name}", "-screen", "/dev/null", "-log", f"log.{name}"]
 
 
-def script(hopper, duration):
+def script(hopper: Hopper, duration: Any) -> str:
     """A LIGGGHTS script as its tutorials write it, for the packing that the case filled."""
     p = hopper.parameters
 
-    def per_material(name, count):
+    def per_material(name: str, count: int) -> str:
         return " ".join([str(p[name])] * count)
 
     return f"""atom_style granular

@@ -7,19 +7,20 @@ import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Callable, Mapping
 
 
 @dataclass
 class Figure:
     """What one entry of the benchmark measured, one value a repetition."""
 
-    values: list
+    values: list[Any]
     meaning: str
     target: str = ""
-    details: dict = field(default_factory=dict)
+    details: dict[Any, Any] = field(default_factory=dict)
 
     @property
-    def median(self):
+    def median(self) -> float:
         return statistics.median(self.values)
 
 
@@ -27,11 +28,11 @@ class Figure:
 real_time = False
 
 
-def push_others_aside():
+def push_others_aside() -> None:
     os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(1))
 
 
-def priority():
+def priority() -> Callable[[], None] | None:
     """For a subprocess, to be run in it before its program begins."""
     return push_others_aside if real_time else None
 
@@ -44,10 +45,10 @@ class Skipped(Exception):
 class Run:
     """A command, the folder it runs in, what it must find there and what it left: neither is timed."""
 
-    command: list
+    command: list[Any]
     folder: Path
-    prepare: object = None
-    result: object = None
+    prepare: Callable[[], Any] | None = None
+    result: Callable[[], Any] | None = None
 
 
 @dataclass
@@ -55,10 +56,10 @@ class Time:
     wall: float
     processor: float  # user and system, of the command and all its children
     peak_memory: int  # of the largest of its processes [bytes]
-    result: object = None
+    result: Any = None
 
 
-def timed(run):
+def timed(run: Run) -> Time:
     """Runs it once; ends the benchmark with its last lines where it fails."""
     if run.prepare:
         run.prepare()
@@ -82,16 +83,16 @@ def timed(run):
     return Time(wall, used.ru_utime + used.ru_stime, 1024 * used.ru_maxrss, run.result and run.result())
 
 
-def interleaved(runs, repetitions):
+def interleaved(runs: Mapping[Any, Run], repetitions: int) -> dict[Any, list[Time]]:
     """Times of each run by its name: A B ... A B ..., `repetitions` of each."""
-    times = {name: [] for name in runs}
+    times: Any = {name: [] for name in runs}
     for _ in range(repetitions):
         for name, run in runs.items():
             times[name].append(timed(run))
     return times
 
 
-def processor_ratio(times, slow, fast, target, meaning):
+def processor_ratio(times: Mapping[Any, list[Time]], slow: str, fast: str, target: str, meaning: str) -> Figure:
     """A figure of slow/fast in processor time, one value a repetition."""
     processor = {name: [time.processor for time in of] for name, of in times.items()}
     return Figure([a / b for a, b in zip(processor[slow], processor[fast])], meaning, target, details=processor)

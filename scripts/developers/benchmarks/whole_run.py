@@ -4,16 +4,19 @@ version."""
 import os
 import shutil
 from pathlib import Path
+from typing import Any
+
+from clepsydra.environment import REPOSITORY
 
 from . import timing
-from .hopper import REPOSITORY, Hopper, conservation
+from .hopper import Hopper, conservation
 from .two_ranks import loop_seconds
 
 DURATION = 1  # [s] of flow, of both versions
 ADAPTIVE = "adjustableCouplingTimeStep yes;\nmaxCo 0.5;\nminInterval 4e-4;\nmaxInterval 4e-3;\n"
 
 
-def quick_hopper_submerged(hopper, repetitions):
+def quick_hopper_submerged(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Always the 3000 particles of the case; where the benchmark is quick, once."""
     run = hopper.quick_one().run("submerged", "whole", float(hopper.parameters["submergedTime"]), 2)
     times = timing.interleaved({"whole": run}, 1 if hopper.quick else repetitions)["whole"]
@@ -25,7 +28,7 @@ def quick_hopper_submerged(hopper, repetitions):
     )
 
 
-def quick_hopper_over_last(hopper, repetitions):
+def quick_hopper_over_last(hopper: Hopper, repetitions: int) -> timing.Figure:
     """Each version with its own case, meshes and scripts, filled by itself; the last one as its case is."""
     if "CLEPSYDRA_LAST" not in os.environ:
         raise timing.Skipped("CLEPSYDRA_LAST names no folder in which an earlier version has been built")
@@ -51,7 +54,7 @@ def quick_hopper_over_last(hopper, repetitions):
     )
 
 
-def submerged(folder, checkout, entries):
+def submerged(folder: Path, checkout: Any, entries: Any) -> Any:
     """The submerged step by a version's own Allrun."""
     case = Hopper(folder, quick=True, repository=checkout, submergedTime=DURATION).case
     with open(case / "constant/couplingProperties", "a") as settings:

@@ -2,38 +2,40 @@
 
 import functools
 import shutil
+from pathlib import Path
+from typing import Any, Callable
 
-from developers.fault_kinds.bench import BEFORE_STOPPED, STOPPED, differences, rows, sha256
+from developers.fault_kinds.bench import BEFORE_STOPPED, STOPPED, Bench, Case, differences, rows, sha256
 from developers.fault_kinds.kinds import Wrong, fault
 
 NAMED = "names the file, goes on from the checkpoint before to the same end"
 
 
-def empty(file):
+def empty(file: Path) -> None:
     file.write_bytes(b"")
 
 
-def delete(file):
+def delete(file: Path) -> None:
     file.unlink()
 
 
-def cut(file):
+def cut(file: Path) -> None:
     file.write_bytes(file.read_bytes()[: file.stat().st_size * 2 // 3])
 
 
-def flip_bit(file):
+def flip_bit(file: Path) -> None:
     """One bit of a value: in the middle, where a field has its numbers."""
     content = bytearray(file.read_bytes())
     content[len(content) // 2] ^= 1
     file.write_bytes(content)
 
 
-def older_instead(file):
+def older_instead(file: Path) -> None:
     shutil.copyfile(str(file).replace(STOPPED, BEFORE_STOPPED), file)
 
 
-def other_kind(damage, done, in_quick):
-    def tries(bench):
+def other_kind(damage: Callable[..., Any], done: Any, in_quick: bool) -> Any:
+    def tries(bench: Bench) -> list[Any]:
         names = bench.stopped().manifest(STOPPED)
         if damage is older_instead:
             # what is the same at both times is no other file
@@ -51,7 +53,7 @@ other_kind(flip_bit, "one bit flipped in a file of the last checkpoint; each in 
 other_kind(older_instead, "a file of the last checkpoint is that of the checkpoint before; each in turn", True)
 
 
-def damage_checkpoint(bench, damage, names):
+def damage_checkpoint(bench: Bench, damage: Callable[..., Any], names: Any) -> str:
     case = bench.stopped()
     for name in names:
         damage(case.folder / name)
@@ -69,13 +71,13 @@ def damage_checkpoint(bench, damage, names):
     "says so, goes on from the checkpoint before to the same end",
     in_quick=False,
 )
-def manifest_damaged(bench):
+def manifest_damaged(bench: Bench) -> list[Any]:
     return [
         functools.partial(damage_manifest, bench, damage) for damage in (empty, delete, cut, flip_bit, older_instead)
     ]
 
 
-def damage_manifest(bench, damage):
+def damage_manifest(bench: Bench, damage: Callable[..., Any]) -> str:
     case = bench.stopped()
     damage(case.folder / "checkpoints" / STOPPED / "complete")
     outcome = case.settle()
@@ -86,8 +88,8 @@ def damage_manifest(bench, damage):
 
 
 @fault("two of three checkpoints damaged", "goes on from the one that is whole, to the same end", in_quick=False)
-def two_damaged(bench):
-    def both():
+def two_damaged(bench: Bench) -> list[Any]:
+    def both() -> str:
         case = bench.stopped()
         flip_bit(case.folder / STOPPED / "U")
         empty(case.folder / "checkpoints" / BEFORE_STOPPED / "particles.0.restart")
@@ -100,11 +102,11 @@ def two_damaged(bench):
 
 
 @fault("all checkpoints damaged", "refuses and names a file of each; nothing is changed")
-def all_damaged(bench):
+def all_damaged(bench: Bench) -> list[Any]:
     return [functools.partial(damage_all, bench, damage) for damage in bench.some([flip_bit, empty, cut], quick=1)]
 
 
-def damage_all(bench, damage):
+def damage_all(bench: Bench, damage: Callable[..., Any]) -> Any:
     case = bench.stopped()
     times = ("0.02", BEFORE_STOPPED, STOPPED)
     for time in times:
@@ -116,7 +118,7 @@ def damage_all(bench, damage):
     "the folder checkpoints is gone, or all that is in it, or the name of the beginning",
     "refuses with a message; nothing is changed, and with the folder back the same end",
 )
-def checkpoints_gone(bench):
+def checkpoints_gone(bench: Bench) -> list[Any]:
     return [
         functools.partial(lose_checkpoints, bench, *what)
         for what in bench.some(
@@ -125,10 +127,13 @@ def checkpoints_gone(bench):
     ]
 
 
-def lose_checkpoints(bench, what, damage):
+def lose_checkpoints(bench: Bench, what: str, damage: Callable[[Path], None] | None) -> str:
     case = bench.stopped()
     file, kept = case.folder / what, case.folder / "kept"
-    (shutil.copytree if file.is_dir() else shutil.copyfile)(file, kept)
+    if file.is_dir():
+        shutil.copytree(file, kept)
+    else:
+        shutil.copyfile(file, kept)
     if damage:
         damage(file)
     else:
@@ -140,7 +145,7 @@ def lose_checkpoints(bench, what, damage):
     return said + "; put back, the same end"
 
 
-def refusal(case, names):
+def refusal(case: Case, names: Any) -> str:
     before = state(case)
     outcome = case.run()
     if outcome.status == 0 or not outcome.explained:
@@ -154,7 +159,7 @@ def refusal(case, names):
     return "refused, nothing changed"
 
 
-def state(case):
+def state(case: Case) -> dict[str, Any]:
     """Content of all that a run writes, but its logs and lock."""
     return {
         str(file.relative_to(case.folder)): sha256(file)
@@ -168,16 +173,16 @@ def state(case):
     "says that rows are missing or not those that were written; the states are those undisturbed",
     in_quick=False,
 )
-def table_damaged(bench):
+def table_damaged(bench: Bench) -> list[Any]:
     return [functools.partial(damage_table, bench, damage) for damage in (cut, empty, delete, drop_line)]
 
 
-def drop_line(file):
+def drop_line(file: Path) -> None:
     lines = file.read_text().splitlines(keepends=True)
     file.write_text("".join(lines[:20] + lines[21:]))
 
 
-def damage_table(bench, damage):
+def damage_table(bench: Bench, damage: Callable[..., Any]) -> str:
     case = bench.stopped()
     damage(case.folder / "postProcessing/massInHopper/0/massInHopper.dat")
     outcome = case.run()
@@ -196,8 +201,8 @@ def damage_table(bench, damage):
     "the table of m(t) goes on behind the checkpoint, its last line half written, as a kill leaves it",
     "what is later is written again: the same end",
 )
-def table_ahead(bench):
-    def ahead():
+def table_ahead(bench: Bench) -> list[Any]:
+    def ahead() -> str:
         case = bench.stopped()
         with open(case.folder / "postProcessing/massInHopper/0/massInHopper.dat", "a") as table:
             table.write("".join(f"{step * 1e-3:.10g}\t8e-4\t80\t0\n" for step in range(61, 70)) + "0.07\t8.37")
@@ -212,8 +217,8 @@ def table_ahead(bench):
     "refuses and names the times that there are; nothing is changed",
     in_quick=False,
 )
-def wrong_start_time(bench):
-    def ask(time, damage):
+def wrong_start_time(bench: Bench) -> list[Any]:
+    def ask(time: str, damage: bool) -> str:
         case = bench.stopped(startFrom="startTime", startTime=time)
         if damage:
             flip_bit(case.folder / time / "U")

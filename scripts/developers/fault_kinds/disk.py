@@ -4,19 +4,21 @@ import functools
 import shutil
 import signal
 import subprocess
+from typing import Any
 
+from developers.fault_kinds.bench import Bench, Case, Outcome
 from developers.fault_kinds.kinds import Skipped, Wrong, fault
 
 STOPS = "stops with a message and loses nothing; with room again the same command goes on to the same end"
 
 
-def mount(bench, folder, *options):
+def mount(bench: Bench, folder: Any, *options: Any) -> None:
     if not bench.may_mount:
         raise Skipped("the system allows no mounts here (neither as root nor by unshare)")
     subprocess.run(["mount", *options, folder], check=True)
 
 
-def on_small_disk_at(bench, folder, kibibytes):
+def on_small_disk_at(bench: Bench, folder: Any, kibibytes: int) -> Any:
     """Puts what is in a folder on a disk with so much room left. Returns the folder."""
     kept = bench.fresh_folder("kept")
     if folder.exists():
@@ -30,11 +32,11 @@ def on_small_disk_at(bench, folder, kibibytes):
     return folder
 
 
-def room_again(bench, folder):
+def room_again(bench: Bench, folder: Any) -> None:
     mount(bench, folder, "-o", "remount,size=64m")
 
 
-def fill(bench, part, kibibytes, fresh=False, ranks=1):
+def fill(bench: Bench, part: Any, kibibytes: int, fresh: Any = False, ranks: int = 1) -> Any:
     case = bench.pile(ranks) if fresh else bench.stopped(ranks)
     disk = on_small_disk_at(bench, case.folder / part, kibibytes)
     outcome = case.run()
@@ -44,7 +46,7 @@ def fill(bench, part, kibibytes, fresh=False, ranks=1):
     return said
 
 
-def judged_where_engines_crash(outcome):
+def judged_where_engines_crash(outcome: Outcome) -> Any:
     """The engines do not look at all that they read or allocate: short of a message they end by a signal, which loses
     nothing either."""
     if outcome.status in (-signal.SIGSEGV, -signal.SIGABRT):
@@ -52,7 +54,7 @@ def judged_where_engines_crash(outcome):
     return judged(outcome)
 
 
-def judged(outcome):
+def judged(outcome: Outcome) -> str:
     """What a run that met a fault has done, short of a silent wrong."""
     if outcome.status == 0:
         return "went on; same end"  # that it is the same is seen when it has gone on
@@ -62,39 +64,39 @@ def judged(outcome):
 
 
 @fault("the disk of the case is full after so many KiB, between a resume and the end", STOPS)
-def disk_full(bench):
+def disk_full(bench: Bench) -> list[Any]:
     return [functools.partial(fill, bench, ".", room) for room in bench.some(range(0, 640, 16), quick=5)]
 
 
 @fault("the disk of the case is full after so many KiB of a fresh run", STOPS, in_quick=False)
-def disk_full_from_start(bench):
+def disk_full_from_start(bench: Bench) -> list[Any]:
     return [functools.partial(fill, bench, ".", room, True) for room in bench.some(range(0, 1500, 100), quick=1)]
 
 
 @fault("the disk is full where the particles' checkpoints are", STOPS)
-def disk_full_for_particles(bench):
+def disk_full_for_particles(bench: Bench) -> list[Any]:
     return [functools.partial(fill, bench, "checkpoints", room) for room in bench.some(range(0, 196, 14), quick=2)]
 
 
 @fault("the disk is full where the tables (m(t), conservation) are", STOPS)
-def disk_full_for_tables(bench):
+def disk_full_for_tables(bench: Bench) -> list[Any]:
     return [functools.partial(fill, bench, "postProcessing", room) for room in bench.some(range(0, 20, 2), quick=2)]
 
 
 @fault("the disk is full where the drawings of the particles are", STOPS)
-def disk_full_for_drawings(bench):
+def disk_full_for_drawings(bench: Bench) -> list[Any]:
     return [functools.partial(fill, bench, "VTK", room) for room in bench.some(range(0, 48, 4), quick=2)]
 
 
 @fault("the disk is full where two ranks have the case, the particles' checkpoints or their drawings", STOPS)
-def disk_full_on_two_ranks(bench):
+def disk_full_on_two_ranks(bench: Bench) -> list[Any]:
     places = [(part, room) for room in (0, 8, 40, 120) for part in ("checkpoints", "VTK", ".")]
     return [functools.partial(fill, bench, part, room, ranks=2) for part, room in bench.some(places, quick=2)]
 
 
 @fault("the output goes to a full disk (/dev/full)", STOPS, in_quick=False)
-def disk_full_for_log(bench):
-    def run():
+def disk_full_for_log(bench: Bench) -> list[Any]:
+    def run() -> str:
         case = bench.pile()
         with open("/dev/full", "w") as full:
             process = case.start(stdout=full, stderr=subprocess.PIPE, text=True)
@@ -112,8 +114,8 @@ def disk_full_for_log(bench):
     "refuses with a message, changes nothing; writable, the same end",
     in_quick=False,
 )
-def read_only(bench):
-    def run(case):
+def read_only(bench: Bench) -> list[Any]:
+    def run(case: Case) -> str:
         mount(bench, case.folder, "--bind", case.folder)
         mount(bench, case.folder, "-o", "remount,bind,ro")
         outcome = case.run()
@@ -131,11 +133,11 @@ def read_only(bench):
     "stops with a message; moved back, the same end",
     in_quick=False,
 )
-def folder_moved(bench):
+def folder_moved(bench: Bench) -> list[Any]:
     return [functools.partial(move_folder, bench) for _ in bench.times(1, 3)]
 
 
-def move_folder(bench):
+def move_folder(bench: Bench) -> str:
     case = bench.pile()
     process = case.start()
     case.wait_for(f"\nTime = {bench.random.randrange(5, 70) * 1e-3:.8g}\n", process)

@@ -2,7 +2,10 @@
 
 import functools
 import subprocess
+from pathlib import Path
+from typing import Any, Callable
 
+from developers.fault_kinds.bench import Bench
 from developers.fault_kinds.disk import judged_where_engines_crash
 from developers.fault_kinds.kinds import Wrong, fault
 
@@ -12,7 +15,7 @@ STOPS = (
 )
 
 
-def limited(bench, option):
+def limited(bench: Bench, option: Any) -> Any:
     case = bench.stopped()
     outcome = case.run(["prlimit", option])
     said = "went on; same end"
@@ -26,7 +29,7 @@ def limited(bench, option):
 
 
 @fault("address space limited to so many MB", STOPS)
-def memory_limit(bench):
+def memory_limit(bench: Bench) -> list[Any]:
     return [
         functools.partial(limited, bench, f"--as={size * 1000000}")
         for size in bench.some((50, 100, 150, 200, 250, 300, 350, 400, 450, 500, 550, 600, 700, 800), quick=2)
@@ -34,11 +37,11 @@ def memory_limit(bench):
 
 
 @fault("address space limited in the midst of a run", STOPS, in_quick=False)
-def memory_gone(bench):
+def memory_gone(bench: Bench) -> list[Any]:
     return [functools.partial(take_memory, bench, spare) for spare in (0, 1, 4, 16)]
 
 
-def take_memory(bench, spare):
+def take_memory(bench: Bench, spare: Any) -> Any:
     case = bench.pile()
     process = case.start()
     case.wait_for("\nTime = 0.03", process)
@@ -52,12 +55,12 @@ def take_memory(bench, spare):
 
 
 @fault("files limited to so many bytes (ulimit -f)", STOPS, in_quick=False)
-def file_size_limit(bench):
+def file_size_limit(bench: Bench) -> list[Any]:
     return [functools.partial(limited, bench, f"--fsize={size}") for size in (0, 1000, 5000, 11430, 50000, 90000)]
 
 
 @fault("so many files may be open at once", STOPS, in_quick=False)
-def open_files_limit(bench):
+def open_files_limit(bench: Bench) -> list[Any]:
     return [functools.partial(limited, bench, f"--nofile={count}") for count in (10, 16, 20, 22, 23, 24, 25, 26, 28)]
 
 
@@ -68,7 +71,7 @@ def open_files_limit(bench):
     ),
     "stops with a message",
 )
-def numerical_faults(bench):
+def numerical_faults(bench: Bench) -> list[Any]:
     return [
         functools.partial(unstable, bench, *change)
         for change in bench.some(
@@ -88,7 +91,7 @@ def numerical_faults(bench):
     ]
 
 
-def unstable(bench, file, pattern, replacement):
+def unstable(bench: Bench, file: Path, pattern: str, replacement: Any) -> str:
     case = bench.pile()
     case.edit(file, pattern, replacement)
     outcome = case.run()
@@ -102,13 +105,13 @@ def unstable(bench, file, pattern, replacement):
     "refuses and names it; with the packing back it runs",
     in_quick=False,
 )
-def packing_damaged(bench):
+def packing_damaged(bench: Bench) -> list[Any]:
     from developers.fault_kinds.damage import cut, delete, empty, flip_bit
 
     return [functools.partial(damage_packing, bench, damage) for damage in (cut, empty, delete, flip_bit)]
 
 
-def damage_packing(bench, damage):
+def damage_packing(bench: Bench, damage: Callable[..., Any]) -> str:
     filled = bench.pile(endTime=0.02)
     filled.edit(
         "constant/couplingProperties", '"DEM/in.particles";', '"DEM/in.particles";\n    writeRestart packing.restart;'
@@ -117,10 +120,9 @@ def damage_packing(bench, damage):
     case = bench.pile(endTime=0.02)
     script = case.folder / "DEM/in.particles"
     lines = [line for line in script.read_text().splitlines() if not line.startswith(("create_", "set "))]
-    packing = "read_restart " + str(filled.folder / "packing.restart")
-    lines = [packing if line.startswith("region") else line for line in lines]
-    script.write_text("\n".join(lines) + "\n")
     packing = filled.folder / "packing.restart"
+    lines = [f"read_restart {packing}" if line.startswith("region") else line for line in lines]
+    script.write_text("\n".join(lines) + "\n")
     content = packing.read_bytes()
     damage(packing)
     outcome = case.run()

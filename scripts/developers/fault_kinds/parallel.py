@@ -4,8 +4,9 @@ import functools
 import os
 import signal
 import time
+from typing import Any
 
-from developers.fault_kinds.bench import BEFORE_STOPPED, STOPPED
+from developers.fault_kinds.bench import BEFORE_STOPPED, STOPPED, Bench, Case
 from developers.fault_kinds.damage import flip_bit
 from developers.fault_kinds.kinds import Wrong, fault
 
@@ -13,17 +14,17 @@ TO_THE_SAME_END = "no rank lives on; the same command goes on to the same end, b
 
 
 @fault("SIGKILL to one of two ranks", TO_THE_SAME_END)
-def rank_killed(bench):
+def rank_killed(bench: Bench) -> list[Any]:
     return [functools.partial(hit_rank, bench, signal.SIGKILL) for _ in bench.times(1, 8)]
 
 
 @fault("SIGKILL to mpirun", TO_THE_SAME_END, in_quick=False)
-def mpirun_killed(bench):
+def mpirun_killed(bench: Bench) -> list[Any]:
     return [functools.partial(hit_mpirun, bench, signal.SIGKILL) for _ in bench.times(1, 4)]
 
 
 @fault("SIGTERM to mpirun", TO_THE_SAME_END, in_quick=False)
-def mpirun_terminated(bench):
+def mpirun_terminated(bench: Bench) -> list[Any]:
     return [functools.partial(hit_mpirun, bench, signal.SIGTERM) for _ in bench.times(1, 4)]
 
 
@@ -32,11 +33,11 @@ def mpirun_terminated(bench):
     "status 0 with a checkpoint; then every particle and every row of m(t) once",
     in_quick=False,
 )
-def ranks_terminated(bench):
+def ranks_terminated(bench: Bench) -> list[Any]:
     return [functools.partial(stop_ranks, bench) for _ in bench.times(1, 4)]
 
 
-def ranks_of(bench):
+def ranks_of(bench: Bench) -> list[Any]:
     found = []
     for process in bench.alive():
         try:
@@ -48,7 +49,7 @@ def ranks_of(bench):
     return sorted(found)
 
 
-def started(bench, up_to=0.9):
+def started(bench: Bench, up_to: Any = 0.9) -> tuple[Any, Any]:
     case = bench.pile(2)
     process = case.start()
     step = bench.random.randrange(1, int(100 * up_to))
@@ -57,7 +58,7 @@ def started(bench, up_to=0.9):
     return case, process
 
 
-def require_nobody(bench):
+def require_nobody(bench: Bench) -> None:
     deadline = time.monotonic() + 30
     while bench.alive():
         if time.monotonic() > deadline:
@@ -65,7 +66,7 @@ def require_nobody(bench):
         time.sleep(0.05)
 
 
-def hit_rank(bench, how):
+def hit_rank(bench: Bench, how: signal.Signals) -> str:
     case, process = started(bench)
     os.kill(bench.random.choice(ranks_of(bench)), how)
     outcome = bench.finished(process, case.log)
@@ -76,7 +77,7 @@ def hit_rank(bench, how):
     return "same end"
 
 
-def hit_mpirun(bench, how):
+def hit_mpirun(bench: Bench, how: signal.Signals) -> Any:
     case, process = started(bench)
     process.send_signal(how)
     bench.finished(process, case.log)
@@ -87,7 +88,7 @@ def hit_mpirun(bench, how):
     return "same end"
 
 
-def stop_ranks(bench):
+def stop_ranks(bench: Bench) -> Any:
     case, process = started(bench)
     for rank in ranks_of(bench):
         os.kill(rank, signal.SIGTERM)
@@ -97,7 +98,7 @@ def stop_ranks(bench):
     return go_on_after_stop(case)
 
 
-def go_on_after_stop(case):
+def go_on_after_stop(case: Case) -> str:
     """Off the write times the neighbour lists are made again, and rounding differs: times and counts only."""
     from developers.fault_kinds.bench import rows
 
@@ -114,12 +115,12 @@ def go_on_after_stop(case):
     "names the file, goes on from the checkpoint before to the same end",
     in_quick=False,
 )
-def field_of_rank_damaged(bench):
+def field_of_rank_damaged(bench: Bench) -> list[Any]:
     names = [name for name in bench.stopped(2).manifest(STOPPED) if name.startswith("processor")]
     return [functools.partial(damage_rank, bench, name) for name in bench.some(names, quick=1, full=6)]
 
 
-def damage_rank(bench, name):
+def damage_rank(bench: Bench, name: str) -> str:
     case = bench.stopped(2)
     flip_bit(case.folder / name)
     outcome = case.settle()
@@ -133,11 +134,11 @@ def damage_rank(bench, name):
     "refuses with a message, nothing is lost",
     in_quick=False,
 )
-def other_ranks(bench):
+def other_ranks(bench: Bench) -> list[Any]:
     return [functools.partial(go_on_with, bench, before, after) for before, after in ((1, 2), (2, 1), (2, 3))]
 
 
-def go_on_with(bench, before, after):
+def go_on_with(bench: Bench, before: Any, after: Any) -> str:
     case = bench.stopped(before)
     case.ranks = after
     outcome = case.run()

@@ -4,10 +4,12 @@ import functools
 import shutil
 import signal
 import time
+from typing import Any, Callable
 
 import yaml
 
 from clepsydra.environment import REPOSITORY
+from developers.fault_kinds.bench import Bench
 from developers.fault_kinds.disk import on_small_disk_at, room_again
 from developers.fault_kinds.kinds import Wrong, fault
 
@@ -18,7 +20,7 @@ SURROGATE = REPOSITORY / "tests" / "parameterStudy" / "surrogate"
 class Runs:
     """A parameter study of a filling and two runs."""
 
-    def __init__(self, bench):
+    def __init__(self, bench: Bench) -> None:
         self.bench = bench
         self.folder = bench.fresh_folder("parameterStudy")
         shutil.copytree(SURROGATE, self.folder / "case")
@@ -34,7 +36,7 @@ class Runs:
         )
         self.log = self.folder.with_name(self.folder.name + ".log")
 
-    def command(self, action):
+    def command(self, action: Any) -> list[Any]:
         return [
             "env",
             f"CLEPSYDRA_BUILD={self.folder / 'build'}",
@@ -44,16 +46,16 @@ class Runs:
             *["--cores", "1"] * (action == "run"),
         ]
 
-    def start(self):
+    def start(self) -> Any:
         return self.bench.start(self.command("run"), self.folder, self.log)
 
-    def run(self):
+    def run(self) -> Any:
         return self.bench.call(self.command("run"), self.folder, self.log)
 
-    def results(self):
+    def results(self) -> dict[Any, Any]:
         return {file.name: file.read_text() for file in (self.folder / "results").glob("*.csv")}
 
-    def settle(self):
+    def settle(self) -> Any:
         outcome = self.run()
         if outcome.status != 0 or "Traceback" in outcome.output:
             raise Wrong(f"status {outcome.status}: {outcome.last_words}")
@@ -62,7 +64,7 @@ class Runs:
         return outcome
 
 
-def undisturbed(bench):
+def undisturbed(bench: Bench) -> Any:
     if bench.parameter_study_results is None:
         runs = Runs(bench)
         began = time.monotonic()
@@ -78,11 +80,11 @@ def undisturbed(bench):
     "SIGKILL to a parameter study and all that it has started, at random moments",
     "the same command goes on to the same results",
 )
-def parameter_study_killed(bench):
+def parameter_study_killed(bench: Bench) -> list[Any]:
     return [functools.partial(kill_parameter_study, bench) for _ in bench.times(1, 6)]
 
 
-def kill_parameter_study(bench):
+def kill_parameter_study(bench: Bench) -> str:
     undisturbed(bench)
     runs = Runs(bench)
     for _ in range(3):
@@ -99,13 +101,13 @@ def kill_parameter_study(bench):
     "status 143 or 130, nobody lives on; the same command goes on to the same results",
     in_quick=False,
 )
-def parameter_study_stopped(bench):
+def parameter_study_stopped(bench: Bench) -> list[Any]:
     return [
         functools.partial(stop_parameter_study, bench, how) for how in (signal.SIGTERM, signal.SIGINT) for _ in range(2)
     ]
 
 
-def stop_parameter_study(bench, how):
+def stop_parameter_study(bench: Bench, how: signal.Signals) -> str:
     undisturbed(bench)
     runs = Runs(bench)
     process = runs.start()
@@ -125,7 +127,7 @@ def stop_parameter_study(bench, how):
     "a file of a parameter study's state has half a line, is empty or is no JSON",
     "says so, or makes it again: the same results",
 )
-def parameter_study_state_damaged(bench):
+def parameter_study_state_damaged(bench: Bench) -> list[Any]:
     return [
         functools.partial(damage_state, bench, *change)
         for change in bench.some(
@@ -140,7 +142,7 @@ def parameter_study_state_damaged(bench):
     ]
 
 
-def damage_state(bench, name, damage):
+def damage_state(bench: Bench, name: str, damage: Callable[..., Any]) -> str:
     undisturbed(bench)
     runs = Runs(bench)
     runs.run()
@@ -165,11 +167,11 @@ def damage_state(bench, name, damage):
     "the disk of a parameter study is full after so many KiB",
     "fails with a message; with room again the same command goes on to the same results",
 )
-def parameter_study_disk_full(bench):
+def parameter_study_disk_full(bench: Bench) -> list[Any]:
     return [functools.partial(fill_parameter_study, bench, room) for room in bench.some(range(0, 330, 15), quick=2)]
 
 
-def fill_parameter_study(bench, room):
+def fill_parameter_study(bench: Bench, room: int) -> Any:
     undisturbed(bench)
     runs = Runs(bench)
     disk = on_small_disk_at(bench, runs.folder, room)

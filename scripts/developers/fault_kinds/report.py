@@ -4,6 +4,7 @@ import functools
 import json
 import subprocess
 from pathlib import Path
+from typing import Any
 
 from clepsydra import whole_files
 
@@ -11,7 +12,7 @@ PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- table of faults: made by --page -->\n", "<!-- end of the table -->\n"
 
 
-def row(kind, seen, wrong, seconds, skipped=None):
+def row(kind: Any, seen: Any, wrong: Any, seconds: Any, skipped: Any = None) -> dict[str, Any]:
     observed = [f"{count} x {words}" for words, count in sorted(seen.items(), key=lambda entry: -entry[1])]
     observed += [f"WRONG: {words}" for words in wrong]
     return {
@@ -27,30 +28,30 @@ def row(kind, seen, wrong, seconds, skipped=None):
 
 
 @functools.cache
-def commit():
+def commit() -> str:
     described = subprocess.run(
         ["git", "-C", PAGE.parent, "describe", "--always", "--dirty"], capture_output=True, text=True
     )
     return described.stdout.strip() or "unknown"
 
 
-def line(found):
+def line(found: Any) -> str:
     verdict = {True: "holds", False: "DOES NOT HOLD", None: "skipped"}[found["holds"]]
     return f"{found['fault']:25} {verdict:14}{found['tries']:4} tries {found['seconds']:6.1f} s  {found['observed']}"
 
 
-def summary(rows):
+def summary(rows: Any) -> str:
     held = sum(found["holds"] is True for found in rows)
     skipped = sum(found["holds"] is None for found in rows)
     tries = sum(found["tries"] for found in rows)
     return f"{held} of {len(rows)} kinds of fault hold, {skipped} skipped; {tries} tries"
 
 
-def write(file, rows):
+def write(file: Path, rows: Any) -> None:
     whole_files.write(file, json.dumps(rows, indent=1) + "\n")
 
 
-def write_page(results):
+def write_page(results: Any) -> None:
     """The table of the page, from the results of a run."""
     rows = json.loads(results.read_text())
     text = PAGE.read_text()

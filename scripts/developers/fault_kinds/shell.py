@@ -2,8 +2,10 @@
 
 import functools
 import shlex
+from typing import Any
 
 from clepsydra.environment import REPOSITORY
+from developers.fault_kinds.bench import Bench
 from developers.fault_kinds.kinds import Wrong, fault
 
 HOSTILE = (
@@ -24,7 +26,7 @@ HOSTILE = (
     "an entry of parameters is text that a shell, sed, awk or Python would run",
     "no command is run; refused or kept as text",
 )
-def hostile_parameters(bench):
+def hostile_parameters(bench: Bench) -> list[Any]:
     return [
         functools.partial(hostile, bench, use, text)
         for text in bench.some(HOSTILE, quick=3)
@@ -32,7 +34,7 @@ def hostile_parameters(bench):
     ]
 
 
-def hostile(bench, use, text):
+def hostile(bench: Bench, use: Any, text: str) -> str:
     folder = bench.fresh_folder("hostile")
     (folder / "parameters").write_text(f"friction            {text if use != 'set' else 1};\nother 1;\n")
     (folder / "template").write_text("friction            0.1;\nother 2;\n")

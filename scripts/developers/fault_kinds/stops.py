@@ -5,29 +5,30 @@ import os
 import re
 import signal
 import time
+from typing import Any
 
-from developers.fault_kinds.bench import END
+from developers.fault_kinds.bench import END, Bench, Case, Outcome
 from developers.fault_kinds.kinds import Wrong, fault
 
 TO_THE_SAME_END = "the same command goes on to the same end, bit for bit"
 
 
 @fault("SIGKILL at a random moment, up to three times in a run", TO_THE_SAME_END)
-def killed(bench):
+def killed(bench: Bench) -> list[Any]:
     return [functools.partial(kill_at_random, bench, signal.SIGKILL) for _ in bench.times(2, 25)]
 
 
 @fault("SIGHUP at a random moment, as when the terminal is closed", TO_THE_SAME_END, in_quick=False)
-def hangup(bench):
+def hangup(bench: Bench) -> list[Any]:
     return [functools.partial(kill_at_random, bench, signal.SIGHUP) for _ in bench.times(1, 5)]
 
 
 @fault("SIGABRT at a random moment, as an engine's own assertion", TO_THE_SAME_END, in_quick=False)
-def aborted(bench):
+def aborted(bench: Bench) -> list[Any]:
     return [functools.partial(kill_at_random, bench, signal.SIGABRT) for _ in bench.times(1, 5)]
 
 
-def kill_at_random(bench, how):
+def kill_at_random(bench: Bench, how: signal.Signals) -> str:
     case = bench.pile()
     kills = 0
     for _ in range(3):
@@ -41,7 +42,7 @@ def kill_at_random(bench, how):
     return f"same end after {kills} kills"
 
 
-def at_random_moment(case, process):
+def at_random_moment(case: Case, process: Any) -> None:
     """While it starts or resumes, in a third of all; otherwise in some interval or while it writes."""
     random = case.bench.random
     if random.random() < 1 / 3:
@@ -53,7 +54,7 @@ def at_random_moment(case, process):
 @fault(
     "SIGTERM at a random moment", "status 0 with a checkpoint; then the end of a run that ended there by its endTime"
 )
-def terminated(bench):
+def terminated(bench: Bench) -> list[Any]:
     return [functools.partial(asked_to_stop, bench, signal.SIGTERM) for _ in bench.times(2, 12)]
 
 
@@ -62,11 +63,11 @@ def terminated(bench):
     "a word at once, status 0 with a checkpoint; then the end of a run that ended there by its endTime",
     in_quick=False,
 )
-def interrupted(bench):
+def interrupted(bench: Bench) -> list[Any]:
     return [functools.partial(asked_to_stop, bench, signal.SIGINT) for _ in bench.times(1, 8)]
 
 
-def asked_to_stop(bench, how):
+def asked_to_stop(bench: Bench, how: signal.Signals) -> str:
     case = bench.pile()
     process = case.start()
     steps = bench.random.randrange(1, 95)
@@ -83,11 +84,11 @@ def asked_to_stop(bench, how):
 
 
 @fault("SIGINT twice, the second at once", "ends at once; " + TO_THE_SAME_END, in_quick=False)
-def interrupted_twice(bench):
+def interrupted_twice(bench: Bench) -> list[Any]:
     return [functools.partial(interrupt_twice, bench) for _ in bench.times(1, 5)]
 
 
-def interrupt_twice(bench):
+def interrupt_twice(bench: Bench) -> str:
     case = bench.pile()
     process = case.start()
     if not case.wait_for("\nTime = 0.03", process):
@@ -109,11 +110,11 @@ def interrupt_twice(bench):
     "status 0 with a checkpoint; then the end of a run that ended there by its endTime",
     in_quick=False,
 )
-def clock_time_over(bench):
+def clock_time_over(bench: Bench) -> list[Any]:
     return [functools.partial(out_of_time, bench) for _ in bench.times(1, 3)]
 
 
-def out_of_time(bench):
+def out_of_time(bench: Bench) -> str:
     case = bench.pile(endTime=1000, writeInterval=500)
     control_dict = (case.folder / "system/controlDict").read_text()
     (case.folder / "system/controlDict").write_text(control_dict + "maxClockTime 1;\n")
@@ -131,11 +132,11 @@ def out_of_time(bench):
     return "checkpoint written, same end"
 
 
-def last_time(outcome):
+def last_time(outcome: Outcome) -> Any:
     return re.findall(r"^Time = (\S+)$", outcome.output, re.MULTILINE)[-1]
 
 
-def ended_and_resumed(bench, stopped_at):
+def ended_and_resumed(bench: Bench, stopped_at: Any) -> Any:
     """A checkpoint off the write times makes neighbour lists again: only a run that has one there, too, ends alike."""
     case = bench.pile(endTime=stopped_at)
     case.must_run()
@@ -144,11 +145,11 @@ def ended_and_resumed(bench, stopped_at):
 
 
 @fault("SIGSTOP and SIGCONT, three times", "goes on to the same end by itself", in_quick=False)
-def frozen(bench):
+def frozen(bench: Bench) -> list[Any]:
     return [functools.partial(freeze, bench) for _ in bench.times(1, 4)]
 
 
-def freeze(bench):
+def freeze(bench: Bench) -> str:
     case = bench.pile()
     process = case.start()
     for _ in range(3):
@@ -167,11 +168,11 @@ def freeze(bench):
 @fault(
     "a second instance is started in the same case", "the second refuses and says who runs here; the first ends as ever"
 )
-def two_instances(bench):
+def two_instances(bench: Bench) -> list[Any]:
     return [functools.partial(start_twice, bench, ranks) for ranks in bench.some([1, 1, 1, 2], quick=1)]
 
 
-def start_twice(bench, ranks):
+def start_twice(bench: Bench, ranks: int) -> str:
     case = bench.pile(ranks)
     first = case.start()
     if not case.wait_for("\nTime = ", first):
@@ -190,11 +191,11 @@ def start_twice(bench, ranks):
 
 
 @fault("the program that reads the output ends, as in a pipe to head", TO_THE_SAME_END, in_quick=False)
-def reader_gone(bench):
+def reader_gone(bench: Bench) -> list[Any]:
     return [functools.partial(pipe_to_head, bench, lines) for lines in bench.some([1, 40, 200], quick=1)]
 
 
-def pipe_to_head(bench, lines):
+def pipe_to_head(bench: Bench, lines: Any) -> str:
     case = bench.pile()
     bench.call(["sh", "-c", f"pimpleDemFoam 2>&1 | head -n {lines} > log.head"], case.folder)
     case.settle()

@@ -6,9 +6,11 @@ import os
 import re
 import shutil
 import time
+from typing import Any
 
 from clepsydra import parameter_file
 from clepsydra.environment import REPOSITORY
+from developers.fault_kinds.bench import Bench
 from developers.fault_kinds.damage import cut, delete, empty, flip_bit
 from developers.fault_kinds.disk import on_small_disk_at, room_again
 from developers.fault_kinds.kinds import Wrong, fault
@@ -21,23 +23,23 @@ OF_THIS_CALL = ("runs", "cost", "costs", "date", "seconds", "made", "remarks", "
 class Study:
     """A small study of invented measurements, with an effect in them."""
 
-    def __init__(self, bench):
+    def __init__(self, bench: Bench) -> None:
         self.bench = bench
         self.folder = bench.fresh_folder("study")
         shutil.copytree(measured(bench), self.folder, symlinks=True, dirs_exist_ok=True)
         self.log = self.folder.with_name(self.folder.name + ".log")
 
-    def start(self):
+    def start(self) -> Any:
         return self.bench.start(["traceResidual", "run", "study.yaml"], self.folder, self.log)
 
-    def run(self):
+    def run(self) -> Any:
         return self.bench.call(["traceResidual", "run", "study.yaml"], self.folder, self.log)
 
-    def answer(self):
+    def answer(self) -> dict[Any, Any]:
         report = json.loads((self.folder / "results/report.json").read_text())
         return {name: value for name, value in report.items() if name not in OF_THIS_CALL}
 
-    def settle(self):
+    def settle(self) -> Any:
         outcome = self.run()
         if outcome.status != 0:
             raise Wrong(f"status {outcome.status}: {outcome.last_words}")
@@ -47,7 +49,7 @@ class Study:
         return outcome
 
 
-def measured(bench):
+def measured(bench: Bench) -> Any:
     """The study with its measurements, made once."""
     if bench.study is None:
         folder = bench.folder / "study"
@@ -81,7 +83,7 @@ def measured(bench):
     return bench.study
 
 
-def undisturbed(bench):
+def undisturbed(bench: Bench) -> Any:
     if bench.study_answer is None:
         study = Study(bench)
         began = time.monotonic()
@@ -99,11 +101,11 @@ def undisturbed(bench):
     "the same command goes on to the same answer",
     in_quick=False,
 )
-def study_killed(bench):
+def study_killed(bench: Bench) -> list[Any]:
     return [functools.partial(kill_study, bench) for _ in bench.times(1, 6)]
 
 
-def kill_study(bench):
+def kill_study(bench: Bench) -> str:
     undisturbed(bench)
     study = Study(bench)
     for _ in range(3):
@@ -120,7 +122,7 @@ def kill_study(bench):
     "says so, makes those runs again, comes to the same answer",
     in_quick=False,
 )
-def study_store_damaged(bench):
+def study_store_damaged(bench: Bench) -> list[Any]:
     return [
         functools.partial(damage_store, bench, damage, pattern)
         for pattern in ("massInHopper.dat", "record.json")
@@ -128,7 +130,7 @@ def study_store_damaged(bench):
     ]
 
 
-def damage_store(bench, damage, pattern):
+def damage_store(bench: Bench, damage: Any, pattern: str) -> str:
     undisturbed(bench)
     study = Study(bench)
     shutil.copytree(bench.study_done, study.folder, symlinks=True, dirs_exist_ok=True)
@@ -148,12 +150,12 @@ def damage_store(bench, damage, pattern):
     "stops with a message; with room again the same command comes to the same answer",
     in_quick=False,
 )
-def study_disk_full(bench):
+def study_disk_full(bench: Bench) -> list[Any]:
     rooms = bench.some((0, 50, 200, 500, 1000, 2000, 4000), quick=1)
     return [functools.partial(fill_study, bench, room) for room in rooms]
 
 
-def fill_study(bench, room):
+def fill_study(bench: Bench, room: int) -> Any:
     undisturbed(bench)
     study = Study(bench)
     disk = on_small_disk_at(bench, study.folder, room)
@@ -172,11 +174,11 @@ def fill_study(bench, room):
     "a run of a study starts a child that ignores SIGTERM, and is too long for simulator.timeLimit",
     "nobody lives on when the study has ended",
 )
-def time_limit(bench):
+def time_limit(bench: Bench) -> list[Any]:
     return [functools.partial(over_time, bench)]
 
 
-def over_time(bench):
+def over_time(bench: Bench) -> str:
     study = Study(bench)
     allrun = study.folder / "case/Allrun"
     allrun.write_text("#!/bin/bash\ntrap '' TERM\n(trap '' TERM; sleep 1000) &\nsetsid sleep 1000 &\nsleep 1000\n")

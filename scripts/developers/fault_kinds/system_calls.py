@@ -10,8 +10,9 @@ import re
 from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
-from developers.fault_kinds.bench import END, spread
+from developers.fault_kinds.bench import END, Bench, Case, Outcome, spread
 from developers.fault_kinds.disk import judged, judged_where_engines_crash
 from developers.fault_kinds.kinds import Wrong, fault
 
@@ -36,7 +37,7 @@ class Call:
     writing: bool  # of a call that opens
 
 
-def calls_on(bench):
+def calls_on(bench: Bench) -> Any:
     """Those that a run from stopped() to the next checkpoint makes on files of the case, in order."""
     if not bench.calls:
         bench.needs("strace", "strace")
@@ -46,11 +47,14 @@ def calls_on(bench):
         outcome = case.run(["strace", "-f", "-y", "-o", trace, "-e", "trace=" + calls])
         if outcome.status != 0:
             raise Wrong("does not run under strace: " + outcome.last_words)
-        bench.calls, times = [], Counter()
+        bench.calls = []
+        times: Counter[tuple[str, str]] = Counter()
         for line in trace.read_text(errors="replace").splitlines():
             match = OF_FILE.match(line) or OF_PATH.match(line)
-            file = match and Path(case.folder / match[2])
-            if file and case.folder in file.parents and not file.name.startswith("log."):
+            if not match:
+                continue
+            file = Path(case.folder / match[2])
+            if case.folder in file.parents and not file.name.startswith("log."):
                 name = str(file.relative_to(case.folder))
                 times[match[1], name] += 1
                 if " = -1 E" not in line:
@@ -59,21 +63,21 @@ def calls_on(bench):
     return bench.calls
 
 
-def each(bench, names, writing=None):
+def each(bench: Bench, names: Any, writing: Any = None) -> list[Any]:
     """The calls of these names, of each file some at most."""
-    found = {}
+    found: dict[Any, Any] = {}
     for call in calls_on(bench):
         if call.name in names and writing in (None, call.writing):
             found.setdefault((call.name, call.file), []).append(call)
     return [call for calls in found.values() for call in spread(calls, MOST_OF_A_FILE)]
 
 
-def on_file(case, name):
+def on_file(case: Case, name: str) -> list[Any]:
     """Options of strace: by either of the names that a run in the case has for it."""
     return ["-P", case.folder / name, "-P", name]
 
 
-def inject(bench, what, call, judge):
+def inject(bench: Bench, what: Any, call: Any, judge: Any) -> Any:
     case = bench.stopped(endTime=NEXT)
     outcome = case.run(
         [
@@ -96,7 +100,9 @@ def inject(bench, what, call, judge):
     return said
 
 
-def tries(bench, names, errors, quick, full=None, writing=None, judge=judged):
+def tries(
+    bench: Bench, names: Any, errors: Any, quick: int, full: Any = None, writing: Any = None, judge: Any = judged
+) -> list[Any]:
     chosen = bench.some(each(bench, names, writing), quick, full)
     return [
         functools.partial(inject, bench, f"error={errors[number % len(errors)]}", call, judge)
@@ -111,32 +117,32 @@ EXPECTED = "stops with a message, or does without; the same command goes on to t
 
 
 @fault("the n-th write to a file fails (ENOSPC, EIO)", EXPECTED)
-def failing_writes(bench):
+def failing_writes(bench: Bench) -> Any:
     return tries(bench, WRITES, ("ENOSPC", "EIO"), quick=4, full=100)
 
 
 @fault("the n-th fsync of a file fails (EIO)", EXPECTED)
-def failing_syncs(bench):
+def failing_syncs(bench: Bench) -> Any:
     return tries(bench, SYNCS, ("EIO",), quick=2)
 
 
 @fault("the n-th rename, mkdir or unlink of a file fails (EIO, ENOSPC)", EXPECTED)
-def failing_renames(bench):
+def failing_renames(bench: Bench) -> Any:
     return tries(bench, NAMES, ("EIO", "ENOSPC"), quick=3)
 
 
 @fault("the n-th opening of a file for writing fails (ENOSPC, EMFILE)", EXPECTED, in_quick=False)
-def failing_opens(bench):
+def failing_opens(bench: Bench) -> Any:
     return tries(bench, OPENS, ("ENOSPC", "EMFILE"), quick=2, writing=True)
 
 
 @fault("the n-th opening of a file for reading fails (EIO, EMFILE)", CRASH_EXPECTED, in_quick=False)
-def failing_opens_to_read(bench):
+def failing_opens_to_read(bench: Bench) -> Any:
     return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=60, writing=False, judge=judged_where_engines_crash)
 
 
 @fault("the n-th read of a file fails (EIO)", CRASH_EXPECTED, in_quick=False)
-def failing_reads(bench):
+def failing_reads(bench: Bench) -> Any:
     return tries(bench, READS, ("EIO",), quick=2, full=60, judge=judged_where_engines_crash)
 
 
@@ -144,7 +150,7 @@ def failing_reads(bench):
     "SIGKILL at the n-th write, fsync, rename, mkdir, unlink or opening of a file, over a whole checkpoint",
     "the same command goes on to the same end, bit for bit",
 )
-def killed_at_calls(bench):
+def killed_at_calls(bench: Bench) -> list[Any]:
     calls = each(bench, WRITES + SYNCS + NAMES) + each(bench, OPENS, True)
     return [
         functools.partial(inject, bench, "signal=KILL", call, killed) for call in bench.some(calls, quick=4, full=120)
@@ -156,7 +162,7 @@ def killed_at_calls(bench):
     EXPECTED,
     in_quick=False,
 )
-def dying_disk(bench):
+def dying_disk(bench: Bench) -> list[Any]:
     return [
         functools.partial(die, bench, call, error, number)
         for call in ("openat", "writev", "fsync", "mkdir")
@@ -165,7 +171,7 @@ def dying_disk(bench):
     ]
 
 
-def die(bench, call, error, number):
+def die(bench: Bench, call: Any, error: Any, number: Any) -> Any:
     """The calls are counted by kind: the one named begins to fail at its n-th, the others at their third."""
     files = sorted({call.file for call in calls_on(bench)})
     case = bench.stopped(endTime=NEXT)
@@ -182,5 +188,5 @@ def die(bench, call, error, number):
     return said
 
 
-def killed(outcome):
+def killed(outcome: Outcome) -> str:
     return "same end" if outcome.status else "had ended before"

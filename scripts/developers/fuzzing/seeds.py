@@ -3,6 +3,8 @@ texts."""
 
 import re
 import shutil
+from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -15,15 +17,15 @@ SURROGATE = REPOSITORY / "tests/identification/surrogate"
 CURVE = CASES / "validation/surge/results/runs/dry.100003.dry.csv"
 
 
-def formulas(_):
-    found = set()
+def formulas(_: Path) -> list[Any]:
+    found: set[Any] = set()
     for file in EFFECTS.glob("*.yaml"):
         for effect in yaml.safe_load(file.read_text())["effects"]:
             found.update(str(text) for text in {**effect.get("set", {}), **effect.get("chain", {})}.values())
     return sorted(found)
 
 
-def tables(_):
+def tables(_: Path) -> list[Any]:
     rows = (CASES / "studies/blindHopper/data/set1.csv").read_text().splitlines()
     discharge = [row.split(",", 2)[2] + "\n" for row in rows[:30]]  # behind condition and repeat
     return [
@@ -34,7 +36,7 @@ def tables(_):
     ]
 
 
-def studies(folder):
+def studies(folder: Path) -> list[Any]:
     """Beside the surrogate for a case, a small library and a measured file, which the texts name in place of their
     own."""
     (folder / "case").mkdir()
@@ -45,7 +47,7 @@ def studies(folder):
     return [beside_surrogate(file.read_text()) for file in files] + [beside_surrogate(STUDY_OF_CURVES)]
 
 
-def beside_surrogate(study):
+def beside_surrogate(study: str) -> str:
     study = re.sub(r"\bcase: .*", "case: case", study)
     study = re.sub(r"\bdependsOn: \[[^]]*\]", "dependsOn: [case]", study)
     study = re.sub(r"\beffectsFrom: .*", "effectsFrom: library.yaml", study)
@@ -70,21 +72,21 @@ withoutEffects: on
 """
 
 
-def effects(_):
+def effects(_: Path) -> Any:
     texts = [file.read_text() for file in sorted(EFFECTS.glob("*.yaml"))]
     # Single effects as well: short texts are mutated quickest.
     single = [yaml.safe_dump({"effects": [effect]}) for text in texts for effect in yaml.safe_load(text)["effects"]]
     return texts + single
 
 
-def parameters(_):
+def parameters(_: Path) -> list[Any]:
     return [file.read_text() for file in sorted(CASES.glob("**/parameters"))] + [
         "a  1;\nb  $a; // b\n",
         "a  2;\nb  #eval{ round($a)*sqrt(2) };\n",
     ]
 
 
-def coupling_properties(folder):
+def coupling_properties(folder: Path) -> list[str]:
     """The cases' own, with all that they include. What a step's script would write stands in `step`."""
     for part in ("constant", "system", "DEM"):
         (folder / part).mkdir()

@@ -3,6 +3,8 @@
 import datetime
 import json
 import subprocess
+from pathlib import Path
+from typing import Any
 
 from clepsydra import whole_files
 from clepsydra.environment import REPOSITORY
@@ -11,7 +13,7 @@ from clepsydra.environment import REPOSITORY
 SUMMED = ("executions", "seconds", "findings")
 
 
-def text(rows):
+def text(rows: list[dict[str, Any]]) -> str:
     lines = [f"{'target':20}{'executions':>12}{'seconds':>9}{'edges':>14}{'former finds':>14}{'findings':>10}"]
     for row in rows:
         lines.append(
@@ -21,7 +23,7 @@ def text(rows):
     return "\n".join(lines)
 
 
-def add_to(file, rows):
+def add_to(file: Path, rows: list[dict[str, Any]]) -> None:
     known = json.loads(file.read_text())["runs"] if file.exists() else []
     for row in rows:
         row = {**row, "commit": commit(), "date": datetime.date.today().isoformat()}
@@ -34,7 +36,7 @@ def add_to(file, rows):
     whole_files.write(file, json.dumps({"total": total, "runs": known}, indent=1) + "\n")
 
 
-def commit():
+def commit() -> str:
     """Of what was run; the file of numbers, which every run changes, makes it no other."""
     changed = lines(
         "status", "--porcelain", "--untracked-files=no", "--", ":(top)", ":(top,exclude)tests/fuzz/executions.json"
@@ -42,6 +44,6 @@ def commit():
     return lines("rev-parse", "--short=12", "HEAD")[0] + ("-dirty" if changed else "")
 
 
-def lines(*command):
+def lines(*command: Any) -> list[str]:
     done = subprocess.run(["git", "-C", REPOSITORY, *command], stdout=subprocess.PIPE, text=True, check=True)
     return done.stdout.splitlines()

@@ -7,6 +7,7 @@ import subprocess
 import tempfile
 import time
 from pathlib import Path
+from typing import Any
 
 from clepsydra.environment import REPOSITORY
 
@@ -34,7 +35,7 @@ TARGETS = {
 }
 
 
-def run(name, build, seconds):
+def run(name: str, build: Any, seconds: int) -> dict[str, Any]:
     """A row of the table. Prints what was found."""
     reads, fill, _ = TARGETS[name]
     found = build / "found" / name
@@ -64,33 +65,33 @@ def run(name, build, seconds):
     }
 
 
-def former(name):
+def former(name: str) -> list[Path]:
     return sorted((REPOSITORY / "tests/fuzz/found" / name).glob("*"))
 
 
-def working_folder():
+def working_folder() -> "Folder":
     """In memory where that is to be had: each input is a file."""
     memory = Path("/dev/shm")
     return Folder(memory if os.access(memory, os.W_OK) else None)
 
 
 class Folder:
-    def __init__(self, parent):
+    def __init__(self, parent: Path | None) -> None:
         self.parent = parent
 
-    def __enter__(self):
+    def __enter__(self) -> Any:
         self.path = Path(tempfile.mkdtemp(prefix="clepsydra-fuzz.", dir=self.parent))
         return self.path
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: Any) -> None:
         shutil.rmtree(self.path, ignore_errors=True)
 
 
-def replay(name, build, folder, files):
+def replay(name: str, build: Any, folder: Path, files: list[Path]) -> "Output":
     return Output(started(name, build, folder, [f"-timeout={SECONDS_PER_INPUT}", f"-rss_limit_mb={MEGABYTES}", *files]))
 
 
-def mutate(name, build, folder, corpora, found, seconds):
+def mutate(name: str, build: Any, folder: Path, corpora: list[Path], found: Path, seconds: int) -> "Output":
     dictionary = REPOSITORY / f"tests/fuzz/dictionaries/{name}"
     options = [
         f"-max_total_time={seconds}",
@@ -104,7 +105,7 @@ def mutate(name, build, folder, corpora, found, seconds):
     return Output(started(name, build, folder, options + corpora))
 
 
-def started(name, build, folder, arguments):
+def started(name: str, build: Any, folder: Path, arguments: list[Any]) -> subprocess.CompletedProcess[str]:
     sanitizers = REPOSITORY / "scripts/developers/sanitizers"
     variables = dict(
         os.environ,
@@ -132,7 +133,7 @@ def started(name, build, folder, arguments):
 class Output:
     """What a target of libFuzzer's kind says of its run."""
 
-    def __init__(self, done):
+    def __init__(self, done: subprocess.CompletedProcess[str]) -> None:
         self.text = done.stdout
         self.failed = done.returncode != 0
         # libFuzzer counts the mutations, and names each file that it replays.
@@ -140,6 +141,6 @@ class Output:
         self.edges = self.last(r"\((\d+) inline 8-bit counters\)")
         self.reached = self.last(r"\bcov: (\d+)")
 
-    def last(self, pattern):
+    def last(self, pattern: str) -> int:
         found = re.findall(pattern, self.text)
         return int(found[-1]) if found else 0
