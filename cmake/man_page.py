@@ -1,23 +1,23 @@
 #!/usr/bin/python3
-"""Writes the manual page of a program from what it says of itself, so that there is one text.
-"""
+"""Writes the manual page of a program from what it says of itself, so that there is one text. """
 
 import argparse
 import subprocess
 from pathlib import Path
+from typing import Any
 
 
-def said(program, option):
+def said(program: Any, option: Any) -> str:
     return subprocess.run([program, option], check=True, capture_output=True, text=True).stdout.strip("\n")
 
 
-def verbatim(text):
+def verbatim(text: str) -> str:
     """As it stands; roff takes a line's first dot or quote for its own, and backslashes anywhere."""
     lines = [line.rstrip().replace("\\", "\\e").replace("-", "\\-") for line in text.splitlines()]
     return "\n".join([".nf", *("\\&" + line if line[:1] in (".", "'") else line for line in lines), ".fi"])
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, prefix_chars="+")
     parser.add_argument("program", metavar="PROGRAM")
     parser.add_argument("summary", metavar="SUMMARY")

@@ -4,6 +4,7 @@ import os
 import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
 REPOSITORY = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(Path(__file__).resolve().parent / "_extensions"))
@@ -56,7 +57,7 @@ mathjax2_config = {
 myst_update_mathjax = False
 
 
-def copy_mathjax(app, failure):
+def copy_mathjax(app: Any, failure: Any) -> None:
     """Copies what MathJax needs to show formulas as SVG."""
     if failure or app.builder.name != "html":
         return
@@ -69,6 +70,6 @@ def copy_mathjax(app, failure):
             shutil.copyfile(source, target)
 
 
-def setup(app):
+def setup(app: Any) -> None:
     """Called by Sphinx."""
     app.connect("build-finished", copy_mathjax)

@@ -3,6 +3,7 @@
 import os
 import re
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import yaml
@@ -140,11 +141,11 @@ PAGES = {
 }
 
 
-def insert_repository_pages(app, docname: str, source: list) -> None:
+def insert_repository_pages(app: Any, docname: str, source: list) -> None:
     """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by
     what stands there between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
 
-    def text_of(match) -> str:
+    def text_of(match: Any) -> str:
         path = REPOSITORY / match["file"]
         app.env.dependencies[docname].add(str(path))
         text = path.read_text(encoding="utf-8")
@@ -161,7 +162,7 @@ def insert_repository_pages(app, docname: str, source: list) -> None:
 def with_links_from(text: str, file: str, docname: str) -> str:
     """A file's text with its links as from a page: to pages of the site or, where there is none, the path alone."""
 
-    def link(match) -> str:
+    def link(match: Any) -> str:
         picture, label, target, anchor = match.groups()
         if "://" in target or not target:
             return match[0]
@@ -178,11 +179,11 @@ def with_links_from(text: str, file: str, docname: str) -> str:
     return re.sub(r"(!?)\[([^\]]*)\]\(([^)#\s]*)(#[^)\s]*)?\)", link, text)
 
 
-def listed(values) -> str:
+def listed(values: Any) -> str:
     return ", ".join(values) if isinstance(values, list) else str(values)
 
 
-def setup(app):
+def setup(app: Any) -> dict[str, Any]:
     """Called by Sphinx."""
     app.add_directive("effects", EffectTable)
     app.add_directive("headers", Headers)

@@ -25,8 +25,7 @@ What is required stops a case, what is expected is a warning, facts are for `All
 one of them, `notFor: [mesh, ...]` leaves it out where only these parts of the case are wanted, `here: yes` where the
 case is to run on another machine. A definition takes `when` and `notFor`, too, and may be a list of which the last that
 applies counts; what refers to a name without a value is left out. Conditions compare arithmetic (clepsydra.arithmetic)
-and words, and know `and`, `or` and `not`.
-"""
+and words, and know `and`, `or` and `not`. """
 
 from __future__ import annotations
 

@@ -7,8 +7,7 @@ Technol. 71, 239 (1992), write alpha sqrt(m k) delta^1/4 with k = 4/3 E* sqrt(R)
 
 LAMMPS' pair granular takes alpha as a polynomial in a restitution coefficient, which is not the inverse of the formula
 above; tsuji_restitution is what its polynomial must be given. Its tangential damping is a multiple of the normal one:
-sqrt(S_t/S_n) = 2 sqrt(G*/E*), G* = Y/(4 (2 - nu) (1 + nu)), E* = Y/(2 (1 - nu^2)).
-"""
+sqrt(S_t/S_n) = 2 sqrt(G*/E*), G* = Y/(4 (2 - nu) (1 + nu)), E* = Y/(2 (1 - nu^2)). """
 
 import argparse
 import math

@@ -12,8 +12,7 @@ def smoothed_rate(
 ) -> tuple[np.ndarray, np.ndarray]:
     """-dm/dt, as the paper takes it: slope of a parabola fitted under Gaussian weights.
 
-    Times nearer than one deviation to an end are left out: the fit leans there.
-    """
+    Times nearer than one deviation to an end are left out: the fit leans there."""
     at = np.linspace(time[0] + deviation, time[-1] - deviation, points)
     rate = np.empty(points)
     for index, centre in enumerate(at):
@@ -43,11 +42,18 @@ def mean_rate(time: np.ndarray, mass: np.ndarray, upper: float, lower: float) ->
     return None if start is None or end is None else (upper - lower) * mass[0] / (end - start)
 
 
+def required_mean_rate(time: np.ndarray, mass: np.ndarray, upper: float, lower: float) -> float:
+    """The same of a discharge that must have come to the lower fraction; SystemExit where it has not."""
+    rate = mean_rate(time, mass, upper, lower)
+    if rate is None:
+        raise SystemExit(f"a discharge ended before {100 * (1 - lower):g} % of the fill had left")
+    return rate
+
+
 def emptying_time(time: np.ndarray, mass: np.ndarray, level: float) -> float | None:
     """When the smoothed rate falls below level [kg/s] for good; None if it does not.
 
-    Not "the last particle": single particles trickle off the heap on a flat bottom for seconds.
-    """
+    Not "the last particle": single particles trickle off the heap on a flat bottom for seconds."""
     at, rate = smoothed_rate(time, mass)
     above = np.flatnonzero(rate >= level)
     if not len(above) or above[-1] == len(rate) - 1:

@@ -15,8 +15,7 @@ CONTROL = (
 def read(case: Path, time: Any = None, polyhedra: str = "decomposed") -> tuple[Any, dict[str, Any]]:
     """The cells, with U where a time is given, and the patches by name.
 
-    polyhedra "whole": as they are, which is quicker and is drawn rightly where no cell is cut.
-    """
+    polyhedra "whole": as they are, which is quicker and is drawn rightly where no cell is cut."""
     with tempfile.TemporaryDirectory() as name:
         # the reader wants a plain controlDict, and would take the case's own times and macros for its own
         folder = Path(name)

@@ -2,8 +2,7 @@
 
 A step is a run of pimpleDemFoam in steps/<name>, set up from the case's file step.<name>. The first step fills the
 hopper and leaves steps/<first>/packing.restart, from which all others start. A run that was stopped resumes from its
-last checkpoint; steps that have ended are not run again.
-"""
+last checkpoint; steps that have ended are not run again. """
 
 from __future__ import annotations
 

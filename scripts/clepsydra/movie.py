@@ -5,9 +5,8 @@ scale's reading.
 Usage: movie [options] CASE FILE...
 
 One picture for each time that the case has written particles of (`drawParticles`, `fieldInterval` of a hopper). Each
-FILE is made of the
-same pictures, by its ending: .mp4 or .webm, a film; .gif, .webp or .apng, a small animation that pages show.
-"""
+FILE is made of the same pictures, by its ending: .mp4 or .webm, a film; .gif, .webp or .apng, a small animation that
+pages show. """
 
 import argparse
 import math

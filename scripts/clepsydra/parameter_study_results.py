@@ -67,13 +67,13 @@ def by_case(runs: list[Run]) -> dict[str, list[Run]]:
     return found
 
 
-def pooled_deviation(groups: Iterable[np.ndarray]) -> float:
+def pooled_deviation(groups: Iterable[Any]) -> float:
     """Standard deviation of one run, taken to be the same in all groups of repeats."""
     groups = [np.asarray(group, dtype=float) for group in groups]
     freedom = sum(len(group) - 1 for group in groups)
     return np.sqrt(sum(((group - group.mean()) ** 2).sum() for group in groups) / freedom)
 
 
-def mean_and_error(values: np.ndarray, deviation: float) -> tuple[float, float]:
+def mean_and_error(values: Any, deviation: float) -> tuple[float, float]:
     """Mean of repeats and its standard error, from the deviation of one run."""
     return np.mean(values), deviation / np.sqrt(len(values))

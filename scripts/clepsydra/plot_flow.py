@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """Mass in the hopper and rate of outflow against time, from massInHopper.dat.
 
-Writes FOLDER/mass.png and FOLDER/rate.png with one curve for each case directory,
-named after it.
-"""
+Writes FOLDER/mass.png and FOLDER/rate.png with one curve for each case directory, named after it. """
 
 import argparse
 from pathlib import Path

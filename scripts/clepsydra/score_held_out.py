@@ -2,8 +2,7 @@
 """A study's answer on conditions that were held back: their measured files are put in, and the study is run again from
 its stored runs. The answer is on disk before the files are looked at.
 
-Writes STUDY's folder/results/heldOut/report.json and .html. The study itself stays as it is.
-"""
+Writes STUDY's folder/results/heldOut/report.json and .html. The study itself stays as it is. """
 
 import argparse
 import glob

@@ -4,11 +4,10 @@
 Usage: sizeDistribution --mean D (--deviation S | --relativeDeviation S/D) [--cut 2] [--classes 9] [--density 2500]
 [--type 1] [--name particles]
 
-LIGGGHTS 3.8 takes one radius per template, so the distribution becomes several templates in one
-particledistribution: classes of equal width from D - cut S to D + cut S [m], each with the diameter that keeps
-its particles' volume, weighted by number. Use it by `include DEM/in.sizes` and `distributiontemplate <name>` in
-fix insert; --density may be a variable of the script, '${particleDensity}'.
-"""
+LIGGGHTS 3.8 takes one radius per template, so the distribution becomes several templates in one particledistribution:
+classes of equal width from D - cut S to D + cut S [m], each with the diameter that keeps its particles' volume,
+weighted by number. Use it by `include DEM/in.sizes` and `distributiontemplate <name>` in fix insert; --density may be a
+variable of the script, '${particleDensity}'. """
 
 import argparse
 import math

@@ -3,8 +3,7 @@
 
 Exit status 0: every case ran, every row agrees with its reference or is the finding that is recorded
 (cases/validation/results.json, quickResults.json), and no recorded row is missing. 77: no case could run here, for want
-of another program.
-"""
+of another program. """
 
 import argparse
 import json

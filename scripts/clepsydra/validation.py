@@ -1,8 +1,7 @@
 """Rows of the validation table: what a case compares, and how well it holds.
 
 A case of cases/validation writes results/rows.json by `write`; scripts/validate collects them, and `judge` holds them
-against what is recorded.
-"""
+against what is recorded. """
 
 import json
 from math import hypot

@@ -5,8 +5,7 @@ Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY .
 
 Without ENTRY all of them; with --quick all but the longest. Prints a table and, with --json, writes it with machine,
 date and load. An entry that cannot be measured here is skipped, with the reason. LAMMPS and Yade come with
-scripts/setup --with otherCodes.
-"""
+scripts/setup --with otherCodes. """
 
 import argparse
 import sys

@@ -1,11 +1,9 @@
 #!/usr/bin/python3
 """The statistics of traceResidual from end to end, on a surrogate for the solver: false alarms, detection, right names,
-sets,
-abstention, coverage, the same answer under other seeds.
+sets, abstention, coverage, the same answer under other seeds.
 
 Prints the table of what has been run, all seeds together (seconds). With --run SEED, options of
-build/bin/checkIdentification may follow, for instance --libraries 3.
-"""
+build/bin/checkIdentification may follow, for instance --libraries 3. """
 
 import argparse
 import json

@@ -5,11 +5,8 @@ wrong.
 Usage: faults [--quick] [--json FILE] [--keep] [NAME ...]
 
 Without NAME all kinds of fault; with --quick a part of them, a minute. Each is tried several times, against an
-undisturbed
-run. Prints a line per kind and ends with status 1 where one does not hold. A fault that cannot be made on this machine
-is
-skipped, with the reason. --page writes the table of a JSON file into the page.
-"""
+undisturbed run. Prints a line per kind and ends with status 1 where one does not hold. A fault that cannot be made on
+this machine is skipped, with the reason. --page writes the table of a JSON file into the page. """
 
 import argparse
 import os

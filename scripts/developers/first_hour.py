@@ -5,12 +5,9 @@ Usage: firstHour --json FILE [--quick] [--keep FOLDER] [--mirror URL]
        firstHour --list
 
 Needs root and debootstrap (apt-get install debootstrap). Two roots are made, of Debian's smallest set of packages: one
-with a clone
-of this repository's last commit, one that gets nothing but the Debian package which was packed in the first. What a
-reader does beside
-the lines stands in tests/pages/firstHour.yaml. FILE: a list of step, command, seconds, ok, in order. Exit status 1
-where a line failed.
-"""
+with a clone of this repository's last commit, one that gets nothing but the Debian package which was packed in the
+first. What a reader does beside the lines stands in tests/pages/firstHour.yaml. FILE: a list of step, command, seconds,
+ok, in order. Exit status 1 where a line failed. """
 
 import argparse
 import json

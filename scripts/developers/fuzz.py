@@ -5,13 +5,10 @@ reports.
 Usage: fuzz [--seconds N] [--json FILE] [--build FOLDER] [--build-only] [TARGET ...]
 
 Each TARGET (default: all) first reads every file of tests/fuzz/found/TARGET, where the finds of former runs are kept,
-and
-then mutations of the repository's own files for N seconds (default 60; 0: the former finds only). Inputs that reached
-new
-code are kept in FOLDER/corpus (default FOLDER: build-fuzz) and are where the next run goes on. --json adds the numbers
-to
-FILE. What is found lies in FOLDER/found. Exit status 1 where anything was found, 77 where clang cannot build fuzzers.
-"""
+and then mutations of the repository's own files for N seconds (default 60; 0: the former finds only). Inputs that
+reached new code are kept in FOLDER/corpus (default FOLDER: build-fuzz) and are where the next run goes on. --json adds
+the numbers to FILE. What is found lies in FOLDER/found. Exit status 1 where anything was found, 77 where clang cannot
+build fuzzers. """
 
 import argparse
 import sys

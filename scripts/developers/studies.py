@@ -8,9 +8,7 @@ usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --r
 
 Errors are those of held-out conditions: the study's own (results/), or those that were held back (results/heldOut, by
 scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote
-the
-library may have. In this order; the table says which.
-"""
+the library may have. In this order; the table says which. """
 
 import argparse
 import json

@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials
-ErgunTestMPI and
-settlingTestMPI. What it writes is run, and held against the law that the old case states; what it cannot carry over is
-an error.
-"""
+ErgunTestMPI and settlingTestMPI. What it writes is run, and held against the law that the old case states; what it
+cannot carry over is an error. """
 
 import re
 import shutil
@@ -11,6 +9,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,13 +20,13 @@ ROOT = HERE.parents[1]
 
 
 class Folder(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory(prefix="clepsydra-import-")
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.target = self.folder / "new"
 
-    def case(self, name, file=None, old="", new=""):
+    def case(self, name: str, file: str | None = None, old: Any = "", new: Any = "") -> Any:
         """A copy of an old case, with a text in one of its files replaced."""
         copy = self.folder / name
         shutil.copytree(HERE / name, copy)
@@ -37,17 +36,17 @@ class Folder(unittest.TestCase):
             (copy / file).write_text(text.replace(old, new, 1))
         return copy
 
-    def importing(self, case, *options):
+    def importing(self, case: Any, *options: Any) -> Any:
         return subprocess.run(
             [ROOT / "scripts/importCfdem", case, self.target, *options], capture_output=True, text=True
         )
 
-    def imported(self, case, *options):
+    def imported(self, case: Any, *options: Any) -> Any:
         done = self.importing(case, *options)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def run_(self):
+    def run_(self) -> None:
         done = subprocess.run([self.target / "Allrun"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 0, done.stderr[-3000:])
 
@@ -55,7 +54,7 @@ class Folder(unittest.TestCase):
 class Runs(Folder):
     """Of the new cases: within 5 % of the law."""
 
-    def test_settling_particle(self):
+    def test_settling_particle(self) -> None:
         self.imported(HERE / "settlingParticle")
         self.run_()
         speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
@@ -70,7 +69,7 @@ class Runs(Folder):
         print(f"settlingParticle: {speed:.5f} m/s, Di Felice's law {law:.5f}: {100 * (speed / law - 1):+.2f} %")
         self.assertLess(abs(speed / law - 1), 0.05)
 
-    def test_packed_column(self):
+    def test_packed_column(self) -> None:
         """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the
         pressure drop."""
         self.imported(HERE / "packedColumn")
@@ -82,7 +81,7 @@ class Runs(Folder):
             print(f"packedColumn at {velocity} m/s: {drop:.2f} Pa, Ergun {law:.2f}: {100 * (drop / law - 1):+.2f} %")
             self.assertLess(abs(drop / law - 1), 0.05)
 
-    def ergun(self, time, velocity):
+    def ergun(self, time: str, velocity: float) -> Any:
         """Over the layers of cells between the two probes, which are the middles of the lowest layer and of one above
         the bed."""
         void_fraction = case_files.field(self.target, time, "voidFraction")[:, 0]  # one cell a layer
@@ -102,27 +101,27 @@ class Runs(Folder):
 class Meanings(Folder):
     """What is written, where a word means something else."""
 
-    def test_interval_is_in_seconds(self):
+    def test_interval_is_in_seconds(self) -> None:
         said = self.imported(HERE / "settlingParticle")
         self.assertIn("couplingTimeStep        0.001;", (self.target / "constant/couplingProperties").read_text())
         self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
         self.assertIn("couplingInterval 100: is in seconds here", said)
 
-    def test_smoothing_length_spreads_alike(self):
+    def test_smoothing_length_spreads_alike(self) -> None:
         self.imported(HERE / "settlingParticle")
         self.assertIn("bandwidth               0.0006;", (self.target / "constant/couplingProperties").read_text())
 
-    def test_constant_inlet_is_superficial(self):
+    def test_constant_inlet_is_superficial(self) -> None:
         text = (HERE / "packedColumn/CFD/0/U").read_text()
-        table = re.search(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[0]
+        (table,) = re.findall(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[:1]
         self.imported(self.case("packedColumn", "CFD/0/U", table, "type fixedValue; value uniform (0 0 0.01);\n"))
         self.assertIn("interstitialInletVelocity", (self.target / "0/U").read_text())
 
-    def test_long_table_of_an_inlet(self):
+    def test_long_table_of_an_inlet(self) -> None:
         """OpenFOAM reads the expression, and it has the table's values at and between its times."""
         rows = [(0.001 * step, 0.002 + 0.001 * (step % 3)) for step in range(60)]
         text = (HERE / "packedColumn/CFD/0/U").read_text()
-        table = re.search(r"table\n        \(.*?\n        \);", text, re.DOTALL)[0]
+        (table,) = re.findall(r"table\n        \(.*?\n        \);", text, re.DOTALL)[:1]
         self.imported(
             self.case(
                 "packedColumn",
@@ -138,9 +137,9 @@ class Meanings(Folder):
         for row in probes.splitlines():
             if not row.startswith("#"):
                 time, *_, upwards = (float(number) for number in row.split())
-                self.assertAlmostEqual(upwards, np.interp(time, *zip(*rows)), delta=1e-6)
+                self.assertAlmostEqual(upwards, float(np.interp(time, *np.transpose(rows))), delta=1e-6)
 
-    def test_inlet_between_the_particles_stays_one(self):
+    def test_inlet_between_the_particles_stays_one(self) -> None:
         self.imported(
             self.case(
                 "packedColumn",
@@ -151,12 +150,12 @@ class Meanings(Folder):
         )
         self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
 
-    def test_probes_look_for_our_field(self):
+    def test_probes_look_for_our_field(self) -> None:
         said = self.imported(HERE / "packedColumn")
         self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
         self.assertIn("volAverage_voidfraction: no such field here", said)
 
-    def test_files_are_not_compressed(self):
+    def test_files_are_not_compressed(self) -> None:
         """Taken over as `on`, the program would refuse the case."""
         said = self.imported(
             self.case(
@@ -169,7 +168,7 @@ class Meanings(Folder):
         self.assertIn("writeCompression        off;", (self.target / "system/controlDict").read_text())
         self.assertIn("writeCompression: is off here", said)
 
-    def test_script_loses_the_coupling(self):
+    def test_script_loses_the_coupling(self) -> None:
         said = self.imported(HERE / "packedColumn")
         script = (self.target / "DEM/in.liggghts_run").read_text()
         for word in ("processors", "couple/cfd", "dragforce", "dragtotal", "../DEM", "thermo_log"):
@@ -178,7 +177,7 @@ class Meanings(Folder):
         self.assertIn("thermo_style custom step atoms ke c_centre[3]", script)
         self.assertIn("processors 2 2 1: both engines", said)
 
-    def test_seeds_are_primes_above10000(self):
+    def test_seeds_are_primes_above10000(self) -> None:
         for file, old, new in (
             ("DEM/in.liggghts_init", "sphere 15485863", "sphere 1"),
             ("DEM/in.liggghts_init", "seed 100003", "seed 100001"),
@@ -192,13 +191,13 @@ class Meanings(Folder):
                 self.assertRegex(script, r"sphere 10007|seed 100003")
                 self.assertIn(f"seed {new.split()[1]}: is 100", said)
 
-    def test_solvers_keep_their_words(self):
+    def test_solvers_keep_their_words(self) -> None:
         self.imported(HERE / "packedColumn")
         solution = (self.target / "system/fvSolution").read_text()
         self.assertIn("        $p;", solution)
         self.assertIn("    nNonOrthogonalCorrectors 0;", solution)
 
-    def test_report_stays_with_the_case(self):
+    def test_report_stays_with_the_case(self) -> None:
         said = self.imported(HERE / "packedColumn")
         self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
 
@@ -206,7 +205,7 @@ class Meanings(Folder):
 class Errors(Folder):
     """Nothing is written, and the message names the file and the entry."""
 
-    def test_what_nothing_reads(self):
+    def test_what_nothing_reads(self) -> None:
         coupling, control, script = "CFD/constant/couplingProperties", "CFD/system/controlDict", "DEM/in.liggghts_run"
         for file, old, new, named in (
             (coupling, "modelType B;", "modelType B; useImplicitWhatever on;", "useImplicitWhatever"),
@@ -241,12 +240,12 @@ class Errors(Folder):
                 self.assertIn("nothing was written", done.stderr)
                 self.assertFalse(self.target.exists())
 
-    def test_inlet_that_may_be_either(self):
+    def test_inlet_that_may_be_either(self) -> None:
         done = self.importing(self.case("packedColumn", "CFD/0/voidfraction", '"(inlet|outlet)"', "outlet"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("inlet", done.stderr)
 
-    def test_without_is_what_the_user_says(self):
+    def test_without_is_what_the_user_says(self) -> None:
         case = self.case(
             "settlingParticle",
             "CFD/constant/couplingProperties",
@@ -255,17 +254,17 @@ class Errors(Folder):
         )
         self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
 
-    def test_without_that_names_nothing(self):
+    def test_without_that_names_nothing(self) -> None:
         done = self.importing(HERE / "settlingParticle", "--without", "misspelt")
         self.assertEqual(done.returncode, 1)
         self.assertIn("misspelt: names no error", done.stderr)
 
-    def test_target_that_is_there(self):
+    def test_target_that_is_there(self) -> None:
         self.target.mkdir()
         done = self.importing(HERE / "settlingParticle")
         self.assertIn("is there already", done.stderr)
 
-    def test_broken_file(self):
+    def test_broken_file(self) -> None:
         done = self.importing(self.case("settlingParticle", "CFD/0/p", "boundaryField\n{", "boundaryField\n"))
         self.assertEqual(done.returncode, 1)
         self.assertIn("CFD/0/p", done.stderr)

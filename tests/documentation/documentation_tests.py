@@ -287,7 +287,7 @@ class Pages(unittest.TestCase):
 class Targets(html.parser.HTMLParser):
     """Of one page of the site: where its links and pictures lead, and what may be led to."""
 
-    def __init__(self, page: Path):
+    def __init__(self, page: Path) -> None:
         super().__init__()
         self.links: list[str] = []
         self.anchors = {""}

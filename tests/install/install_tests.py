@@ -4,9 +4,7 @@
 usage: installTests.py BUILD [unittest's options]
 
 The programs run where an empty file system lies over the repository, the build and OpenFOAM's headers; in a shell that
-has
-HOME and PATH and nothing else. Where the machine does not let us mount, that cover is missing.
-"""
+has HOME and PATH and nothing else. Where the machine does not let us mount, that cover is missing. """
 
 import math
 import os
@@ -16,6 +14,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(sys.argv.pop(1)).resolve()
@@ -23,7 +22,7 @@ DEPENDENCIES = Path(os.environ.get("CLEPSYDRA_DEPENDENCIES", ROOT / ".dependenci
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
-def covered(script, folders):
+def covered(script: Any, folders: Any) -> list[str]:
     """The script, with nothing to be seen of these folders."""
     mounts = "; ".join(f"mount -t tmpfs none {folder}" for folder in sorted(folders, reverse=True) if folder.is_dir())
     may_mount = subprocess.run(["unshare", "--mount", "true"], capture_output=True).returncode == 0
@@ -35,8 +34,12 @@ def covered(script, folders):
 
 
 class Installed(unittest.TestCase):
+    folder: Path
+    prefix: Path
+    shared: Path
+
     @classmethod
-    def setUpClass(cls):
+    def setUpClass(cls) -> None:
         folder = tempfile.TemporaryDirectory(prefix="clepsydra-install-")
         cls.addClassCleanup(folder.cleanup)
         cls.folder = Path(folder.name)
@@ -44,11 +47,11 @@ class Installed(unittest.TestCase):
         cls.shared = cls.prefix / "share/clepsydra"
 
     @classmethod
-    def unpack(cls):
+    def unpack(cls) -> None:
         cls.prefix = cls.folder / "usr"
         subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, stdout=subprocess.DEVNULL)
 
-    def types(self, script, covering=(BUILD, DEPENDENCIES, ROOT)):
+    def types(self, script: Any, covering: Any = (BUILD, DEPENDENCIES, ROOT)) -> Any:
         done = subprocess.run(
             covered(f"cd {self.folder}; {script}", covering),
             capture_output=True,
@@ -59,12 +62,12 @@ class Installed(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr[-2000:])
         return done.stdout
 
-    def test_programs_start_by_their_names(self):
+    def test_programs_start_by_their_names(self) -> None:
         self.assertIn("Usage: pimpleDemFoam", self.types("usr/bin/pimpleDemFoam -help"))
         self.assertIn("DiFeliceDrag", self.types("usr/bin/closures dragLaws"))
         self.assertIn("study", self.types("usr/bin/traceResidual --help"))
 
-    def test_manual_pages(self):
+    def test_manual_pages(self) -> None:
         for program, words in (
             ("pimpleDemFoam", ("-listModels", "DiFeliceDrag", "massInHopper")),
             ("traceResidual", ("plan",)),
@@ -83,7 +86,7 @@ class Installed(unittest.TestCase):
             for word in words:
                 self.assertIn(word, page.replace("\\-", "-"))
 
-    def test_completions(self):
+    def test_completions(self) -> None:
         for program, typed, before, completed in (
             ("pimpleDemFoam", ["-listM"], "", ["-listModels"]),
             ("traceResidual", ["pl"], "", ["plan"]),
@@ -98,7 +101,7 @@ class Installed(unittest.TestCase):
             )
             self.assertEqual(said.split(), completed)
 
-    def test_copied_case_runs(self):
+    def test_copied_case_runs(self) -> None:
         self.types(
             f"cp -r {self.shared}/cases/tutorials/settlingParticle particle; . {self.shared}/scripts/environment;"
             f" particle/Allrun; {self.shared}/scripts/plotParticle particle particle.png"
@@ -111,7 +114,7 @@ class Installed(unittest.TestCase):
         )
         self.assertAlmostEqual(float(last[2]), -0.268, delta=0.003)
 
-    def test_force_of_ones_own(self):
+    def test_force_of_ones_own(self) -> None:
         """A particle that a force of a user's library holds against its buoyant weight stays where it is."""
         shutil.copytree(ROOT / "tests/install/ownForce", self.folder / "ownForce")
         shutil.copytree(self.shared / "cases/tutorials/settlingParticle", self.folder / "held")
@@ -149,22 +152,22 @@ class Installed(unittest.TestCase):
         )
         self.assertLess(abs(float(last[2])), 1e-8)
 
-    def replace(self, file, old, new):
+    def replace(self, file: str, old: Any, new: Any) -> None:
         text = (self.folder / file).read_text()
         self.assertIn(old, text)
         (self.folder / file).write_text(text.replace(old, new, 1))
 
-    def test_copied_hopper_makes_its_mesh(self):
+    def test_copied_hopper_makes_its_mesh(self) -> None:
         said = self.types(
             f"cp -r {self.shared}/cases/tutorials/hopperQuick hopper; . {self.shared}/scripts/environment;"
             " hopper/Allrun mesh; hopper/Allrun check"
         )
         self.assertIn("The case would start", said)
 
-    def test_setup_has_nothing_to_do(self):
+    def test_setup_has_nothing_to_do(self) -> None:
         self.assertEqual(self.types(f"{self.shared}/scripts/setup"), "")
 
-    def test_results_of_runs_here_stay_here(self):
+    def test_results_of_runs_here_stay_here(self) -> None:
         tracked = set(
             subprocess.run(["git", "-C", ROOT, "ls-files"], check=True, capture_output=True, text=True).stdout.split(
                 "\n"
@@ -183,12 +186,16 @@ class Package(Installed):
     """The same from the package, unpacked beside what is there; as far as it is not shown by its files being the
     same."""
 
-    test_manual_pages = (
-        test_completions
-    ) = test_force_of_ones_own = test_copied_hopper_makes_its_mesh = test_results_of_runs_here_stay_here = None
+    package: Path
+
+    test_manual_pages = None  # type: ignore[assignment]
+    test_completions = None  # type: ignore[assignment]
+    test_force_of_ones_own = None  # type: ignore[assignment]
+    test_copied_hopper_makes_its_mesh = None  # type: ignore[assignment]
+    test_results_of_runs_here_stay_here = None  # type: ignore[assignment]
 
     @classmethod
-    def unpack(cls):
+    def unpack(cls) -> None:
         subprocess.run(
             ["cpack", "-G", "DEB", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / "packed"],
             check=True,
@@ -199,7 +206,7 @@ class Package(Installed):
         (cls.folder / "usr").symlink_to("unpacked/usr")
         cls.prefix = cls.folder / "usr"
 
-    def test_holds_what_is_installed(self):
+    def test_holds_what_is_installed(self) -> None:
         """All files of `cmake --install`, byte by byte but for the programs, from which debugging symbols are
         stripped."""
         installed = self.folder / "installed"
@@ -219,14 +226,14 @@ class Package(Installed):
             if not content.startswith(b"\x7fELF"):
                 self.assertEqual(content, packed, name)
 
-    def test_package_conflicts_with_para_views_python(self):
+    def test_package_conflicts_with_para_views_python(self) -> None:
         """Else apt, which liggghts recommends ParaView to, finds no way to install ours."""
         conflicts = subprocess.run(
             ["dpkg-deb", "-f", self.package, "Conflicts"], check=True, capture_output=True, text=True
         ).stdout
         self.assertIn("python3-paraview", conflicts)
 
-    def test_package_names_what_it_needs(self):
+    def test_package_names_what_it_needs(self) -> None:
         depends = subprocess.run(
             ["dpkg-deb", "-f", self.package, "Depends"], check=True, capture_output=True, text=True
         ).stdout

@@ -9,10 +9,8 @@ command,
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
 A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a
-program
-(developers/page_text.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its environment and
-nothing else.
-"""
+program (developers/page_text.py). It runs in a copy of the repository, by bash, with HOME, PATH and TERM in its
+environment and nothing else. """
 
 import argparse
 import json
@@ -22,10 +20,12 @@ import shutil
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Any
 
 import yaml
 
-from developers.page_text import ROOT, commands, links
+from clepsydra.environment import REPOSITORY as ROOT
+from developers.page_text import commands, links
 
 TABLE = Path(__file__).with_name("commands.yaml")
 WORDS_OF_FRONT_PAGE = 900  # one screen: what is more belongs on the page beside what it describes
@@ -33,7 +33,7 @@ KINDS = ("run", "long", "test")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     table = commands.add_parser("table")
@@ -50,14 +50,14 @@ def main():
         run_page(given.page, given.build, given.headers, given.long)
 
 
-def pages():
+def pages() -> dict[Any, Any]:
     """Path in the repository -> text. Not the changelog, which names commands of the past."""
     made = re.compile(r"\.dependencies/|build[^/]*/|.*/([^/]*\.work|work|work-quick|runs|steps)/")
     found = sorted(str(path.relative_to(ROOT)) for path in ROOT.rglob("*.md"))
     return {page: (ROOT / page).read_text() for page in found if page != "CHANGELOG.md" and not made.match(page)}
 
 
-def read_table():
+def read_table() -> Any:
     table = yaml.safe_load(TABLE.read_text())
     for page, rows in table.items():
         for command, row in rows.items():
@@ -66,7 +66,7 @@ def read_table():
     return table
 
 
-def check_table(build):
+def check_table(build: Any) -> None:
     table, wrong = read_table(), []
     registered = registered_tests(build)
     words = len((ROOT / "README.md").read_text().split())
@@ -92,7 +92,7 @@ def check_table(build):
         raise SystemExit("pages, commands.yaml:\n  " + "\n  ".join(wrong))
 
 
-def registered_tests(build):
+def registered_tests(build: Any) -> set[Any]:
     """With those that run in `ctest -C long` only."""
     shown = subprocess.run(
         ["ctest", "--test-dir", build, "-C", "long", "--show-only=json-v1"], check=True, capture_output=True, text=True
@@ -100,7 +100,7 @@ def registered_tests(build):
     return {test["name"] for test in json.loads(shown.stdout)["tests"]}
 
 
-def run_page(page, build, headers, kind):
+def run_page(page: Any, build: Any, headers: Any, kind: Any) -> None:
     rows = read_table()[page]
     with tempfile.TemporaryDirectory(prefix="clepsydra-pages-") as folder:
         home = copy_repository(Path(folder) / "clepsydra")
@@ -111,7 +111,7 @@ def run_page(page, build, headers, kind):
         raise SystemExit(f"{page}: as documented, these fail: " + "; ".join(failed))
 
 
-def copy_repository(home):
+def copy_repository(home: Path) -> Any:
     """The files as they are now, without what git ignores, and a git of their own: some commands ask it what is
     committed."""
     listed = subprocess.run(
@@ -129,7 +129,7 @@ def copy_repository(home):
     return home
 
 
-def link_build(folder, build):
+def link_build(folder: Path, build: Any) -> None:
     """What was built, as a build that is up to date: scripts/setup must not build again beneath the other tests."""
     folder.mkdir()
     for part in ("bin", "lib"):
@@ -142,7 +142,7 @@ def link_build(folder, build):
     (folder / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
 
 
-def works(command, row, kind, home, page):
+def works(command: Any, row: Any, kind: Any, home: Path, page: Any) -> bool:
     """Runs one command: `run`/`long` is the script to run, `{}` in it the command with its `words` replaced."""
     typed = command
     for word, by in row.get("words", {}).items():

@@ -11,6 +11,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -19,34 +20,35 @@ PARAMETER_STUDY = REPOSITORY / "scripts" / "parameterStudy"
 
 
 class ParameterStudyTest(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameterStudy-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def write(self, **settings):
+    def write(self, **settings: Any) -> None:
         (self.folder / "test.yaml").write_text(yaml.safe_dump(settings))
 
-    def command(self, *arguments):
+    def command(self, *arguments: Any) -> list[Any]:
         return [PARAMETER_STUDY, arguments[0], self.folder / "test.yaml", *arguments[1:]]
 
-    def call(self, *arguments):
+    def call(self, *arguments: Any) -> Any:
         return subprocess.run(self.command(*arguments), capture_output=True, text=True)
 
-    def start(self):
+    def start(self) -> Any:
         runner = subprocess.Popen(
             self.command("run", "--cores", "2"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True
         )
+        assert runner.stdout
         self.addCleanup(runner.stdout.close)
         return runner
 
-    def work(self, pattern):
+    def work(self, pattern: str) -> list[Any]:
         return sorted((self.folder / "work").glob(pattern))
 
-    def rows(self, name):
+    def rows(self, name: str) -> list[Any]:
         lines = (self.folder / "results" / f"{name}.csv").read_text().splitlines()[1:]
         return [tuple(map(float, line.split(","))) for line in lines]
 
-    def wait_for(self, condition, what):
+    def wait_for(self, condition: Any, what: Any) -> None:
         end = time.time() + 120
         while not condition():
             self.assertLess(time.time(), end, f"{what} did not come within 120 s")
@@ -56,7 +58,7 @@ class ParameterStudyTest(unittest.TestCase):
 class ParameterStudyOfSurrogates(ParameterStudyTest):
     """The runner alone: surrogate/Allrun takes the place of the solver."""
 
-    def sweep(self, frictions, **more):
+    def sweep(self, frictions: Any, **more: Any) -> None:
         self.write(
             case=str(Path(__file__).parent / "surrogate"),
             steps=["dry", "submerged"],
@@ -65,7 +67,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
             **more,
         )
 
-    def test_every_run_is_done_and_the_packing_is_shared(self):
+    def test_every_run_is_done_and_the_packing_is_shared(self) -> None:
         """Eight runs, two packings, one mesh: 2 fills and not 8, and every run began from the filling of its own seed
         (the surrogate asserts so). A runner that filled for each run would start more; one that ignored the seed fewer.
         """
@@ -85,7 +87,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertEqual(record["packing"]["otherParameters"], {"friction": 0.1})
         self.assertEqual(record["code"], ["Clepsydra 0, commit surrogate"])
 
-    def test_a_failure_stops_no_other_run_and_shows_its_log(self):
+    def test_a_failure_stops_no_other_run_and_shows_its_log(self) -> None:
         """The surrogate refuses a friction of 2. Its message must reach the user, the others must end."""
         self.sweep([0.1, 2])
         outcome = self.call("run", "--cores", "2")
@@ -97,7 +99,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertRegex(table, r"mu-0\.1\.1\.dry +done")
         self.assertIn("7 done, 4 failed", table)
 
-    def test_stopped_or_killed_it_goes_on(self):
+    def test_stopped_or_killed_it_goes_on(self) -> None:
         """Asked to stop, then (the runner and all below it) killed: each time `run` goes on, and every row of m(t) is
         there once. A runner that began again would have its first rows twice."""
         hold = self.folder / "hold"
@@ -123,10 +125,10 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
             attempts += json.loads((self.folder / "results" / f"{name}.json").read_text())["cost"]["attempts"]
         self.assertEqual(attempts, 8)
 
-    def held_runs(self):
+    def held_runs(self) -> Any:
         return sum(path.read_text().count("\n") for path in self.work("runs/*/held"))
 
-    def test_a_long_table_is_thinned_and_has_the_end(self):
+    def test_a_long_table_is_thinned_and_has_the_end(self) -> None:
         """5002 rows: every second one, which would miss the last."""
         self.write(
             case=str(Path(__file__).parent / "surrogate"),
@@ -140,7 +142,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         times = [time for time, _, _ in self.rows("one.1.dry")]
         self.assertEqual(times, [round(0.02 * row, 2) for row in range(2501)] + [50.01])
 
-    def test_what_is_done_is_not_done_again(self):
+    def test_what_is_done_is_not_done_again(self) -> None:
         """Nor is a run that was begun with other parameters mistaken for this one."""
         self.sweep([0.1])
         self.assertEqual(self.call("run").returncode, 0)
@@ -155,7 +157,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
             outcome.stdout + outcome.stderr,
         )
 
-    def test_a_run_that_is_to_last_longer_goes_on(self):
+    def test_a_run_that_is_to_last_longer_goes_on(self) -> None:
         """All are done, then the end time is raised: each run goes on from its end, and its table has every row once. A
         runner that trusted its marks would start none of them; one that began again would have the first rows twice."""
         self.sweep([0.1])
@@ -171,7 +173,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         record = json.loads((self.folder / "results" / "mu-0.1.1.dry.json").read_text())
         self.assertEqual((record["parameters"]["time"], record["cost"]["attempts"]), (0.3, 2))
 
-    def test_the_template_may_be_edited_meanwhile(self):
+    def test_the_template_may_be_edited_meanwhile(self) -> None:
         """The second run begins after the template got another default (which its program refuses), another parameter
         and another file beside them, as a hopper's surface is: it must be as the first, on the same mesh and filling.
         """
@@ -193,7 +195,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertEqual([path.read_text() for path in self.work("*/*/hopper.stl")], 4 * ["as it was"])
         self.assertEqual(len(self.work("shared/*")), 2)
 
-    def test_only_some_of_the_runs(self):
+    def test_only_some_of_the_runs(self) -> None:
         """Of two entries one runs, and the whole parameter study then has the other left to do."""
         self.write(
             case=str(Path(__file__).parent / "surrogate"),
@@ -206,10 +208,9 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertRegex(self.call("status").stdout, r"one\.1\.dry +waiting")
         self.assertRegex(self.call("run", "--only", "noSuchRun").stderr, "no run 'noSuchRun'; there are: one, other")
 
-    def test_only_runs_without_results(self):
+    def test_only_runs_without_results(self) -> None:
         """As in a fresh copy of a repository that holds the results of one run, by an earlier program: that one is
-        neither run
-        nor written again, and of two fills only the other's is made."""
+        neither run nor written again, and of two fills only the other's is made."""
         self.write(case=str(Path(__file__).parent / "surrogate"), steps=["dry"], packings=[1, 2], runs={"one": {}})
         earlier = self.folder / "results" / "one.1.dry.json"
         earlier.parent.mkdir()
@@ -224,7 +225,7 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
         self.assertEqual(self.call("run").returncode, 0)
         self.assertEqual(len(self.work("runs/*")), 2)
 
-    def test_wrong_files_are_named_with_what_is_allowed(self):
+    def test_wrong_files_are_named_with_what_is_allowed(self) -> None:
         self.sweep([0.1], parameters={"fricton": 1})
         outcome = self.call("run")
         self.assertEqual(outcome.returncode, 2)
@@ -237,16 +238,16 @@ class ParameterStudyOfSurrogates(ParameterStudyTest):
 class ParameterStudyOnSlurm(ParameterStudyTest):
     """The same list as job arrays of a real Slurm, which the test starts on this machine."""
 
-    def setUp(self):
+    def setUp(self) -> None:
         super().setUp()
         if not all(map(shutil.which, ("munged", "slurmctld", "slurmd"))) or os.geteuid() != 0:
             self.skipTest("needs the packages slurm-wlm and munge, and root")
         on_loopback = REPOSITORY / "scripts" / "slurm" / "onLoopback"
-        self.addCleanup(subprocess.run, [on_loopback, "stop", self.folder / "slurm"])
+        self.addCleanup(lambda: subprocess.run([on_loopback, "stop", self.folder / "slurm"]))
         subprocess.run([on_loopback, "start", self.folder / "slurm", "2"], check=True, stdout=subprocess.DEVNULL)
         os.environ["SLURM_CONF"] = str(self.folder / "slurm" / "slurm.conf")
 
-    def test_job_arrays_cancelled_and_submitted_again(self):
+    def test_job_arrays_cancelled_and_submitted_again(self) -> None:
         """Cancelled in the midst of its runs, all four of them go on where they were when the list is submitted again;
         what was done by then is not submitted."""
         hold = self.folder / "hold"
@@ -274,15 +275,14 @@ class ParameterStudyOnSlurm(ParameterStudyTest):
             self.assertEqual([particles for _, _, particles in self.rows(name)], list(range(100, 80, -1)), name)
         self.assertIn("dry on 2\n", self.work("runs/mu.1.dry/starts")[0].read_text())
 
-    def queue(self):
+    def queue(self) -> Any:
         return subprocess.run(["squeue", "--noheader"], check=True, capture_output=True, text=True).stdout
 
 
 class ParameterStudyOfHoppers(ParameterStudyTest):
-    def test_the_quick_hopper_through_the_real_program(self):
+    def test_the_quick_hopper_through_the_real_program(self) -> None:
         """300 particles, one packing, two frictions, dry; stopped on the way. Both frictions must start from the very
-        same
-        mass, the smoother particles must leave faster, and no row may be lost or doubled by the stop."""
+        same mass, the smoother particles must leave faster, and no row may be lost or doubled by the stop."""
         self.write(
             case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"),
             steps="dry",
@@ -324,7 +324,7 @@ class ParameterStudyOfHoppers(ParameterStudyTest):
         self.assertEqual(len(self.work("runs/mu-0.1*/steps/dry/checkpoints/*/complete")), 2)
 
 
-def kill_tree(process):
+def kill_tree(process: Any) -> None:
     """SIGKILL to a process and all its descendants, parents first, as a power cut would."""
     children = subprocess.run(["pgrep", "-P", str(process)], capture_output=True, text=True).stdout.split()
     os.kill(process, signal.SIGKILL)

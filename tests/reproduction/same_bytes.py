@@ -1,10 +1,8 @@
 #!/usr/bin/python3
 """scripts/reproduce/all writes the committed pictures, numbers and comparison to the last byte: on this processor, and
-where
-numpy, the C library and a library of linear algebra have to do without its wider instructions.
+where numpy, the C library and a library of linear algebra have to do without its wider instructions.
 
-usage: same_bytes.py [-v]
-"""
+usage: same_bytes.py [-v] """
 
 import filecmp
 import os
@@ -12,6 +10,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 from numpy.core._multiarray_umath import __cpu_dispatch__ as numpy_features
 from numpy.core._multiarray_umath import __cpu_features__ as found
@@ -27,13 +26,13 @@ OLD_PROCESSOR = {
 
 
 class SameBytes(unittest.TestCase):
-    def test_this_processor(self):
+    def test_this_processor(self) -> None:
         self.check({})
 
-    def test_an_old_processor(self):
+    def test_an_old_processor(self) -> None:
         self.check(OLD_PROCESSOR)
 
-    def check(self, environment):
+    def check(self, environment: Any) -> None:
         with tempfile.TemporaryDirectory() as folder:
             made = Path(folder)
             subprocess.run(

@@ -7,6 +7,7 @@ import shutil
 import signal
 import subprocess
 import unittest
+from typing import Any, Iterator
 
 from hopper_case import HopperCase
 
@@ -14,14 +15,11 @@ from clepsydra import parameter_file
 
 
 class Stops(HopperCase):
-    def test_ctrl_c_and_sigterm_write_a_checkpoint_and_the_plain_command_goes_on(self):
+    def test_ctrl_c_and_sigterm_write_a_checkpoint_and_the_plain_command_goes_on(self) -> None:
         """Stopped in the filling by Ctrl-C, then in the discharge by SIGTERM: each time the solver itself was asked,
-        the status tells
-        which, and the plain `Allrun` goes on: no row is lost or doubled and the filling is not done again. An Allrun
-        that
-        wipes first would start the filling three times; one that knows no SIGINT would end with another status and no
-        word.
-        """
+        the status tells which, and the plain `Allrun` goes on: no row is lost or doubled and the filling is not done
+        again. An Allrun that wipes first would start the filling three times; one that knows no SIGINT would end with
+        another status and no word."""
         status, said = self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.assertEqual(status, 130, said)
         self.assertIn("stopped; the same command resumes the run", said)
@@ -37,11 +35,11 @@ class Stops(HopperCase):
         self.assertEqual(sorted(self.starts()), ["dry", "dry", "filling", "filling", "submerged", "submerged"])
         self.assertEqual([self.rows(step) for step in ("filling", "dry", "submerged")], [20, 20, 20])
 
-    def filling_is_done(self):
+    def filling_is_done(self) -> bool:
         self.succeeds("filling")
         return True
 
-    def test_a_stopped_filling_is_not_discharged(self):
+    def test_a_stopped_filling_is_not_discharged(self) -> None:
         """All particles lie in the hopper, yet the filling was stopped: discharging must be refused, with the command
         that goes on."""
         self.interrupted("mesh", "filling", by=signal.SIGTERM, steps=["filling"])
@@ -51,7 +49,7 @@ class Stops(HopperCase):
         self.succeeds("filling", "dry")
         self.assertEqual(self.starts(), ["filling", "filling", "dry"])
 
-    def test_a_packing_of_an_earlier_filling_does_not_count(self):
+    def test_a_packing_of_an_earlier_filling_does_not_count(self) -> None:
         """A filling that goes on, for its time was raised, and is stopped leaves no packing, though one was there
         before."""
         self.succeeds("mesh", "filling")
@@ -61,7 +59,7 @@ class Stops(HopperCase):
         self.interrupted("filling", by=signal.SIGTERM, steps=["filling"])
         self.assertIn("the filling has not come to its end", self.refuses("dry"))
 
-    def test_done_is_not_done_again_unless_asked_to(self):
+    def test_done_is_not_done_again_unless_asked_to(self) -> None:
         self.succeeds()
         (self.case / "results" / "mine").touch()
         self.assertIn("dry: done before", self.succeeds())
@@ -71,11 +69,11 @@ class Stops(HopperCase):
         self.assertEqual(len(self.starts()), 6)
         self.assertFalse((self.case / "results" / "mine").exists())
 
-    def test_changed_parameters_are_not_mixed_into_a_stopped_run(self):
+    def test_changed_parameters_are_not_mixed_into_a_stopped_run(self) -> None:
         """Named with both ways out, and nothing is touched; what only says how long or how often may change."""
         self.interrupted(by=signal.SIGINT, steps=["filling"])
         self.set(friction=0.3)
-        for arguments in ([], ["filling"]):
+        for arguments in ((), ("filling",)):
             said = self.refuses(*arguments)
             self.assertIn("friction 0.15 -> 0.3", said)
             self.assertIn("Put them back and the same command resumes", said)
@@ -86,7 +84,7 @@ class Stops(HopperCase):
         self.succeeds()
         self.assertEqual(self.rows("filling"), 20)
 
-    def test_another_mesh_or_packing_than_the_parameters_say_is_not_used(self):
+    def test_another_mesh_or_packing_than_the_parameters_say_is_not_used(self) -> None:
         """A friction of the discharge's own is allowed: one packing serves all frictions. Other particles or cells are
         not."""
         self.succeeds("mesh", "filling")
@@ -99,7 +97,7 @@ class Stops(HopperCase):
 
 
 class Results(HopperCase):
-    def test_without_particles_written_all_but_their_picture_is_made(self):
+    def test_without_particles_written_all_but_their_picture_is_made(self) -> None:
         """What draws particles fails here, as it does where none were written; with particles it is called, and its
         failure reported."""
         self.program(self.folder / "scripts" / "renderFlow", "#!/bin/sh\nexit 1\n")
@@ -110,12 +108,10 @@ class Results(HopperCase):
 
 
 class Ranks(HopperCase):
-    def test_their_boxes_all_reach_the_particles(self):
+    def test_their_boxes_all_reach_the_particles(self) -> None:
         """As many as ranks, at most two along x and y, said once however often a step is prepared, also for a step that
-        was
-        begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the
-        second
-        number."""
+        was begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the
+        second number."""
         shares = {
             1: (1, 1, 1),
             2: (2, 1, 1),
@@ -138,14 +134,14 @@ class Ranks(HopperCase):
         self.assertTrue(step.read_text().startswith(text))
         self.assertIn("ranksAlongY     2;\n", step.read_text())
 
-    def prepare(self, step, ranks):
+    def prepare(self, step: Any, ranks: int) -> None:
         self.succeeds("-np", str(ranks), "-prepare", step)
 
 
 class Mistakes(HopperCase):
     """Each must be reported in a line that names file and entry, and what is allowed, before anything is made."""
 
-    def expect_refused(self, *words, arguments=()):
+    def expect_refused(self, *words: Any, arguments: Any = ()) -> None:
         before = sorted(self.case.rglob("*"))
         said = self.refuses(*arguments)
         for word in words:
@@ -153,7 +149,7 @@ class Mistakes(HopperCase):
         self.assertEqual(sorted(self.case.rglob("*")), before)
 
     @contextlib.contextmanager
-    def other_parameters(self, change):
+    def other_parameters(self, change: Any) -> Iterator[Any]:
         path = self.case / "parameters"
         text = path.read_text()
         path.write_text(change(text))
@@ -164,10 +160,10 @@ class Mistakes(HopperCase):
             path.write_text(text)
 
     @staticmethod
-    def other_line(name, line):
+    def other_line(name: str, line: Any) -> Any:
         return lambda text: re.sub(rf"(?m)^{name} .*$", lambda _: line, text)
 
-    def test_mistyped_entries(self):
+    def test_mistyped_entries(self) -> None:
         for name, line, words in (
             ("friction", "friction ;", ["parameters:14: entry 'friction' has no value"]),
             (
@@ -209,8 +205,8 @@ class Mistakes(HopperCase):
             for arguments in (["check"], ["mesh"], ["filling"], ["dry"]):
                 self.expect_refused("entry 'friction' is x; allowed: a number from 0 to 10", arguments=arguments)
 
-    def test_sizes_against_each_other(self):
-        for values, words in (
+    def test_sizes_against_each_other(self) -> None:
+        wrong: list[tuple[dict[str, float], list[str]]] = [
             ({"orificeDiameter": 1.5e-3}, ["particles (0.002 m) cannot pass orificeDiameter 0.0015 m"]),
             ({"hopperDiameter": 25, "orificeDiameter": 10}, ["entry 'hopperDiameter' is 25; allowed", "[m]"]),
             (
@@ -222,13 +218,14 @@ class Mistakes(HopperCase):
             ({"couplingTimeStep": 1.99e-3}, ["is 49.75 demSteps of 4e-05 s; allowed: a whole number"]),
             ({"smoothingBandwidth": 6}, ["smoothingBandwidth 6 m; allowed: at most hopperDiameter"]),
             ({"particleCount": 30000}, ["particleCount 30000 particles lie at least"]),
-        ):
+        ]
+        for values, words in wrong:
             with self.other_parameters(
                 lambda text: parameter_file.with_parameters(text, {name: str(value) for name, value in values.items()})
             ):
                 self.expect_refused("parameters", *words)
 
-    def test_far_too_many_ranks(self):
+    def test_far_too_many_ranks(self) -> None:
         for ranks, word in (
             ("20000", "20000 ranks; allowed: 1 to"),
             ("0", "not '0'"),
@@ -237,7 +234,7 @@ class Mistakes(HopperCase):
         ):
             self.assertIn(word, self.refuses("-np", ranks, "mesh"))
 
-    def test_nothing_in_parameters_is_run(self):
+    def test_nothing_in_parameters_is_run(self) -> None:
         """A value that the old scripts handed to sed, to awk or to a shell as code, which then made the file."""
         made = self.folder / "made"
         for value in (f"x $(touch {made})|e #", f"0.1|e touch {made}", f"`touch {made}`", f'system("touch {made}")'):
@@ -252,7 +249,7 @@ class Mistakes(HopperCase):
                     subprocess.run(["bash", "-c", functions + use], env=self.environment, capture_output=True)
                 self.assertFalse(made.exists())
 
-    def test_an_absent_program_is_named(self):
+    def test_an_absent_program_is_named(self) -> None:
         """And not the end of the log that it left when it was there."""
         self.succeeds("mesh", "filling")
         log = self.case / "steps" / "dry" / "log.pimpleDemFoam"
@@ -278,19 +275,19 @@ class Mistakes(HopperCase):
         self.assertIn("there is no program 'noMesher' here: run", outcome.stderr)
         self.assertNotIn("an old log", outcome.stderr)
 
-    def test_a_mesh_that_check_mesh_has_not_seen_is_not_used(self):
+    def test_a_mesh_that_check_mesh_has_not_seen_is_not_used(self) -> None:
         """What an interrupted `Allrun mesh` leaves."""
         (self.case / "constant" / "polyMesh").mkdir()
         for part in ("filling", "dry"):
             self.assertIn("there is no whole mesh here: './Allrun mesh' makes it", self.refuses(part))
 
-    def test_a_space_in_the_path(self):
+    def test_a_space_in_the_path(self) -> None:
         self.lay_out(self.folder / "with space")
         said = self.refuses("mesh")
         self.assertIn("has a space or a quote in it, which OpenFOAM cannot bear; move it", said)
         self.assertFalse((self.case / "steps").exists())
 
-    def test_check_makes_nothing(self):
+    def test_check_makes_nothing(self) -> None:
         before = sorted(self.case.rglob("*"))
         said = self.succeeds("check")
         self.assertIn("3000 of 2 mm", said)
@@ -305,7 +302,7 @@ class Mistakes(HopperCase):
 class Quickstart(HopperCase):
     """The front page's first command."""
 
-    def quickstart(self, *arguments):
+    def quickstart(self, *arguments: Any) -> Any:
         return subprocess.run(
             [self.folder / "scripts/quickstart", *arguments],
             env=self.environment,
@@ -315,7 +312,7 @@ class Quickstart(HopperCase):
             timeout=60,
         )
 
-    def testItSetsUpAndThenRunsTheHopper(self):
+    def testItSetsUpAndThenRunsTheHopper(self) -> None:
         """In this order: where set-up fails nothing is run. It says where the results are."""
         outcome = self.quickstart()
         self.assertEqual(outcome.returncode, 1)
@@ -327,7 +324,7 @@ class Quickstart(HopperCase):
         self.assertEqual(sorted(self.starts()), ["dry", "filling", "submerged"])
         self.assertIn(f"the results are in {self.case}/results", outcome.stdout)
 
-    def testHelpMakesNothing(self):
+    def testHelpMakesNothing(self) -> None:
         for option, status in (("--help", 0), ("-h", 0), ("--fast", 2)):
             outcome = self.quickstart(option)
             self.assertEqual(outcome.returncode, status)
@@ -338,7 +335,7 @@ class Quickstart(HopperCase):
 class Copies(HopperCase):
     """Cases that were copied out of the repository."""
 
-    def test_a_copy_elsewhere_finds_clepsydra_or_says_how(self):
+    def test_a_copy_elsewhere_finds_clepsydra_or_says_how(self) -> None:
         elsewhere = self.folder / "far/away/from/it/copy"
         shutil.copytree(self.case, elsewhere)
         self.case = elsewhere

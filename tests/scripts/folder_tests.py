@@ -3,6 +3,7 @@
 import re
 import unittest
 from pathlib import Path
+from typing import Any, Iterator
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 COUPLING = REPOSITORY / "coupling"
@@ -35,7 +36,7 @@ ORDER = [
 ]
 
 
-def includes(folder=COUPLING):
+def includes(folder: Path = COUPLING) -> Iterator[Any]:
     """Pairs of a file and what it includes, both relative to coupling/."""
     for file in sorted(folder.rglob("*")):
         if file.suffix in (".h", ".cpp", ".C"):
@@ -44,14 +45,14 @@ def includes(folder=COUPLING):
                     yield file, included
 
 
-def part(file):
+def part(file: Path) -> str:
     """The folder, or the header of a file that lies in none."""
     first = Path(file).parts[0]
     return first.replace(".cpp", ".h")
 
 
 class Folders(unittest.TestCase):
-    def test_none_includes_what_stands_above_it(self):
+    def test_none_includes_what_stands_above_it(self) -> None:
         """In one order for all; a folder that is not in it fails, too. The last line is against a search that finds no
         includes, and would let everything pass."""
         arrows = set()
@@ -63,13 +64,13 @@ class Folders(unittest.TestCase):
             arrows.add((of, to))
         self.assertIn(("couplingStep", "forces"), arrows)
 
-    def test_only_the_solver_knows_liggghts(self):
+    def test_only_the_solver_knows_liggghts(self) -> None:
         """Its folder, and the program that chooses it."""
         knowing = {part(file.relative_to(COUPLING)) for file, included in includes() if "liggghts" in included}
         self.assertEqual(knowing, {"engine"})
         self.assertIn("engine/liggghts/liggghtsEngine.h", {to for _, to in includes(REPOSITORY / "solvers")})
 
-    def test_closures_include_themselves_alone(self):
+    def test_closures_include_themselves_alone(self) -> None:
         """But for the program that prints their values."""
         known = {part(included) for file, included in includes(COUPLING / "closures") if file.suffix == ".h"}
         self.assertEqual(known, {"closures"})

@@ -9,6 +9,7 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from typing import Any
 
 from clepsydra import parameter_file
 
@@ -18,12 +19,12 @@ MESH_PROGRAMS = ("blockMesh", "topoSet", "createBaffles", "checkMesh")
 
 
 class HopperCase(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-scripts-"))
         self.addCleanup(shutil.rmtree, self.folder)
         self.lay_out(self.folder)
 
-    def lay_out(self, root):
+    def lay_out(self, root: Any) -> None:
         self.case = root / "cases" / "tutorials" / "hopperQuick"
         shutil.copytree(
             REPOSITORY / "cases" / "tutorials" / "hopperQuick",
@@ -55,13 +56,13 @@ class HopperCase(unittest.TestCase):
         }
 
     @staticmethod
-    def program(path, text):
+    def program(path: Path, text: str) -> None:
         path.parent.mkdir(exist_ok=True)
         path.unlink(missing_ok=True)
         path.write_text(text)
         path.chmod(0o755)
 
-    def allrun(self, *arguments):
+    def allrun(self, *arguments: Any) -> Any:
         return subprocess.run(
             [self.case / "Allrun", *arguments],
             env=self.environment,
@@ -71,12 +72,12 @@ class HopperCase(unittest.TestCase):
             timeout=60,
         )
 
-    def succeeds(self, *arguments):
+    def succeeds(self, *arguments: Any) -> Any:
         outcome = self.allrun(*arguments)
         self.assertEqual(outcome.returncode, 0, outcome.stdout + outcome.stderr)
         return outcome.stdout
 
-    def refuses(self, *arguments):
+    def refuses(self, *arguments: Any) -> Any:
         """What it says; it must end with a failure, without a traceback."""
         outcome = self.allrun(*arguments)
         said = outcome.stdout + outcome.stderr
@@ -84,7 +85,7 @@ class HopperCase(unittest.TestCase):
         self.assertNotIn("Traceback", said)
         return said
 
-    def interrupted(self, *arguments, by, steps):
+    def interrupted(self, *arguments: Any, by: Any, steps: Any) -> tuple[Any, Any]:
         """Its exit status and words, after a signal, in the midst of steps, to all that a terminal would send it to."""
         (self.case / "hold").touch()
         process = subprocess.Popen(
@@ -107,14 +108,14 @@ class HopperCase(unittest.TestCase):
         (self.case / "hold").unlink()
         return process.returncode, said
 
-    def set(self, **values):
+    def set(self, **values: Any) -> None:
         parameter_file.change(self.case / "parameters", {name: str(value) for name, value in values.items()})
 
-    def starts(self):
+    def starts(self) -> list[str]:
         return (self.case / "starts").read_text().split()
 
-    def rows(self, step):
+    def rows(self, step: Any) -> int:
         return len(self.table(step).read_text().splitlines())
 
-    def table(self, step):
+    def table(self, step: Any) -> Path:
         return self.case / "steps" / step / "postProcessing/massInHopper/0/massInHopper.dat"

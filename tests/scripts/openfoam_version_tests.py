@@ -1,8 +1,7 @@
 """Which OpenFOAM is taken from a sourced environment, by CMake and by scripts/setup; which is warned of, which refused.
 
 The OpenFOAM here is a tree of empty files: nothing is compiled. An implementation that looks at no environment would
-find the distribution's libraries, or none.
-"""
+find the distribution's libraries, or none. """
 
 import os
 import shutil

@@ -8,6 +8,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 from unittest import mock
 
 import yaml
@@ -21,19 +22,19 @@ SURROGATE = REPOSITORY / "tests" / "parameterStudy" / "surrogate"
 
 
 class ParameterStudyFile(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         self.folder = Path(tempfile.mkdtemp(prefix="clepsydra-parameterStudy-"))
         self.addCleanup(shutil.rmtree, self.folder)
 
-    def write(self, **settings):
+    def write(self, **settings: Any) -> None:
         (self.folder / "test.yaml").write_text(
             yaml.safe_dump({"case": str(SURROGATE), "steps": ["dry"], "packings": [1], "runs": {"one": {}}, **settings})
         )
 
-    def parameter_study(self):
+    def parameter_study(self) -> Any:
         return ParameterStudy(self.folder / "test.yaml")
 
-    def call(self, command, *arguments):
+    def call(self, command: Any, *arguments: Any) -> Any:
         return subprocess.run(
             [REPOSITORY / "scripts" / "parameterStudy", command, self.folder / "test.yaml", *arguments],
             capture_output=True,
@@ -41,7 +42,7 @@ class ParameterStudyFile(unittest.TestCase):
             env={"PATH": os.environ["PATH"], "CLEPSYDRA_BUILD": str(self.folder)},
         )
 
-    def refused(self, command="check"):
+    def refused(self, command: Any = "check") -> Any:
         outcome = self.call(command)
         self.assertEqual(outcome.returncode, 2, outcome.stdout + outcome.stderr)
         self.assertNotIn("Traceback", outcome.stderr)
@@ -49,19 +50,17 @@ class ParameterStudyFile(unittest.TestCase):
 
 
 class DamagedState(ParameterStudyFile):
-    def attempts(self, text):
+    def attempts(self, text: str) -> Any:
         self.write()
         folder = self.folder / "work/runs/one.1.dry"
         folder.mkdir(parents=True)
         (folder / "attempts").write_text(text)
         return folder
 
-    def test_half_a_line_of_attempts_is_dropped(self):
+    def test_half_a_line_of_attempts_is_dropped(self) -> None:
         """A kill in the midst of a write leaves half a line: `status` shows the run, and the next attempt begins a line
-        of
-        its own. A reader that takes each line for JSON ends with a traceback; a writer that appends spoils its own
-        line.
-        """
+        of its own. A reader that takes each line for JSON ends with a traceback; a writer that appends spoils its own
+        line."""
         start = '{"start": 10.0, "host": "here", "ranks": 1}\n'
         folder = self.attempts(start + '{"end": 20.0, "sta')
         outcome = self.call("status")
@@ -75,13 +74,13 @@ class DamagedState(ParameterStudyFile):
         self.assertEqual((folder / "attempts").read_text(), start + '{"end": 30.0, "status": 1}\n')
         self.assertEqual(task.attempts_of(folder), [[10.0, 30.0, 1]])
 
-    def test_other_damage_of_attempts_is_named(self):
+    def test_other_damage_of_attempts_is_named(self) -> None:
         for line in ("no JSON", "[]", '{"start": "x", "ranks": 1}', '{"end": 1, "status": 0}', "{}"):
             self.attempts(line + "\n")
             self.assertIn(f"attempts:1: {line!r} is no start or end of an attempt", self.refused("status"))
             shutil.rmtree(self.folder / "work")
 
-    def test_a_full_disk_never_leaves_a_half_file(self):
+    def test_a_full_disk_never_leaves_a_half_file(self) -> None:
         """Whatever step of a write fails, the old file is still there, whole, and the failure is known."""
         path = self.folder / "results.json"
         for step in ("fsync", "write", "rename"):
@@ -104,31 +103,32 @@ class DamagedState(ParameterStudyFile):
 
 
 class MistakenFiles(ParameterStudyFile):
-    def test_an_entry_that_is_there_twice(self):
+    def test_an_entry_that_is_there_twice(self) -> None:
         self.write()
         with open(self.folder / "test.yaml", "a") as file:
             file.write("steps: [submerged]\n")
         self.assertIn("entry 'steps' is there twice", self.refused())
 
-    def test_misspelt_words_name_the_nearest(self):
+    def test_misspelt_words_name_the_nearest(self) -> None:
         self.write(packing=[1])
         self.assertIn("unknown entry 'packing'; allowed: base, case", self.refused())
         self.assertIn("(is 'packings' meant?)", self.refused())
         self.write(parameters={"fricton": 0.1})
         self.assertIn("(is 'friction' meant?)", self.refused())
 
-    def test_what_is_no_list_of_runs_or_no_number_of_times(self):
+    def test_what_is_no_list_of_runs_or_no_number_of_times(self) -> None:
         """Before anything is run: these were found while the first run was under way, or ended in a traceback."""
-        for settings, words in (
+        wrong: list[tuple[dict[str, Any], str]] = [
             ({"runs": {}}, "entry 'runs' is {}; allowed: a list of"),
             ({"runs": {"mu": 5}}, "allowed: a list of"),
             ({"keepTimes": 1}, "entry 'keepTimes' is 1; allowed: all, or a whole number above 1"),
-        ):
+        ]
+        for settings, words in wrong:
             self.write(**settings)
             for command in ("check", "run"):
                 self.assertIn(words, self.refused(command))
 
-    def test_parameters_of_the_hopper_are_checked_before_anything_is_made(self):
+    def test_parameters_of_the_hopper_are_checked_before_anything_is_made(self) -> None:
         """Of every run, also of one of many in a sweep."""
         for values, words in (
             ({"friction": "nan"}, "entry 'friction' is nan; allowed: a number from 0 to 10"),
@@ -146,7 +146,7 @@ class MistakenFiles(ParameterStudyFile):
                 self.assertIn(words, self.refused(command))
             self.assertFalse((self.folder / "work").exists())
 
-    def test_machines_of_slurm_are_not_this_one(self):
+    def test_machines_of_slurm_are_not_this_one(self) -> None:
         """More ranks than this machine can bear are refused here, and are none of its business where Slurm places
         them."""
         self.write(case=str(REPOSITORY / "cases" / "tutorials" / "hopperQuick"), packings=[100003], ranks=100000)
@@ -154,7 +154,7 @@ class MistakenFiles(ParameterStudyFile):
         outcome = self.call("check", "--executor", "slurm")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
 
-    def test_a_parameter_study_may_lie_outside_the_repository(self):
+    def test_a_parameter_study_may_lie_outside_the_repository(self) -> None:
         """A copy of cases/paper/reference.yaml: its base is found, and its work and results lie beside it."""
         shutil.copy(REPOSITORY / "cases/paper/reference.yaml", self.folder / "test.yaml")
         outcome = self.call("check")
@@ -162,13 +162,13 @@ class MistakenFiles(ParameterStudyFile):
         self.assertIn("37596 of 2 mm, 400 g", outcome.stdout)
         self.assertEqual(self.parameter_study().work, self.folder / "work/reference")
 
-    def test_a_space_in_the_path(self):
+    def test_a_space_in_the_path(self) -> None:
         self.write(work="my work")
         self.assertIn("has a space or a quote in it", self.refused())
 
 
 class Shell(ParameterStudyFile):
-    def test_no_name_reaches_a_shell_or_make_as_code(self):
+    def test_no_name_reaches_a_shell_or_make_as_code(self) -> None:
         """The parameter study's file lies in a folder whose name make, or the shell, would run: the task must get it as
         it is."""
         work, command = self.folder / "work", self.folder / "command"

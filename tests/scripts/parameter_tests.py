@@ -12,7 +12,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 
 
 class Reading(unittest.TestCase):
-    def test_what_open_foam_allows(self):
+    def test_what_open_foam_allows(self) -> None:
         """Comments, references, words, vectors, tables, strings and #eval, as the cases of this repository have
         them."""
         text = """FoamFile { version 2.0; }
@@ -38,16 +38,15 @@ class Reading(unittest.TestCase):
             },
         )
 
-    def test_every_file_of_the_repository_is_read(self):
+    def test_every_file_of_the_repository_is_read(self) -> None:
         files = [*REPOSITORY.glob("cases/*/*/parameters"), *REPOSITORY.glob("cases/validation/**/parameters")]
         self.assertGreater(len(files), 10)
         for path in files:
             parameter_file.parameters(path)
 
-    def test_what_is_refused(self):
+    def test_what_is_refused(self) -> None:
         """Each in one line with the line's number. Python's own float would take nan, inf and 1_000; a reader that
-        looks for
-        `;` only would swallow the next entry where one is missing."""
+        looks for `;` only would swallow the next entry where one is missing."""
         for text, words in (
             ("a ;", "1: entry 'a' has no value"),
             ("a;", "has no value"),
@@ -71,7 +70,7 @@ class Reading(unittest.TestCase):
         for word in ("nan", "inf", "-inf", "1_000", "0x10", "25mm", "1e", "1,5"):
             self.assertEqual(parameters_in(f"a {word};")["a"], word)
 
-    def test_no_input_is_slow_or_deep(self):
+    def test_no_input_is_slow_or_deep(self) -> None:
         for text in (
             "a " + "(" * 20000,
             "a #eval{" + "(" * 900 + ")" * 900 + "};",
@@ -88,16 +87,16 @@ class Reading(unittest.TestCase):
 
 
 class Changing(unittest.TestCase):
-    def test_only_the_value_changes(self):
+    def test_only_the_value_changes(self) -> None:
         text = "// b 1;\na 1;  // b 2;\nb\t$a;\n"
         self.assertEqual(with_parameters(text, {"b": "x y"}), "// b 1;\na 1;  // b 2;\nb\tx y;\n")
 
-    def test_no_value_breaks_out(self):
+    def test_no_value_breaks_out(self) -> None:
         for value in ("", " ", "1; b 2", "1\nb 2", "{ c 1; }", "1 // c", '#include "x"', '#calc "system"', "1 /* c"):
             with self.subTest(value), self.assertRaises(ParameterError):
                 with_parameters("a 1;\n", {"a": value})
 
-    def test_an_unknown_name_names_the_nearest(self):
+    def test_an_unknown_name_names_the_nearest(self) -> None:
         with self.assertRaisesRegex(
             ParameterError, r"no entry 'fricton' \(is 'friction' meant\?\); it has: friction, other"
         ):
@@ -108,15 +107,15 @@ class OldNames(unittest.TestCase):
     """Entries were renamed in version 1.0.0. Without the table an old entry would be unknown to some readers, unseen by
     others."""
 
-    def test_an_old_entry_is_refused_with_its_new_name(self):
+    def test_an_old_entry_is_refused_with_its_new_name(self) -> None:
         with self.assertRaisesRegex(ParameterError, r"parameters:2: entry 'pourTime' .* allowed: 'fillingTime'"):
             parameters_in("friction 1;\npourTime 2;\n")
 
-    def test_an_old_name_cannot_be_set(self):
+    def test_an_old_name_cannot_be_set(self) -> None:
         with self.assertRaisesRegex(ParameterError, r"no entry 'beadCount' \(its name is 'particleCount' now\)"):
             with_parameters("particleCount 1;\n", {"beadCount": "2"})
 
-    def test_every_new_name_is_an_entry_of_a_case(self):
+    def test_every_new_name_is_an_entry_of_a_case(self) -> None:
         cases = ("tutorials/hopperQuick", "validation/common/column")
         known = {
             name for case in cases for name in parameter_file.parameters(REPOSITORY / "cases" / case / "parameters")
@@ -126,7 +125,7 @@ class OldNames(unittest.TestCase):
 
 
 class Typed(unittest.TestCase):
-    def test_mistakes_are_reported(self):
+    def test_mistakes_are_reported(self) -> None:
         """What a shell passes on, in words, never in a traceback."""
         for arguments, status, words in (
             ((), 2, "usage: "),
@@ -143,11 +142,11 @@ class Typed(unittest.TestCase):
 
 
 class Arithmetic(unittest.TestCase):
-    def test_numbers(self):
+    def test_numbers(self) -> None:
         self.assertAlmostEqual(arithmetic.evaluate("round(0.4/(2540*pi()/6*d**3))", {"d": 2e-3}), 37596)
         self.assertEqual(arithmetic.evaluate("-2*(1 + .5) + max(1, 3)"), 0)
 
-    def test_nothing_else(self):
+    def test_nothing_else(self) -> None:
         for text in (
             "__import__('os').system('true')",
             "().__class__",

@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 """What is made of a run to look at: film, animation, report.
 
-usage: picture_tests.py BUILD [unittest's options]
-"""
+usage: picture_tests.py BUILD [unittest's options] """
 
 import json
 import os
@@ -13,6 +12,7 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 import matplotlib.image
 import numpy as np
@@ -24,7 +24,7 @@ SCRIPTS = REPOSITORY / "scripts"
 TIMES = 5  # written while the water flows: .5 s, one each .1 s
 
 
-def setUpModule():
+def setUpModule() -> None:
     """One run of the hopper, dry and under water, for all that is made of it."""
     folder = tempfile.TemporaryDirectory(prefix="clepsydra-pictures-")
     unittest.addModuleCleanup(folder.cleanup)
@@ -46,17 +46,21 @@ def setUpModule():
 
 
 class Pictures(unittest.TestCase):
-    def runs(self, script, *arguments, **options):
+    folder: Path
+    dry: Path
+    submerged: Path
+
+    def runs(self, script: Any, *arguments: Any, **options: Any) -> Any:
         return subprocess.run(
             [SCRIPTS / script, *map(str, arguments)], capture_output=True, text=True, cwd=self.folder, **options
         )
 
-    def makes(self, script, *arguments):
+    def makes(self, script: Any, *arguments: Any) -> Any:
         done = self.runs(script, *arguments)
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def copied(self, name):
+    def copied(self, name: str) -> Any:
         """A run whose files a test may change."""
         case = self.folder / name
         shutil.copytree(self.submerged, case, symlinks=True)
@@ -65,7 +69,7 @@ class Pictures(unittest.TestCase):
             (case / link).symlink_to((self.submerged / link).resolve())
         return case
 
-    def pictures(self, film):
+    def pictures(self, film: Any) -> int:
         """How many a film or an animation has, by decoding it."""
         counted = subprocess.run(
             [
@@ -87,7 +91,7 @@ class Pictures(unittest.TestCase):
 
 
 class Film(Pictures):
-    def test_one_picture_for_each_time(self):
+    def test_one_picture_for_each_time(self) -> None:
         said = self.makes("movie", self.submerged, "film.mp4", "film.webm", "film.gif", "film.apng", "film.webp")
         self.assertIn(f"film.mp4: {TIMES} pictures", said)
         for file in ("film.mp4", "film.webm", "film.gif", "film.apng"):
@@ -96,7 +100,7 @@ class Film(Pictures):
         webp = (self.folder / "film.webp").read_bytes()
         self.assertEqual((webp[8:12], webp.count(b"ANMF")), (b"WEBP", TIMES))
 
-    def test_particles_at_rest_are_not_black(self):
+    def test_particles_at_rest_are_not_black(self) -> None:
         """The end of the dry run: 47 particles lie in the hopper and nothing else is drawn there."""
         self.makes("movie", "--view", -5.5, 5.5, 0.3, 3, self.dry, "dry.apng")
         subprocess.run(
@@ -111,20 +115,20 @@ class Film(Pictures):
         self.assertLess(dark, 0.06)
         self.assertGreater(pale, 0.02)
 
-    def test_of_a_running_case(self):
+    def test_of_a_running_case(self) -> None:
         """The newest time may be half written until its checkpoint is complete."""
         running = self.copied("running")
         (running / "checkpoints/0.5/complete").unlink()
         (running / "0.5/U").write_text("FoamFile { half")
         self.assertIn(f"film.gif: {TIMES - 1} pictures", self.makes("movie", running, "film.gif"))
 
-    def test_every_other(self):
+    def test_every_other(self) -> None:
         self.assertIn("film.gif: 3 pictures", self.makes("movie", "--every", 2, self.submerged, "film.gif"))
 
-    def test_a_part_of_the_run(self):
+    def test_a_part_of_the_run(self) -> None:
         self.assertIn("film.gif: 2 pictures", self.makes("movie", "--between", 0.15, 0.35, self.submerged, "film.gif"))
 
-    def test_says_what_it_cannot_do(self):
+    def test_says_what_it_cannot_do(self) -> None:
         for arguments, complaint in (
             ((self.submerged, "film.avi"), "allowed: .mp4"),
             ((self.folder, "film.mp4"), "has no VTK/particles.pvd"),
@@ -135,18 +139,18 @@ class Film(Pictures):
             self.assertEqual(done.returncode, 2)
             self.assertIn(complaint, done.stderr)
 
-    def test_without_ffmpeg(self):
+    def test_without_ffmpeg(self) -> None:
         done = self.runs("movie", self.submerged, "none.mp4", env={"PATH": "/nowhere"})
         self.assertIn("apt-get install ffmpeg", done.stderr)
         self.assertFalse((self.folder / "none.mp4").exists())
 
 
 class Report(Pictures):
-    def page(self, case):
+    def page(self, case: Any) -> str:
         self.makes("runReport", case, "report.html")
         return (self.folder / "report.html").read_text()
 
-    def test_says_what_the_run_wrote(self):
+    def test_says_what_the_run_wrote(self) -> None:
         page = self.page(self.submerged)
         balances = json.loads((self.submerged / "postProcessing/conservation/0/summary.json").read_text())
         self.assertIn("<h1>submerged: ended at t = 0.5 s</h1>", page)
@@ -165,12 +169,12 @@ class Report(Pictures):
             self.assertIn(said, page)
         self.assertEqual(page.count("<svg"), 1)
 
-    def test_needs_nothing_beside_it(self):
+    def test_needs_nothing_beside_it(self) -> None:
         page = self.page(self.submerged)
         self.assertNotRegex(re.sub(r"<svg.*?</svg>", "", page, flags=re.S), r"<(link|script|img|iframe)|url\(")
         self.assertEqual(set(re.findall(r'(?:xlink:href|href|src)="([^#"][^"]*)"', page)), set())
 
-    def test_says_what_was_not_read_and_what_failed(self):
+    def test_says_what_was_not_read_and_what_failed(self) -> None:
         case = self.copied("warned")
         with open(case / "log.pimpleDemFoam", "a") as log:
             log.write("--> FOAM Warning : Unless a function object does, is unknown the field pp\n\n" * 2)
@@ -183,7 +187,7 @@ class Report(Pictures):
         self.assertIn("ended by an error at t = 0.5 s", page)
         self.assertIn("lost &lt;particles&gt; &amp; more", page)
 
-    def test_of_a_run_that_has_not_ended(self):
+    def test_of_a_run_that_has_not_ended(self) -> None:
         case = self.copied("unfinished")
         log = case / "log.pimpleDemFoam"
         log.write_text(log.read_text().split("\nTime = 0.31")[0])
@@ -192,7 +196,7 @@ class Report(Pictures):
         self.assertIn("has not ended: at t = 0.308 s", page)
         self.assertIn("No conservation check", page)
 
-    def test_counts_over_all_parts_of_a_run(self):
+    def test_counts_over_all_parts_of_a_run(self) -> None:
         case = self.copied("resumed")
         balances = json.loads((case / "postProcessing/conservation/0/summary.json").read_text())
         (case / "postProcessing/conservation/0.3").mkdir()
@@ -203,7 +207,7 @@ class Report(Pictures):
         for said in ("97 at the end", "3 lost", "2.50e-03"):
             self.assertIn(said, page)
 
-    def test_says_of_which_time_there_are_no_balances(self):
+    def test_says_of_which_time_there_are_no_balances(self) -> None:
         """Killed after .3 s, it went on from the checkpoint at .25 s; before that, a stop at .2 s wrote balances."""
         self.assertNotIn("are missing", self.page(self.submerged))
         case = self.copied("killed")
@@ -214,14 +218,14 @@ class Report(Pictures):
         (conservation / "0.25/summary.json").write_text(json.dumps(balances | {"timeStart": 0.25}))
         self.assertIn("The balances of 0.2 to 0.25 s are missing", self.page(case))
 
-    def test_without_a_run(self):
+    def test_without_a_run(self) -> None:
         done = self.runs("runReport", self.folder, "report.html")
         self.assertEqual(done.returncode, 2)
         self.assertIn("has no log.pimpleDemFoam", done.stderr)
 
 
 class Studies(Pictures):
-    def test_what_no_fit_has_seen(self):
+    def test_what_no_fit_has_seen(self) -> None:
         """Measured in black, the model before and after in red and blue; a study that held nothing out has no
         picture."""
         self.makes("studies", "--picture", "studies.png", "particlesInTwoLiquids")
@@ -238,7 +242,7 @@ class Studies(Pictures):
     "there is no pvpython here (Debian's python3-paraview cannot be installed beside python3-vtk9, which we need)",
 )
 class ParaView(Pictures):
-    def test_state_with_particles_and_water(self):
+    def test_state_with_particles_and_water(self) -> None:
         display = [] if "DISPLAY" in os.environ else ["xvfb-run", "--auto-servernum"]
         subprocess.run(
             [*display, "pvpython", SCRIPTS / "paraviewState", self.submerged, "state.png"],

@@ -8,9 +8,8 @@ reads them as that program does, and fails where a file is missing, empty, or na
 a source that does not exist. With BUILD also the version file that find_package(Clepsydra) reads is tried.
 
 The steps of the containers run for real where CLEPSYDRA_BARE_ROOT names the root of a bare Debian 13 (debootstrap's
-minbase, with /proc mounted and a resolv.conf) that may be changed: what is tracked is copied there, and each step
-runs by chroot. That takes the time of a whole set-up.
-"""
+minbase, with /proc mounted and a resolv.conf) that may be changed: what is tracked is copied there, and each step runs
+by chroot. That takes the time of a whole set-up. """
 
 from __future__ import annotations
 

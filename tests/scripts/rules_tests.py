@@ -3,6 +3,7 @@
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 from clepsydra import case_rules
 
@@ -32,27 +33,29 @@ together:
 
 
 class Rules(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory(prefix="clepsydra-rules-")
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def found(self, parameters=PARAMETERS, rules=RULES, ranks=None, part="mesh"):
+    def found(
+        self, parameters: Any = PARAMETERS, rules: Any = RULES, ranks: int | None = None, part: Any = "mesh"
+    ) -> Any:
         (self.folder / "parameters.rules").write_text(rules)
         return case_rules.Rules(self.folder).check(parameters, ranks, part, "parameters")
 
-    def testRightParametersHaveFactsAlone(self):
+    def testRightParametersHaveFactsAlone(self) -> None:
         """The tube's fact and that without a value are left out; a check that skipped all would miss the area."""
         found = self.found()
         self.assertEqual((found.problems, found.warnings, found.facts), ([], [], ["area 1 m2"]))
 
-    def testWhatIsRequiredStopsAndWhatIsExpectedWarns(self):
+    def testWhatIsRequiredStopsAndWhatIsExpectedWarns(self) -> None:
         found = self.found(PARAMETERS.replace("width 0.5", "width 3"))
         self.assertEqual(found.problems, ["parameters: width 3 m; allowed: less than length, 2 m"])
         found = self.found(PARAMETERS.replace("width 0.5", "width 0.1"))
         self.assertEqual((found.problems, found.warnings), ([], ["parameters: area 0.20 m2"]))
 
-    def testConditionsRestrict(self):
+    def testConditionsRestrict(self) -> None:
         """Each once where it applies and once where it does not."""
         found = self.found(PARAMETERS.replace("box", "tube"))
         self.assertEqual(found.problems, ["parameters: count 10 of a tube"])
@@ -60,7 +63,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(self.found(part="all").warnings, ["parameters: count is 10"])
         self.assertEqual(self.found(ranks=1).problems, ["parameters: count here"])
 
-    def testEntriesAlone(self):
+    def testEntriesAlone(self) -> None:
         for old, new, words in (
             ("count 10", "count 1.5", "entry 'count' is 1.5; allowed: a whole number from 1 to 1000000"),
             ("length 2", "length 20", "entry 'length' is 20; allowed: a number from 0.001 to 10 [m]"),
@@ -70,12 +73,12 @@ class Rules(unittest.TestCase):
             with self.subTest(new):
                 self.assertIn(words, "\n".join(self.found(PARAMETERS.replace(old, new)).problems))
 
-    def testAnEntryThatTheCaseRefersToIsTheUsersOwn(self):
+    def testAnEntryThatTheCaseRefersToIsTheUsersOwn(self) -> None:
         (self.folder / "system").mkdir()
         (self.folder / "system/controlDict").write_text("endTime $mine;\n")
         self.assertEqual(self.found(PARAMETERS + "mine 3;\n").problems, [])
 
-    def testMistakesOfTheRulesAreNamed(self):
+    def testMistakesOfTheRulesAreNamed(self) -> None:
         """In words that name the file, whatever is wrong; none may be passed over as a rule that holds."""
         for old, new, words in (
             ("entries:", "entires:", "unknown entry 'entires' (is 'entries' meant?)"),
@@ -96,14 +99,14 @@ class Rules(unittest.TestCase):
                 self.assertIn(words, str(problem.exception))
                 self.assertIn("parameters.rules", str(problem.exception))
 
-    def testRulesRunNothing(self):
+    def testRulesRunNothing(self) -> None:
         made = self.folder / "made"
         for text in (f"__import__('os').system('touch {made}') < 1", f"open('{made}', 'w') == 1"):
             with self.assertRaises(case_rules.RulesError):
                 self.found(rules=RULES.replace("width < length", '"' + text + '"'))
         self.assertFalse(made.exists())
 
-    def testEachTutorialsOwnParametersAreRight(self):
+    def testEachTutorialsOwnParametersAreRight(self) -> None:
         """As they are in the repository; with an entry too many, and without one, they are refused."""
         cases = sorted(path.parent for path in (REPOSITORY / "cases/tutorials").glob("*/parameters"))
         self.assertGreaterEqual(len(cases), 6)

@@ -7,6 +7,7 @@ import tempfile
 import unittest
 from collections import Counter
 from pathlib import Path
+from typing import Any
 
 from clepsydra import parameter_file
 from clepsydra.meshes import hopper_walls
@@ -15,7 +16,7 @@ REPOSITORY = Path(__file__).resolve().parents[2]
 MESHES = REPOSITORY / "meshes"
 
 
-def corners(file):
+def corners(file: Path) -> list[Any]:
     points = [
         tuple(map(float, line.split()[1:])) for line in file.read_text().splitlines() if line.split()[0] == "vertex"
     ]
@@ -23,7 +24,7 @@ def corners(file):
 
 
 class Surface(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         folder = tempfile.TemporaryDirectory(prefix="clepsydra-surface-")
         self.addCleanup(folder.cleanup)
         self.case = Path(folder.name)
@@ -33,26 +34,26 @@ class Surface(unittest.TestCase):
         self.file = self.case / "hopper.stl"
         self.file.write_text(self.cone())
 
-    def cone(self, angle="30"):
+    def cone(self, angle: Any = "30") -> Any:
         return subprocess.run(
             [MESHES / "coneSurface", self.parameters, angle], check=True, capture_output=True, text=True
         ).stdout
 
-    def made(self):
+    def made(self) -> Any:
         return subprocess.run(
             [MESHES / "hopperFromSurface", self.parameters, self.case], capture_output=True, text=True
         )
 
-    def expect_refused(self, words):
+    def expect_refused(self, words: Any) -> None:
         done = self.made()
         self.assertNotEqual(done.returncode, 0)
         self.assertIn(words, done.stderr)
         self.assertNotIn("Traceback", done.stderr)
 
-    def write(self, triangles):
+    def write(self, triangles: Any) -> None:
         self.file.write_text(hopper_walls.stl("hopper", triangles))
 
-    def test_particles_and_water_have_the_same_walls(self):
+    def test_particles_and_water_have_the_same_walls(self) -> None:
         """And those of the particles, plugged, are open at the rim only: an edge of one triangle elsewhere would be a
         leak."""
         self.assertEqual(self.made().returncode, 0)
@@ -67,7 +68,7 @@ class Surface(unittest.TestCase):
         self.assertEqual(len(alone), hopper_walls.PARTICLE_CORNERS)
         self.assertEqual({point[2] for edge in alone for point in edge}, {height})
 
-    def test_binary_files_as_other_programs_write_them(self):
+    def test_binary_files_as_other_programs_write_them(self) -> None:
         """In single precision, with a header that begins like a text file's."""
         triangles = corners(self.file)
         self.made()
@@ -84,7 +85,7 @@ class Surface(unittest.TestCase):
         for one, other in zip(sum(sum(from_binary, ()), ()), sum(sum(from_text, ()), ())):
             self.assertAlmostEqual(one, other, delta=1e-8)
 
-    def test_what_is_refused(self):
+    def test_what_is_refused(self) -> None:
         whole = corners(self.file)
         self.write(whole[:40] + whole[41:])
         self.expect_refused("hopper.stl has a hole at (")

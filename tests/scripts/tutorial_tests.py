@@ -1,8 +1,7 @@
 #!/usr/bin/python3
 """The tutorials as a user of OpenFOAM meets them: copied elsewhere, started by Allrun or by hand. Runs the programs.
 
-usage: tutorialTests.py BUILD [unittest's options]
-"""
+usage: tutorialTests.py BUILD [unittest's options] """
 
 import os
 import re
@@ -97,8 +96,7 @@ class Tutorials(unittest.TestCase):
 
     def testCheckAndMistakes(self) -> None:
         """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of
-        its
-        log; without Clepsydra's environment a copy says what to do."""
+        its log; without Clepsydra's environment a copy says what to do."""
         for name in BY_HAND:
             with self.subTest(name):
                 case = self.copied(name)

@@ -1,9 +1,7 @@
 """No word of our own where the field has another: CHANGELOG.md says what each was replaced by.
 
 A repository in which one file still speaks of beads, ledgers or rigs fails, with file and line. Names that stand in
-data of
-others (bead3_trial_1.txt), in sealed records and in the table of old names are the only exceptions.
-"""
+data of others (bead3_trial_1.txt), in sealed records and in the table of old names are the only exceptions. """
 
 import re
 import subprocess

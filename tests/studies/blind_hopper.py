@@ -4,17 +4,12 @@
 usage: blindHopper FOLDER     for copies and one run, made again
 
 Fails where a set was answered again with another experiment than the program had asked for, where the false alarms on
-nulls are
-not those listed, where a truth or an answer is not the one whose hash was committed, where results/score.json or the
-table is not what
-the reports and the truths give, where the record or the measurements come out of their files other than they went in,
-or where the
-real solver, with what set6's truth says was in it (a lid and a lagging scale), does not give a measurement of that set
-once more.
-That the checks can fail is tried on copies in which one digit of a truth or of an answer is changed, in the archive or
-beside it,
-and on the same measurement of the other sets, which is another one.
-"""
+nulls are not those listed, where a truth or an answer is not the one whose hash was committed, where results/score.json
+or the table is not what the reports and the truths give, where the record or the measurements come out of their files
+other than they went in, or where the real solver, with what set6's truth says was in it (a lid and a lagging scale),
+does not give a measurement of that set once more. That the checks can fail is tried on copies in which one digit of a
+truth or of an answer is changed, in the archive or beside it, and on the same measurement of the other sets, which is
+another one. """
 
 import json
 import re
@@ -22,6 +17,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import blind_run
 import measurements
@@ -43,7 +39,7 @@ SET_OF_THIRD_DRAW = "set23"
 ALIKE = 0.04  # of the fill, rms: compilers differ in the last digit, and packings then go their own ways by 1 to 2 %
 
 
-def main():
+def main() -> None:
     folder = Path(sys.argv[1])
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -66,21 +62,21 @@ def main():
     print("truth, hashes, reports, score and data belong together")
 
 
-def opened_sets():
+def opened_sets() -> list[Any]:
     """What is still sealed stays sealed."""
     return [name for name in seals.set_names() if seals.is_open(name)]
 
 
-def check(case):
+def check(case: Any) -> Any:
     return subprocess.run([case / "score", "--check"], capture_output=True, text=True)
 
 
-def changes_are_found(folder):
+def changes_are_found(folder: Path) -> None:
     """In the archive, and in a file that lies beside it."""
     truth, answer, sealed = "truth/set1.json", "results/set1/report.json", "sealed/set17.json.enc"
     for name, path, digit in (("truth", truth, b'"friction": 0.2'), ("answer", answer, b'"pValue": 0.0')):
         content = record.archived()[path].replace(digit, digit[:-1] + b"1", 1)
-        require(content != record.archived()[path], f"{path} has no {digit}")
+        require(content != record.archived()[path], f"{path} has no {digit!r}")
         case = copy(folder / f"changed.{name}")
         record.write(record.archived() | {path: content}, case / "record.tar.xz")
         require(
@@ -104,10 +100,9 @@ def changes_are_found(folder):
     require("there is no such answer" in check(case).stderr, "a missing answer passes score --check")
 
 
-def nothing_is_lost_in_files(folder):
+def nothing_is_lost_in_files(folder: Path) -> None:
     """The archive has the same bytes when it is packed once more; the measurements of a set are as many as its truth
-    has seeds for, and
-    the files that traceResidual reads give the set's own file back."""
+    has seeds for, and the files that traceResidual reads give the set's own file back."""
     record.write(record.archived(), folder / "again.tar.xz")
     require(
         (folder / "again.tar.xz").read_bytes() == record.ARCHIVE.read_bytes(),
@@ -141,7 +136,7 @@ def nothing_is_lost_in_files(folder):
     )
 
 
-def old_names_are_read():
+def old_names_are_read() -> None:
     """What was committed under an old name is read under today's, in truths and in answers."""
     for name in opened_sets():
         for effect in seals.open(name)["effects"]:
@@ -159,12 +154,12 @@ def old_names_are_read():
         )
 
 
-def copy(target):
+def copy(target: Any) -> Any:
     shutil.copytree(CASE, target, ignore=shutil.ignore_patterns("work", "data"))
     return target
 
 
-def study_is_changed_where_asked(folder):
+def study_is_changed_where_asked(folder: Path) -> None:
     """What ./next and ./nulls make of study.yaml: traceResidual reads it, with what was added and without what was left
     out."""
     require(studies.study({}) == (CASE / "study.yaml").read_text(), "a study with nothing changed is another one")
@@ -182,7 +177,7 @@ def study_is_changed_where_asked(folder):
     require(len(names) == 7, f"{file} has {len(names)} conditions and not four of training and three candidates")
 
 
-def what_was_asked_for_was_measured():
+def what_was_asked_for_was_measured() -> None:
     """Each later answer is on the condition that the program had put first, and on no other one's data."""
     reports = [path for path in record.paths() if re.fullmatch("results/set[0-9]+/next/report.json", path)]
     require(reports, "no set was answered with what was measured next")
@@ -195,7 +190,7 @@ def what_was_asked_for_was_measured():
         require(measured == {first}, f"{name}: {first} was asked for, {measured} was measured")
 
 
-def alarms_are_counted():
+def alarms_are_counted() -> None:
     for name in ("nulls", "nullsOfStudy"):
         path = CASE / f"results/{name}.json"
         found = json.loads(path.read_text())
@@ -206,7 +201,7 @@ def alarms_are_counted():
         )
 
 
-def measured_once_more(folder):
+def measured_once_more(folder: Path) -> None:
     subprocess.run([CASE / "generate", "again", SET, RUN, folder / "again.csv"], check=True)
     again = readings("the measurement once more", (folder / "again.csv").read_text())
     for name in (path.stem for path in sorted(measurements.DATA.glob("*.csv"))):
@@ -222,7 +217,7 @@ def measured_once_more(folder):
         )
 
 
-def readings(where, text):
+def readings(where: Any, text: str) -> Any:
     header, *rows = text.splitlines()
     require(
         header == "t_s,m_g" and all(re.fullmatch(r"[\d.]+,-?[\d.]+", row) for row in rows),
@@ -231,7 +226,7 @@ def readings(where, text):
     return np.array([[float(field) for field in row.split(",")] for row in rows])
 
 
-def require(holds, message):
+def require(holds: Any, message: str) -> None:
     if not holds:
         raise SystemExit(message)
 

@@ -2,10 +2,8 @@
 """A small version of a committed study, run by the real solver: fewer effects, the same numbers and conditions.
 
 Fails where a run fails, where the solver's numbers are not those that the committed report rests on, or where the
-answer
-is not of the kind that a program with working parts must give. An empty simulator, effects that are not switched on, or
-held-out data that were trained on are reported by the numbers.
-"""
+answer is not of the kind that a program with working parts must give. An empty simulator, effects that are not switched
+on, or held-out data that were trained on are reported by the numbers. """
 
 import argparse
 import json
@@ -13,13 +11,14 @@ import math
 import shutil
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", metavar="STUDY", choices=CHECKS)
     parser.add_argument("folder", type=Path, metavar="FOLDER", help="for its runs and report, made again")
@@ -51,7 +50,7 @@ def main():
     print(f"{name}: {report['decision']}, p = {report['pValue']:.3g}, as it must be")
 
 
-def without_candidates(study):
+def without_candidates(study: dict[str, Any]) -> None:
     study["conditions"] = [one for one in study["conditions"] if one["role"] != "candidate"]
     left = {one["name"] for one in study["conditions"]}
     errors = study.get("commonErrors", [])
@@ -61,19 +60,19 @@ def without_candidates(study):
     study["commonErrors"] = [one for one in errors if one.get("conditions") != []]
 
 
-def with_longer_intervals(study, factor):
+def with_longer_intervals(study: dict[str, Any], factor: Any) -> None:
     """Where one particle sinks steadily through liquid at rest nothing hangs on the coupling step: 3e-4 of a speed for
     four times."""
     for one in study["conditions"]:
         one["set"]["couplingTimeStep"] = factor * float(one["set"]["couplingTimeStep"])
 
 
-def with_the_edges_height_only(study):
+def with_the_edges_height_only(study: dict[str, Any]) -> None:
     """Of the parts of a liquid's layers."""
     study["parameters"] = [one for one in study["parameters"] if one.get("of") is None or one["name"] == "edgeHeight"]
 
 
-def starting_spheres(study, report=None, committed=None):
+def starting_spheres(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     if study:
         study["onlyEffects"] = ["addedMass", "unsteadyForces"]
         return
@@ -81,7 +80,7 @@ def starting_spheres(study, report=None, committed=None):
     leads(report, "unsteadyForces")
 
 
-def bounces_in_oil(study, report=None, committed=None):
+def bounces_in_oil(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """Ten times the DEM step, twice the coupling step. The other effect is the camera's, which costs no runs."""
     if study:
         study["onlyEffects"] = ["lubrication", "imageScale"]
@@ -91,7 +90,7 @@ def bounces_in_oil(study, report=None, committed=None):
     leads(report, "lubrication")
 
 
-def glycerine_particles_tall(study, report=None, committed=None):
+def glycerine_particles_tall(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """The other effect is the camera's, which costs no runs."""
     if study:
         study["onlyEffects"] = ["layers", "imageScale"]
@@ -106,7 +105,7 @@ def glycerine_particles_tall(study, report=None, committed=None):
     )
 
 
-def particles_in_two_liquids(study, report=None, committed=None):
+def particles_in_two_liquids(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """No Stokes' drag in water; the law is reported by neither liquid alone."""
     if study:
         study["onlyEffects"] = ["dragSchillerNaumann", "particleDensity"]
@@ -118,7 +117,7 @@ def particles_in_two_liquids(study, report=None, committed=None):
     require(after < 0.5 * before, f"the error in glycerol goes from {before} to {after} only")
 
 
-def settled_glycerol(study, report=None, committed=None):
+def settled_glycerol(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """A liquid that is thicker everywhere does not do."""
     if study:
         study["onlyEffects"] = ["thickerBelow", "otherLiquid"]
@@ -130,7 +129,7 @@ def settled_glycerol(study, report=None, committed=None):
     require(committed["name"] == "thickerBelow", f"the committed report names {committed['name']}")
 
 
-def same_residual(report, committed, tolerance=0.02):
+def same_residual(report: Any, committed: dict[str, Any], tolerance: float = 0.02) -> None:
     """What the null leaves does not depend on the effects that are tried: numbers of the solver, and of the fit."""
     for which, one in (("this", report), ("the committed report", committed)):
         require(one["pValue"] < 0.05, f"in {which} p = {one['pValue']}")
@@ -143,12 +142,12 @@ def same_residual(report, committed, tolerance=0.02):
             )
 
 
-def leads(report, effect):
+def leads(report: Any, effect: Any) -> None:
     first = max((one for one in report["effects"] if one["logOdds"] is not None), key=lambda one: one["logOdds"])
     require(first["name"] == effect and first["logOdds"] > 10, f"{first['name']} is likeliest, with {first['logOdds']}")
 
 
-def paper_rates(study, report=None, committed=None):
+def paper_rates(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """The paper's two rates, against six grams as deep as the blind sets', with the paper's orifice and one effect."""
     if study:
         blind = yaml.safe_load((ROOT / "cases/studies/blindHopper/study.yaml").read_text())
@@ -180,7 +179,7 @@ def paper_rates(study, report=None, committed=None):
     require(committed["decision"] == "noResidual", f"the committed report's decision is {committed['decision']}")
 
 
-def require(holds, message):
+def require(holds: bool, message: str) -> None:
     if not holds:
         raise SystemExit(message)
 

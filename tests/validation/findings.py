@@ -2,8 +2,7 @@
 """scripts/validate on two surrogates of cases, which write the rows that a test asks for.
 
 A finding is a row that is known not to agree with its reference. It holds while it is found again, and only then: a
-table that let every finding hold, as it once did, passes neither of the tests of a change.
-"""
+table that let every finding hold, as it once did, passes neither of the tests of a change. """
 
 import json
 import shutil
@@ -11,6 +10,7 @@ import subprocess
 import tempfile
 import unittest
 from pathlib import Path
+from typing import Any
 
 SCRIPTS = Path(__file__).resolve().parents[2] / "scripts"
 ALLRUN = """#!/usr/bin/python3
@@ -29,7 +29,7 @@ AGREEING = {"ours": 2.01, "uncertainty": 0.01, "tolerance_percent": 5}
 
 
 class Findings(unittest.TestCase):
-    def setUp(self):
+    def setUp(self) -> None:
         root = Path(tempfile.mkdtemp(prefix="clepsydra-validation-"))
         self.addCleanup(shutil.rmtree, root)
         self.cases = root / "cases" / "validation"
@@ -43,23 +43,23 @@ class Findings(unittest.TestCase):
             (self.cases / name / "Allrun").chmod(0o755)
         self.ask(one=FINDING, other=AGREEING)
 
-    def ask(self, **rows):
+    def ask(self, **rows: Any) -> None:
         for case, asked in rows.items():
             (self.cases / case / "asked.json").write_text(json.dumps(asked))
 
-    def validate(self, *arguments):
+    def validate(self, *arguments: Any) -> Any:
         return subprocess.run([self.program, "--quick", *arguments], capture_output=True, text=True)
 
-    def record(self):
+    def record(self) -> None:
         outcome = self.validate("--record")
         self.assertEqual(outcome.returncode, 0, outcome.stderr)
 
-    def assert_fails(self, pattern):
+    def assert_fails(self, pattern: str) -> None:
         outcome = self.validate()
         self.assertEqual(outcome.returncode, 1, outcome.stdout)
         self.assertRegex(outcome.stderr, pattern)
 
-    def test_a_finding_holds_once_it_is_recorded(self):
+    def test_a_finding_holds_once_it_is_recorded(self) -> None:
         self.assert_fails(r"one, v: \+10\.00 % is more than the 5 % allowed, and this finding is not recorded")
         self.record()
         again = self.validate()
@@ -67,7 +67,7 @@ class Findings(unittest.TestCase):
         self.assertRegex(again.stdout, r"one +v .*\+10\.00 \+- 2\.121 +finding")
         self.assertRegex(again.stdout, r"other +v .*\+0\.00 \+- 5 +yes")
 
-    def test_a_finding_that_changes_is_news(self):
+    def test_a_finding_that_changes_is_news(self) -> None:
         """By three standard errors of the two repeats, 2.1 %, and not of the reference, which would allow 60 %."""
         self.record()
         self.ask(one=FINDING | {"ours": 2.24})
@@ -76,43 +76,43 @@ class Findings(unittest.TestCase):
             self.ask(one=FINDING | {"ours": changed})
             self.assert_fails(r"one, v: .* % is not the finding that is recorded, \+10\.00 \+- 2\.12 %")
 
-    def test_a_finding_that_agrees_at_last_is_news(self):
+    def test_a_finding_that_agrees_at_last_is_news(self) -> None:
         self.record()
         self.ask(one=FINDING | {"ours": 2})
         self.assert_fails(r"one, v: \+0\.00 % is not the finding")
 
-    def test_a_row_that_no_longer_agrees_fails(self):
+    def test_a_row_that_no_longer_agrees_fails(self) -> None:
         self.record()
         self.ask(other=AGREEING | {"ours": 2.2})
         self.assert_fails("other, v: .* nothing explains it")
         self.ask(other=FINDING)
         self.assert_fails("other, v: .* this finding is not recorded")
 
-    def test_a_row_that_is_no_longer_compared_is_missed(self):
+    def test_a_row_that_is_no_longer_compared_is_missed(self) -> None:
         self.record()
         self.ask(other={})
         self.assert_fails("other, v: is recorded, but was not compared")
 
-    def test_what_nothing_explains_is_not_recorded(self):
+    def test_what_nothing_explains_is_not_recorded(self) -> None:
         self.ask(other=AGREEING | {"ours": 3})
         self.assertEqual(self.validate("--record").returncode, 1)
         self.assertFalse((self.cases / "quickResults.json").exists())
 
-    def test_the_record_of_a_case_that_did_not_run_stays(self):
+    def test_the_record_of_a_case_that_did_not_run_stays(self) -> None:
         self.record()
         self.ask(one=77)
         self.assertEqual(self.validate("--record").returncode, 0)
         self.ask(one=FINDING)
         self.assertEqual(self.validate().returncode, 0)
 
-    def test_a_case_that_fails_fails_and_one_left_out_does_not(self):
+    def test_a_case_that_fails_fails_and_one_left_out_does_not(self) -> None:
         self.ask(one=77)
         self.assertEqual(self.validate().returncode, 0)
         self.assertEqual(self.validate("one").returncode, 77)
         self.ask(one=1)
         self.assert_fails("one did not run to its end")
 
-    def test_what_is_committed_explains_each_row_that_does_not_agree(self):
+    def test_what_is_committed_explains_each_row_that_does_not_agree(self) -> None:
         for name in ("results.json", "quickResults.json"):
             for found in json.loads((SCRIPTS.parent / "cases" / "validation" / name).read_text()):
                 self.assertTrue(found["holds"] and (found["agrees"] or "finding" in found), (name, found["quantity"]))

@@ -10,6 +10,7 @@ import argparse
 import json
 import sys
 from pathlib import Path
+from typing import Any
 
 import comparisons
 import series
@@ -17,7 +18,7 @@ import series
 from clepsydra import whole_files
 
 
-def main():
+def main() -> int:
     options = read_options()
     rows, problems = [], []
     for name in options.groups:
@@ -33,12 +34,12 @@ def main():
     if options.json:
         options.json.parent.mkdir(parents=True, exist_ok=True)
         whole_files.write(options.json, json.dumps(rows, indent=2) + "\n")
-    for problem in problems:
-        print(f"compare: {problem}", file=sys.stderr)
+    for one in problems:
+        print(f"compare: {one}", file=sys.stderr)
     return 1 if problems else 0
 
 
-def read_options():
+def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("groups", metavar="GROUP", nargs="*", help=", ".join(comparisons.GROUPS))
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the rows as a list of objects")

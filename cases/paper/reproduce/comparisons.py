@@ -1,8 +1,9 @@
 """Quantities that the paper measured or simulated, beside ours: groups of rows, and what must hold of them.
 
 A row is never wrong for being far off. A group fails where its runs are missing or contradict each other, or where a
-claim that is made of them (`require`) is not borne out.
-"""
+claim that is made of them (`require`) is not borne out. """
+
+from typing import Any
 
 import exit_flow
 import numpy as np
@@ -22,7 +23,7 @@ class ClaimFailed(Exception):
     """What was claimed and is not so."""
 
 
-def row(quantity, unit, ours, runs, measured=None, simulated=None):
+def row(quantity: str, unit: str, ours: Any, runs: Any, measured: Any = None, simulated: Any = None) -> dict[str, Any]:
     """The residual is against the measurement; without one, against the paper's simulation."""
     reference = simulated if measured is None else measured
     return dict(
@@ -42,17 +43,17 @@ def row(quantity, unit, ours, runs, measured=None, simulated=None):
     )
 
 
-def require(claim, holds):
+def require(claim: Any, holds: bool) -> None:
     print(f"  {'holds' if holds else 'DOES NOT HOLD'}: {claim}")
     if not holds:
         raise ClaimFailed(claim)
 
 
-def names(runs):
+def names(runs: Any) -> list[Any]:
     return [run.name for run in runs]
 
 
-def rates():
+def rates() -> Any:
     """W at the start, at the frictions that the paper finds to match, from every fill."""
     found = []
     for step in paper.STEPS:
@@ -77,7 +78,7 @@ def rates():
     return found
 
 
-def ratio_of_rates():
+def ratio_of_rates() -> list[Any]:
     """W_sub/W_dry: of one friction, so that the water alone makes the difference."""
     friction = paper.MATCHING_FRICTION["dry"]
     runs_of = series.deepest_of_both(friction)
@@ -96,7 +97,7 @@ def ratio_of_rates():
     ]
 
 
-def matching_friction():
+def matching_friction() -> Any:
     """mu at which our rate would be the measured one, and W_o, from the paper's fit."""
     found = []
     for step in paper.STEPS:
@@ -123,7 +124,7 @@ def matching_friction():
     return found
 
 
-def stiff():
+def stiff() -> Any:
     """The same of the paper's fill with stiffer particles on a finer mesh: the fit's shape through the rates of those
     runs."""
     friction, found, rates, frictions, used = paper.MATCHING_FRICTION["dry"], [], {}, {}, []
@@ -165,7 +166,7 @@ def stiff():
     ]
 
 
-def surge():
+def surge() -> Any:
     """How straight m(t) is, at both frictions that the paper finds to match; what is claimed is of the one with three
     packings."""
     found, rises, gain = surge_at(paper.MATCHING_FRICTION["dry"])
@@ -183,7 +184,7 @@ def surge():
     return found + [wilson_gain(window, early) for window in series.SURGE]
 
 
-def surge_at(friction):
+def surge_at(friction: float) -> tuple[Any, Any, Any]:
     """Rows, what the rate gains while half of the fill leaves, and what it is late over what it was early, by
     window."""
     runs_of = series.deepest_of_both(friction)
@@ -208,10 +209,9 @@ def surge_at(friction):
     return found, rises, gain
 
 
-def gains(runs_of, late, early, of_what):
+def gains(runs_of: Any, late: Any, early: Any, of_what: Any) -> tuple[Any, Any]:
     """W while so many g are left over W while more were: rows, and the values of each medium and of the one over the
-    other, which
-    frees it of the heap."""
+    other, which frees it of the heap."""
     what = "{}W from {} to {} g over W from {:.4g} to {:.4g} g".format(of_what, *late, *early)
     gains_of = {step: [run.gain(late, early) for run in runs] for step, runs in runs_of.items()}
     gain = {step: series.mean(values) for step, values in gains_of.items()}
@@ -228,7 +228,7 @@ def gains(runs_of, late, early, of_what):
     return found, gain
 
 
-def wilson_gain(late, early):
+def wilson_gain(late: Any, early: Any) -> Any:
     return row(
         "W from {} to {} g over W from {:.4g} to {:.4g} g, by the formula of Wilson et al. (2014)".format(
             *late, *early
@@ -239,7 +239,7 @@ def wilson_gain(late, early):
     )
 
 
-def surge_of_small_particles():
+def surge_of_small_particles() -> Any:
     """The paper's figure 3: the surge grows as the particles get smaller. Ours: 150 g of particles of 1 mm."""
     large = series.deepest_of_both(paper.MATCHING_FRICTION["dry"])
     small = {step: series.small_particles(step) for step in paper.STEPS}
@@ -267,7 +267,7 @@ def surge_of_small_particles():
     return found
 
 
-def numerical_choices():
+def numerical_choices() -> Any:
     """What finer meshes and stiffer particles than the parameter study's make of the rate at the start."""
     found = []
     for step in paper.STEPS:
@@ -280,7 +280,7 @@ def numerical_choices():
     return found
 
 
-def emptying():
+def emptying() -> Any:
     """Time that 500 g need at mu = .8: from the deepest run there is, and its rate at the start for what it lacks."""
     found, times = [], {}
     for step in paper.STEPS:
@@ -318,7 +318,7 @@ def emptying():
     return found
 
 
-def arches(what, tried):
+def arches(what: Any, tried: Any) -> list[Any]:
     """A row of the runs that an arch over the orifice ended, where there are any."""
     clogged = [run for run in tried if run.clogged]
     if not clogged:
@@ -334,7 +334,7 @@ def arches(what, tried):
     ]
 
 
-def emptying_of(run):
+def emptying_of(run: Any) -> Any:
     if not run.emptying_time:
         raise series.MissingRuns(f"{run.name} ended before its flow did")
     lacking = (paper.EMPTYING_MASS - run.fill) / run.start_rate.mean
@@ -345,7 +345,7 @@ def emptying_of(run):
     )
 
 
-def torricelli():
+def torricelli() -> Any:
     """W ~ m^p nearly without friction: p = 1/2 for a Newtonian fluid, 0 for Beverloo's grains."""
     found = []
     for step in paper.STEPS:
@@ -369,7 +369,7 @@ def torricelli():
     return found
 
 
-def table_i():
+def table_i() -> Any:
     """Re and C_d by Brown & Lawler's fit to measured spheres, and by the drag law that the runs use; I as printed."""
     found, p = [], hopper()
     water = {name: p[name] for name in ("fluidDensity", "fluidViscosity")}
@@ -405,7 +405,7 @@ def table_i():
     return found
 
 
-def packing_at_the_exit():
+def packing_at_the_exit() -> Any:
     """The paper says that the packing is denser there under water; it gives no number."""
     shares = {step: exit_flow.profile(step).share_at(0) for step in paper.STEPS}
     found = [
@@ -440,13 +440,13 @@ GROUPS = {
 }
 
 
-def table(rows):
+def table(rows: Any) -> str:
     """Lines of text."""
 
-    def shown(value):
+    def shown(value: Any) -> Any:
         return "-" if value is None else value if isinstance(value, str) else f"{value:.4g}"
 
-    lines = [("quantity", "unit", "measured", "paper's simulation", "ours", "+-", "residual %")]
+    lines: list[tuple[str, ...]] = [("quantity", "unit", "measured", "paper's simulation", "ours", "+-", "residual %")]
     lines += [tuple(shown(one[key]) for key in KEYS[:-1]) for one in rows]
     widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
     return "\n".join("  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in lines)

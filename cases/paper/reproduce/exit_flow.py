@@ -4,6 +4,7 @@ import csv
 from dataclasses import dataclass
 from math import pi
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import paper
@@ -21,7 +22,7 @@ BLOCKS = 8  # of consecutive times, for the standard error
 SLAB_COLUMNS = ("x [m]", "y [m]", "z [m]", "u [m/s]", "v [m/s]", "w [m/s]", "radius [m]")
 
 
-def keep(folder):
+def keep(folder: Path) -> None:
     """Writes <run>.slab.csv (particles cut by the mid-plane at one time) and <run>.profile.csv (shares at all
     times)."""
     step = folder.name.rsplit(".", 1)[1]
@@ -45,7 +46,7 @@ def keep(folder):
             table.writerow([f"{value:.5g}" for value in row])
 
 
-def cross_sections(position, size, velocity, radius):
+def cross_sections(position: np.ndarray, size: Any, velocity: np.ndarray, radius: Any) -> tuple[Any, Any]:
     """Of the circle above and below the orifice, at each height: share inside particles, and share times their speed
     down."""
     distance = np.hypot(position[:, 0], position[:, 1])
@@ -59,7 +60,7 @@ def cross_sections(position, size, velocity, radius):
     return shares, fluxes
 
 
-def overlap(a, b, distance):
+def overlap(a: Any, b: Any, distance: Any) -> Any:
     """Area that circles of radius a have in common with one of radius b."""
     small = np.minimum(a, b)
     inside = distance <= np.abs(a - b)
@@ -78,23 +79,23 @@ class Profile:
     flux: np.ndarray
 
     @staticmethod
-    def mean(values):
+    def mean(values: Any) -> tuple[Any, Any]:
         """Over times, with its standard error from the scatter of blocks of consecutive times."""
         blocks = np.array([block.mean(axis=0) for block in np.array_split(values, BLOCKS)])
         return blocks.mean(axis=0), blocks.std(axis=0, ddof=1) / np.sqrt(BLOCKS)
 
-    def share_at(self, height):
+    def share_at(self, height: Any) -> Any:
         at = np.argmin(np.abs(self.height - height))
         mean, error = self.mean(self.share)
         return series.Value(float(mean[at]), float(error[at]))
 
 
-def run_of(step):
+def run_of(step: Any) -> str:
     """The name of the run that the particles at the exit are from."""
     return kept(step, "profile")[0].name.removesuffix(".profile.csv")
 
 
-def kept(step, kind):
+def kept(step: Any, kind: Any) -> Any:
     found = sorted(FOLDER.glob(f"*.{step}.{kind}.csv"))
     if not found:
         raise series.MissingRuns(
@@ -103,24 +104,24 @@ def kept(step, kind):
     return found
 
 
-def read(step, kind):
+def read(step: Any, kind: Any) -> Any:
     with open(kept(step, kind)[0]) as file:
         return np.array([[float(value) for value in row] for row in list(csv.reader(file))[1:]])
 
 
-def profile(step):
+def profile(step: Any) -> Any:
     rows = read(step, "profile")
     shape = (-1, len(HEIGHTS))
     return Profile(HEIGHTS, rows[:, 2].reshape(shape), rows[:, 3].reshape(shape))
 
 
-def slab(step):
+def slab(step: Any) -> tuple[Any, Any, Any]:
     """Positions, velocities, radii of the particles that the mid-plane cuts."""
     rows = read(step, "slab")
     return rows[:, :3], rows[:, 3:6], rows[:, 6]
 
 
-def keep_all(work):
+def keep_all(work: Any) -> None:
     """Of the parameter study's work folder the runs whose particles were written often."""
     for step in paper.STEPS:
         for folder in sorted(Path(work).glob(f"runs/{RUNS}.{step}")):

@@ -9,11 +9,13 @@ import output
 import paper
 from matplotlib.ticker import MultipleLocator
 
+from clepsydra.picture_style import pyplot
+
 VIEW = (-0.016, 0.016, -0.009, 0.023)
 
 
-def main(folder):
-    figure, panels = output.pyplot.subplots(1, 3, figsize=(13, 4.9), gridspec_kw={"width_ratios": [1, 1, 0.7]})
+def main(folder: output.Folder) -> None:
+    figure, panels = pyplot.subplots(1, 3, figsize=(13, 4.9), gridspec_kw={"width_ratios": [1, 1, 0.7]})
     fastest = max(hopper_drawing.speeds(exit_flow.slab(step), VIEW).max() for step in paper.STEPS)
     for axes, step in zip(panels, paper.STEPS):
         particles = hopper_drawing.particles(axes, *exit_flow.slab(step), fastest, arrows=True)

@@ -8,9 +8,11 @@ import output
 from matplotlib.ticker import MultipleLocator
 from repository import hopper
 
+from clepsydra.picture_style import pyplot
 
-def main(folder):
-    figure, axes = output.pyplot.subplots(figsize=(5, 7.5))
+
+def main(folder: output.Folder) -> None:
+    figure, axes = pyplot.subplots(figsize=(5, 7.5))
     position, velocity, radius = exit_flow.slab("submerged")
     hopper_drawing.particles(axes, position, 0 * velocity, radius, 1)
     hopper_drawing.walls(axes, whole=True)

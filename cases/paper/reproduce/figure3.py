@@ -9,11 +9,13 @@ import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
+
 STYLE = {2e-3: "-", 1e-3: "--"}
 
 
-def main(folder):
-    figure, axes = output.pyplot.subplots(figsize=output.SIZE)
+def main(folder: output.Folder) -> None:
+    figure, axes = pyplot.subplots(figsize=output.SIZE)
     rows, missing = [], []
     for step in paper.STEPS:
         for diameter, runs_of in ((2e-3, series.of_usual_fill), (1e-3, series.small_particles)):

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Figure 5: mass in the hopper against t - t_c for all frictions, dry and submerged, with the end magnified."""
 
+from typing import Any, Iterator
 
 import matplotlib
 import numpy as np
@@ -8,12 +9,14 @@ import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
+
 END = (-6, 1, 0, 60)  # the inset: s, g
 
 
-def main(folder):
+def main(folder: output.Folder) -> None:
     colour = colours({runs[0].friction for step in paper.STEPS for runs in deepest_of_each(step)})
-    figure, panels = output.pyplot.subplots(1, 2, figsize=(11, output.SIZE[1]), sharey=True)
+    figure, panels = pyplot.subplots(1, 2, figsize=(11, output.SIZE[1]), sharey=True)
     rows = []
     for axes, step in zip(panels, paper.STEPS):
         inset = axes.inset_axes([0.60, 0.56, 0.38, 0.4])
@@ -35,7 +38,7 @@ def main(folder):
     folder.numbers("figure5", ["step", "friction [-]", "run", "t - t_c [s]", "mass [g]"], rows)
 
 
-def deepest_of_each(step):
+def deepest_of_each(step: Any) -> list[Any]:
     """Of each friction the whole discharges from the largest fill there is."""
     frictions = sorted({run.friction for run in series.fills(step) if run.emptying_time})
     if not frictions:
@@ -43,7 +46,7 @@ def deepest_of_each(step):
     return [series.deepest(step, friction, whole=True) for friction in frictions]
 
 
-def newtonian(step):
+def newtonian(step: Any) -> Iterator[Any]:
     """Torricelli's m(t), with mass and rate at the start from the run nearly without friction: no more is chosen."""
     for run, *_ in deepest_of_each(step):
         if run.friction == paper.SMOOTH_FRICTION:
@@ -53,7 +56,7 @@ def newtonian(step):
             yield output.significant(time), output.significant(run.fill * (time / duration) ** 2)
 
 
-def colours(frictions):
+def colours(frictions: Any) -> dict[str, Any]:
     """From blue, nearly without friction, to red; as far apart as they can be, since two frictions may be close."""
     ordered = sorted(frictions)
     return dict(zip(ordered, matplotlib.colormaps["turbo"](np.linspace(0.08, 0.92, len(ordered)))))

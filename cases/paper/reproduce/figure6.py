@@ -1,22 +1,24 @@
 #!/usr/bin/python3
 """Figure 6: rate at the start against friction, dry and submerged, with the paper's fit and what was measured; dashed:
-of the paper's
-fill with stiffer particles on a finer mesh."""
+of the paper's fill with stiffer particles on a finer mesh."""
 
+from typing import Any, Iterator
 
 import numpy as np
 import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
+
 FRICTIONS = np.linspace(0, 0.85, 100)
 INSET_END = 0.6  # beyond it the fits are less than .05 g/s above their limits
 
 
-def main(folder):
-    figure, axes = output.pyplot.subplots(figsize=(7, 6.2))
+def main(folder: output.Folder) -> None:
+    figure, axes = pyplot.subplots(figsize=(7, 6.2))
     inset = axes.inset_axes([0.58, 0.66, 0.4, 0.32])
-    rows = []
+    rows: list[tuple[Any, ...]] = []
     for step in paper.STEPS:
         rows += draw_runs(axes, step)
         axes.errorbar(
@@ -37,10 +39,10 @@ def main(folder):
     folder.numbers("figure6", ["step", "friction [-]", "fill [g]", "run", "W [g/s]", "error [g/s]"], rows)
 
 
-def draw_runs(axes, step):
+def draw_runs(axes: Any, step: Any) -> Iterator[Any]:
     """Means over packings; paler where the fill is not that of the sweep."""
     swept = series.sweep(step)
-    points = {}
+    points: dict[Any, Any] = {}
     for run in series.fills(step):
         points.setdefault((round(run.fill), run.friction), []).append(run)
         yield step, run.friction, run.fill, run.name, *map(
@@ -71,7 +73,7 @@ def draw_runs(axes, step):
         yield step, run.friction, run.fill, run.name, "clogged", ""
 
 
-def draw_fit(axes, inset, step):
+def draw_fit(axes: Any, inset: Any, step: Any) -> None:
     try:
         law = series.friction_law(step)
     except series.MissingRuns as missing:
@@ -103,7 +105,7 @@ def draw_fit(axes, inset, step):
         )
 
 
-def draw_stiff(axes, step):
+def draw_stiff(axes: Any, step: Any) -> None:
     law, runs_of = series.stiff_law(step), series.stiff_runs(step)
     axes.fill_between(
         FRICTIONS, *map(output.significant, law.band(FRICTIONS)), color=output.COLOUR[step], alpha=0.12, lw=0

@@ -7,9 +7,11 @@ import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
 
-def main(folder):
-    figure, axes = output.pyplot.subplots(figsize=(7, 5))
+
+def main(folder: output.Folder) -> None:
+    figure, axes = pyplot.subplots(figsize=(7, 5))
     inset = axes.inset_axes([0.6, 0.6, 0.38, 0.37])
     rows = []
     for step in paper.STEPS:
@@ -32,7 +34,7 @@ def main(folder):
             # against what is gone by the line, which grows
             aside.append((run.mass[0] - line[above], output.significant(run.mass - line)[above]))
             rows += [(step, run.friction, run.name, *row) for row in output.thinned(run.time, run.mass, line)]
-        output.band(inset, aside, colour, None)
+        output.band(inset, aside, colour)
         end = runs[0].mass[0] / paper.RATE[step]
         axes.plot([0, end], [runs[0].mass[0], 0], ":", color=colour, label=f"measured rate, {paper.RATE[step]} g/s")
     axes.set(xlabel="time [s]", ylabel="mass in the hopper [g]", xlim=(0, None), ylim=(0, None))

@@ -6,9 +6,11 @@ import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
 
-def main(folder):
-    figure, axes = output.pyplot.subplots(figsize=output.SIZE)
+
+def main(folder: output.Folder) -> None:
+    figure, axes = pyplot.subplots(figsize=output.SIZE)
     rows = []
     for step in paper.STEPS:
         runs, curves = series.matching(step, whole=True), []

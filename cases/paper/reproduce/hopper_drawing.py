@@ -1,5 +1,7 @@
 """Particles and walls of the hopper in its mid-plane."""
 
+from typing import Any
+
 import numpy as np
 from matplotlib.collections import EllipseCollection
 from repository import hopper
@@ -7,7 +9,7 @@ from repository import hopper
 from clepsydra import picture_style
 
 
-def walls(axes, whole=False):
+def walls(axes: Any, whole: Any = False) -> None:
     p = hopper()
     orifice, radius, height = p["orificeDiameter"] / 2, p["hopperDiameter"] / 2, p["hopperHeight"]
     land, bevel = p["landHeight"], p["bevelHeight"]
@@ -27,7 +29,7 @@ def walls(axes, whole=False):
         )
 
 
-def speeds(slab, view):
+def speeds(slab: Any, view: Any) -> Any:
     """Of the particles in view."""
     position, velocity, _ = slab
     inside = (
@@ -39,7 +41,9 @@ def speeds(slab, view):
     return np.linalg.norm(velocity[inside], axis=1)
 
 
-def particles(axes, position, velocity, radius, fastest, arrows=False):
+def particles(
+    axes: Any, position: np.ndarray, velocity: np.ndarray, radius: Any, fastest: float, arrows: Any = False
+) -> Any:
     """Circles as large as the plane cuts them; the colour is the speed in space."""
     order = np.argsort(-np.abs(position[:, 1]))
     position, velocity, radius = position[order], velocity[order], radius[order]

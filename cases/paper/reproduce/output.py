@@ -5,6 +5,7 @@ import csv
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import paper
@@ -31,11 +32,10 @@ PANEL = {"dry": "(a) dry", "submerged": "(b) submerged"}
 DECIMALS = 3
 
 
-def command(main, description, entries, after_run=None):
+def command(main: Any, description: Any, entries: Any, after_run: Any = None) -> None:
     """main() after the command line is read: --run runs first what of the parameter study's entries has no results yet.
 
-    afterRun(folder): takes from the parameter study's work folder what its results do not hold.
-    """
+    afterRun(folder): takes from the parameter study's work folder what its results do not hold."""
     parser = argparse.ArgumentParser(description=description)
     parser.add_argument(
         "--run",
@@ -65,7 +65,7 @@ def command(main, description, entries, after_run=None):
         )
 
 
-def run(entries):
+def run(entries: Any) -> None:
     with subprocess.Popen(
         [SCRIPTS / "parameterStudy", "run", PARAMETER_STUDY, "--missing", "--only", *entries]
     ) as parameter_study:
@@ -79,12 +79,12 @@ def run(entries):
         sys.exit(1)
 
 
-def significant(values):
+def significant(values: Any) -> Any:
     """Rounded to DECIMALS, without the sign of a zero."""
     return np.round(values, DECIMALS) + 0.0
 
 
-def band(axes, curves, colour, label, **style):
+def band(axes: Any, curves: Any, colour: Any, label: str | None = None, **style: Any) -> None:
     """Curves (x, y) of several packings as their mean and, shaded, one standard deviation to each side; one curve as it
     is."""
     common = np.linspace(max(x[0] for x, _ in curves), min(x[-1] for x, _ in curves), 400)
@@ -99,7 +99,7 @@ def band(axes, curves, colour, label, **style):
     axes.plot(x, y, color=colour, label=label, **style)
 
 
-def measured_rate(axes, step):
+def measured_rate(axes: Any, step: Any) -> None:
     """The paper's, over what its last digit leaves open; it gives no error."""
     axes.axhspan(
         paper.RATE[step] - paper.RATE_ERROR, paper.RATE[step] + paper.RATE_ERROR, color=COLOUR[step], alpha=0.35, lw=0
@@ -112,23 +112,23 @@ def measured_rate(axes, step):
 class Folder:
     """Where pictures and the numbers behind them go."""
 
-    def __init__(self, path):
+    def __init__(self, path: Path) -> None:
         self.path = path
         path.mkdir(parents=True, exist_ok=True)
 
-    def picture(self, figure, name):
+    def picture(self, figure: Any, name: str) -> None:
         figure.savefig(self.path / f"{name}.png", dpi=picture_style.DPI, metadata={"Software": None})
         pyplot.close(figure)
         print(self.path / f"{name}.png")
 
-    def numbers(self, name, head, rows):
+    def numbers(self, name: str, head: Any, rows: Any) -> None:
         with whole_files.replacing(self.path / f"{name}.csv") as file:
             table = csv.writer(file, lineterminator="\n")
             table.writerow(head)
             table.writerows([f"{value:.6g}" if isinstance(value, float) else value for value in row] for row in rows)
 
 
-def thinned(*columns, rows=400):
+def thinned(*columns: Any, rows: Any = 400) -> Any:
     """Some of the rows of long columns."""
     step = -(-len(columns[0]) // rows)
     return zip(*(map(float, significant(column[::step])) for column in columns))

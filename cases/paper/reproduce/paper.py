@@ -1,10 +1,10 @@
 """What "Friction controls submerged granular flows" (Koivisto et al., arXiv 1703.09584) prints.
 
-Steps are named as in the cases, masses in g, rates in g/s, times in s.
-"""
+Steps are named as in the cases, masses in g, rates in g/s, times in s. """
 
 from dataclasses import dataclass
 from math import log
+from typing import Any
 
 STEPS = ("dry", "submerged")
 
@@ -41,10 +41,9 @@ class Particle:
 TABLE_1 = (Particle(0.5e-3, 37, 1.76, 34.0e-4), Particle(1e-3, 151, 0.86, 17.0e-4), Particle(2e-3, 530, 0.56, 9.8e-4))
 
 
-def wilson_rate(upper, lower, surge=0.25, mass=187):
+def wilson_rate(upper: float, lower: float, surge: Any = 0.25, mass: Any = 187) -> Any:
     """Mean rate between two masses, of W = 1 + S/(1 + m/M): rises by up to S as the hopper empties, as Wilson et al.,
-    Papers
-    in Physics 6, 060009 (2014) measured under water in another hopper."""
+    Papers in Physics 6, 060009 (2014) measured under water in another hopper."""
     # the time that it takes, the integral of dm/W
     time = upper - lower - surge * mass * log((mass * (1 + surge) + upper) / (mass * (1 + surge) + lower))
     return (upper - lower) / time

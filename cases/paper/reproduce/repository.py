@@ -1,6 +1,7 @@
 """Where things lie."""
 
 from pathlib import Path
+from typing import Any
 
 import yaml
 
@@ -9,6 +10,6 @@ RESULTS = CASE / "results"
 PARAMETER_STUDY = CASE / "parameterStudy.yaml"
 
 
-def hopper():
+def hopper() -> Any:
     """The parameters of cases/paper/hopper.yaml."""
     return yaml.safe_load((CASE / "hopper.yaml").read_text())["parameters"]

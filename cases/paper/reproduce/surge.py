@@ -1,30 +1,31 @@
 #!/usr/bin/python3
 """The surge: rate against what is left, from every fill and particle at the friction that the paper finds to match the
-dry rate, and
-from the largest fill at that of the submerged one.
+dry rate, and from the largest fill at that of the submerged one.
 
-No figure of the paper's: its figure 8 shows the rate against time.
-"""
+No figure of the paper's: its figure 8 shows the rate against time. """
 
+from typing import Any
 
 import numpy as np
 import output
 import paper
 import series
 
+from clepsydra.picture_style import pyplot
+
 BIN = 20  # g
 LAST = 40  # g: below it the heap on the bottom shows
 STYLE = {100: ":", 200: "--", 400: "-"}
 
 
-def main(folder):
-    figure, (axes, beside) = output.pyplot.subplots(1, 2, figsize=(11, output.SIZE[1]), width_ratios=(3, 2))
+def main(folder: output.Folder) -> None:
+    figure, (axes, beside) = pyplot.subplots(1, 2, figsize=(11, output.SIZE[1]), width_ratios=(3, 2))
     rows = draw_fills(axes) + draw_sizes(beside)
     folder.picture(figure, "surge")
     folder.numbers("surge", ["step", "fill [g]", "run", "mass [g]", "W [g/s]"], rows)
 
 
-def draw_fills(axes):
+def draw_fills(axes: Any) -> Any:
     """The rate of particles of 2 mm."""
     rows, other = [], paper.MATCHING_FRICTION["submerged"]
     beside = series.deepest_of_both(other)
@@ -57,11 +58,11 @@ def draw_fills(axes):
     return rows
 
 
-def draw_sizes(axes):
+def draw_sizes(axes: Any) -> Any:
     """Particles of 1 and of 2 mm over the same masses, relative to each one's rate before the window."""
     early = series.BEFORE_IT
 
-    def scale(run):
+    def scale(run: Any) -> Any:
         return run.rate_while_left(*early).mean
 
     large = series.deepest_of_both(paper.MATCHING_FRICTION["dry"])
@@ -74,7 +75,7 @@ def draw_sizes(axes):
     return rows
 
 
-def draw(axes, runs, scale, colour, label, style):
+def draw(axes: Any, runs: Any, scale: Any, colour: Any, label: str, style: Any) -> Any:
     """Those of the runs that go on for long enough, each over its scale; rows of what they are, without it."""
     curves, rows = [], []
     for run in runs:
@@ -87,7 +88,7 @@ def draw(axes, runs, scale, colour, label, style):
     return rows
 
 
-def finish(axes, windows, label):
+def finish(axes: Any, windows: Any, label: str) -> None:
     for shade, window in zip(("0.93", "0.86"), windows):
         axes.axvspan(*(-mass for mass in window), color=shade, zorder=0)
     axes.xaxis.set_major_formatter(lambda mass, _: f"{-mass:g}")
@@ -95,7 +96,7 @@ def finish(axes, windows, label):
     axes.legend(loc="lower left", ncol=2, fontsize=7)
 
 
-def binned(run):
+def binned(run: Any) -> tuple[Any, Any]:
     """Mean rate of each 20 g, from 95 % of the fill on."""
     edges = np.arange(BIN * int(0.95 * run.mass[0] / BIN), LAST - 1, -BIN)
     edges = edges[edges > run.mass[-1]]

@@ -7,7 +7,7 @@ import comparisons
 import output
 
 
-def main(folder):
+def main(folder: output.Folder) -> None:
     rows = comparisons.table_i()
     print(comparisons.table(rows))
     folder.numbers(

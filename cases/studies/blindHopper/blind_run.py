@@ -4,6 +4,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import yaml
@@ -26,17 +27,17 @@ class RunFailed(Exception):
     pass
 
 
-def conditions(*roles):
+def conditions(*roles: Any) -> Any:
     """The declared experiment, from study.yaml: {condition: (step, entries, repeats)}; of these roles or all."""
     return experiments("study.yaml", lambda one: len(one["measured"]["files"]), roles)
 
 
-def candidates():
+def candidates() -> Any:
     """The same of what could be measured beside it, from candidates.yaml."""
     return experiments("candidates.yaml", lambda one: CANDIDATE_REPEATS)
 
 
-def experiments(file, repeats_of, roles=()):
+def experiments(file: str, repeats_of: Any, roles: Any = ()) -> dict[Any, Any]:
     simulator = yaml.safe_load((HERE / "study.yaml").read_text())["simulator"]
     return {
         one["name"]: (
@@ -49,11 +50,11 @@ def experiments(file, repeats_of, roles=()):
     }
 
 
-def acts(effect, step):
+def acts(effect: Any, step: Any) -> bool:
     return effect.medium == "both" or effect.medium == {"dry": "air", "submerged": "water"}[step]
 
 
-def measure_to(target, folder, truth, label, run):
+def measure_to(target: Any, folder: Path, truth: Any, label: str, run: Any) -> bool:
     """One file of a set; run: CONDITION_REPEAT. False where all attempts have failed."""
     effects = [(e["name"], e["amplitude"]) for e in truth["effects"]]
     for attempt, seed in enumerate(truth["seeds"][run]):
@@ -72,7 +73,7 @@ def measure_to(target, folder, truth, label, run):
     return False
 
 
-def measure_missing(truth, data, work, label=""):
+def measure_missing(truth: Any, data: Any, work: Any, label: str = "") -> None:
     """All files of a set that are not there. SystemExit where one has failed in all attempts."""
     for run in truth["seeds"]:
         if not (data / f"{run}.csv").exists() and not measure_to(
@@ -81,7 +82,7 @@ def measure_missing(truth, data, work, label=""):
             sys.exit(f"{label}{run} has failed {ATTEMPTS} times")
 
 
-def seeds_of(conditions, random):
+def seeds_of(conditions: Any, random: Any) -> dict[str, Any]:
     """{CONDITION_REPEAT: seeds of its attempts}; random: of the standard library"""
     return {
         f"{condition}_{repeat}": [prime(random) for _ in range(ATTEMPTS)]
@@ -90,7 +91,7 @@ def seeds_of(conditions, random):
     }
 
 
-def prime(random):
+def prime(random: Any) -> Any:
     """LIGGGHTS asks for primes above 10000 as seeds."""
     number = random.randrange(10007, 10**8) | 1
     while any(number % divisor == 0 for divisor in range(3, int(number**0.5) + 1, 2)):
@@ -98,7 +99,9 @@ def prime(random):
     return number
 
 
-def measure(folder, condition, friction, effects, seed, random, numerics=NUMERICS):
+def measure(
+    folder: Path, condition: Any, friction: float, effects: Any, seed: Any, random: Any, numerics: Any = NUMERICS
+) -> tuple[Any, Any]:
     """(time [s], mass [kg]) as the scale shows it. effects: [(name, amplitude)]; random for the scale and for
     pauses."""
     step, entries, _ = (conditions() | candidates())[condition]
@@ -121,12 +124,14 @@ def measure(folder, condition, friction, effects, seed, random, numerics=NUMERIC
     return readings, np.interp(readings, time, mass) + random.normal(0, SCALE_NOISE, len(readings))
 
 
-def make_case(folder, entries, acting):
+def make_case(folder: Path, entries: Any, acting: Any) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     for part in ("0", "constant", "system", "DEM", "parameters", *(path.name for path in CASE.glob("step.*"))):
-        copy = shutil.copytree if (CASE / part).is_dir() else shutil.copy
-        copy(CASE / part, folder / part)
+        if (CASE / part).is_dir():
+            shutil.copytree(CASE / part, folder / part)
+        else:
+            shutil.copy(CASE / part, folder / part)
     for rest in (folder / "constant/polyMesh", folder / "DEM/meshes"):
         shutil.rmtree(rest, ignore_errors=True)
     (folder / "Allrun").symlink_to(CASE / "Allrun")  # which finds the repository through the link
@@ -140,11 +145,11 @@ def make_case(folder, entries, acting):
             effect.files(folder, a)
 
 
-def text(value):
+def text(value: Any) -> Any:
     return value if isinstance(value, str) else f"{value:.9g}"
 
 
-def allrun(folder, *parts):
+def allrun(folder: Path, *parts: Any) -> None:
     with open(folder / "log", "a") as log:
         if subprocess.run(
             ["./Allrun", *parts], cwd=folder, stdin=subprocess.DEVNULL, stdout=log, stderr=log
@@ -152,7 +157,7 @@ def allrun(folder, *parts):
             raise RunFailed(folder)
 
 
-def write_csv(path, time, mass):
+def write_csv(path: Path, time: np.ndarray, mass: np.ndarray) -> None:
     """Whole or not at all, with nothing in it but readings."""
     path.parent.mkdir(parents=True, exist_ok=True)
     unfinished = path.with_name(path.name + ".unfinished")

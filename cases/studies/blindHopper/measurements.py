@@ -1,9 +1,7 @@
 """The measurements of the sets.
 
 data/SET.csv holds a whole set: a row for each reading, with its condition and its repeat. While a set is being
-measured, and
-for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv.
-"""
+measured, and for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv. """
 
 from pathlib import Path
 from typing import Dict, List, Tuple

@@ -1,22 +1,23 @@
 """What opened sets say all together: shares with 95 % Wilson intervals, means with 1.96 standard errors."""
 
 import math
+from typing import Any
 
 NORMAL = 1.959964  # standard deviations to either side of 95 %
 DRAWS = {"first": range(1, 9), "second": range(9, 17), "third": range(17, 1000)}  # numbers of sets drawn together
 
 
-def rates(score):
+def rates(score: Any) -> dict[Any, Any]:
     """{draw: {name: rate}} of each draw that has been opened, and of all together."""
     drawn = {draw: [one for one in score if draw_of(one["set"]) == draw] for draw in DRAWS}
     return {draw: rates_of(some) for draw, some in (drawn | {"all": score}).items() if some}
 
 
-def draw_of(name):
+def draw_of(name: str) -> Any:
     return next(draw for draw, numbers in DRAWS.items() if int(name[3:]) in numbers)
 
 
-def rates_of(score):
+def rates_of(score: Any) -> dict[Any, Any]:
     nulls = [one for one in score if one["kind"] == "null"]
     outside = [one for one in score if one["kind"] == "outside"]
     effects = [one for one in score if one["kind"] not in ("null", "outside")]
@@ -50,27 +51,27 @@ def rates_of(score):
     }
 
 
-def is_residual(one):
+def is_residual(one: Any) -> bool:
     return one["decision"] != "noResidual"
 
 
-def true(one):
+def true(one: Any) -> list[Any]:
     return sorted(effect["name"] for effect in one["truth"])
 
 
-def best(one):
+def best(one: Any) -> list[Any]:
     """Effects of the answer's first member, or of what comes nearest where it is unknown."""
     first = one["answer"][0]["amplitudes"] if one["answer"] else one["nearestOfUnknown"] or {}
     return sorted(first)
 
 
-def covers(size):
+def covers(size: Any) -> bool:
     """Whether the interval of an amplitude holds the true one; it may end where the range does."""
     lower, upper = size["interval95"]
     return lower - 1e-9 <= size["true"] <= upper + 1e-9
 
 
-def share(hits):
+def share(hits: Any) -> dict[str, Any]:
     hits = [bool(hit) for hit in hits]
     n = len(hits)
     if n == 0:
@@ -80,7 +81,7 @@ def share(hits):
     return {"share": p, "count": sum(hits), "of": n, "interval95": [middle - half, middle + half]}
 
 
-def mean(values):
+def mean(values: Any) -> dict[str, Any]:
     values = list(values)
     n = len(values)
     if n == 0:

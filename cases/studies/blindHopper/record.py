@@ -1,11 +1,8 @@
 """The record: what is kept only so that it can be checked, in one archive.
 
 record.tar.xz holds, of the sets that have been opened, the sealed files, the truths and the answers, byte for byte as
-they were
-committed. Of sets that are still sealed they lie in sealed/ and results/; `./pack` moves them into the archive. Each
-file
-is read from where it is; one that is in both places must be the same in both.
-"""
+they were committed. Of sets that are still sealed they lie in sealed/ and results/; `./pack` moves them into the
+archive. Each file is read from where it is; one that is in both places must be the same in both. """
 
 import functools
 import hashlib

@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 from pathlib import Path
+from typing import Any
 
 import measurements
 import old_names
@@ -14,7 +15,7 @@ import yaml
 HERE = Path(__file__).resolve().parent
 
 
-def study(replaced, further="", held_out=True):
+def study(replaced: Any, further: Any = "", held_out: bool = True) -> Any:
     """replaced: {text: by what}; further: blocks of conditions."""
     text = (HERE / "study.yaml").read_text()
     for name, block in conditions("study.yaml").items():
@@ -26,7 +27,7 @@ def study(replaced, further="", held_out=True):
     return text
 
 
-def report(trace_residual, results, file, text):
+def report(trace_residual: Any, results: Path, file: str, text: str) -> Any:
     """What traceResidual says of a study; from the report, where there is one. file: a name for the study."""
     path = str((results / "report.json").relative_to(HERE))
     if record.read(path) is None:
@@ -35,12 +36,12 @@ def report(trace_residual, results, file, text):
     return old_names.today(json.loads(record.answer(path)))
 
 
-def measured_by(name):
+def measured_by(name: str) -> dict[str, Any]:
     """What makes the study that of a set: {text: by what}, with a file for each of its discharges."""
     return {"work/data/SET/": f"{measurements.unpack(name).relative_to(HERE)}/"}
 
 
-def conditions(file):
+def conditions(file: str) -> dict[Any, Any]:
     """{name: block of text} of its conditions."""
     text = (HERE / file).read_text().split("\nconditions:\n")[1].split("\nparameters:")[0]
     blocks = re.split("^(?=  - name: )", text, flags=re.MULTILINE)[1:]

@@ -11,7 +11,8 @@ Every effect is one function of its amplitude a, with 1 (or -1) the end of what 
 import re
 from dataclasses import dataclass
 from math import cos, radians, sin, tan
-from typing import Callable, Optional
+from pathlib import Path
+from typing import Any, Callable, Optional
 
 import numpy as np
 
@@ -33,7 +34,7 @@ class Undeclared:
 # --- Records ----------------------------------------------------------------------------------------------------------
 
 
-def lag(time, mass, a, random):
+def lag(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     """First-order, tau y' = m - y, in steps of the exact solution for a mass held over a step."""
     shown = mass.copy()
     for i in range(1, len(mass)):
@@ -42,26 +43,26 @@ def lag(time, mass, a, random):
     return time, shown
 
 
-def trigger(time, mass, a, random):
+def trigger(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     """The record's zero is 0.03 a seconds after the opening; before the opening nothing moves."""
     return time, np.interp(time + 0.03 * a, time, mass)
 
 
-def momentum(time, mass, a, random):
+def momentum(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     return time, mass + 0.03 * a * np.gradient(mass, time)
 
 
-def under_water(time, mass, a, random):
+def under_water(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     return time, mass * (1 - 1000 / 2540)
 
 
-def bent_scale(time, mass, a, random):
+def bent_scale(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     """Right when empty and when full, up to 5 % of the fill off half-way."""
     full = mass[0]
     return time, mass + 0.05 * a * 4 * mass * (full - mass) / full
 
 
-def pause(time, mass, a, random):
+def pause(time: np.ndarray, mass: np.ndarray, a: Any, random: Any) -> tuple[Any, Any]:
     """Something blocks the orifice for up to 0.1 s, at a random time between 90 and 50 % of the fill."""
     level = random.uniform(0.5, 0.9) * mass[0]
     begin = time[np.argmax(mass <= level)]
@@ -72,7 +73,7 @@ def pause(time, mass, a, random):
 # --- Cases ------------------------------------------------------------------------------------------------------------
 
 
-def tilt(case, a):
+def tilt(case: Any, a: Any) -> None:
     """The whole apparatus leans by up to 15 degrees."""
     angle = radians(15 * a)
     replace(
@@ -83,7 +84,7 @@ def tilt(case, a):
     replace(case / "constant/g", "(0 0 -9.81)", f"({9.81 * sin(angle):.9g} 0 {-9.81 * cos(angle):.9g})")
 
 
-def rod(case, a):
+def rod(case: Any, a: Any) -> None:
     """A horizontal rod of up to 6 mm across the hopper, its axis 8 mm above the orifice. The water does not feel it."""
     with open(case / "DEM/in.hopper", "a") as script:
         script.write(
@@ -92,21 +93,21 @@ def rod(case, a):
         )
 
 
-def funnel(case, a):
+def funnel(case: Any, a: Any) -> None:
     """The bottom rises to the wall by up to 30 degrees. The water's walls stay as they are."""
     path = case / "DEM/meshes/hopperPlate.stl"
     slope = tan(radians(30 * a))
     points = [[float(x) for x in found] for found in re.findall(r"vertex (\S+) (\S+) (\S+)", path.read_text())]
     edge = min(np.hypot(x, y) for x, y, _ in points)
 
-    def raised(found):
+    def raised(found: Any) -> str:
         x, y, z = (float(part) for part in found.groups())
         return f"vertex {x:.8g} {y:.8g} {z + (np.hypot(x, y) - edge) * slope:.8g}"
 
     path.write_text(re.sub(r"vertex (\S+) (\S+) (\S+)", raised, path.read_text()))
 
 
-def replace(path, old, new):
+def replace(path: Path, old: Any, new: Any) -> None:
     text = path.read_text()
     if old not in text:
         raise SystemExit(f"{path}: has no '{old}'")

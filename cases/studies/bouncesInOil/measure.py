@@ -2,6 +2,7 @@
 """The numbers of study.yaml from the measured points, where these are (they are not ours to keep here)."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ BEFORE, UNTIL, FROM, AFTER = 0.010, 0.0015, 0.002, 0.010
 OF_A_CONTACT = 0.5e-3
 
 
-def main():
+def main() -> None:
     if not DATA.exists():
         raise SystemExit(f"{DATA} is not here")
     time, gap = np.loadtxt(DATA, delimiter=",", skiprows=1).T
@@ -27,7 +28,7 @@ def main():
         show(f"duration{flight + 1}", "ms", 1e3 * (hits[flight + 1] - hits[flight]), 1e3 * OF_A_CONTACT)
 
 
-def closing(time, gap, begin, end):
+def closing(time: np.ndarray, gap: np.ndarray, begin: Any, end: Any) -> Any:
     """Time at which a parabola through a fall's last points above 0.2 mm is zero."""
     part = (time > begin) & (time < end) & (gap > 2e-4)
     part &= time > time[part][-1] - 0.0115
@@ -35,7 +36,7 @@ def closing(time, gap, begin, end):
     return roots[np.argmin(abs(roots - time[part][-1]))]
 
 
-def speed(time, value, begin, end):
+def speed(time: np.ndarray, value: Any, begin: Any, end: Any) -> tuple[Any, Any]:
     """Slope by least squares, and how it changes with the contact's time: the mean acceleration times that."""
     part = (time > begin) & (time < end)
     slope, _ = np.polyfit(time[part], value[part], 1)
@@ -43,7 +44,7 @@ def speed(time, value, begin, end):
     return slope, abs(2 * bend) * OF_A_CONTACT
 
 
-def top(time, gap, begin, end):
+def top(time: np.ndarray, gap: np.ndarray, begin: Any, end: Any) -> tuple[Any, Any]:
     """Of a cubic through the middle three fifths of a flight, and the scatter of its points."""
     part = (time > begin + 0.2 * (end - begin)) & (time < end - 0.2 * (end - begin))
     centre = time[part].mean()
@@ -52,7 +53,7 @@ def top(time, gap, begin, end):
     return np.polyval(fit, fine).max(), np.std(np.polyval(fit, time[part] - centre) - gap[part])
 
 
-def show(name, unit, value, error):
+def show(name: str, unit: str, value: Any, error: Any) -> None:
     print(f"{name}: {value:.5g} {unit}, relative error {error / value:.4f}")
 
 

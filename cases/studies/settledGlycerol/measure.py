@@ -7,6 +7,7 @@ usage: measure.py FILE ...     prints a line for each track
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -14,7 +15,7 @@ import numpy as np
 PARTS = ((20, 65), (65, 120), (120, 180), (180, 240))
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("files", metavar="FILE", nargs="+")
     for name in parser.parse_args().files:
@@ -23,7 +24,7 @@ def main():
         print(Path(name).stem, *(f"{mean_speed(time[seen], position[seen], *part):.4f}" for part in PARTS))
 
 
-def mean_speed(time, position, begin, end):
+def mean_speed(time: np.ndarray, position: np.ndarray, begin: Any, end: Any) -> Any:
     """The way over its time [mm/s]."""
     deepest = np.maximum.accumulate(position)
     if deepest[0] > begin or deepest[-1] < end:

@@ -2,17 +2,14 @@
 """Puts what pimpleDemFoam and DPMFoam make of the same case side by side.
 
 Equations: DPMFoam keeps the whole pressure gradient in the fluid and none on the particles, and its ErgunWenYuDrag
-carries
-one 1/alpha more than model A's law: model B with GidaspowDrag, to the letter. What differs: DPMFoam counts a particle
-in the
-cell of its centre and smooths nothing, so alpha jumps when a particle passes a face, and d(alpha)/dt makes the pressure
-jump
-with it; it chooses DEM sub-steps by the speed of impacts, so that a bed at rest is never quite at rest; its friction
-forgets its spring when it slips.
-"""
+carries one 1/alpha more than model A's law: model B with GidaspowDrag, to the letter. What differs: DPMFoam counts a
+particle in the cell of its centre and smooths nothing, so alpha jumps when a particle passes a face, and d(alpha)/dt
+makes the pressure jump with it; it chooses DEM sub-steps by the speed of impacts, so that a bed at rest is never quite
+at rest; its friction forgets its spring when it slips. """
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -27,17 +24,17 @@ LATE = 0.5  # of a run: after the start
 class Ours:
     name, void_fraction = "pimpleDemFoam", "voidFraction"
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         self.column = Column(run)
         self.case = run
 
-    def pressure_drop(self):
+    def pressure_drop(self) -> Any:
         return self.column.pressure_drop()
 
-    def times(self):
+    def times(self) -> Any:
         return case_files.times(self.case)
 
-    def mean_height(self):
+    def mean_height(self) -> tuple[Any, Any]:
         """Times, and the height of the particles' centre of mass by the void fraction of the cells [m]."""
         times = self.times()
         heights = []
@@ -47,36 +44,35 @@ class Ours:
             heights.append((solid * self.column.heights()).sum() / solid.sum())
         return np.array([float(time) for time in times]), np.array(heights)
 
-    def cpu_seconds(self):
+    def cpu_seconds(self) -> float:
         return float((self.case / f"cpuSeconds.{self.name}").read_text())
 
 
 class Theirs(Ours):
     name, void_fraction = "DPMFoam", "alpha.fluid"
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         super().__init__(run)
         self.case = run / "DPMFoam"
 
-    def pressure_drop(self):
+    def pressure_drop(self) -> tuple[Any, Any]:
         time, p = case_files.surface_values(self.case, "bottomPressure")
         return time, self.column["fluidDensity"] * (p[:, 0] - GRAVITY * self.column["height"])
 
-    def lost_particles(self):
+    def lost_particles(self) -> int:
         counts = re.findall(r"Current number of parcels *= (\d+)", (self.case / "log.DPMFoam").read_text())
         return int(self.column["particleCount"]) - int(counts[-1])
 
 
-def late(time, values):
+def late(time: np.ndarray, values: Any) -> tuple[Any, Any]:
     """Mean over the later part of a run, and its standard error from the means of ten blocks: DPMFoam's pressure jumps
-    by
-    thousands of Pa from step to step, up and down."""
+    by thousands of Pa from step to step, up and down."""
     part = values[time > LATE * time[-1]]
     blocks = [block.mean() for block in np.array_split(part, min(10, len(part)))]
     return np.mean(blocks), np.std(blocks, ddof=1) / np.sqrt(len(blocks))
 
 
-def compare(quantity, unit, ours, theirs, tolerance, finding=None):
+def compare(quantity: str, unit: str, ours: Any, theirs: Any, tolerance: float, finding: Any = None) -> Any:
     (value, error), (reference, reference_error) = ours, theirs
     return validation.row(
         quantity,
@@ -92,13 +88,13 @@ def compare(quantity, unit, ours, theirs, tolerance, finding=None):
     )
 
 
-def at_least_scatter(tolerance, theirs):
+def at_least_scatter(tolerance: float, theirs: Any) -> Any:
     """Percent: what DPMFoam itself does not resolve says nothing about us."""
     reference, error = theirs
     return max(tolerance, round(validation.ALLOWED_ERRORS * 100 * error / reference, 1))
 
 
-def settling_velocity(code):
+def settling_velocity(code: Any) -> tuple[Any, Any]:
     """By the centre of mass: slope over the later part, its standard error."""
     time, height = code.mean_height()
     part = time > LATE * time[-1]
@@ -110,7 +106,7 @@ def settling_velocity(code):
     return -slope[0], np.sqrt(cover[0, 0])
 
 
-def rows(run):
+def rows(run: Any) -> Any:
     ours, theirs = Ours(run), Theirs(run)
     tell_speed(ours, theirs)
     if run.name == "settling":
@@ -157,7 +153,7 @@ def rows(run):
     return found
 
 
-def tell_speed(*codes):
+def tell_speed(*codes: Any) -> None:
     for code in codes:
         column = code.column
         particle_seconds = column["particleCount"] * column["endTime"]
@@ -167,7 +163,7 @@ def tell_speed(*codes):
         )
 
 
-def plot(runs):
+def plot(runs: Any) -> None:
     figure, axes = pyplot.subplots(2, len(runs), figsize=(4 * len(runs), 6), squeeze=False, sharex="col")
     for column, run in zip(axes.T, runs):
         for code, style in ((Ours(run), "C0-"), (Theirs(run), "C1-")):

@@ -2,6 +2,7 @@
 """Puts the particles of LIGGGHTS and of LAMMPS side by side: places while they can be compared, then the flow."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ COMPARED = {"boxFrictionless": (2500, 1e-4), "box": (1500, 0.1)}
 class Pair:
     """One run in both codes: steps and places (step, particle, axis) of each."""
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         self.run = run
         self.parameters = parameter_file.parameters(run / "parameters")
         self.step, self.ours = places(run, "DEM/particles.dump")
@@ -26,27 +27,27 @@ class Pair:
         if list(self.step) != list(their_steps):
             raise SystemExit(f"{run}: the two dumps have other steps")
 
-    def apart(self):
+    def apart(self) -> Any:
         """Distance between a particle's two places in diameters: (step, particle)."""
         return np.linalg.norm(self.ours - self.theirs, axis=2) / self.parameters["particleDiameter"]
 
-    def time(self):
+    def time(self) -> Any:
         return self.step * self.parameters["demStep"]
 
-    def cpu_seconds(self):
+    def cpu_seconds(self) -> list[float]:
         return [float((self.run / f"cpuSeconds.{program}").read_text()) for program in ("pimpleDemFoam", "lmp")]
 
 
-def places(run, dump):
+def places(run: Any, dump: Any) -> tuple[Any, Any]:
     entries = case_files.dumped_particles(run, dump)
     return np.array([step for step, _ in entries]), np.array([particles[:, 1:4] for _, particles in entries])
 
 
-def box_row(pair):
+def box_row(pair: Any) -> Any:
     step, tolerance = COMPARED[pair.run.name]
     at = list(pair.step).index(step)
 
-    def moved(found):
+    def moved(found: Any) -> Any:
         return np.sqrt(((found[at] - found[0]) ** 2).sum(axis=1).mean())
 
     apart = pair.apart()
@@ -66,16 +67,16 @@ def box_row(pair):
     )
 
 
-def particles_left(found):
+def particles_left(found: Any) -> Any:
     return (found[:, :, 2] > 0).sum(axis=1)
 
 
-def rate(pair, found):
+def rate(pair: Any, found: Any) -> Any:
     """Particles per second while WINDOW of the fill remains."""
     return flow.mean_rate(pair.time(), particles_left(found).astype(float), *WINDOW)
 
 
-def hopper_rows(pairs):
+def hopper_rows(pairs: Any) -> list[Any]:
     ours, theirs = (np.array([rate(pair, getattr(pair, name)) for pair in pairs]) for name in ("ours", "theirs"))
     differences = ours - theirs
     error = (
@@ -97,7 +98,7 @@ def hopper_rows(pairs):
     return [validation.row(f"rate, {title}", "1/s", theirs.mean(), SOURCE, "otherCode", ours.mean(), error, allowed)]
 
 
-def plot(boxes, hoppers):
+def plot(boxes: Any, hoppers: Any) -> None:
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.5))
     for pair in boxes:
         left.semilogy(pair.step, pair.apart().max(axis=1) + 1e-17, label=pair.run.name)

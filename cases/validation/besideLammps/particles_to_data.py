@@ -1,18 +1,17 @@
 #!/usr/bin/python3
 """Writes DEM/particles.data, which LIGGGHTS and LAMMPS both read: particles at rest, where the last entry of a LIGGGHTS
-dump has
-them, or on a lattice in the box, moved at random by less than their gaps.
-"""
+dump has them, or on a lattice in the box, moved at random by less than their gaps. """
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from clepsydra import case_files, parameter_file
 
 
-def lattice(p):
+def lattice(p: dict[str, Any]) -> Any:
     """7 x 7 x 8 particles, gaps of .4 diameters."""
     across, up = 7, 8
     spacing = np.array([p["width"] / across, p["width"] / across, 1.4 * p["particleDiameter"]])
@@ -21,7 +20,7 @@ def lattice(p):
     return (grid.reshape(-1, 3) + 0.5) * spacing + 0.5 * shift
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("source", metavar="lattice|DUMP")
     source = parser.parse_args().source

@@ -3,6 +3,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -38,7 +39,7 @@ REMAINING = (
 VARIED = {"softer": "contacts ten times softer", "rougher": "ten times the roughness"}
 
 
-def main():
+def main() -> None:
     points = measured_points()
     measured = json.loads(TABLE.read_text())
     found = {run.name: trajectory(run) for run in sorted(Path("runs").iterdir())}
@@ -47,7 +48,7 @@ def main():
     plot(found, points, measured)
 
 
-def measured_points():
+def measured_points() -> Any:
     if not DATA.exists():
         print(f"{DATA} is not here: using {TABLE}, which was computed from it")
         return None
@@ -59,14 +60,14 @@ def measured_points():
     return points
 
 
-def trajectory(run):
+def trajectory(run: Any) -> tuple[Any, Any]:
     """Time from the first impact [s], gap below the sphere [m]."""
     time, height, _ = case_files.columns(run, "particleHeight")
     gap = height - 0.5 * parameter_file.parameters(run / "parameters")["particleDiameter"]
     return time - impacts(time, gap)[0], gap
 
 
-def impacts(time, gap):
+def impacts(time: np.ndarray, gap: np.ndarray) -> list[Any]:
     """When the gap closes for the first and the second time: the last 1.2 to 4.5 mm before, extended by a parabola."""
     turns = [i for i in range(1, len(gap) - 1) if gap[i] <= gap[i - 1] and gap[i] < gap[i + 1] and gap[i] < 0.6e-3]
     first = turns[0]
@@ -74,7 +75,7 @@ def impacts(time, gap):
     return [closing(time[: i + 1], gap[: i + 1]) for i in (first, second)]
 
 
-def closing(time, gap):
+def closing(time: np.ndarray, gap: np.ndarray) -> float:
     start = np.nonzero(gap > 4.5e-3)[0][-1]
     part = slice(start + 1, None)
     near = gap[part] > 0.9e-3
@@ -82,7 +83,7 @@ def closing(time, gap):
     return float(roots[np.argmin(abs(roots - time[-1]))])
 
 
-def bounce(time, gap):
+def bounce(time: np.ndarray, gap: np.ndarray) -> dict[str, Any]:
     """The four numbers compared, and a standard error of each from the scatter of the points about their fits."""
     first, second = impacts(time, gap)
     approach = (time < first) & (gap > 0.9e-3) & (gap < 10e-3) & (time > first - 0.02)
@@ -102,12 +103,12 @@ def bounce(time, gap):
     }
 
 
-def slope_at(time, gap):
+def slope_at(time: np.ndarray, gap: np.ndarray) -> tuple[float, float]:
     fit, covariance = np.polyfit(time, gap, 2, cov=True)
     return float(fit[1]), float(np.sqrt(covariance[1, 1]))
 
 
-def rows(name, bounces, measured):
+def rows(name: str, bounces: Any, measured: Any) -> Any:
     if name not in FORCES:
         return [sensitivity(name, bounces)]
     ours = bounces[name]
@@ -153,7 +154,7 @@ def rows(name, bounces, measured):
     return found
 
 
-def finding(name, quantity):
+def finding(name: str, quantity: str) -> Any:
     """Why a quantity may differ from the measured one; None where it may not."""
     why = None
     if quantity == "rebound speed" and "no lubrication" in FORCES[name]:
@@ -165,18 +166,18 @@ def finding(name, quantity):
     return why and f"{FORCES[name]}: {why}"
 
 
-def flight(particle, down, up, **forces):
+def flight(particle: Any, down: Any, up: Any, **forces: Any) -> tuple[float, float]:
     """Height and duration of the flight after a bounce from speed `down` to speed `up`."""
     time, height = height_after(particle, down, up, **forces)
     return float(height.max()), float(time[np.nonzero(height > 0)[0][-1]])
 
 
-def height_after(particle, down, up, **forces):
+def height_after(particle: Any, down: Any, up: Any, **forces: Any) -> tuple[Any, Any]:
     time, velocity = equation_of_motion.motion(particle, 0.15, start=-up, jump=-(up + down), **forces)
     return time, -np.concatenate([[0], np.cumsum(0.5 * (velocity[1:] + velocity[:-1]) * np.diff(time))])
 
 
-def sensitivity(name, bounces):
+def sensitivity(name: str, bounces: Any) -> Any:
     speed, error = bounces[name]["rebound speed"]
     reference, reference_error = bounces["both"]["rebound speed"]
     return validation.row(
@@ -191,7 +192,7 @@ def sensitivity(name, bounces):
     )
 
 
-def plot(found, points, measured):
+def plot(found: Any, points: Any, measured: Any) -> None:
     if points is not None:
         pyplot.plot(1e3 * points[0], 1e3 * points[1], "k.", ms=4, label="measured, Gondret et al.")
     else:

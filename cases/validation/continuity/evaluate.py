@@ -5,6 +5,7 @@ went."""
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,20 +22,20 @@ DIGITS_PERCENT = 1e-4
 DISPLACED_PERCENT = 1
 
 
-def main():
+def main() -> None:
     found = [row for run in sorted(Path("runs").glob("balanced*")) for row in of_balanced(run)]
     found += of_clipped(Path("runs/clipped"))
     found += [of_stop(run) for run in sorted(Path("runs").glob("stopsAt-*"))]
     validation.write(found)
 
 
-def computed(quantity, unit, reference, source, ours, tolerance):
+def computed(quantity: str, unit: str, reference: Any, source: Any, ours: Any, tolerance: float) -> Any:
     return validation.row(
         quantity, unit, reference, source, "computed", ours, abs(reference) * tolerance / 100, tolerance
     )
 
 
-def of_balanced(run):
+def of_balanced(run: Any) -> Any:
     summary = json.loads((run / "postProcessing/conservation/0/summary.json").read_text())
     print(
         f"{run.name}: continuity error {summary['continuityError']:.1e} at most, "
@@ -53,7 +54,7 @@ def of_balanced(run):
     return still + ([of_fluxes(run)] if Column(run)["cellsAcross"] == 1 else [])
 
 
-def of_fluxes(run):
+def of_fluxes(run: Any) -> Any:
     """Over the last interval of those that were written: what the particles carry down, the water carries up."""
     column = Column(run)
     time, position, _ = column.particles()
@@ -71,7 +72,7 @@ def of_fluxes(run):
     )
 
 
-def of_clipped(run):
+def of_clipped(run: Any) -> list[Any]:
     """One cell across: a sink of the reference cell, the lowest, is seen by all above."""
     times = Column(run).times()
     before, now = (case_files.field(run, time, "voidFractionInContinuity")[:, 0] for time in times[-2:])
@@ -109,21 +110,21 @@ def of_clipped(run):
     ]
 
 
-def upwards(run, time):
+def upwards(run: Any, time: str) -> Any:
     """Of the water through the faces between the cells, one above the other, floor and lid included [m3/s]."""
     void_fraction = case_files.field(run, time, "voidFraction")[:, 0]
     between = 0.5 * (void_fraction[1:] + void_fraction[:-1])
     return np.concatenate([[0], between * case_files.field(run, time, "phi")[:, 0], [0]])
 
 
-def of_stop(run):
+def of_stop(run: Any) -> Any:
     entry = run.name.split("-")[1]
     log = (run / "log.pimpleDemFoam").read_text()
     stopped = "FOAM FATAL ERROR" in log and entry in log.split("FOAM FATAL ERROR")[1]
     return computed(f"stops and names {entry}", "-", 1, "above the tolerance", int(stopped), 0)
 
 
-def plot(height, sink):
+def plot(height: Any, sink: Any) -> None:
     figure, axes = pyplot.subplots(figsize=(5, 4))
     axes.plot(sink, 1e3 * height, "o-")
     axes.set_xlabel(r"$\partial\epsilon/\partial t + \nabla\cdot\epsilon U$ before it was spread [1/s]")

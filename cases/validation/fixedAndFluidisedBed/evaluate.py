@@ -3,6 +3,7 @@
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -15,7 +16,7 @@ FIRST_SECONDS = 0.05  # the start of the flow
 CLEAR = 0.95  # Ergun's equation is for packed beds; layers with a larger void fraction count as clear
 
 
-def fixed_row(run):
+def fixed_row(run: Any) -> tuple[Any, Any, Any, Any]:
     column = Column(run)
     p = column["fluidDensity"] * column.layers(column.times()[-1], "p")
     drop = (p[0] - p[-1]) * len(p) / (len(p) - 1)
@@ -40,7 +41,7 @@ def fixed_row(run):
     )  # steady and laminar: what the solvers' tolerance leaves
 
 
-def ergun_gradient(column, void_fraction, velocity):
+def ergun_gradient(column: Any, void_fraction: Any, velocity: np.ndarray) -> Any:
     return closures.values(
         "ergunPressureGradient",
         particleDiameter=column["particleDiameter"],
@@ -54,7 +55,7 @@ def ergun_gradient(column, void_fraction, velocity):
 class Ramp:
     """A bed whose flow rises and then falls."""
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         self.column = Column(run)
         self.time, self.drop = self.column.pressure_drop()
         self.velocity = self.column.top_velocity()[1]
@@ -67,7 +68,7 @@ class Ramp:
         self.falling = lies & (self.time > fall)
         self.turn = fast
 
-    def fluidising_velocity(self, part):
+    def fluidising_velocity(self, part: Any) -> tuple[Any, Any]:
         """Where the line b U + c U^2 of a bed at rest reaches the buoyant weight, and its standard error."""
         u, drop = self.velocity[part], self.drop[part]
         powers = np.column_stack([u, u * u])
@@ -76,7 +77,7 @@ class Ramp:
         noise = np.sqrt(residual[0] / len(u))
         return velocity, noise / (b + 2 * c * velocity)
 
-    def erguns_velocity(self, part):
+    def erguns_velocity(self, part: Any) -> tuple[Any, Any]:
         """The same by Ergun's equation, layer by layer of the bed's own void fraction at the part's middle."""
         column = self.column
         middle = self.time[part].mean()
@@ -91,7 +92,7 @@ class Ramp:
         b, c = np.linalg.solve(np.column_stack([u, u * u]), gradients)
         return 2 * column.load / (b + np.sqrt(b * b + 4 * c * column.load)), bed[:15].mean()
 
-    def rows(self):
+    def rows(self) -> Any:
         column, found = self.column, []
         print(
             f"{column.run.name}: highest particle at the start, the turn and the end [d]: "
@@ -129,13 +130,13 @@ class Ramp:
         )
         return found
 
-    def tops(self):
+    def tops(self) -> list[Any]:
         """Of the highest particle."""
         time, position, _ = self.column.particles()
         return [position[np.abs(time - at).argmin(), :, 2].max() for at in (0, self.turn, self.time[-1])]
 
 
-def plot(fixed, ramps):
+def plot(fixed: Any, ramps: Any) -> None:
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(10, 4.5), constrained_layout=True)
     velocity, drop, ergun, _ = zip(*fixed)
     millimetres = [1e3 * one for one in velocity]

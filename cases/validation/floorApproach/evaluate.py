@@ -2,6 +2,7 @@
 """The time that a sphere takes through three parts of its way to the floor, against Brenner's exact series."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,11 +19,11 @@ NEAR_ONLY = (
 )
 
 
-def main():
+def main() -> None:
     validation.write([row for run in sorted(Path("runs").iterdir()) for row in rows(run)])
 
 
-def rows(run):
+def rows(run: Any) -> Any:
     p = parameter_file.parameters(run / "parameters")
     radius = 0.5 * p["particleDiameter"]
     speed = 2 / 9 * radius**2 * 9.81 * (p["particleDensity"] / p["fluidDensity"] - 1) / p["fluidViscosity"]
@@ -42,10 +43,9 @@ def rows(run):
     return found
 
 
-def brenner(gap):
+def brenner(gap: np.ndarray) -> Any:
     """Drag over Stokes' of a sphere that moves towards a plane, its gap over the radius given. Both hyperbolic sines of
-    the
-    series are scaled by exp(-(2n + 1) alpha), so that nothing overflows."""
+    the series are scaled by exp(-(2n + 1) alpha), so that nothing overflows."""
     alpha = np.arccosh(1 + gap)
     n = np.arange(1, max(10, int(40 / alpha)))
     odd = 2 * n + 1

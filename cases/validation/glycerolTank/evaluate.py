@@ -2,6 +2,7 @@
 """Velocities of the particles against the measured ones, and what spreading the force does to them."""
 
 from pathlib import Path
+from typing import Any
 
 import measure
 import numpy as np
@@ -32,21 +33,21 @@ OWN_WAKE = (
 )
 
 
-def main():
+def main() -> None:
     measured = parameter_file.parameters("measured")
     runs = {run.name: terminal(run) for run in sorted(Path("runs").iterdir())}
     validation.write([row for name in runs for row in rows(name, runs, measured)])
     plot(runs, measured)
 
 
-def terminal(run):
+def terminal(run: Any) -> tuple[float, float]:
     """Mean and standard deviation of the velocity over the last fifth of the run."""
     time, _, velocity = case_files.columns(run, "particleHeight")
     last = -velocity[time > 0.8 * time[-1]]
     return float(last.mean()), float(last.std())
 
 
-def rows(name, runs, measured):
+def rows(name: str, runs: Any, measured: Any) -> list[Any]:
     ours, scatter = runs[name]
     p = parameter_file.parameters(Path("runs") / name / "parameters")
     diameter, viscosity = p["particleDiameter"], p["fluidViscosity"]
@@ -130,7 +131,7 @@ def rows(name, runs, measured):
     ]
 
 
-def edge_velocity(p):
+def edge_velocity(p: dict[str, Any]) -> float:
     """Beside a plane wall, creeping: at speed v the particle feels the drag of the free one at v, times Faxen's
     factor."""
     diameter = p["particleDiameter"]
@@ -146,7 +147,7 @@ def edge_velocity(p):
     return float(np.interp(weight, factor * closures.values("drag", slipSpeed=speeds, **particle) * speeds, speeds))
 
 
-def needed_viscosities(measured):
+def needed_viscosities(measured: Any) -> Any:
     """Of particles 1 to 5 [Pa s], as text: with Di Felice's wall, and without."""
     density = parameter_file.parameters("parameters")["fluidDensity"]
     grid = np.linspace(2.2e-4, 3.6e-4, 29)
@@ -160,7 +161,7 @@ def needed_viscosities(measured):
     return texts
 
 
-def plot(runs, measured):
+def plot(runs: Any, measured: Any) -> None:
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4.5))
     viscosity = measured["fluidViscosity"]
     numbers = list(measure.DIAMETERS)

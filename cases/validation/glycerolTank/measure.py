@@ -5,6 +5,7 @@ Writes `measured` from the raw files where they are (they are not ours to keep h
 """
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import brentq
@@ -22,11 +23,11 @@ REPEATS = (1, 2, 3, 4)
 WINDOW = (20, 240)
 
 
-def main():
+def main() -> None:
     if not DATA.is_dir():
         print(f"{DATA} is not here: using the committed file `measured`, which was computed from it")
         return
-    entries = {}
+    entries: dict[Any, Any] = {}
     for particle, diameter in DIAMETERS.items():
         velocities = [velocity(DATA / "glycerol" / f"glycerolbead{particle}t{repeat}.txt") for repeat in REPEATS]
         entries |= {
@@ -47,7 +48,7 @@ def main():
     )
 
 
-def velocity(file, quarter=None):
+def velocity(file: Path, quarter: Any = None) -> Any:
     """Slope of a straight line [m/s] through the window, or through one quarter of its depth."""
     time, depth = np.loadtxt(file, skiprows=2).T
     low, high = WINDOW
@@ -57,14 +58,14 @@ def velocity(file, quarter=None):
     return 1e-3 * np.polyfit(time[seen], depth[seen], 1)[0]
 
 
-def fitted_viscosity(entries):
-    def too_fast(viscosity):
+def fitted_viscosity(entries: Any) -> Any:
+    def too_fast(viscosity: Any) -> Any:
         return axis_velocity(entries[f"particleDiameter{FITTED}"], viscosity) - entries[f"velocity{FITTED}"]
 
     return brentq(too_fast, 1e-4, 1e-3, xtol=1e-9)
 
 
-def axis_velocity(diameter, viscosity, wall=True):
+def axis_velocity(diameter: Any, viscosity: Any, wall: Any = True) -> Any:
     """Of a particle on the axis, by the case's drag law and, with a wall, Di Felice's."""
     p = parameter_file.parameters("parameters")
     free = closures.value(

@@ -2,6 +2,7 @@
 """Compares the exponent n of v = v_t eps^n with the one that the drag law implies, and with Richardson & Zaki's."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,7 +19,7 @@ OF_STREAMS = 0.053
 class Suspension:
     """Void fraction and settling velocity against the column, in the zone that neither front reaches."""
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         column = self.column = Column(run)
         time, position, velocity = column.particles()
         self.time = time
@@ -34,7 +35,7 @@ class Suspension:
         )
 
 
-def exponent(void_fraction, relative_velocity):
+def exponent(void_fraction: Any, relative_velocity: Any) -> tuple[Any, Any]:
     """n of v/v_t = eps^n by least squares in logarithms, and its standard error."""
     x, y = np.log(void_fraction), np.log(relative_velocity)
     n = (x * y).sum() / (x * x).sum()
@@ -44,7 +45,7 @@ def exponent(void_fraction, relative_velocity):
 class Family:
     """The concentrations of one particle in one fluid."""
 
-    def __init__(self, name, runs):
+    def __init__(self, name: str, runs: Any) -> None:
         self.name = name
         suspensions = sorted((Suspension(run) for run in runs), key=lambda one: one.void_fraction)
         self.void_fraction = np.array([one.void_fraction for one in suspensions])
@@ -56,7 +57,7 @@ class Family:
             "hinderedSettlingVelocity", voidFraction=self.void_fraction, **column.closure_options()
         )
 
-    def rows(self):
+    def rows(self) -> list[Any]:
         ours, _ = exponent(self.void_fraction, self.velocity / self.terminal)
         implied, _ = exponent(self.void_fraction, self.expected / self.terminal)
         # the law's n varies with eps: what scatters is the ratio to it
@@ -99,7 +100,7 @@ class Family:
             ),
         ]
 
-    def convection(self, ours, implied):
+    def convection(self, ours: Any, implied: Any) -> str | None:
         """A finding where the fluid is free to circulate."""
         if self.column["cellsAcross"] == 1:
             return None
@@ -110,7 +111,7 @@ class Family:
             " across, where the fluid cannot circulate, it is the law's"
         )
 
-    def laws_own(self, implied, richardson_zaki):
+    def laws_own(self, implied: Any, richardson_zaki: Any) -> str | None:
         """A finding where the drag law itself has another exponent."""
         if abs(implied / richardson_zaki - 1) < 0.1:
             return None
@@ -118,7 +119,7 @@ class Family:
             f"{self.column['dragLaw']} in a uniform suspension has n {implied:.2f}, the formula {richardson_zaki:.2f}"
         )
 
-    def plot(self, axes, colour):
+    def plot(self, axes: Any, colour: Any) -> None:
         axes.loglog(
             self.void_fraction,
             self.velocity / self.terminal,
@@ -131,7 +132,7 @@ class Family:
         axes.loglog(self.void_fraction, self.void_fraction**richardson_zaki, ":", color=colour)
 
 
-def plot(families):
+def plot(families: Any) -> None:
     figure, axes = pyplot.subplots(figsize=(7, 5))
     for index, family in enumerate(families):
         family.plot(axes, f"C{index}")

@@ -3,6 +3,7 @@
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -19,7 +20,7 @@ ROLLS = 0.002
 STILL = 0.1
 
 
-def rows(run):
+def rows(run: Any) -> list[Any]:
     """What must stay: the pressure of still water, and the particles where they lie."""
     name, column = run.name, Column(run)
     particle_time, position, velocity = column.particles()
@@ -62,7 +63,7 @@ def rows(run):
     ]
 
 
-def still_from(name, time, fastest):
+def still_from(name: str, time: np.ndarray, fastest: np.ndarray) -> float:
     """Time from which on no particle rolls."""
     start = max(time[fastest > ROLLS], default=0)
     if time[-1] - start < STILL:
@@ -72,7 +73,7 @@ def still_from(name, time, fastest):
     return max(start, QUIET)
 
 
-def plot(runs):
+def plot(runs: Any) -> None:
     figure, (pressure, speed) = pyplot.subplots(2, sharex=True, figsize=(6, 6))
     for run in runs:
         column = Column(run)

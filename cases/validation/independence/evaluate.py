@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The submerged rate and its late rise, with each numerical choice varied alone, against the defaults."""
 
+from typing import Any, Iterator
 
 import numpy as np
 
@@ -28,18 +29,18 @@ FINDINGS = {
 SOURCE = "the defaults of cases/tutorials/hopperQuick/parameters"
 
 
-def rate(run):
-    return 1e3 * flow.mean_rate(run.time, run.mass, *WHOLE)
+def rate(run: Any) -> Any:
+    return 1e3 * flow.required_mean_rate(run.time, run.mass, *WHOLE)
 
 
-def rise(run):
+def rise(run: Any) -> Any:
     """Rate in the last third over that in the first."""
-    return flow.mean_rate(run.time, run.mass, *LATE) / flow.mean_rate(run.time, run.mass, *EARLY)
+    return flow.required_mean_rate(run.time, run.mass, *LATE) / flow.required_mean_rate(run.time, run.mass, *EARLY)
 
 
-def main():
+def main() -> None:
     cases = parameter_study_results.by_case(parameter_study_results.read("results/runs"))
-    rows = []
+    rows: list[Any] = []
     for quantity, unit, of, tolerance in (
         ("W_sub", "g/s", rate, TOLERANCE),
         ("late over early rate", "-", rise, TOLERANCE_OF_RISE),
@@ -50,7 +51,7 @@ def main():
     plot({case: [rate(run) for run in runs] for case, runs in cases.items()})
 
 
-def compare(values, quantity, unit, tolerance):
+def compare(values: Any, quantity: str, unit: str, tolerance: float) -> Iterator[Any]:
     """One row per variant. The scatter of one run is taken to be the same in all, and pooled."""
     deviation = parameter_study_results.pooled_deviation(values.values())
     reference, error = parameter_study_results.mean_and_error(values[DEFAULT], deviation)
@@ -70,7 +71,7 @@ def compare(values, quantity, unit, tolerance):
         )
 
 
-def plot(values):
+def plot(values: Any) -> None:
     names = [DEFAULT] + sorted(set(values) - {DEFAULT}, reverse=True)
     figure, axes = pyplot.subplots(figsize=(7, 5), constrained_layout=True)
     mean = np.mean(values[DEFAULT])

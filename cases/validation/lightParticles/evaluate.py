@@ -2,6 +2,7 @@
 """Compares the velocity of rising suspensions with the one that the drag law gives a uniform suspension."""
 
 from pathlib import Path
+from typing import Any
 
 from clepsydra import closures, validation
 from clepsydra.column import Column
@@ -10,7 +11,7 @@ ZONE = (0.4, 0.7)  # of the height: below the packing at the lid, above the clea
 STEADY = (0.3, 0.8)  # of the run: after the start, before the clear fluid reaches the zone
 
 
-def rows(run):
+def rows(run: Any) -> list[Any]:
     column = Column(run)
     time, position, velocity = column.particles()
     height = position[:, :, 2] / column["height"]

@@ -2,6 +2,7 @@
 """Compares the void fraction of the bed, read from the slope of the pressure, with the drag law's and the formula's."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ LAWS = ("RongDrag", "DiFeliceDrag", "BeetstraDrag", "KochHillDrag", "GidaspowDra
 
 
 class Bed:
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         column = self.column = Column(run)
         self.name = run.name
         late = [time for time in column.times() if float(time) > STEADY * column["endTime"]]
@@ -35,19 +36,19 @@ class Bed:
         drop = drop[time > STEADY * column["endTime"]]
         self.drop, self.drop_error = drop.mean(), drop.std() / np.sqrt(5)
 
-    def by_slope(self, pressure):
+    def by_slope(self, pressure: Any) -> Any:
         """1 - slope/((rho_p - rho_f) g), the slope by least squares in the bed."""
         column = self.column
         part = pressure > (1 - WITHIN) * column.load
         slope = -np.polyfit(column.heights()[part], pressure[part], 1)[0]
         return 1 - slope / ((column["particleDensity"] - column["fluidDensity"]) * GRAVITY)
 
-    def unevenness(self, times):
+    def unevenness(self, times: Any) -> Any:
         """Standard deviation of the layers' void fractions in the bed, over heights and times."""
         bed = self.profile > (1 - WITHIN) * self.column.load
         return np.std([self.column.layers(time, "voidFraction")[bed] for time in times])
 
-    def rows(self):
+    def rows(self) -> list[Any]:
         column = self.column
         implied = implied_void_fraction(column, column["dragLaw"], self.velocity)
         formula = richardson_zaki(column, self.velocity)
@@ -106,22 +107,22 @@ class Bed:
         ]
 
 
-def options(column, law):
+def options(column: Any, law: Any) -> Any:
     return column.closure_options() | {"dragLaw": law}
 
 
-def terminal(column, law):
+def terminal(column: Any, law: Any) -> Any:
     return closures.value("terminalVelocity", **options(column, law))
 
 
-def implied_void_fraction(column, law, velocity):
+def implied_void_fraction(column: Any, law: Any, velocity: np.ndarray) -> Any:
     """Of the uniform bed that the law carries at a superficial velocity."""
     grid = np.linspace(0.35, 0.98, 127)
     speeds = closures.values("hinderedSettlingVelocity", voidFraction=grid, **options(column, law))
     return np.interp(velocity, speeds, grid) if (np.diff(speeds) > 0).all() else grid[np.argmax(speeds > velocity)]
 
 
-def richardson_zaki(column, velocity):
+def richardson_zaki(column: Any, velocity: np.ndarray) -> Any:
     """U = v_t 10^(-d/D) eps^n, their equation for beds."""
     ratio = column["particleDiameter"] / COLUMN_DIAMETER
     isolated = terminal(column, SINGLE_PARTICLE)
@@ -133,7 +134,7 @@ def richardson_zaki(column, velocity):
     return (velocity / (isolated * 10**-ratio)) ** (1 / n)
 
 
-def plot(beds):
+def plot(beds: Any) -> None:
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4.5))
     for index, bed in enumerate(beds):
         left.plot(

@@ -2,6 +2,7 @@
 """Compares each run on many ranks with the one on a single rank: every particle, and the cells' solid volume."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +14,7 @@ OF_CONTACTS = 1e-6
 OF_DIGITS = 1e-10
 
 
-def main():
+def main() -> None:
     one = Path("runs/one")
     runs = sorted(run for run in Path("runs").iterdir() if run != one)
     between = [particles_on_three_ranks(run) for run in runs]
@@ -24,7 +25,7 @@ def main():
     validation.write([row for run in runs for row in rows(run, one)])
 
 
-def rows(run, one):
+def rows(run: Any, one: Any) -> list[Any]:
     p = parameter_file.parameters(run / "parameters")
     here, there = particles(run), particles(one)
     apart = np.linalg.norm(here[-1] - there[-1], axis=1)
@@ -40,7 +41,7 @@ def rows(run, one):
         f"solid volume {volume / particle_volume(p) - 1:+.1e}"
     )
 
-    def row(quantity, unit, reference, source, ours, tolerance):
+    def row(quantity: str, unit: str, reference: Any, source: Any, ours: Any, tolerance: float) -> Any:
         return validation.row(
             f"{quantity}, {run.name}",
             unit,
@@ -66,20 +67,20 @@ def rows(run, one):
     ]
 
 
-def particles(run):
+def particles(run: Any) -> list[Any]:
     """Positions by time, particles by their numbers."""
     return [entry[:, 1:4] for _, entry in case_files.dumped_particles(run)]
 
 
-def particle_volume(p):
+def particle_volume(p: dict[str, Any]) -> Any:
     return p["particleCount"] * np.pi / 6 * p["particleDiameter"] ** 3
 
 
-def cell_volumes(p):
+def cell_volumes(p: dict[str, Any]) -> Any:
     return p["width"] ** 2 * p["height"] / (p["cellsAcross"] ** 2 * p["cellsUp"])
 
 
-def particles_on_three_ranks(run):
+def particles_on_three_ranks(run: Any) -> int:
     """How many particles touch cells of three ranks or more at one of the times."""
     p = parameter_file.parameters(run / "parameters")
     across, up = int(p["cellsAcross"]), int(p["cellsUp"])

@@ -5,6 +5,7 @@ faults found."""
 import json
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,12 +24,12 @@ BALANCES = {
 }
 
 
-def main():
+def main() -> None:
     runs = sorted(Path("runs").iterdir())
     validation.write([row for run in runs for row in of_run(run)] + of_faults(Path("results/faults.json")))
 
 
-def of_run(run):
+def of_run(run: Any) -> list[Any]:
     name = run.name
     summary = json.loads((run / "postProcessing/conservation/0/summary.json").read_text())
     force, gained = balance(run)
@@ -67,11 +68,10 @@ def of_run(run):
     ]
 
 
-def balance(run):
+def balance(run: Any) -> tuple[Any, Any]:
     """From the start to the end, along z [N s]: the impulse of all that acts on the column from outside, and what water
     and particles gained, what is on its way between them included. No particle touches a wall, the sides slip, and the
-    water
-    rests at the ends."""
+    water rests at the ends."""
     column = Column(run)
     time, bottom = case_files.surface_values(run, "bottomPressure")
     _, top = case_files.surface_values(run, "topPressure")
@@ -91,7 +91,7 @@ def balance(run):
     return buoyant_weight + pressure, water + particles + semi_implicit_momentum(run) + pressure_on_its_way(column, end)
 
 
-def pressure_on_its_way(column, end):
+def pressure_on_its_way(column: Any, end: Any) -> Any:
     """The pressure force on the particles is that of the interval before, its reaction on the water in model A is
     not."""
     if column["modelType"] != "A":
@@ -104,13 +104,13 @@ def pressure_on_its_way(column, end):
     return -column["couplingTimeStep"] * ((1 - void_fraction) * gradient).mean(axis=1).sum() * column.area * layer
 
 
-def semi_implicit_momentum(run):
+def semi_implicit_momentum(run: Any) -> float:
     """At the end, along z [N s]."""
     log = run / ("log.mpirun" if run.name.endswith("-2") else "log.pimpleDemFoam")
     return float(re.findall(r"of which semi-implicit \(\S+ \S+ (\S+)\)", log.read_text())[-1])
 
 
-def of_faults(file):
+def of_faults(file: Path) -> Any:
     rows = []
     for suite in json.loads(file.read_text())["testsuites"]:
         conservation = BALANCES.get(suite["name"].split("/")[-1])

@@ -3,6 +3,7 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +18,7 @@ STEADY = 1 / 3
 class InsertionAndRemoval:
     """The table of particleFlux."""
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         self.column = Column(run)
         table = case_files.columns(run, "particleFlux")
         self.time = table[0]
@@ -26,16 +27,16 @@ class InsertionAndRemoval:
         self.left_particles, self.left = table[7::6].sum(axis=0), table[8::6].sum(axis=0)
 
     @property
-    def particle_mass(self):
+    def particle_mass(self) -> Any:
         return self.column.particle_volume * self.column["particleDensity"]
 
-    def rate(self, start, end):
+    def rate(self, start: Any, end: Any) -> Any:
         """Mean mass per time that leaves between two parts of the run."""
         first, last = (np.searchsorted(self.time, part * self.time[-1]) for part in (start, end))
         return (self.left[last - 1] - self.left[first]) / (self.time[last - 1] - self.time[first])
 
 
-def balances_row(run, balance):
+def balances_row(run: Any, balance: Any) -> Any:
     """The engine's particles as the conservation check counts them, against what the table and the start say."""
     summary = json.loads(next((run / "postProcessing/conservation").glob("*/summary.json")).read_text())
     inside = summary["particlesEnd"] * balance.particle_mass
@@ -58,7 +59,7 @@ def balances_row(run, balance):
     )
 
 
-def water_row(run, balance):
+def water_row(run: Any, balance: Any) -> Any:
     """The floor holds the water: what the particles leave behind comes in at the top."""
     time, flux = case_files.surface_values(run, "topFlow")
     came_in = -flux[:, 0].sum() * balance.column["couplingTimeStep"]
@@ -75,7 +76,7 @@ def water_row(run, balance):
     )
 
 
-def rate_row(runs):
+def rate_row(runs: Any) -> Any:
     """Over all hoppers: what leaves in the second part of the steady time over what leaves in the first."""
     middle = (1 + STEADY) / 2
     ratios = [balance.rate(middle, 1) / balance.rate(STEADY, middle) for balance in runs]
@@ -94,7 +95,7 @@ def rate_row(runs):
     )
 
 
-def plot(runs):
+def plot(runs: Any) -> None:
     figure, axes = pyplot.subplots(figsize=(6, 4))
     for balance in runs:
         name = balance.column.run.name

@@ -2,10 +2,10 @@
 """Compares the rise of a light bed with the rise at the shortest interval, without low-pass.
 
 Before the particles' answer to the pressure was in the pressure's equation, those of 50 kg/m3 burst within some ms at
-intervals of .2 and 1 ms.
-"""
+intervals of .2 and 1 ms. """
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from clepsydra.picture_style import pyplot
 class Rise:
     """Mean height of the particles against time."""
 
-    def __init__(self, run):
+    def __init__(self, run: Any) -> None:
         self.name = run.name
         self.bed = run.name.split("-")[0]
         column = Column(run)

@@ -4,6 +4,7 @@ coupling/interval/semiImplicitSource.h."""
 
 from math import exp, expm1, log2
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from layer import SPEED, Layer
@@ -22,7 +23,7 @@ SOLVER_PERCENT = 1e-6
 DEM_STEP_PERCENT = 1
 
 
-def main():
+def main() -> None:
     runs = {path.name: Run(path) for path in Path("runs").iterdir()}
     waves = sorted(
         (run for name, run in runs.items() if run.start == "wave" and not run.of_order), key=lambda run: run.drag_time
@@ -47,14 +48,14 @@ def main():
 
 
 class Run:
-    def __init__(self, path):
+    def __init__(self, path: Path) -> None:
         self.path = path
         self.start, self.motion, drag_time, *rest = path.name.split("-")
         self.drag_time = float(drag_time)
         self.of_order = bool(rest)
         self.layer = Layer(path)
 
-    def speed(self):
+    def speed(self) -> Any:
         """Of the water in the first cell, of what it had at first, after each interval."""
         lines = (
             (self.path / "postProcessing/firstCell/0/U").read_text().replace("(", " ").replace(")", " ").splitlines()
@@ -62,30 +63,30 @@ class Run:
         first = self.layer.velocity(self.start)[0, 2]
         return np.array([float(line.split()[3]) for line in lines if not line.startswith("#")]) / first
 
-    def energy(self):
+    def energy(self) -> Any:
         """After each interval, of what it was at first."""
         lines = (self.path / "postProcessing/energy/0/volFieldValue.dat").read_text().splitlines()
         first = (self.layer.velocity(self.start) ** 2).sum(axis=1).mean()
         return np.array([float(line.split()[1]) for line in lines if not line.startswith("#")]) / first
 
-    def particle_speed(self):
+    def particle_speed(self) -> Any:
         """Upwards, mean over the particles, of what the water had at first, after each interval."""
         return (
             np.array([particles[:, 6].mean() for _, particles in case_files.dumped_particles(self.path)][1:])
             / SPEED[self.start]
         )
 
-    def slip(self):
+    def slip(self) -> Any:
         return self.speed() - self.particle_speed()
 
 
-def computed(quantity, unit, reference, source, ours, tolerance):
+def computed(quantity: str, unit: str, reference: Any, source: Any, ours: Any, tolerance: float) -> Any:
     return validation.row(
         quantity, unit, reference, source, "computed", ours, abs(reference) * tolerance / 100, tolerance
     )
 
 
-def of_wave(run):
+def of_wave(run: Any) -> Any:
     left, k = run.layer.left_by_smoothing(), run.drag_time
     speed = run.speed()
     ratio = (speed[4] / speed[0]) ** (1 / 4)
@@ -100,19 +101,19 @@ def of_wave(run):
     )
 
 
-def wave_left(run):
+def wave_left(run: Any) -> tuple[Any, Any]:
     """Exact, at the end; and what the run has."""
     speed = run.speed()
     return exp(-run.layer.left_by_smoothing() * run.drag_time * len(speed)), speed[-1]
 
 
-def slip_left(run):
+def slip_left(run: Any) -> tuple[Any, Any]:
     slip = run.slip()
     mass_ratio = run.layer.particle_mass / run.layer.water_mass
     return exp(-(1 + mass_ratio) * run.drag_time / mass_ratio * len(slip)), slip[-1]
 
 
-def of_weak_drag(run):
+def of_weak_drag(run: Any) -> Any:
     exact, ours = wave_left(run)
     return computed(
         f"wave after ten intervals, k = {run.drag_time:g}",
@@ -124,7 +125,7 @@ def of_weak_drag(run):
     )
 
 
-def of_energy(run):
+def of_energy(run: Any) -> Any:
     energy = np.concatenate([[1], run.energy()])
     falls = int((energy[1:] < energy[:-1]).sum())
     return validation.row(
@@ -139,7 +140,7 @@ def of_energy(run):
     )
 
 
-def of_order(start, runs, exact):
+def of_order(start: Any, runs: Any, exact: Any) -> Any:
     errors = [abs(ours - right) for right, ours in map(exact, runs)]
     what = {"wave": "wave between fixed particles", "uniform": "free particles' slip"}[start]
     print(f"{what}: errors {', '.join(f'{error:.2e}' for error in errors)} of the start at intervals halved")
@@ -153,7 +154,7 @@ def of_order(start, runs, exact):
     )
 
 
-def of_free_particles(run):
+def of_free_particles(run: Any) -> list[Any]:
     layer, slip = run.layer, run.slip()
     mass_ratio = layer.particle_mass / layer.water_mass
     taken = -expm1(-run.drag_time / mass_ratio)
@@ -185,7 +186,7 @@ def of_free_particles(run):
     ]
 
 
-def plot(waves, vortices):
+def plot(waves: Any, vortices: Any) -> None:
     figure, axes = pyplot.subplots(1, 2, sharey=True, figsize=(8, 4))
     for panel, runs in zip(axes, (waves, vortices)):
         for run in runs:

@@ -1,5 +1,6 @@
 """The layer of cells with a particle in the middle of each, as the run's parameters have it."""
 
+from typing import Any
 
 import numpy as np
 
@@ -11,10 +12,10 @@ SPEED = {"wave": 1e-3, "vortex": 1e-3, "uniform": 0.05}
 
 class Layer(Column):
     @property
-    def cell_width(self):
+    def cell_width(self) -> Any:
         return self["width"] / self["cellsAcross"]
 
-    def centres(self):
+    def centres(self) -> list[tuple[Any, Any, Any]]:
         """Of the cells, x fastest [m]."""
         up, across = int(self["cellsUp"]), int(self["cellsAcross"])
         return [
@@ -23,7 +24,7 @@ class Layer(Column):
             for i in range(across)
         ]
 
-    def velocity(self, start):
+    def velocity(self, start: Any) -> Any:
         x, _, z = np.array(self.centres()).T
         zero, x, z = 0 * x, np.pi * x / self["width"], np.pi * z / self["height"]
         return SPEED[start] * np.column_stack(
@@ -35,20 +36,20 @@ class Layer(Column):
         )
 
     @property
-    def water_mass(self):
+    def water_mass(self) -> Any:
         """In a cell [kg]."""
         return self["fluidDensity"] * (self.cell_width**2 * self["height"] / self["cellsUp"] - self.particle_volume)
 
     @property
-    def particle_mass(self):
+    def particle_mass(self) -> Any:
         return self["particleDensity"] * self.particle_volume
 
-    def drag_factor(self, drag_time):
+    def drag_factor(self, drag_time: Any) -> Any:
         """By which Stokes' drag is K couplingTimeStep/waterMass = dragTime."""
         stokes = 3 * np.pi * self["fluidDensity"] * self["fluidViscosity"] * self["particleDiameter"]
         return drag_time * self.water_mass / self["couplingTimeStep"] / stokes
 
-    def left_by_smoothing(self):
+    def left_by_smoothing(self) -> Any:
         """Of the wave's amplitude: it is an eigenvector of the cells' Laplacian."""
         eigenvalue = 2 * (1 - np.cos(np.pi / self["cellsAcross"])) / self.cell_width**2
         return np.exp(-self["smoothingBandwidth"] ** 2 / 4 * eigenvalue)

@@ -3,13 +3,14 @@
 
 import argparse
 from pathlib import Path
+from typing import Any
 
 from layer import Layer
 
 HEADER = "FoamFile {{ version 2.0; format ascii; class {kind}; object {name}; }}\n"
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
         "start",
@@ -37,7 +38,7 @@ def main():
         properties.write(Path("constant/more").read_text())
 
 
-def write_field(name, kind, dimensions, values, ends, sides):
+def write_field(name: str, kind: Any, dimensions: Any, values: Any, ends: Any, sides: Any) -> None:
     inside = (
         "uniform 0"
         if values is None

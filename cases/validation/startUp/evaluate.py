@@ -2,6 +2,7 @@
 """Start-up of a particle: terminal velocity, time to 95 % of it and distance fallen, against the measured ones."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -24,7 +25,7 @@ OF_U, OF_TAU, OF_DISTANCE = 5, 10, 5
 OF_THE_EQUATION = 3
 
 
-def main():
+def main() -> None:
     found = [start(run) for run in sorted(Path("runs").iterdir())]
     for one in found:
         particle = equation_of_motion.Particle.of(one["parameters"])
@@ -36,7 +37,7 @@ def main():
     plot(found)
 
 
-def start(run):
+def start(run: Any) -> dict[str, Any]:
     p = parameter_file.parameters(run / "parameters")
     t, _, v = case_files.columns(run, "particleHeight")
     return {
@@ -50,32 +51,33 @@ def start(run):
     }
 
 
-def forces(one):
+def forces(one: Any) -> str:
     if one["history"] != "none":
         return f"added mass, history after {one['history']}"
     return f"added mass {'on' if one['addedMass'] else 'off'}"
 
 
-def terminal(t, v):
+def terminal(t: Any, v: Any) -> tuple[Any, Any]:
     """Mean of the last tenth, and its standard deviation."""
     last = v[t > 0.9 * t[-1]]
     return last.mean(), last.std()
 
 
-def time_to_95(t, v):
-    return np.interp(0.95 * terminal(t, v)[0], v[: np.argmax(v) + 1], t[: np.argmax(v) + 1])
+def time_to_95(t: np.ndarray, v: np.ndarray) -> float:
+    rising = int(np.argmax(v)) + 1
+    return float(np.interp(0.95 * terminal(t, v)[0], v[:rising], t[:rising]))
 
 
-def distance(t, v, end):
+def distance(t: Any, v: Any, end: Any) -> Any:
     """Fallen up to `end`, over U `end`: the shape of the curve as a whole, whatever U is."""
     fine = np.linspace(0, end, 1000)
     return np.trapz(np.interp(fine, t, v), fine) / (terminal(t, v)[0] * end)
 
 
-def rows(one):
+def rows(one: Any) -> list[Any]:
     U, tau = MEASURED[one["diameter"]]
     name = f"d {one['diameter']:g} mm, {one['law']}, {forces(one)}"
-    run = (one["t"], one["v"])
+    run: tuple[np.ndarray, np.ndarray] = (one["t"], one["v"])
     speed, scatter = terminal(*run)
     expected = one["equation"]
 
@@ -85,12 +87,31 @@ def rows(one):
     )
     slow = f"{name}: " + (LACKING if one["history"] == "none" else REMAINING)
 
-    def row(quantity, unit, reference, source, kind, ours, uncertainty, tolerance, finding=None):
+    def row(
+        quantity: str,
+        unit: str,
+        reference: Any,
+        source: Any,
+        kind: Any,
+        ours: Any,
+        uncertainty: Any,
+        tolerance: float,
+        finding: Any = None,
+    ) -> Any:
         return validation.row(
             f"{name}: {quantity}", unit, reference, source, kind, ours, uncertainty, tolerance, finding
         )
 
-    def pair(quantity, unit, measured, ours, equation, uncertainty, tolerance, finding):
+    def pair(
+        quantity: str,
+        unit: str,
+        measured: Any,
+        ours: Any,
+        equation: Any,
+        uncertainty: Any,
+        tolerance: float,
+        finding: Any,
+    ) -> list[Any]:
         """Against the measurement, and, so that a finding cannot hide a fault, against the equation solved."""
         return [
             row(quantity, unit, measured, SOURCE, "measured", ours, uncertainty, tolerance, finding),
@@ -113,8 +134,8 @@ def rows(one):
             "distance by tau_95 over U tau_95",
             "-",
             1 - (1 - np.exp(-3)) / 3,
-            distance(*run, tau),
-            distance(*expected, tau),
+            distance(run[0], run[1], tau),
+            distance(expected[0], expected[1], tau),
             0.002,
             OF_DISTANCE,
             slow,
@@ -122,7 +143,7 @@ def rows(one):
     ]
 
 
-def plot(found):
+def plot(found: Any) -> None:
     diameters = sorted({one["diameter"] for one in found})
     figure, panels = pyplot.subplots(1, len(diameters), figsize=(5.5 * len(diameters), 4.5), squeeze=False)
     for panel, diameter in zip(panels[0], diameters):

@@ -2,6 +2,7 @@
 """The late rise of the rate, with the way of the water through the bed open and closed."""
 
 import sys
+from typing import Any
 
 import numpy as np
 
@@ -20,15 +21,15 @@ DILATION = (
 )
 
 
-def rise(run):
-    return flow.mean_rate(run.time, run.mass, *LATE) / flow.mean_rate(run.time, run.mass, *EARLY)
+def rise(run: Any) -> Any:
+    return flow.required_mean_rate(run.time, run.mass, *LATE) / flow.required_mean_rate(run.time, run.mass, *EARLY)
 
 
-def start_rate(run):
-    return flow.mean_rate(run.time, run.mass, *START)
+def start_rate(run: Any) -> Any:
+    return flow.required_mean_rate(run.time, run.mass, *START)
 
 
-def main():
+def main() -> None:
     cases = parameter_study_results.by_case(parameter_study_results.read("results/runs"))
     quick = parameter_study_results.by_case(parameter_study_results.read("results/quick"))
     found = {case: [rise(run) for run in runs] for case, runs in cases.items()}
@@ -46,7 +47,9 @@ def main():
     plot(cases)
 
 
-def against(rises, case, reference, its_error, source, kind, tolerance, finding=None):
+def against(
+    rises: Any, case: Any, reference: Any, its_error: Any, source: Any, kind: Any, tolerance: float, finding: Any = None
+) -> Any:
     ours, error = rises[case]
     return validation.row(
         f"late over early rate, {case}",
@@ -61,7 +64,7 @@ def against(rises, case, reference, its_error, source, kind, tolerance, finding=
     )
 
 
-def of_lid(cases):
+def of_lid(cases: Any) -> Any:
     """What the lid takes from the rate at the start. The reference is the committed runs', also of a short fresh
     run."""
     ratio = {
@@ -84,13 +87,14 @@ def of_lid(cases):
     )
 
 
-def require_mechanism(cases, rises):
+def require_mechanism(cases: Any, rises: Any) -> None:
     """With the lid the water must come up through the orifice, against the particles: far slower, beyond any
     scatter."""
     for case, (mean, error) in sorted(rises.items()):
         print(f"surge: late over early rate, {case}: {mean:.3f} +- {error:.3f}")
     rates = {
-        case: [flow.mean_rate(run.time, run.mass, *WHOLE) for run in cases[case]] for case in ("open", "closedLid")
+        case: [flow.required_mean_rate(run.time, run.mass, *WHOLE) for run in cases[case]]
+        for case in ("open", "closedLid")
     }
     deviation = parameter_study_results.pooled_deviation(rates.values())
     (free, free_error), (closed, closed_error) = (
@@ -100,7 +104,7 @@ def require_mechanism(cases, rises):
         sys.exit("surge: the lid does not slow the flow beyond three standard errors")
 
 
-def plot(cases):
+def plot(cases: Any) -> None:
     figure, axes = pyplot.subplots(figsize=(6, 4), constrained_layout=True)
     for number, (case, runs) in enumerate(sorted(cases.items())):
         for run in runs:

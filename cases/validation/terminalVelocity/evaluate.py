@@ -2,6 +2,7 @@
 """Terminal velocities of the runs against the law that each used, and against what particles do."""
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,13 +22,13 @@ SLOW = (
 )
 
 
-def main():
+def main() -> None:
     found = sorted((fall(run) for run in Path("runs").iterdir()), key=lambda one: (one["diameter"], one["law"]))
     validation.write([row for one in found for row in rows(one)])
     plot(found)
 
 
-def fall(run):
+def fall(run: Any) -> dict[str, Any]:
     """Mean velocity over the last eighth of the run, one relaxation time, and its standard deviation there."""
     p = parameter_file.parameters(run / "parameters")
     time, _, velocity = case_files.columns(run, "particleHeight")
@@ -46,11 +47,13 @@ def fall(run):
     }
 
 
-def rows(one):
+def rows(one: Any) -> Any:
     name = f"{one['law']}, d {one['diameter']:g} mm"
     slow = SLOW if one["law"] == "DiFelice" else None
 
-    def row(reference, against, source, kind, error, tolerance, finding=None):
+    def row(
+        reference: Any, against: Any, source: Any, kind: Any, error: Any, tolerance: float, finding: Any = None
+    ) -> Any:
         return validation.row(
             f"{name}, against {against}",
             "m/s",
@@ -92,11 +95,11 @@ def rows(one):
     return found
 
 
-def plot(found):
+def plot(found: Any) -> None:
     diameters = np.geomspace(0.3, 3, 40)
     particle = {"particleDensity": 2540, "fluidDensity": 1000, "fluidViscosity": 1e-6}
 
-    def fall(law, diameter):
+    def fall(law: Any, diameter: Any) -> Any:
         return closures.value("terminalVelocity", dragLaw=law, particleDiameter=1e-3 * diameter, **particle)
 
     yardstick = np.array([fall(YARDSTICK, diameter) for diameter in diameters])

@@ -95,11 +95,8 @@ def vector(parts: Iterable[float]) -> str:
 
 def expression(table: list[tuple[float, list[float]]]) -> Any:
     """The table as OpenFOAM's expressions have it: straight lines between its times, constant before and after.
-    Variables, and the
-    three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go deep, nor read
-    more than
-    1024 characters at a time.
-    """
+    Variables, and the three components in terms of them. One bracket deep and cut to pieces, since the parser cannot go
+    deep, nor read more than 1024 characters at a time."""
     variables: list[str] = []
     parts: list[str] = []
     for axis, name in enumerate("xyz"):

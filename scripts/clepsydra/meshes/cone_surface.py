@@ -2,8 +2,7 @@
 """Surface of a hopper whose bottom is a cone, for hopperFromSurface: STL on standard output.
 
 Reads orificeDiameter, hopperDiameter and hopperHeight from the dictionary PARAMETERS. ANGLE is the cone's between wall
-and axis [degrees].
-"""
+and axis [degrees]. """
 
 import argparse
 import sys

@@ -9,13 +9,11 @@ Reads the dimensions and the level (meshLevel) from the dictionary PARAMETERS an
   DEM/meshes/hopperWall.stl, hopperPlate.stl, plug.stl              the particles' walls
 
 The background is of nearly cubic cells; the planes of the plate and of the rim are planes of its faces. It is refined
-in
-the hopper, near its walls and round the orifice. The tank is as wide as tankDiameter; the particles' tank is the
+in the hopper, near its walls and round the orifice. The tank is as wide as tankDiameter; the particles' tank is the
 cylinder in it.
 
 Patches: hopper (inside of cylinder and plate), exit (land, bevel and, of walls that are thick, the outside), tankFloor,
-tankSide, tankTop.
-"""
+tankSide, tankTop. """
 
 import sys
 from math import pi

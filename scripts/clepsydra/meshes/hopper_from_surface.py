@@ -177,7 +177,7 @@ def main() -> None:
     )
 
 
-def read_surface(file, p):
+def read_surface(file: Path, p: dict[str, Any]) -> tuple[Any, Any, Any, Any]:
     """All triangles, the orifice's edge, the triangles of the cylinder, all others. Exits where it is refused."""
     radius = p["hopperDiameter"] / 2
     try:

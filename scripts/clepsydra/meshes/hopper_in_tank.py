@@ -6,13 +6,11 @@ Reads the dimensions from the dictionary PARAMETERS and writes, into CASE,
   system/meshSteps                                       the programs that make it
   DEM/meshes/hopperWall.stl, hopperPlate.stl, plug.stl   the particles' walls
 
-The fluid's mesh is an O-grid: a square core, then rings that end at the
-orifice, at the hopper's wall and at the tank's wall. The hopper's cylinder and
-plate are faces of that grid, turned into walls without thickness. With `lid on;`
-the hopper's open top is such a wall too: no water comes in from above.
+The fluid's mesh is an O-grid: a square core, then rings that end at the orifice, at the hopper's wall and at the tank's
+wall. The hopper's cylinder and plate are faces of that grid, turned into walls without thickness. With `lid on;` the
+hopper's open top is such a wall too: no water comes in from above.
 
-Circles become polygons of the same area, see hopper_walls.py.
-"""
+Circles become polygons of the same area, see hopper_walls.py. """
 
 import sys
 from math import ceil, cos, log, pi, sin

@@ -1,12 +1,11 @@
 """Surfaces of a flat-bottomed hopper with a round orifice, made of triangles.
 
 The orifice's edge lies in the plane z = 0. Below it the orifice may go on as a vertical land of landHeight and then
-widen
-by 45 degrees over bevelHeight (both 0: a plate without thickness). Walls have no thickness, unless wallThickness > 0.
+widen by 45 degrees over bevelHeight (both 0: a plate without thickness). Walls have no thickness, unless wallThickness
+> 0.
 
 Circles become polygons. Their corners lie a little outside the circle, so that the polygon has the circle's area: the
-orifice is not made smaller by its corners.
-"""
+orifice is not made smaller by its corners. """
 
 from math import cos, hypot, log, pi, sin, sqrt
 from pathlib import Path

@@ -2,9 +2,7 @@
 """Makes the mesh of the paper's hopper (cases/paper/hopper.yaml) at one level, checks it and draws it.
 
 The mesh lies in meshes/made/<level>/constant/polyMesh then, its picture in meshes/made/<level>.png. Printed: cells,
-seconds
-of computing, and memory of the largest program.
-"""
+seconds of computing, and memory of the largest program. """
 
 import argparse
 import json

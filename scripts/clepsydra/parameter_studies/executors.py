@@ -16,8 +16,7 @@ COMMAND = os.path.abspath(sys.argv[0])
 
 def local(parameter_study: ParameterStudy, cores: int) -> int | None:
     """A pool of processes: make keeps `cores` of them busy, each task after those that it needs. Returns the signal
-    that asked
-    it to stop, or None."""
+    that asked it to stop, or None."""
     slots = max(1, cores // max(task.ranks for task in parameter_study.tasks.values()))
     makefile = parameter_study.work / "Makefile"
     targets = {name: f"{name}/done" for name in parameter_study.tasks}

@@ -55,9 +55,8 @@ class Task:
 class ParameterStudy:
     """A parameter study file and its template, read and checked. ParameterStudyError where anything is wrong.
 
-    only: of its entries `runs` these; all unless given.
-    missing: only runs that have no results yet, and what they need.
-    """
+    only: of its entries `runs` these; all unless given. missing: only runs that have no results yet, and what they
+    need."""
 
     def __init__(self, path: Path | str, only: list[str] | None = None, missing: bool = False) -> None:
         self.path = Path(path).resolve()

@@ -1,9 +1,7 @@
 """Runs one task of a parameterStudy: makes its folder, runs or resumes it, publishes its results.
 
 The folder of a task holds, beside the copy of the case: `log` (what Allrun said), `attempts` (start and end of each,
-one
-JSON object per line), and then `done` or `failed`. Whoever runs it holds a lock on `attempts`.
-"""
+one JSON object per line), and then `done` or `failed`. Whoever runs it holds a lock on `attempts`. """
 
 import contextlib
 import csv
@@ -83,8 +81,7 @@ def attempt(parameter_study: ParameterStudy, task: Task, attempts: IO[str]) -> i
 
 def make_folder(parameter_study: ParameterStudy, task: Task) -> None:
     """The copy of the template; one that is there from an earlier attempt must have the same parameters, but for how
-    long
-    the steps last."""
+    long the steps last."""
     folder = parameter_study.folder(task)
     if folder.exists():
         changed = [
@@ -112,8 +109,7 @@ def make_folder(parameter_study: ParameterStudy, task: Task) -> None:
 
 def copy_case(case: Path, folder: Path) -> None:
     """A case without what runs have left in it. Its programs become links: they find the repository's scripts from
-    where
-    they really are."""
+    where they really are."""
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree(case, folder, ignore=shutil.ignore_patterns(*OUTPUTS))
     for program in case.iterdir():

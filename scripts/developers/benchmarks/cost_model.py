@@ -1,7 +1,6 @@
 """The cost model of coupling/run/costModel.h with speeds by particles and cells: measured, fitted, for runs that are
-planned.
-fit_cost_model.py beside this file writes scripts/clepsydra/costModel.json. A run that has begun measures its own
-speeds."""
+planned. fit_cost_model.py beside this file writes scripts/clepsydra/costModel.json. A run that has begun measures its
+own speeds."""
 
 from pathlib import Path
 from typing import Any

@@ -18,8 +18,7 @@ STEPS_PER_LIST = 25
 
 def over_lammps(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The bed in the closed hopper, in our program and in LAMMPS with pair granular: the same contact law (Hertz,
-    Mindlin
-    with history, Tsuji's damping), walls, step and neighbour lists."""
+    Mindlin with history, Tsuji's damping), walls, step and neighbour lists."""
     require("lmp")
     steps = 5000
     folder = closed_hopper(hopper, "besideLammps", steps)
@@ -47,8 +46,7 @@ def over_lammps(hopper: Hopper, repetitions: int) -> timing.Figure:
 
 def over_yade(hopper: Hopper, repetitions: int) -> timing.Figure:
     """The same bed in Yade: Hertz-Mindlin with damping by restitution, the cylinder of triangles, its own neighbour
-    lists
-    of the same width. Yade takes so long that it does fewer steps."""
+    lists of the same width. Yade takes so long that it does fewer steps."""
     require("yade")
     steps, yade_steps = 5000, 1000 if hopper.quick else 400
     folder = closed_hopper(hopper, "besideYade", steps)

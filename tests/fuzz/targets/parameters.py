@@ -5,9 +5,7 @@ A text is either refused with ParameterError, or its last entry can be set, is t
 other entries keep their values. (traceResidual reads the same files by itself: entries.cpp.)
 
 A small fuzzer with libFuzzer's options, as far as scripts/fuzz uses them, and its words for what it has done. It keeps
-a
-text where no other before had such an outcome; what it reports as reached are lines of Python, not edges.
-"""
+a text where no other before had such an outcome; what it reports as reached are lines of Python, not edges. """
 
 import dis
 import mmap
@@ -17,6 +15,7 @@ import signal
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from clepsydra import arithmetic, parameter_file
 
@@ -26,8 +25,8 @@ OPTION = re.compile(r"-(\w+)=(.*)")
 EXTREMES = ["0", "-1", "1e308", "1e-320", "1e400", "nan", "inf", "00", "1_0", "9" * 30, "0x10", "1.", ".5", "+", "1e"]
 
 
-def main():
-    options = dict(OPTION.fullmatch(word).groups() for word in sys.argv[1:] if OPTION.fullmatch(word))
+def main() -> None:
+    options = {match[1]: match[2] for word in sys.argv[1:] if (match := OPTION.fullmatch(word))}
     texts = [read_text(path) for word in sys.argv[1:] if not OPTION.fullmatch(word) for path in files_of(Path(word))]
     if "max_total_time" not in options:
         for text in texts:
@@ -39,15 +38,15 @@ def main():
     print(f"({all_} inline 8-bit counters)\ncov: {reached}\nstat::number_of_executed_units: {executed}")
 
 
-def files_of(path):
+def files_of(path: Path) -> list[Any]:
     return sorted(path.iterdir()) if path.is_dir() else [path]
 
 
-def read_text(path):
+def read_text(path: Path) -> str:
     return path.read_bytes().decode(errors="replace")
 
 
-def execute(text, options):
+def execute(text: str, options: Any) -> str:
     """Its outcome, in few words. A text that takes too long ends this program by SIGALRM, Python's own loops
     included."""
     signal.setitimer(signal.ITIMER_REAL, float(options.get("timeout", 10)))
@@ -64,7 +63,7 @@ def execute(text, options):
     return f"{min(len(before), 9)} entries, {sorted({type(value).__name__ for value in before.values()})}"
 
 
-def mutate(texts, options):
+def mutate(texts: Any, options: Any) -> tuple[Any, Any]:
     """The texts kept, by outcome, and how many were tried."""
     random.seed(int(options.get("seed", time.time_ns())))
     words = EXTREMES + dictionary(options)
@@ -88,30 +87,30 @@ def mutate(texts, options):
 class Running:
     """Keeps the text that is being tried in a file, which stays where this program is ended."""
 
-    def __init__(self, path, size):
+    def __init__(self, path: Path, size: Any) -> None:
         self.path, self.size = path, size
 
-    def __enter__(self):
+    def __enter__(self) -> Any:
         self.path.write_bytes(bytes(self.size))
         with self.path.open("r+b") as file:
             self.memory = mmap.mmap(file.fileno(), self.size)
         return self
 
-    def note(self, text):
+    def note(self, text: str) -> None:
         self.memory[:] = text.encode(errors="replace").ljust(self.size, b" ")
 
-    def __exit__(self, problem, *_):
+    def __exit__(self, problem: Any, *_: Any) -> None:
         self.memory.close()
         if problem is None:
             self.path.unlink()
 
 
-def dictionary(options):
+def dictionary(options: Any) -> list[str]:
     lines = Path(options["dict"]).read_text().splitlines() if "dict" in options else []
     return [line[1:-1].encode().decode("unicode_escape") for line in lines if line.startswith('"')]
 
 
-def mutated(text, pieces, words):
+def mutated(text: str, pieces: Any, words: Any) -> Any:
     for _ in range(random.choice((1, 1, 1, 2, 3, 6))):
         at = random.randint(0, len(text))
         up_to = min(len(text), at + random.choice((1, 1, 2, 5, 20, 100)))
@@ -136,12 +135,12 @@ def mutated(text, pieces, words):
     return text
 
 
-def coverage(texts):
+def coverage(texts: Any) -> tuple[int, int]:
     """Lines of the parser that the texts reach, and all of its lines."""
     files = {module.__file__: module for module in (parameter_file, arithmetic)}
     reached = set()
 
-    def trace(frame, event, _):
+    def trace(frame: Any, event: Any, _: Any) -> Any:
         if frame.f_code.co_filename in files:
             reached.add((frame.f_code.co_filename, frame.f_lineno))
             return trace
