@@ -312,7 +312,7 @@ class Quickstart(HopperCase):
             timeout=60,
         )
 
-    def testItSetsUpAndThenRunsTheHopper(self) -> None:
+    def test_it_sets_up_and_then_runs_the_hopper(self) -> None:
         """In this order: where set-up fails nothing is run. It says where the results are."""
         outcome = self.quickstart()
         self.assertEqual(outcome.returncode, 1)
@@ -324,7 +324,7 @@ class Quickstart(HopperCase):
         self.assertEqual(sorted(self.starts()), ["dry", "filling", "submerged"])
         self.assertIn(f"the results are in {self.case}/results", outcome.stdout)
 
-    def testHelpMakesNothing(self) -> None:
+    def test_help_makes_nothing(self) -> None:
         for option, status in (("--help", 0), ("-h", 0), ("--fast", 2)):
             outcome = self.quickstart(option)
             self.assertEqual(outcome.returncode, status)

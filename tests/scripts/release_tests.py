@@ -21,6 +21,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import tomllib
 import unittest
 from pathlib import Path
 
@@ -114,6 +115,14 @@ class Versions(unittest.TestCase):
             self.assertTrue(citation.get(key), key)
 
     @unittest.skipUnless(BUILD, "no BUILD given")
+    def test_python_package_is_of_this_version_and_whole(self) -> None:
+        """A module's folder that pyproject.toml does not name would be missing from an installed package."""
+        settings = tomllib.loads(read("pyproject.toml"))
+        self.assertEqual(found(r'__version__ = "(.*)"', "scripts/clepsydra/__init__.py"), project_version())
+        folders = {path.parent.relative_to(ROOT / "scripts") for path in (ROOT / "scripts/clepsydra").rglob("*.py")}
+        named = settings["tool"]["setuptools"]["packages"]
+        self.assertEqual(sorted(named), sorted(".".join(folder.parts) for folder in folders))
+
     def test_find_package_takes_newer_minor_versions_only(self) -> None:
         """As find_package reads the version file: the same major version, and at most the installed minor one."""
         major, minor, _ = map(int, project_version().split("."))

@@ -44,18 +44,18 @@ class Rules(unittest.TestCase):
         (self.folder / "parameters.rules").write_text(rules)
         return case_rules.Rules(self.folder).check(parameters, ranks, part, "parameters")
 
-    def testRightParametersHaveFactsAlone(self) -> None:
+    def test_right_parameters_have_facts_alone(self) -> None:
         """The tube's fact and that without a value are left out; a check that skipped all would miss the area."""
         found = self.found()
         self.assertEqual((found.problems, found.warnings, found.facts), ([], [], ["area 1 m2"]))
 
-    def testWhatIsRequiredStopsAndWhatIsExpectedWarns(self) -> None:
+    def test_what_is_required_stops_and_what_is_expected_warns(self) -> None:
         found = self.found(PARAMETERS.replace("width 0.5", "width 3"))
         self.assertEqual(found.problems, ["parameters: width 3 m; allowed: less than length, 2 m"])
         found = self.found(PARAMETERS.replace("width 0.5", "width 0.1"))
         self.assertEqual((found.problems, found.warnings), ([], ["parameters: area 0.20 m2"]))
 
-    def testConditionsRestrict(self) -> None:
+    def test_conditions_restrict(self) -> None:
         """Each once where it applies and once where it does not."""
         found = self.found(PARAMETERS.replace("box", "tube"))
         self.assertEqual(found.problems, ["parameters: count 10 of a tube"])
@@ -63,7 +63,7 @@ class Rules(unittest.TestCase):
         self.assertEqual(self.found(part="all").warnings, ["parameters: count is 10"])
         self.assertEqual(self.found(ranks=1).problems, ["parameters: count here"])
 
-    def testEntriesAlone(self) -> None:
+    def test_entries_alone(self) -> None:
         for old, new, words in (
             ("count 10", "count 1.5", "entry 'count' is 1.5; allowed: a whole number from 1 to 1000000"),
             ("length 2", "length 20", "entry 'length' is 20; allowed: a number from 0.001 to 10 [m]"),
@@ -73,12 +73,12 @@ class Rules(unittest.TestCase):
             with self.subTest(new):
                 self.assertIn(words, "\n".join(self.found(PARAMETERS.replace(old, new)).problems))
 
-    def testAnEntryThatTheCaseRefersToIsTheUsersOwn(self) -> None:
+    def test_an_entry_that_the_case_refers_to_is_the_users_own(self) -> None:
         (self.folder / "system").mkdir()
         (self.folder / "system/controlDict").write_text("endTime $mine;\n")
         self.assertEqual(self.found(PARAMETERS + "mine 3;\n").problems, [])
 
-    def testMistakesOfTheRulesAreNamed(self) -> None:
+    def test_mistakes_of_the_rules_are_named(self) -> None:
         """In words that name the file, whatever is wrong; none may be passed over as a rule that holds."""
         for old, new, words in (
             ("entries:", "entires:", "unknown entry 'entires' (is 'entries' meant?)"),
@@ -99,14 +99,14 @@ class Rules(unittest.TestCase):
                 self.assertIn(words, str(problem.exception))
                 self.assertIn("parameters.rules", str(problem.exception))
 
-    def testRulesRunNothing(self) -> None:
+    def test_rules_run_nothing(self) -> None:
         made = self.folder / "made"
         for text in (f"__import__('os').system('touch {made}') < 1", f"open('{made}', 'w') == 1"):
             with self.assertRaises(case_rules.RulesError):
                 self.found(rules=RULES.replace("width < length", '"' + text + '"'))
         self.assertFalse(made.exists())
 
-    def testEachTutorialsOwnParametersAreRight(self) -> None:
+    def test_each_tutorials_own_parameters_are_right(self) -> None:
         """As they are in the repository; with an entry too many, and without one, they are refused."""
         cases = sorted(path.parent for path in (REPOSITORY / "cases/tutorials").glob("*/parameters"))
         self.assertGreaterEqual(len(cases), 6)

@@ -67,11 +67,11 @@ class Tutorials(unittest.TestCase):
         self.status = outcome.returncode
         return outcome.stdout
 
-    def testEveryTutorialIsKnownHere(self) -> None:
+    def test_every_tutorial_is_known_here(self) -> None:
         found = {path.parent.name for path in TUTORIALS.glob("*/Allrun")}
         self.assertEqual(found, {*BY_HAND, "hopperQuick"})
 
-    def testByHandInACopy(self) -> None:
+    def test_by_hand_in_a_copy(self) -> None:
         """blockMesh (and what else a mesh needs), then pimpleDemFoam: to the end, with a table of the observable."""
         for name, (mesh, table, end) in BY_HAND.items():
             with self.subTest(name):
@@ -81,7 +81,7 @@ class Tutorials(unittest.TestCase):
                 last = (case / "postProcessing" / table).read_text().splitlines()[-1].split()
                 self.assertAlmostEqual(float(last[0]), float(end))
 
-    def testAllrunInACopyAndAgain(self) -> None:
+    def test_allrun_in_a_copy_and_again(self) -> None:
         """The same by Allrun. Called again it does nothing again, or begins again; Allclean leaves what was copied."""
         for name in ("settlingParticle", "hopperDry"):
             with self.subTest(name):
@@ -94,7 +94,7 @@ class Tutorials(unittest.TestCase):
                 self.typed(case, "./Allclean")
                 self.assertEqual(sorted(case.rglob("*")), before)
 
-    def testCheckAndMistakes(self) -> None:
+    def test_check_and_mistakes(self) -> None:
         """`check` makes nothing; a mistake is reported before anything is made, a program that fails with the end of
         its log; without Clepsydra's environment a copy says what to do."""
         for name in BY_HAND:
@@ -121,7 +121,7 @@ class Tutorials(unittest.TestCase):
                     self.assertIn("FOAM FATAL", said)
                     self.assertIn("failed: see ", said)
 
-    def testAbsentProgramsAreNamed(self) -> None:
+    def test_absent_programs_are_named(self) -> None:
         """A machine on which nothing is built yet: every Allrun says what to run, and installs nothing."""
         for name in (*BY_HAND, "hopperQuick"):
             with self.subTest(name):
@@ -131,7 +131,7 @@ class Tutorials(unittest.TestCase):
                 self.assertNotEqual(self.status, 0)
                 self.assertRegex(said, "there is no program 'pimpleDemFoam' here: run .*/scripts/setup")
 
-    def testAllrunsAreShortAndCallNoPackageManager(self) -> None:
+    def test_allruns_are_short_and_call_no_package_manager(self) -> None:
         for allrun in (REPOSITORY / "cases").rglob("Allrun"):
             with self.subTest(str(allrun)):
                 text = allrun.read_text()
