@@ -127,7 +127,8 @@ def measure(
 def make_case(folder: Path, entries: Any, acting: Any) -> None:
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
-    for part in ("0", "constant", "system", "DEM", "parameters", *(path.name for path in CASE.glob("step.*"))):
+    steps = [path.name for path in CASE.glob("step.*")]
+    for part in ("0", "constant", "system", "DEM", "parameters", "parameters.rules", "template.yaml", *steps):
         if (CASE / part).is_dir():
             shutil.copytree(CASE / part, folder / part)
         else:
