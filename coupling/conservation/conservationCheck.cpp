@@ -6,8 +6,7 @@
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "runTimeSelection.h"
-
-#include <nlohmann/json.hpp>
+#include "tokens/jsonText.h"
 
 namespace clepsydra
 {
@@ -169,22 +168,35 @@ void ConservationCheck::writeSummary(
     }
     const fileName folder = time_.globalPath() / "postProcessing" / "conservation" / startTime_;
     mkDir(folder);
-    nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
-        {"particlesStart", census_.atStart()}, {"particlesEnd", census_.now()}, {"particlesLost", census_.lost()},
-        {"particlesInserted", census_.inserted()}, {"particlesLeft", census_.removed()},
-        {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
-        {"solidVolumeError", largestSolidVolumeError_}, {"clippedVolume", largestClippedVolume_},
-        {"momentumError", momentumError()}, {"pressureForceError", largestPressureForceError_},
-        {"continuityError", largestContinuityError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
-        {"imbalance", imbalance_}, {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()},
-        {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
-        {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
+    JsonObject summary;
+    summary.add("timeStart", std::stod(startTime_));
+    summary.add("timeEnd", time_.value());
+    summary.add("particlesStart", census_.atStart());
+    summary.add("particlesEnd", census_.now());
+    summary.add("particlesLost", census_.lost());
+    summary.add("particlesInserted", census_.inserted());
+    summary.add("particlesLeft", census_.removed());
+    summary.add("insertionError", largestInsertionError_);
+    summary.add("solidVolume", solidVolume_);
+    summary.add("solidVolumeError", largestSolidVolumeError_);
+    summary.add("clippedVolume", largestClippedVolume_);
+    summary.add("momentumError", momentumError());
+    summary.add("pressureForceError", largestPressureForceError_);
+    summary.add("continuityError", largestContinuityError_);
+    summary.add("cumulativeContinuityError", cumulativeContinuityError_);
+    summary.add("imbalance", imbalance_);
+    summary.add("wallSeconds", time_.elapsedClockTime());
+    summary.add("cpuSeconds", time_.elapsedCpuTime());
+    summary.add("ranks", Pstream::nProcs());
+    summary.add("phaseSeconds", timers.wallSeconds());
+    summary.add("phaseProcessorSeconds", timers.processorSeconds());
+    summary.add("exchangedBytes", exchangedBytes);
     if (estimate)
     {
-        summary["estimatedSeconds"] = estimate->wall;
-        summary["estimatedProcessorSeconds"] = estimate->processor;
+        summary.add("estimatedSeconds", estimate->wall);
+        summary.add("estimatedProcessorSeconds", estimate->processor);
     }
-    writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');
+    writeWhole((folder / "summary.json").c_str(), summary.text() + '\n');
 }
 
 } // namespace clepsydra
