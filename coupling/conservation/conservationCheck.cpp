@@ -6,8 +6,7 @@
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "runTimeSelection.h"
-
-#include <nlohmann/json.hpp>
+#include "tokens/jsonText.h"
 
 namespace clepsydra
 {
@@ -178,10 +177,10 @@ void ConservationCheck::writeSummary(
     }
     const fileName folder = time_.globalPath() / "postProcessing" / "conservation" / startTime_;
     mkDir(folder);
-    nlohmann::ordered_json summary = {{"timeStart", std::stod(startTime_)}, {"timeEnd", time_.value()},
-        {"particlesStart", census_.atStart()}, {"particlesEnd", census_.now()}, {"particlesLost", census_.lost()},
-        {"particlesInserted", census_.inserted()}, {"particlesLeft", census_.removed()},
-        {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
+    std::vector<std::pair<std::string, JsonValue>> summary = {{"timeStart", std::stod(startTime_)},
+        {"timeEnd", time_.value()}, {"particlesStart", census_.atStart()}, {"particlesEnd", census_.now()},
+        {"particlesLost", census_.lost()}, {"particlesInserted", census_.inserted()},
+        {"particlesLeft", census_.removed()}, {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
         {"solidVolumeError", largestSolidVolumeError_}, {"clippedVolume", largestClippedVolume_},
         {"momentumError", momentumError()}, {"pressureForceError", largestPressureForceError_},
         {"continuityError", largestContinuityError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
@@ -190,10 +189,10 @@ void ConservationCheck::writeSummary(
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
     if (estimate)
     {
-        summary["estimatedSeconds"] = estimate->wall;
-        summary["estimatedProcessorSeconds"] = estimate->processor;
+        summary.emplace_back("estimatedSeconds", estimate->wall);
+        summary.emplace_back("estimatedProcessorSeconds", estimate->processor);
     }
-    writeWhole((folder / "summary.json").c_str(), summary.dump(2) + '\n');
+    writeWhole((folder / "summary.json").c_str(), jsonText(summary) + '\n');
 }
 
 } // namespace clepsydra

@@ -1,11 +1,9 @@
 #include "decision/evidence.h"
 
 #include "decision/spread.h"
+#include "emulator/distributions.h"
 
 #include "lists.h"
-
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -370,18 +368,14 @@ double Evidence::largestChiSquare(double sds) const
     {
         return std::numeric_limits<double>::infinity();
     }
-    const double beyond = boost::math::cdf(boost::math::complement(boost::math::normal(), sds));
     const auto rows = static_cast<double>(layout_.rows);
-    return rows
-           * boost::math::quantile(boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), beyond));
+    return rows * fisherValueBeyond(probabilityBeyondNormal(sds), rows, layout_.noiseFreedom);
 }
 
 double Evidence::chanceOfChiSquare(double chiSquare) const
 {
     const auto rows = static_cast<double>(layout_.rows);
-    return isExact() ? boost::math::cdf(
-               boost::math::complement(boost::math::fisher_f(rows, layout_.noiseFreedom), chiSquare / rows))
-                     : 1.0;
+    return isExact() ? probabilityBeyondFisher(chiSquare / rows, rows, layout_.noiseFreedom) : 1.0;
 }
 
 /// Likelihood with an estimated covariance: Sellentin & Heavens, Mon. Not. R. Astron. Soc. 456, L132 (2016).

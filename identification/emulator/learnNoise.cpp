@@ -1,11 +1,9 @@
 #include "emulator/covariance.h"
+#include "emulator/distributions.h"
 #include "emulator/emulator.h"
 #include "emulator/settings.h"
 
 #include "lists.h"
-
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/special_functions/digamma.hpp>
 
 #include <Eigen/Cholesky>
 
@@ -34,7 +32,7 @@ constexpr double sharedScatter = 8.0;
 /// Bias of the log of a mean square.
 double biasOfLog(double degreesOfFreedom)
 {
-    return boost::math::digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
+    return digamma(degreesOfFreedom / 2.0) - std::log(degreesOfFreedom / 2.0);
 }
 
 } // namespace
@@ -194,11 +192,10 @@ void Emulator::learnScatter()
             continue;
         }
         // An F distribution, because the noise is an estimate too.
-        const boost::math::fisher_f chance(statisticFreedom,
-            std::max(
-                1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0)));
+        const double freedomOfNoise = std::max(
+            1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0));
         if (!study_->effects[e].raisesScatter
-            && boost::math::cdf(boost::math::complement(chance, statistic / statisticFreedom)) > otherScatter)
+            && probabilityBeyondFisher(statistic / statisticFreedom, statisticFreedom, freedomOfNoise) > otherScatter)
         {
             continue;
         }

@@ -4,9 +4,8 @@
 #include "effects/measuringChain.h"
 #include "heldOut/gaussianProcess.h"
 #include "emulator/commonErrors.h"
+#include "emulator/distributions.h"
 #include "emulator/settings.h"
-
-#include <boost/math/distributions/normal.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -348,7 +347,7 @@ private:
 
     bool isBeyondItsError(const Estimate& estimate) const
     {
-        const double sds = boost::math::quantile(boost::math::normal(), 1.0 - study_.settings.level);
+        const double sds = normalQuantile(1.0 - study_.settings.level);
         return estimate.value > sds * estimate.standardError;
     }
 
