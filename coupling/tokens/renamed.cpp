@@ -28,6 +28,8 @@ const Renamed* renamed(const std::string& word)
         {"bead", {"particle", ""}},
         // study files
         {"rig", {"simulator", ""}},
+        // the DEM script
+        {"forget_parted", {"tangential_reset", ""}},
         // the program closures
         {"--beadDiameter", {"--particleDiameter", ""}},
         {"--beadDensity", {"--particleDensity", ""}},

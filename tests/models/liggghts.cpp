@@ -361,9 +361,9 @@ Eigen::MatrixXd heap(
 TEST(Liggghts, HasTheSameContactsAsItsOwn)
 {
     feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
-    const Eigen::MatrixXd ours = heap(2000, "forget_parted off");
+    const Eigen::MatrixXd ours = heap(2000, "tangential_reset off");
     fedisableexcept(FE_ALL_EXCEPT);
-    const Eigen::MatrixXd theirs = heap(2000, "forget_parted off tangential_damping on");
+    const Eigen::MatrixXd theirs = heap(2000, "tangential_reset off tangential_damping on");
     EXPECT_EQ(ours, theirs);
     EXPECT_GT(ours.bottomRows<3>().norm(), 1) << "nothing turns, so nothing touches";
 }
@@ -375,9 +375,9 @@ TEST(Liggghts, ForgetsWhatItsOwnForgetsWithAListForEveryStep)
 {
     constexpr int steps = 1200;
     const Eigen::MatrixXd ours = heap(steps, "");
-    EXPECT_EQ(ours, heap(steps, "forget_parted on tangential_damping on"));
-    EXPECT_EQ(ours, heap(steps, "forget_parted off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
-    EXPECT_NE(ours, heap(steps, "forget_parted off"));
+    EXPECT_EQ(ours, heap(steps, "tangential_reset on tangential_damping on"));
+    EXPECT_EQ(ours, heap(steps, "tangential_reset off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
+    EXPECT_NE(ours, heap(steps, "tangential_reset off"));
 }
 
 /// Particles are found by a hash of their numbers, whose memory does not grow with the largest of them on every rank, with the
@@ -390,7 +390,7 @@ TEST(Liggghts, FindsParticlesByAHashAsByAnArray)
 
 /// A particle is led past another: it touches it and shears the contact by B, parts, goes back, and touches it again with a
 /// shear of B, all within one neighbour list. The second contact is a new one, its spring k_t B. LIGGGHTS goes on with
-/// the old one, 2 k_t B, which `forget_parted off` keeps. Both hold whoever evaluates the contact: a further word in the
+/// the old one, 2 k_t B, which `tangential_reset off` keeps. Both hold whoever evaluates the contact: a further word in the
 /// line brings LIGGGHTS' own loop back.
 TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
 {
@@ -425,10 +425,11 @@ TEST(Liggghts, ForgetsTheSpringOfAContactThatHasParted)
         return otherForce(probe, 1).x() / (stiffness * shear);
     };
     EXPECT_NEAR(secondSpring(""), 1, 0.01);
-    EXPECT_NEAR(secondSpring("forget_parted on tangential_damping on"), 1, 0.01);
-    EXPECT_NEAR(secondSpring("forget_parted off"), 2, 0.01);
-    EXPECT_NEAR(secondSpring("tangential_damping on forget_parted off"), 2, 0.01);
-    EXPECT_THROW(secondSpring("forget_parted maybe"), DemEngineError);
+    EXPECT_NEAR(secondSpring("tangential_reset on tangential_damping on"), 1, 0.01);
+    EXPECT_NEAR(secondSpring("tangential_reset off"), 2, 0.01);
+    EXPECT_NEAR(secondSpring("tangential_damping on tangential_reset off"), 2, 0.01);
+    EXPECT_THROW(secondSpring("tangential_reset maybe"), DemEngineError);
+    EXPECT_THROW(secondSpring("forget_parted off"), DemEngineError); // the old name
 }
 
 /// Two particles 50 um apart, one on either side of the boundary between two ranks, beyond the skin of 1 um, approach by

@@ -3,6 +3,7 @@
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/quietRegistration.h"
+#include "tokens/renamed.h"
 
 // Headers that LIGGGHTS' headers below use without including them.
 #include <mpi.h>
@@ -61,14 +62,14 @@ namespace models = LIGGGHTS::ContactModels;
 
 using HertzOfLiggghts = LIGGGHTS::PairStyles::Granular<models::ContactModel<HertzStyle>>;
 
-constexpr const char* forgetKeyword = "forget_parted";
+constexpr const char* resetKeyword = "tangential_reset";
 
 /// LIGGGHTS' pair style with a loop over many contacts at a time in place of a chain of calls for each contact. Options
 /// that few scripts use are left to LIGGGHTS' own loop.
 ///
 /// LIGGGHTS keeps the tangential displacement of a contact until the next neighbour list, so particles that have
 /// separated and collide again before that start with the old displacement. Here the displacement is reset at
-/// separation, unless the script says `forget_parted off`.
+/// separation, unless the script says `tangential_reset off`.
 class HertzPairStyle : public HertzOfLiggghts
 {
 public:
@@ -80,7 +81,7 @@ public:
     void settings(int count, char** tokens, LIGGGHTS::IContactHistorySetup* history) override
     {
         std::vector<char*> rest(tokens, tokens + count);
-        readForgetParted(rest);
+        readTangentialReset(rest);
         plain_ = rest.empty();
         HertzOfLiggghts::settings(static_cast<int>(rest.size()), rest.data(), history);
     }
@@ -102,7 +103,7 @@ public:
             for (int particle = 0; pair->listgranhistory && particle < pair->list->inum; ++particle)
             {
                 findContacts(*pair, pair->list->ilist[particle]);
-                forgetParted(*pair, pair->list->ilist[particle]);
+                resetSeparated(*pair, pair->list->ilist[particle]);
             }
 #ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style excludes
             HertzOfLiggghts::compute_force(pair, energies, virials, forCompute);
@@ -156,11 +157,18 @@ private:
         }
     };
 
-    /// Removes `forget_parted on|off` from the tokens.
-    void readForgetParted(std::vector<char*>& tokens)
+    /// Removes `tangential_reset on|off` from the tokens.
+    void readTangentialReset(std::vector<char*>& tokens)
     {
+        for (const char* word : tokens)
+        {
+            if (const Renamed* now = renamed(word))
+            {
+                throw LiggghtsStopped(std::string("'") + word + "' is now '" + now->newName + "'", false);
+            }
+        }
         const auto keyword = std::find_if(
-            tokens.begin(), tokens.end(), [](const char* word) { return word == std::string(forgetKeyword); });
+            tokens.begin(), tokens.end(), [](const char* word) { return word == std::string(resetKeyword); });
         if (keyword == tokens.end())
         {
             return;
@@ -168,9 +176,9 @@ private:
         const std::string value = keyword + 1 == tokens.end() ? "" : *(keyword + 1);
         if (value != "on" && value != "off")
         {
-            throw LiggghtsStopped(std::string("'") + forgetKeyword + ' ' + value + "'; allowed: on, off", false);
+            throw LiggghtsStopped(std::string("'") + resetKeyword + ' ' + value + "'; allowed: on, off", false);
         }
-        forgetsParted_ = value == "on";
+        resetsTangential_ = value == "on";
         tokens.erase(keyword, keyword + 2);
     }
 
@@ -204,7 +212,7 @@ private:
     void addContacts(lmp::PairGran& pair, int i, double shearStep)
     {
         findContacts(pair, i);
-        forgetParted(pair, i);
+        resetSeparated(pair, i);
         const int* const neighbours = pair.list->firstneigh[i];
         int* const flags = pair.listgranhistory->firstneigh[i];
         double* const history = pair.listgranhistory->firstdouble[i];
@@ -230,7 +238,7 @@ private:
         const double* const at = atoms.x[i];
         const double radius = atoms.radius[i];
         touching_.clear(neighbourCount);
-        parted_.clear(neighbourCount);
+        separated_.clear(neighbourCount);
         for (int neighbour = 0; neighbour < neighbourCount; ++neighbour)
         {
             const int j = neighbours[neighbour] & NEIGHMASK;
@@ -241,15 +249,15 @@ private:
             const bool touches = dx * dx + dy * dy + dz * dz < reach * reach;
             const bool touched = flags[neighbour] != 0;
             touching_.addIf(touches, neighbour);
-            parted_.addIf(!touches & touched, neighbour);
+            separated_.addIf(!touches & touched, neighbour);
         }
     }
 
-    void forgetParted(lmp::PairGran& pair, int i)
+    void resetSeparated(lmp::PairGran& pair, int i)
     {
-        for (std::size_t parting = 0; forgetsParted_ && parting < parted_.count; ++parting)
+        for (std::size_t contact = 0; resetsTangential_ && contact < separated_.count; ++contact)
         {
-            const int neighbour = parted_.which[parting];
+            const int neighbour = separated_.which[contact];
             pair.listgranhistory->firstneigh[i][neighbour] = 0;
             std::fill_n(pair.listgranhistory->firstdouble[i] + pair.dnum() * neighbour, pair.dnum(), 0.0);
         }
@@ -314,7 +322,7 @@ private:
     lmp::LAMMPS& program_;
     /// True where the script's line has no further tokens, such as limitForce.
     bool plain_ = false;
-    bool forgetsParted_ = true;
+    bool resetsTangential_ = true;
     double** youngsModulus_ = nullptr;
     double** shearModulus_ = nullptr;
     double** damping_ = nullptr;
@@ -323,7 +331,7 @@ private:
     /// Indexed by the two types.
     std::vector<Material> materials_;
     Chosen touching_;
-    Chosen parted_;
+    Chosen separated_;
     HertzContacts contacts_;
     std::array<Partners, HertzContacts::most> partners_;
 };

@@ -162,7 +162,7 @@ class DemScript:
                     "whose restart this one reads"
                 ),
             )
-        return self.left_out(line, "the coupling runs LIGGGHTS, from interval to interval")
+        return self.left_out(line, "the coupling itself runs LIGGGHTS, one coupling step at a time")
 
     def take_gravity(self, words: list[str], line: str) -> None:
         try:
