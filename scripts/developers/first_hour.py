@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Does on a bare Debian what the first pages say, line by line as they stand there, and times each line.
 
-Usage: firstHour --json FILE [--quick] [--keep FOLDER] [--mirror URL]
-       firstHour --list
+Usage: firstHour --json FILE [--quick] [--page PAGE] [--suite NAME] [--keep FOLDER] [--mirror URL]
+       firstHour --list [--quick] [--page PAGE]
 
 Needs root and debootstrap (apt-get install debootstrap). Two roots are made, of Debian's smallest set of packages: one
 with a clone of this repository's last commit, one that gets nothing but the Debian package which was packed in the
@@ -44,6 +44,8 @@ def main() -> None:
     parser.add_argument("--json", type=Path, metavar="FILE", help="what was typed and how long it took")
     parser.add_argument("--list", action="store_true", help="only say what would be typed")
     parser.add_argument("--quick", action="store_true", help="a small quick hopper; without the lines that take long")
+    parser.add_argument("--page", metavar="PAGE", help="only the lines of this page, as README.md")
+    parser.add_argument("--suite", default="bookworm", metavar="NAME", help="of Debian, as trixie (%(default)s)")
     parser.add_argument(
         "--keep",
         type=Path,
@@ -56,7 +58,9 @@ def main() -> None:
     given = parser.parse_args()
     if given.list == bool(given.json):
         parser.error("either --list or --json FILE")
-    parts = read_parts(given.quick)
+    parts = [part for part in read_parts(given.quick) if given.page in (None, part["page"])]
+    if not parts:
+        parser.error(f"--page {given.page}: {TABLE} has no such page")
     if given.list:
         for part in parts:
             print(f"--- {part['page']}, in the {part['root']}'s root, {part['folder']}")
@@ -154,7 +158,7 @@ class Hour:
         return self.steps
 
     def make_roots(self) -> None:
-        suite, root = "bookworm", self.roots["repository"]
+        suite, root = self.given.suite, self.roots["repository"]
         command = ["debootstrap", "--variant=minbase", suite, root, self.given.mirror]
         start = time.monotonic()
         with open(self.folder / "debootstrap.log", "w") as log:
