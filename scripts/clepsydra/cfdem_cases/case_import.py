@@ -9,7 +9,7 @@ from typing import Any, Iterable
 from clepsydra.cfdem_cases import foam_text, inlets
 from clepsydra.cfdem_cases.dem_script import DemScript, output_folders, with_seeds
 from clepsydra.cfdem_cases.report import Report
-from clepsydra.cfdem_cases.settings import Settings
+from clepsydra.cfdem_cases.settings import PROPS, Settings
 
 # Files that need nothing done: fields that our coupling makes itself, and settings of what is not chosen.
 FIELDS_WITHOUT_COUNTERPART = (
@@ -31,7 +31,8 @@ FIELDS_WITHOUT_COUNTERPART = (
     "partVel",
     "voidfraction_0",
 )
-FIELDS_IN_PROBES = {"p": "p", "U": "U", "voidfraction": "voidFraction"}
+# phi there is the flux of the fluid's volume, void fraction times velocity
+FIELDS_TO_SAMPLE = {"p": "p", "U": "U", "voidfraction": "voidFraction", "phi": "alphaPhi"}
 CONSTANT_FILES = (
     "couplingProperties",
     "liggghtsCommands",
@@ -42,6 +43,7 @@ CONSTANT_FILES = (
     "environmentalProperties",
     "g",
     "dynamicMeshDict",
+    "particleTrackProperties",
     "polyMesh",
     "triSurface",
 )
@@ -123,6 +125,10 @@ class Import:
                 report.error(where, name, "is stated, and nothing here reads it")
 
     def read(self, name: str) -> foam_text.Dictionary:
+        path = self.case / name
+        variants = sorted(other.name for other in path.parent.glob(f"{path.name}_*"))
+        if not path.exists() and variants:
+            raise foam_text.FoamError(f"{name}: there is none; copy one of these to that name: {', '.join(variants)}")
         found = foam_text.read(self.case / name, name)
         self.open_files.append(found)
         return found
@@ -141,8 +147,10 @@ class Import:
         self.files[where] = script.text()
         steps = self.settings.interval_in_steps
         if script.couple_every not in (None, steps):
-            self.report.error(
-                where, f"couple_every {script.couple_every}", f"couplingInterval of couplingProperties is {steps:g}"
+            self.report.change(
+                where,
+                f"couple_every {script.couple_every}",
+                f"is not what counts, there as here: couplingInterval {steps:g} of couplingProperties is",
             )
         self.files |= {folder: None for folder in output_folders(script.text())}
         self.before_it = self.script_that_writes(script.restart)
@@ -224,9 +232,10 @@ class Import:
                 props.is_read()
             else:
                 self.report.error(old.where, name, "has no counterpart; known: runLiggghts, writeLiggghts")
-        for name in list(old.entries):
-            if name.endswith("Props") and name not in old.asked:
-                old.sub(name).is_read()
+        for name, props in old.entries.items():
+            if PROPS.search(name) and name not in old.asked:
+                old.asked.add(name)
+                props.is_read()
                 self.report.left_out(old.where, name, "of a command that is not chosen")
 
     def control_dict(self) -> None:
@@ -281,7 +290,7 @@ class Import:
         if isinstance(old, str):
             old = foam_text.listed(old, f"{self.control.where}/functions") if old else None
         new = {}
-        for name, function in (old.entries if old else {}).items():
+        for name, function in (old.is_read().entries if old else {}).items():
             where = function.where
             entries = dict(function.entries)
             entries.pop("name", None) if entries.get("name") == name else None
@@ -296,13 +305,13 @@ class Import:
                 entries.get("writeControl", "timeStep"), entries.get("writeControl", "timeStep")
             )
             wanted = entries.get("fields", "").strip("() ").split()
-            kept = [FIELDS_IN_PROBES[field] for field in wanted if field in FIELDS_IN_PROBES]
+            kept = [FIELDS_TO_SAMPLE[field] for field in wanted if field in FIELDS_TO_SAMPLE]
             for field in wanted:
-                if field == "voidfraction":
-                    self.report.change(where, field, "is voidFraction here")
-                elif field not in FIELDS_IN_PROBES:
+                if FIELDS_TO_SAMPLE.get(field, field) != field:
+                    self.report.change(where, field, f"is {FIELDS_TO_SAMPLE[field]} here")
+                elif field not in FIELDS_TO_SAMPLE:
                     self.report.left_out(
-                        where, field, f"no such field here; there are: {', '.join(FIELDS_IN_PROBES.values())}"
+                        where, field, f"no such field here; there are: {', '.join(FIELDS_TO_SAMPLE.values())}"
                     )
             if wanted and not kept:
                 self.report.error(where, "fields", f"none of ({' '.join(wanted)}) is a field here")
@@ -465,6 +474,11 @@ class Import:
                     and self.read(where).is_read().text("dynamicFvMesh") != "staticFvMesh"
                 ):
                     self.report.error(where, path.name, "the mesh does not move here; allowed: staticFvMesh")
+                elif folder == "system" and path.name not in known:
+                    self.files[f"system/{path.name}"] = path
+                    self.report.left_out(where, path.name, "is copied; neither Allrun nor pimpleDemFoam reads it")
+                elif path.name.startswith(tuple(f"{name}_" for name in known)):
+                    self.report.left_out(where, path.name, "another version of a file that the case has")
                 elif path.name not in known:
                     self.report.error(where, path.name, "nothing here reads this file")
                 elif folder == "0":

@@ -49,10 +49,8 @@ class Dictionary:
         return self.text(name, "").replace("(", " ").replace(")", " ").replace('"', " ").split()
 
     def sub(self, name: str) -> "Dictionary":
-        """The dictionary of that name; an empty one where there is none."""
-        self.asked.add(name)
-        value = self.entries.get(name)
-        return value if isinstance(value, Dictionary) else Dictionary(f"{self.where}/{name}")
+        """The dictionary that OpenFOAM takes for a name; an empty one where there is none."""
+        return self.matching(name) or Dictionary(f"{self.where}/{name}")
 
     def unread(self) -> Iterator[tuple[str, str]]:
         """Names of the entries that nobody asked for, those of dictionaries that were asked for as well."""
@@ -65,10 +63,11 @@ class Dictionary:
     def matching(self, name: str) -> "Dictionary | None":
         """The dictionary that OpenFOAM takes for a name: its own, else that of the last pattern which fits; None where
         none does."""
-        if name in self.entries:
-            return self.sub(name)
         fitting = [pattern for pattern in self.entries if is_pattern(pattern) and re.fullmatch(pattern, name)]
-        return self.sub(fitting[-1]) if fitting else None
+        key = name if name in self.entries or not fitting else fitting[-1]
+        self.asked.add(key)
+        value = self.entries.get(key)
+        return value if isinstance(value, Dictionary) else None
 
     def is_read(self) -> "Dictionary":
         """Everything in it counts as asked for."""

@@ -1,5 +1,6 @@
 """constant/couplingProperties of CFDEMcoupling: which entry is which of ours."""
 
+import re
 from typing import Any, Iterable
 
 from clepsydra.cfdem_cases import foam_text
@@ -8,6 +9,7 @@ from clepsydra.cfdem_cases.report import Report
 # Entry -> the values for which there is nothing to do. None: any.
 WITHOUT_COUNTERPART = {
     "syncMode": None,
+    "debug": None,
     "verbose": None,
     "locateModel": None,
     "averagingModel": None,
@@ -64,7 +66,10 @@ NOTHING_TO_DO = (
     "upperLimit",
     "treeSearch",
     "forceSubModels",
+    "maxNumberOfParticles",  # of the exchange by files, and of arrays of old versions
+    "rhoParticle",  # of filtered drag, which is refused
 )
+PROPS = re.compile(r"Props\d*\)?$")  # also of a pattern: (twoWayMPIProps|M2MProps)
 ONE = ("phi", "scaleUpVol", "scaleDia", "scaleDrag", "scale", "weight")
 SWITCHED_OFF = ("off", "false", "no")
 
@@ -92,7 +97,9 @@ class Settings:
         self.other_props()
 
     def script_of(self, exchange: str) -> str:
-        return self.old.sub(f"{exchange}Props").needed("liggghtsPath").strip('"')
+        props = self.old.sub(f"{exchange}Props")
+        self.plain_words(props)
+        return props.needed("liggghtsPath").strip('"')
 
     def without_counterpart(self) -> None:
         for name, harmless in WITHOUT_COUNTERPART.items():
@@ -225,6 +232,7 @@ class Settings:
     def other_props(self) -> None:
         """Of models that are not chosen: nobody read them there either."""
         for name, value in self.old.entries.items():
-            if name.endswith("Props") and name not in self.old.asked and isinstance(value, foam_text.Dictionary):
-                self.old.sub(name).is_read()
+            if PROPS.search(name) and name not in self.old.asked and isinstance(value, foam_text.Dictionary):
+                self.old.asked.add(name)
+                value.is_read()
                 self.report.left_out(self.where, name, "of a model that is not chosen")
