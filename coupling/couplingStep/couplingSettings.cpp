@@ -144,8 +144,8 @@ void CouplingSettings::checkTimeStep() const
     if (time_.controlDict().getOrDefault<Switch>("adjustTimeStep", false))
     {
         FatalIOErrorInFunction(time_.controlDict())
-            << "Entry 'adjustTimeStep' is on; allowed: off, because the fluid's time step is the coupling step"
-            << exit(FatalIOError);
+            << "Entry 'adjustTimeStep' is on; allowed: off, because the fluid's time step is the coupling step, which "
+            << "adapts by adjustableCouplingTimeStep in constant/couplingProperties" << exit(FatalIOError);
     }
     if (std::abs(time_.deltaTValue() / couplingTimeStep_ - 1) > sameTime)
     {

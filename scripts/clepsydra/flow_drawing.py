@@ -1,5 +1,5 @@
-"""Particles and water of a case in its middle plane, and beside them what a scale would read: of renderFlow and
-movie."""
+"""Particles and water of a case in its middle plane, and beside them the mass in the hopper against time: of
+renderFlow and movie."""
 
 import sys
 from pathlib import Path

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Film of a case that has run or is running: particles as spheres by speed, the water's speed and streamlines, the
-scale's reading.
+"""Film of a case that has run or is running: particles as spheres coloured by speed, the water's speed and streamlines,
+and the mass in the hopper.
 
 Usage: movie [options] CASE FILE...
 
-One picture for each time that the case has written particles of (`drawParticles`, `fieldInterval` of a hopper). Each
-FILE is made of the same pictures, by its ending: .mp4 or .webm, a film; .gif, .webp or .apng, a small animation that
-pages show. """
+One picture for each time at which the case has written its particles (entries `drawParticles` and `fieldInterval` of
+the quick hopper's `parameters`). Each FILE is made of the same pictures, by its ending: .mp4 or .webm, a film; .gif,
+.webp or .apng, a small animation that pages show. """
 
 import argparse
 import math

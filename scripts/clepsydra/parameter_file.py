@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""A case's file `parameters`: a flat OpenFOAM dictionary of entries "name value;", one a line. Read and changed here
-only."""
+"""Prints and changes entries of a case's file `parameters`, a flat OpenFOAM dictionary of lines "name value;".
+
+Comments are kept. Only this module reads and changes that file."""
 
 import argparse
 import difflib

@@ -1,4 +1,4 @@
-"""Particles and water in the middle plane of a hopper, and the mass in it against time: what a scale would read."""
+"""Particles and water in the middle plane of a hopper, and the mass in it against time."""
 
 import argparse
 from pathlib import Path

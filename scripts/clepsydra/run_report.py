@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The report of a run as one page that needs nothing beside it: what it measured, its balances, its time, its settings,
-what was amiss.
+"""The report of a run as one page that needs no other file: observables, conservation checks, computing time, settings,
+warnings.
 
 Usage: runReport CASE FILE.html        CASE has run or is running: everything is taken from its log and the files it
 writes

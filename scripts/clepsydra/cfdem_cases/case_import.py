@@ -66,9 +66,9 @@ def import_case(case: Path, target: Path, without: Iterable[str] = ()) -> Report
     """The report. Writes target only where it has no errors."""
     report = Report(without)
     if not (case / "CFD").is_dir() or not (case / "DEM").is_dir():
-        raise foam_text.FoamError(f"{case}: no case of CFDEMcoupling; allowed: a folder with CFD/ and DEM/")
+        raise foam_text.FoamError(f"{case}: is no case of CFDEMcoupling; allowed: a folder with CFD/ and DEM/")
     if target.exists():
-        raise foam_text.FoamError(f"{target}: is there already")
+        raise foam_text.FoamError(f"{target}: is there already; allowed: a folder that does not exist")
     try:
         files = Import(case, report).files
     except foam_text.FoamError as problem:
@@ -122,7 +122,7 @@ class Import:
         self.allrun()
         for old in self.open_files:
             for where, name in old.unread():
-                report.error(where, name, "is stated, and nothing here reads it")
+                report.error(where, name, "has no counterpart here")
 
     def read(self, name: str) -> foam_text.Dictionary:
         path = self.case / name
@@ -188,8 +188,8 @@ class Import:
             where,
             what,
             (
-                f"is in seconds here, {chosen:g} s: {there:g} s there, the fluid's step deltaT {delta_t:g} s; "
-                "here both are one"
+                f"is in seconds here, couplingTimeStep {chosen:g} s: in the old case the coupling interval is "
+                f"{there:g} s and the fluid's deltaT {delta_t:g} s, here both are one"
             ),
         )
         return chosen
@@ -207,8 +207,8 @@ class Import:
                 self.script.where,
                 f"timestep {self.script.time_step:g}",
                 (
-                    "is not held against the Rayleigh time, for there is one particle: where it meets a wall, take"
-                    " maxRayleighFraction out of DEM in constant/couplingProperties"
+                    "is not compared with the Rayleigh time, since there is one particle only. Where it meets a wall,"
+                    " remove maxRayleighFraction from DEM in constant/couplingProperties"
                 ),
             )
         self.liggghts_commands(entries["DEM"])

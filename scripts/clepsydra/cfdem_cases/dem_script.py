@@ -90,7 +90,7 @@ class DemScript:
                 self.lines.append(kept)
         if not map_array:
             self.lines.insert(0, "atom_modify     map array")
-            report.change(where, "atom_modify map array", "added: the coupling finds particles by their number")
+            report.change(where, "atom_modify map array", "added: the coupling finds particles by their id")
         for name, value in (("timestep", self.time_step), ("fix ... gravity", self.gravity)):
             if value is None:
                 report.error(where, name, "is missing")
@@ -128,7 +128,7 @@ class DemScript:
             return None
         if command == "newton" and words[1:] != ["off"]:
             self.report.change(
-                self.where, line.strip(), "newton off: bonds of particles are not halved between ranks here"
+                self.where, line.strip(), "newton off: here each rank evaluates all contacts of its particles"
             )
             return "newton          off"
         if command == "timestep":
@@ -149,7 +149,7 @@ class DemScript:
         self.gone.add(f"f_{words[1]}")
         if "couple_every" in words:
             self.couple_every = int(self.number(words[words.index("couple_every") + 1], line))
-        return self.left_out(line, "pimpleDemFoam couples by itself")
+        return self.left_out(line, "pimpleDemFoam couples without a fix of the script")
 
     def run(self, words: list[str], line: str) -> Any:
         steps = self.number(words[1], line)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Writes a case of ours from one of CFDEMcoupling, and says what means something else here, what is left out, and why.
+"""Converts a case of CFDEMcoupling into one of pimpleDemFoam, and reports which entries have another meaning here,
+which are left out, and why.
 
-What the old case states and nothing here reads is an error, and nothing is written, unless --without names it.
+An entry of the old case that has no counterpart is an error, and nothing is written, unless --without names it.
 """
 
 import argparse

@@ -44,7 +44,7 @@ def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, repo
             f"{patch} of U",
             (
                 f"0/voidfraction is {fraction:g} there, so that the velocity is a superficial one; "
-                "it is divided by the void fraction of the particles at the patch now"
+                "here the velocity at the patch is divided by the void fraction there"
             ),
         )
 

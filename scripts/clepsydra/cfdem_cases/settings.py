@@ -136,8 +136,8 @@ class Settings:
             self.where,
             f"smoothingLength {length:g}",
             (
-                f"is a bandwidth of {2 * length:g} here: a length L spreads there by a "
-                "standard deviation of sqrt(2) L, one implicit step of diffusion, and here of L/sqrt(2)"
+                f"is a bandwidth of {2 * length:g} m here: the standard deviation is sqrt(2) smoothingLength there "
+                "(one implicit step of diffusion) and bandwidth/sqrt(2) here, which is the same"
             ),
         )
 
@@ -152,7 +152,9 @@ class Settings:
                 continue
             if name not in SAME_FORCES and name not in OTHER_NAMES:
                 self.report.error(
-                    self.where, name, f"is no force here; known: {', '.join([*SAME_FORCES, *OTHER_NAMES])}"
+                    self.where,
+                    name,
+                    f"is not among the forces here; allowed: {', '.join([*SAME_FORCES, *OTHER_NAMES])}",
                 )
                 continue
             chosen.append(OTHER_NAMES.get(name, name))
@@ -177,7 +179,7 @@ class Settings:
             self.report.left_out(
                 props.where,
                 "interpolation",
-                "the fluid at a particle is always the mean over what the particle acts on",
+                "the fluid at a particle is always the mean over the cells on which the particle acts",
             )
 
     def plain_words(self, props: foam_text.Dictionary) -> None:
@@ -204,13 +206,13 @@ class Settings:
         models = self.old.words("momCoupleModels")
         for name in models:
             if name not in ("implicitCouple", "explicitCouple"):
-                self.report.error(
-                    self.where, name, "is no way of giving momentum here; known: implicitCouple, explicitCouple"
-                )
+                self.report.error(self.where, name, "is not known here; allowed: implicitCouple, explicitCouple")
             self.plain_words(self.old.sub(f"{name}Props"))
         if len(models) == 2:
             self.report.change(
-                self.where, "momCoupleModels", "one model here, implicitCouple: it hands over all forces"
+                self.where,
+                "momCoupleModels",
+                "one model here, implicitCouple: it gives the reactions of all forces to the fluid",
             )
             return ["implicitCouple"]
         return models
@@ -224,8 +226,8 @@ class Settings:
                 self.where,
                 "useDDTvoidfraction",
                 (
-                    "off, as in the old case; where particles move 'on' is right, with "
-                    "useDDTvoidfractionProps { smoothingTime } of some ms"
+                    "off, as in the old case; where particles move, on is right, with "
+                    "useDDTvoidfractionProps { smoothingTime } of a few milliseconds"
                 ),
             )
 
