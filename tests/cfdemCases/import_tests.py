@@ -202,6 +202,35 @@ class Meanings(Folder):
         self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
 
 
+    def test_what_todays_tutorials_write(self) -> None:
+        """A regular expression as keyword, couple_every beside couplingInterval, executeProps of a command that is not
+        chosen, and dictionaries of other programs: ErgunTestMPI of CFDEMcoupling-PUBLIC has all of them."""
+        coupling = "CFD/constant/couplingProperties"
+        case = self.case("settlingParticle", coupling, "twoWayMPIProps", '"(twoWayMPIProps|M2MProps)"')
+        script = case / "DEM/in.liggghts_run"
+        script.write_text(script.read_text().replace("couple_every 100", "couple_every 50"))
+        with open(case / "CFD/constant/liggghtsCommands", "a") as commands:
+            commands.write("executeProps2 { command (run); }\n")
+        (case / "CFD/system/funkySetFieldsDict").write_text("expressions ( );\n")
+        told = self.imported(case)
+        for word in ("couple_every 50", "executeProps2", "funkySetFieldsDict"):
+            self.assertIn(word, told)
+        self.assertIn('"DEM/in.liggghts_run"', (self.target / "constant/couplingProperties").read_text())
+        self.assertTrue((self.target / "system/funkySetFieldsDict").exists())
+
+    def test_functions_as_a_dictionary(self) -> None:
+        """phi of CFDEMcoupling is the flux of the fluid's volume."""
+        control = "CFD/system/controlDict"
+        case = self.case("settlingParticle", control)
+        with open(case / control, "a") as end:
+            end.write(
+                "functions { flow { type surfaceFieldValue; functionObjectLibs (fieldFunctionObjects); fields ( phi ); } }"
+            )
+        self.imported(case)
+        written = (self.target / "system/controlDict").read_text()
+        self.assertRegex(written, r"flow\s*{[^}]*fields\s+\( alphaPhi \)")
+
+
 class Errors(Folder):
     """Nothing is written, and the message names the file and the entry."""
 
@@ -218,7 +247,6 @@ class Errors(Folder):
             (control, "adjustTimeStep  no", "adjustTimeStep  yes", "adjustTimeStep"),
             (control, "endTime         0.15;", 'endTime         0.15; libs ("libmine.so");', "libs"),
             (control, "endTime         0.15;", "endTime         0.15; graphFormat raw;", "graphFormat"),
-            (script, "couple_every 100", "couple_every 50", "couple_every"),
             (script, "run             0\n", "run             5000\n", "run"),
             (script, "couple/cfd/force\n", "couple/cfd/convection\n", "couple/cfd/convection"),
             (
