@@ -218,6 +218,16 @@ class Meanings(Folder):
         self.assertIn('"DEM/in.liggghts_run"', (self.target / "constant/couplingProperties").read_text())
         self.assertTrue((self.target / "system/funkySetFieldsDict").exists())
 
+    def test_keywords_with_brackets(self) -> None:
+        """Taken apart, div(phi,U) would be an entry 'div', and OpenFOAM would take the default in its place."""
+        schemes = "CFD/system/fvSchemes"
+        case = self.case("settlingParticle", schemes)
+        old = (case / schemes).read_text()
+        (case / schemes).write_text(old.replace("divSchemes\n{", "divSchemes\n{\n    div((nuEff*dev2(T(grad(U))))) none;"))
+        self.imported(case)
+        written = (self.target / "system/fvSchemes").read_text()
+        self.assertRegex(written, r"\sdiv\(\(nuEff\*dev2\(T\(grad\(U\)\)\)\)\) +none;")
+
     def test_functions_as_a_dictionary(self) -> None:
         """phi of CFDEMcoupling is the flux of the fluid's volume."""
         control = "CFD/system/controlDict"

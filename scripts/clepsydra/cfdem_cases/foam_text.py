@@ -4,7 +4,14 @@ import re
 from pathlib import Path
 from typing import Any, Iterator
 
-TOKEN = re.compile(r'\s+|//[^\n]*|/\*.*?\*/|(?P<token>"[^"]*"|[{}()\[\];]|[^\s{}()\[\];"]+)', re.DOTALL)
+# A word may have closed brackets in it: div(phi,U), div((nuEff*dev2(T(grad(U)))))
+_INSIDE = r"[^\s{}()\[\];\"]*"
+_CALL = rf"\({_INSIDE}\)"
+for _ in range(5):
+    _CALL = rf"\({_INSIDE}(?:{_CALL}{_INSIDE})*\)"
+TOKEN = re.compile(
+    rf'\s+|//[^\n]*|/\*.*?\*/|(?P<token>"[^"]*"|[^\s{{}}()\[\];"]+(?:{_CALL}{_INSIDE})*|[{{}}()\[\];])', re.DOTALL
+)
 CLOSES = {"(": ")", "[": "]", "{": "}"}
 
 
@@ -79,7 +86,8 @@ class Dictionary:
 
 
 def is_pattern(name: str) -> bool:
-    return not re.fullmatch(r"[\w.:-]+", name)
+    """Whether a keyword was in quotes; div(phi,U) is a word."""
+    return not re.fullmatch(r"[\w.:-]+(\([^|]*\))?", name)
 
 
 def read(path: Path, where: str | None = None) -> Dictionary:
