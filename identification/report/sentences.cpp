@@ -15,7 +15,7 @@ namespace
 {
 
 constexpr const char* unlistedCause = "a cause that the library does not list";
-constexpr const char* unseen = "the error on measurements that no fit has seen";
+constexpr const char* unseen = "the error on held-out measurements";
 
 /// "this, that and those"
 std::string joined(const std::vector<std::string>& parts, const std::string& last)

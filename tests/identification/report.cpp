@@ -117,8 +117,8 @@ TEST(Sentence, SaysWhatWasFound)
     bench.found(Decision::named, {{1, 0.5}});
     bench.heldOutErrors(0.351, 0.0207);
     EXPECT_EQ(sentenceOf(bench.findings),
-        "The residual is explained by: water that moves along with a particle (y 0.020); with it the error on "
-        "measurements that no fit has seen falls from 35 to 2.1 %.");
+        "The residual is explained by: water that moves along with a particle (y 0.020); with it the error on held-out "
+        "measurements falls from 35 to 2.1 %.");
 }
 
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
