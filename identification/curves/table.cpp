@@ -218,7 +218,7 @@ Table readTable(const std::filesystem::path& file)
         {
             throw std::runtime_error(
                 where + "'" + shortened(*wrong)
-                + "' is no number from -1e30 to 1e30; a missing value is written as nothing, NA or -");
+                + "' is not a number from -1e30 to 1e30; for a missing value, leave the field empty or write NA or -");
         }
         if (!table.columns.empty() && row.size() != table.columns.size())
         {
@@ -234,7 +234,7 @@ Table readTable(const std::filesystem::path& file)
     }
     if (table.columns.empty())
     {
-        throw std::runtime_error(file.string() + ": holds no numbers");
+        throw std::runtime_error(file.string() + ": contains no numbers");
     }
     const auto titles = titlesOf(header);
     if (titles.size() == table.columns.size())

@@ -206,9 +206,14 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
         const int toExecute = simulator_.missing(runs);
         if (effort_.executed + toExecute > study_.settings.budget)
         {
-            throw std::runtime_error(study_.file.string() + ": budget.runs is " + std::to_string(study_.settings.budget)
-                                     + "; " + std::to_string(effort_.executed) + " have been made, and '"
-                                     + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more");
+            const std::string needs =
+                '\'' + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more runs";
+            throw std::runtime_error(study_.file.string()
+                                     + (study_.settings.budget == 0 // a report from stored runs alone
+                                             ? ": not all runs are stored; " + needs
+                                             : ": budget.runs is " + std::to_string(study_.settings.budget) + "; "
+                                                   + std::to_string(effort_.executed) + " have been made, and " + needs
+                                                   + ". Increase budget.runs; runs that have been made are stored"));
         }
         const auto results = simulator_.run(runs);
         std::vector<std::size_t> failed;
@@ -249,7 +254,7 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
     }
     if (!open.empty() && study_.settings.onFailure == "stop")
     {
-        throw std::runtime_error("a run failed and the study says failures.then: stop; "
+        throw std::runtime_error("a run failed, and the study has 'failures: { then: stop }'; "
                                  + effort_.failures.back().purpose + ", condition " + effort_.failures.back().condition
                                  + ": " + effort_.failures.back().reason);
     }

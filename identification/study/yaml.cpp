@@ -95,7 +95,8 @@ YamlPlace YamlPlace::parsed(const std::filesystem::path& file)
     }
     catch (const YAML::ParserException& error)
     {
-        throw StudyError(file.string() + ":" + std::to_string(error.mark.line + 1) + ": no valid YAML: " + error.msg);
+        throw StudyError(
+            file.string() + ":" + std::to_string(error.mark.line + 1) + ": is not valid YAML: " + error.msg);
     }
 }
 

@@ -129,7 +129,7 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     Bench bench;
     writeHopperFiles(bench);
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
-    EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: holds no numbers"));
+    EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: contains no numbers"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
     EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.particleDiameter: FILL IN"));
     const std::string study = "study.yaml";
@@ -231,15 +231,15 @@ TEST(Draft, RefusesAndWritesNothing)
     bench.write("late.csv", "t_s,height_mm\n0,3\n2,2\n1,1\n3,0\n");
     bench.write("mine.yaml", "mine\n");
     const std::map<std::string, std::string> refused = {
-        {"hopperQuick folder", "folder: holds no table of numbers"},
-        {"hopperQuick folder/notes.txt", "notes.txt: holds no numbers"},
+        {"hopperQuick folder", "folder: contains no table of numbers"},
+        {"hopperQuick folder/notes.txt", "notes.txt: contains no numbers"},
         {"hopperQuick fall.csv", "writes a mass"},
         {"settlingParticle mass.csv", "writes a length"},
         {"settlingParticle fall.csv mass.csv", "no column 't_s'"},
         {"settlingParticle fall.csv late.csv", "late.csv: in line 4 the time goes back"},
         {"hopperQuick one.csv", "no column beside the time"},
         {"hopperQuick nowhere.csv", "nowhere.csv"},
-        {"../validation fall.csv", "is no case"},
+        {"../validation fall.csv", "is not a case"},
         {"settlingParticle fall.csv --output mine.yaml", "mine.yaml exists already"},
         {"settlingParticle fall.csv --output no/such/folder.yaml", "folder.yaml"},
     };

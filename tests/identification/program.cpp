@@ -258,8 +258,8 @@ TEST(Program, ReadsHeldOutValuesAfterTheAnswer)
     const auto file = workshop.path() / "dryBetween0.csv";
     const std::string good = contentOf(file);
     for (const auto& [bad, reported] :
-        std::map<std::string, std::string>{{good + "broken,scale\n", "'broken' is no number"},
-            {good + "0.5,3\n", "time goes back"}, {good + "99,1e308\n", "is no number from -1e30"}})
+        std::map<std::string, std::string>{{good + "broken,scale\n", "'broken' is not a number"},
+            {good + "0.5,3\n", "time goes back"}, {good + "99,1e308\n", "is not a number from -1e30"}})
     {
         std::ofstream(file) << bad;
         EXPECT_NE(workshop.run("run"), 0);

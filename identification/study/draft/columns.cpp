@@ -116,8 +116,9 @@ GuessedColumns guessColumns(const Table& table)
     choose(value, [&](const Meaning& m, const auto& /*unused*/) { return m.quantity != "time"; });
     if (!time || !value)
     {
-        throw std::runtime_error(time ? "no column beside the time has three numbers that differ"
-                                      : "no column can be the time: three or more numbers that never fall");
+        throw std::runtime_error(
+            time ? "no column beside the time has three numbers that differ"
+                 : "no column can be the time, which needs three or more numbers that never decrease");
     }
     const auto named = [&](std::size_t i) {
         const bool isNamed = !table.names.empty() && !table.names[i].empty() && table.index(table.names[i]) == i;

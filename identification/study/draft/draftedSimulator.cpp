@@ -115,7 +115,7 @@ DraftedSimulator draftSimulator(const fs::path& folder)
     if (!fs::is_regular_file(simulator.folder / "parameters") || !fs::is_regular_file(simulator.folder / "Allrun"))
     {
         throw std::runtime_error(folder.string()
-                                 + " is no case: it needs a file 'parameters' of lines 'name value;' and "
+                                 + " is not a case, which needs a file 'parameters' of lines 'name value;' and "
                                    "a program 'Allrun' that reads it");
     }
     simulator.entries = readEntries(simulator.folder / "parameters");

@@ -49,10 +49,11 @@ std::vector<fs::path> tablesOf(const std::vector<fs::path>& places, std::vector<
         }
         if (tables.size() == before)
         {
-            throw std::runtime_error(place.string()
-                                     + ": holds no table of numbers; expected are files .csv, .txt, .dat or .tsv with "
-                                       "a column of times and one "
-                                       "of values");
+            throw std::runtime_error(
+                place.string()
+                + ": contains no table of numbers; expected are files .csv, .txt, .dat or .tsv with "
+                  "a column of times and one "
+                  "of values");
         }
     }
     return {tables.begin(), tables.end()};
