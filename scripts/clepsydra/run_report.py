@@ -24,13 +24,13 @@ COUNTED = {
     "particlesLost": "particles lost",
 }
 ERRORS = {
-    "solidVolumeError": "solid volume in the cells against the particles', of the particles'",
-    "insertionError": "solid volume that came, went and is there, of the particles'",
-    "clippedVolume": "solid volume cut off at alphaMin [m3]",
-    "momentumError": "momentum to the particles against that from the fluid, of all impulses",
-    "pressureForceError": "pressure force on the particles against its reaction in the fluid",
-    "continuityError": "continuity of the water, of the volume in an interval",
-    "imbalance": "what a closed tank could not balance, of its volume",
+    "solidVolumeError": "solid volume in the cells minus that of the particles, relative to the latter",
+    "insertionError": "solid volume inserted minus removed minus present, relative to that of the particles",
+    "clippedVolume": "solid volume clipped at alphaMin [m3]",
+    "momentumError": "momentum received by the particles minus that given by the fluid, relative to the sum of all impulses",
+    "pressureForceError": "difference between the pressure force on the particles and its reaction in the fluid",
+    "continuityError": "continuity error of the water in a coupling step, relative to the volume",
+    "imbalance": "volume that a closed tank could not balance, relative to its volume",
 }
 SETTINGS = (
     "parameters",

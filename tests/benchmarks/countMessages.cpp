@@ -32,7 +32,7 @@ struct Count
 
 std::map<std::string, Count> counts{{"other", {}}};
 Count* current = &counts["other"];
-/// At the end of the first interval, and of the last so far.
+/// At the end of the first coupling step, and of the last so far.
 std::map<std::string, Count> first;
 std::map<std::string, Count> last;
 int ends = 0;
@@ -121,7 +121,7 @@ void writeCounts()
 extern "C"
 {
 
-    /// The program enters a phase. "output" comes once, at the end of each interval.
+    /// The program enters a phase. "output" comes once, at the end of each coupling step.
     int MPI_Pcontrol(const int level, ...)
     {
         std::va_list arguments;

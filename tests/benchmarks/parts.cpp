@@ -100,7 +100,7 @@ public:
         distribution.normalise(distribution.findCells(particles));
     }
 
-    /// All of them, as far as in an interval of 2 ms at .1 m/s.
+    /// All of them, as far as in a coupling step of 2 ms at .1 m/s.
     void move()
     {
         std::uniform_real_distribution<double> step(-2e-4, 2e-4);
@@ -158,7 +158,7 @@ void locateParticlesAtRest(benchmark::State& state)
     state.SetItemsProcessed(state.iterations() * particleCount);
 }
 
-/// Eight quantities, as an interval has: solid volume, impulse, coefficient, outstanding impulse.
+/// Eight quantities, as a coupling step has: solid volume, impulse, coefficient, outstanding impulse.
 constexpr Eigen::Index quantities = 8;
 
 void distribute(benchmark::State& state)

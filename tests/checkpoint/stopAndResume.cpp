@@ -31,7 +31,7 @@ void adjustInterval(TestCase& test)
         .set("maxCo", "0.05")
         .set("minCouplingTimeStep", "4e-5")
         .set("maxCouplingTimeStep", "4e-3");
-    // Shorter than the interval that a checkpoint is written in, and no mistake for that.
+    // Shorter than the coupling step that a checkpoint is written in, and no mistake for that.
     test.control().set("functions/massInHopper/sampleInterval", interval);
 }
 
@@ -52,8 +52,8 @@ class StopAndResume : public testing::TestWithParam<bool>
 
 // Run A+B equals run A, stop, B over 2 x 1000 DEM steps, both writing the same checkpoint in the middle. A restart that
 // loses the contacts' or the motion's history, the old void fraction, the momentum outstanding, half a step's force or
-// the length of the next interval differs by more than 1e-9 particle diameters at once; a program that ignores the checkpoint
-// begins again and differs by the box. (That of constant intervals is Killed's matter.)
+// the length of the next coupling step differs by more than 1e-9 particle diameters at once; a program that ignores the
+// checkpoint begins again and differs by the box. (That of constant coupling steps is Killed's matter.)
 TEST_P(StopAndResume, EqualsNeverStopped)
 {
     const bool fluid = GetParam();
@@ -328,9 +328,9 @@ TEST(EndedByAFunctionObject, WritesTheNextStepAndEnds)
     EXPECT_TRUE(std::filesystem::exists(test.path() / "checkpoints/0.001/complete"));
 }
 
-// A checkpoint in every interval, or only at the end: the same run but for rounding, which the order of the neighbours
-// changes at a checkpoint, and contacts make grow: so 1000 steps only. Where the first half of the step after a
-// checkpoint is made with forces made again in place of those of the last step, the particles are 3e-4 d apart.
+// A checkpoint in every coupling step, or only at the end: the same run but for rounding, which the order of the
+// neighbours changes at a checkpoint, and contacts make grow: so 1000 steps only. Where the first half of the step
+// after a checkpoint is made with forces made again in place of those of the last step, the particles are 3e-4 d apart.
 TEST(WrittenOften, IsTheSameRun)
 {
     TestCase seldom;
@@ -387,8 +387,8 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
     }
 }
 
-// Intervals have become shorter than controlDict's deltaT, 1 ms: stopped .4 ms before a write time and again before the end,
-// the run writes both. One that takes half of deltaT for near enough ends without.
+// Coupling steps have become shorter than controlDict's deltaT, 1 ms: stopped .4 ms before a write time and again
+// before the end, the run writes both. One that takes half of deltaT for near enough ends without.
 TEST(StoppedBetweenWriteTimes, ByLessThanTheFirstInterval)
 {
     TestCase test;
@@ -422,8 +422,8 @@ TEST(StoppedBetweenWriteTimes, CountedByProcessorTime)
     EXPECT_TRUE(resumed.succeeded()) << resumed.output;
 }
 
-// A dry run's deltaT is edited while it goes on: clock and particles keep the interval that they began with. A clock that takes
-// the new step runs twice as fast as the particles, and has fewer rows.
+// A dry run's deltaT is edited while it goes on: clock and particles keep the coupling step that they began with. A
+// clock that takes the new step runs twice as fast as the particles, and has fewer rows.
 TEST(EditedTimeStep, DoesNotPartClockAndParticles)
 {
     TestCase test;

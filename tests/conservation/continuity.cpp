@@ -84,8 +84,8 @@ TEST_F(ClosedTank, StopsWhereTheImbalancesAddUpToMoreThanTheTolerance)
     expectFound([&] { conservation.recordImbalance(0.002); }, "imbalanceTolerance");
 }
 
-// One cell in four is wrong by .04 in an interval: .01 of the volume in the mean. A mean with signs would find nothing
-// where another cell lacks as much.
+// One cell in four is wrong by .04 in a coupling step: .01 of the volume in the mean. A mean with signs would find
+// nothing where another cell lacks as much.
 TEST_F(ClosedTank, StopsWhereFluidIsMadeOfNothing)
 {
     volScalarField error("error", interval * rate_->withoutImplicit());

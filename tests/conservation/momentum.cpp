@@ -29,7 +29,7 @@ protected:
 
 } // namespace
 
-// Twenty intervals of an honest run balance; without this the others would show nothing.
+// Twenty coupling steps of an honest run balance; without this the others would show nothing.
 TEST_P(MomentumBalance, BalancesWhereNothingIsLost)
 {
     Stream stream(streamWith(GetParam()));

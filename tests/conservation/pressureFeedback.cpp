@@ -1,7 +1,7 @@
-// Linear analysis of particles and fluid in a closed column, one wave along it: the fluid must make room for the particles,
-// eps U + alpha v = 0, by a pressure that the particles feel in the next interval. With what forces/anticipatedMotion.h gives,
-// an error shrinks from interval to interval for all densities, intervals and low-passes; with nothing anticipated it
-// grows, so that an empty implementation fails.
+// Linear analysis of particles and fluid in a closed column, one wave along it: the fluid must make room for the
+// particles, eps U + alpha v = 0, by a pressure that the particles feel in the next coupling step. With what
+// forces/anticipatedMotion.h gives, an error shrinks from coupling step to coupling step for all densities, coupling
+// steps and low-passes; with nothing anticipated it grows, so that an empty implementation fails.
 
 #include "forces/anticipatedMotion.h"
 
@@ -21,27 +21,28 @@ struct Column
     double solidFraction;
     /// The particles' over the fluid's.
     double densityRatio;
-    /// Drag coefficient times interval over the particles' mass.
+    /// Drag coefficient times coupling step over the particles' mass.
     double relaxationTimes;
-    /// Part of d(eps) that the low-pass lets through in an interval.
+    /// Part of d(eps) that the low-pass lets through in a coupling step.
     double approach;
     /// True: contacts keep the particles where they are, and their drag does not move them.
-    bool held = false;
+    bool fixed = false;
 };
 
-/// Per mass of particles, an interval being one: what a particle answers to what it received in the last interval.
-AnticipatedMotion anticipated(const Column& column, bool seenAsHeld)
+/// Response of a particle to the impulse of the last coupling step, per mass of particles; the coupling step is the
+/// unit of time.
+AnticipatedMotion anticipated(const Column& column, bool seenAsFixed)
 {
     ReceivedImpulse received;
     received.implicitCoefficientTime = column.relaxationTimes;
     received.impulse = Vector3d(0, 0, 1);
-    // A change of velocity across the impulse: the particle is not held fast, and all of the drag was.
-    return anticipatedMotion(received, seenAsHeld ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
+    // The velocity changed across the impulse: the particle is not fixed, but all of the drag was taken up.
+    return anticipatedMotion(received, seenAsFixed ? Vector3d(1, 0, 0) : Vector3d(0, 0, 1), 1, 1, 1);
 }
 
-/// What an interval makes of particles' velocity, fluid's velocity, -grad p over the fluid's density, impulse given in
-/// advance per mass of fluid, and displacement of the particles that continuity has not had: the equations of SemiImplicitSource
-/// and VoidFractionRate in the order of CouplingStep.
+/// One coupling step maps the particles' velocity, the fluid's velocity, -grad p over the fluid's density, the impulse
+/// given in advance per mass of fluid, and displacement of the particles that continuity has not had: the equations of
+/// SemiImplicitSource and VoidFractionRate in the order of CouplingStep.
 Eigen::Matrix<double, 5, 5> amplification(const Column& column, const AnticipatedMotion& motion)
 {
     using Row = Eigen::Matrix<double, 1, 5>;
@@ -62,7 +63,7 @@ Eigen::Matrix<double, 5, 5> amplification(const Column& column, const Anticipate
     Row moved = limit + left * (velocity - limit);
     Row displacement = limit + mean * (velocity - limit);
     Row received = massRatio * (moved - velocity - buoyancy * push);
-    if (column.held)
+    if (column.fixed)
     {
         moved.setZero();
         displacement.setZero();
@@ -106,17 +107,17 @@ TEST(PressureFeedback, ErrorsShrinkForAllDensitiesIntervalsAndLowPasses)
             {
                 for (const double approach : {0.02, 0.2, 0.5, 1.0})
                 {
-                    for (const bool held : {false, true})
+                    for (const bool fixed : {false, true})
                     {
-                        const Column column{solidFraction, densityRatio, relaxationTimes, approach, held};
+                        const Column column{solidFraction, densityRatio, relaxationTimes, approach, fixed};
                         // See VoidFractionRate for what is left out.
-                        if (held || approach > 0.4 || relaxationTimes <= 1)
+                        if (fixed || approach > 0.4 || relaxationTimes <= 1)
                         {
                             EXPECT_LT(growth(column, anticipated(column, true)), 1)
                                 << solidFraction << ' ' << densityRatio << ' ' << relaxationTimes << ' ' << approach
-                                << ' ' << held;
+                                << ' ' << fixed;
                         }
-                        if (!held)
+                        if (!fixed)
                         {
                             EXPECT_LT(growth(column, anticipated(column, false)), 1)
                                 << solidFraction << ' ' << densityRatio << ' ' << relaxationTimes << ' ' << approach;
@@ -128,7 +129,8 @@ TEST(PressureFeedback, ErrorsShrinkForAllDensitiesIntervalsAndLowPasses)
     }
 }
 
-// What the answer is for: given afterwards, it comes too late for light particles, and for heavy ones at long intervals.
+// Why the pressure response is anticipated: applied afterwards, it is too late for light particles, and for heavy ones
+// at long coupling steps.
 TEST(PressureFeedback, GrowsWhereNothingIsAnticipated)
 {
     const auto afterwards = [](const Column& column) {

@@ -1,5 +1,6 @@
-// How the drag that is given semi-implicitly behaves in time, against the linear analysis in couplingStep/semiImplicitSource.h and
-// against exact solutions. A scheme that gives an interval's drag afterwards rings, or grows, where the drag is strong.
+// How the drag that is given semi-implicitly behaves in time, against the linear analysis in
+// couplingStep/semiImplicitSource.h and against exact solutions. A scheme that applies the drag of a coupling step
+// afterwards oscillates or diverges if the drag is strong.
 
 #include "conservation/stream.h"
 
@@ -64,26 +65,28 @@ double slip(Stream& stream)
 
 } // namespace
 
-// Held particles take 1/(1 + k) of the water's speed from it in every interval, and it never changes its sign.
+// Drag on fixed particles reduces the water's speed to 1/(1 + k) of its value in every coupling step; its sign never
+// changes.
 TEST_P(DragTimes, WaterStopsMonotonouslyBetweenFixedParticles)
 {
     StreamSetup setup = oneParticlePerCell(GetParam());
-    setup.held = true;
+    setup.fixed = true;
     Stream stream(setup);
     for (int interval = 0; interval < 5; ++interval)
     {
         const double before = stream.waterSpeed();
         stream.advance(asItIs);
-        EXPECT_NEAR(stream.waterSpeed() / before, 1 / (1 + GetParam()), 1e-6) << "interval " << interval;
+        EXPECT_NEAR(stream.waterSpeed() / before, 1 / (1 + GetParam()), 1e-6) << "coupling step " << interval;
     }
 }
 
-// So it does when each interval has another length: what is given semi-implicitly is the drag of the next one. With that of
-// the interval that is solved for, the water's speed changes its sign wherever the interval grows under strong drag.
+// The same holds when each coupling step has another length: the semi-implicit source is the drag of the next coupling
+// step. If it were that of the current one, the water's speed would change its sign wherever the coupling step grows
+// under strong drag.
 TEST_P(DragTimes, WaterStopsMonotonouslyWhileTheIntervalChanges)
 {
     StreamSetup setup = oneParticlePerCell(GetParam());
-    setup.held = true;
+    setup.fixed = true;
     setup.adjustable = true;
     Stream stream(setup);
     stream.advance(asItIs, 1);
@@ -99,8 +102,8 @@ TEST_P(DragTimes, WaterStopsMonotonouslyWhileTheIntervalChanges)
 
 INSTANTIATE_TEST_SUITE_P(WeakToStrong, DragTimes, testing::Values(0.01, 0.3, 1, 10, 100, 1000));
 
-// The same where the water has a wave, and what the particles give is smoothed, which leaves r of the wave's amplitude. Without
-// what is made good one interval later for the rest, the wave would fall by 1/(1 + k), as if r were 1.
+// The same for a wave in the water while the source is smoothed, which leaves r of the wave's amplitude. Without the
+// deferred correction one coupling step later, the wave would fall by 1/(1 + k), as if r were 1.
 TEST_P(DragTimes, WaveFallsMonotonouslyBetweenFixedParticles)
 {
     constexpr int cells = 16;
@@ -111,7 +114,7 @@ TEST_P(DragTimes, WaveFallsMonotonouslyBetweenFixedParticles)
     setup.cells = setup.particles = {cells, 1, 1};
     setup.viscosity *= particles / cells * Stream::waterMass(cells) / fluidMass;
     setup.wave = true;
-    setup.held = true;
+    setup.fixed = true;
     // The wave is an eigenvector of the cells' Laplacian.
     const double eigenvalue = 2 * (1 - std::cos(M_PI / cells)) * cells * cells;
     const double r = std::exp(-smoothingBandwidth * smoothingBandwidth / 4 * eigenvalue);
@@ -121,17 +124,17 @@ TEST_P(DragTimes, WaveFallsMonotonouslyBetweenFixedParticles)
         const double before = stream.amplitude();
         stream.advance(asItIs);
         EXPECT_NEAR(stream.amplitude() / before, (1 + (1 - r) * GetParam()) / (1 + GetParam()), 1e-4)
-            << "interval " << interval;
+            << "coupling step " << interval;
     }
 }
 
-// The slip of particles under drag alone falls by (1 - q)/(1 + mu q) in every interval, and no momentum is lost or made.
+// The slip of particles under drag alone falls to (1 - q)/(1 + mu q) in every coupling step, and momentum is conserved.
 TEST_P(FreeParticles, RelaxWithTheWaterWithoutRinging)
 {
     const auto [relaxationTimes, massRatio] = GetParam();
     Stream stream(setup());
     const double momentum = 0.1 * fluidMass;
-    // What share the contacts held is known from the second interval on.
+    // The share that contacts took up is known from the second coupling step on.
     stream.advance(asItIs);
     const double taken = -std::expm1(-relaxationTimes);
     for (int interval = 0; interval < 4; ++interval)
@@ -142,13 +145,14 @@ TEST_P(FreeParticles, RelaxWithTheWaterWithoutRinging)
             break; // There is rounding left only.
         }
         stream.advance(asItIs);
-        EXPECT_NEAR(slip(stream) / before, (1 - taken) / (1 + massRatio * taken), 0.01) << "interval " << interval;
+        EXPECT_NEAR(slip(stream) / before, (1 - taken) / (1 + massRatio * taken), 0.01) << "coupling step " << interval;
         EXPECT_NEAR(stream.momentum() / momentum, 1, 1e-9);
     }
 }
 
-// So it is while intervals of 2000 DEM steps shrink at once and grow again by a fifth. Were what is given semi-implicitly
-// divided by the length of the next interval, or taken back over another than it was given, momentum would be made.
+// The same holds while coupling steps of 2000 DEM steps shrink at once and grow again by a fifth. If the semi-implicit
+// source were divided by the length of another coupling step, or taken back over another one, momentum would not be
+// conserved.
 TEST_P(FreeParticles, KeepTheMomentumWhileTheIntervalChanges)
 {
     StreamSetup setup = FreeParticles::setup();
@@ -169,9 +173,9 @@ INSTANTIATE_TEST_SUITE_P(LightToHeavy, FreeParticles,
     testing::Values(
         std::pair(0.01, 1.0), std::pair(0.3, 0.1), std::pair(1.0, 10.0), std::pair(3.0, 1.0), std::pair(10.0, 100.0)));
 
-// Against exp(-(1 + mu) t/tau): halving the interval halves the error.
-// What the water gives semi-implicitly for the first interval it has lost itself, also where a pressure acts from the start. A
-// first interval that balances a reaction to the pressure of which no equation was solved differs by 1e-4.
+// Against exp(-(1 + mu) t/tau): halving the coupling step halves the error. The momentum of the semi-implicit source of
+// the first coupling step comes from the water, also if a pressure acts from the start. A first coupling step that
+// includes a pressure response before any pressure equation was solved differs by 1e-4.
 TEST(SemiImplicitSource, BeginsWithWhatTheWaterHas)
 {
     StreamSetup setup;

@@ -14,8 +14,8 @@ namespace clepsydra::tests
 
 using namespace Foam;
 
-/// Shows one particle without its impulse to those who count the particles and put them into cells after an interval, as an
-/// exchange between ranks would that forgets it; at home, where it is asked for next, the particle still has it.
+/// An engine that forgets the impulse of one particle when the particles are counted and mapped to cells, as a faulty
+/// exchange between ranks would. On its own rank, where it is asked for next, the particle still has its impulse.
 class ForgetfulEngine final : public FakeEngine
 {
 public:
@@ -66,10 +66,10 @@ struct StreamSetup
     bool wave = false;
     /// Of p along z [m/s2].
     double pressureGradient = 0;
-    bool held = false;
+    bool fixed = false;
     double interval = 0.01;
     int demStepsPerCouplingStep = 10;
-    /// Then advance() says how long the next interval is.
+    /// Then advance() says how long the next coupling step is.
     bool adjustable = false;
 };
 
@@ -115,7 +115,7 @@ public:
     }
 
     /// \param solved  what becomes of the particles' source before it is put into the equation
-    /// \param nextSteps  DEM steps of the next interval, where intervals are adjustable: at most a fifth or one more than
+    /// \param nextSteps  DEM steps of the next coupling step if its length is adjustable: at most a fifth or one more than
     ///                   this one has
     void advance(const std::function<void(fvVectorMatrix&)>& solved, int nextSteps = 0)
     {
@@ -144,7 +144,7 @@ public:
         return engine_;
     }
 
-    /// Length of the interval that was advanced over last [s].
+    /// Length of the coupling step that was advanced over last [s].
     double lastTimeStep() const
     {
         return case_.time().deltaTValue();
@@ -182,7 +182,7 @@ private:
                 Vector3d(
                     (particle % nx + 0.5) / nx, (particle / nx % ny + 0.5) / ny, (particle / (nx * ny) + 0.5) / nz),
                 radius, setup.particleDensity);
-            if (setup.held)
+            if (setup.fixed)
             {
                 engine_.holdParticle(particle + 1);
             }

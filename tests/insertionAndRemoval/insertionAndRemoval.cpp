@@ -80,7 +80,7 @@ TEST(ParticleOutletsTest, ASphereIsCutByTheOutletsPlane)
         EXPECT_NEAR(part.shift.z() / radius, below > -1 ? -centroid : 0, 1e-4) << below;
         EXPECT_NEAR(part.shift.head<2>().norm(), 0, 1e-12);
     }
-    // Far beyond within the travel of an interval, and where the interval before had nothing of it either.
+    // Far beyond within the travel of a coupling step, and where the coupling step before had nothing of it either.
     EXPECT_EQ(outlets.partWithin({0.4, 0.6, -0.3}, radius, 0.3).share, 0);
     EXPECT_EQ(outlets.partWithin({0.4, 0.6, -0.3}, radius, 0.01).share, 1);
     // Beyond a patch that is no outlet, and beside one by more than its radius.
@@ -115,9 +115,10 @@ TEST(ParticleOutletsTest, OnlyPatchesOfTheMeshAreOutlets)
     EXPECT_THAT(errorWith("zMin xMin"), testing::IsEmpty());
 }
 
-// A particle that leaves, one that turns back, one that comes in, over 160 intervals: in each the volume inside, added up particle
-// by particle, is what was there at first plus what the balances say, to rounding, although no particle is ever wholly in or out at
-// once. At the end one is taken out, counted with its mass and momentum, and the engine has it no more.
+// A particle that leaves, one that turns back, one that comes in, over 160 coupling steps: in each the volume inside,
+// added up particle by particle, is what was there at first plus what the balances say, to rounding, although no
+// particle is ever wholly in or out at once. At the end one is taken out, counted with its mass and momentum, and the
+// engine has it no more.
 TEST(InsertionAndRemovalTest, TheBalancesFollowTheVolumeInside)
 {
     const Cube cube;

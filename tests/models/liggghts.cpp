@@ -633,7 +633,7 @@ TEST(GroupChange, RestingParticlesStayAndAreFeltByOthers)
     EXPECT_NE(particles.velocity(2), Vector3d::Zero());
 }
 
-/// Added mass is the fluid's resistance to a particle's acceleration, and a particle that is held has none: in still water two
+/// Added mass is the fluid's resistance to a particle's acceleration, and a fixed particle has none: in still water two
 /// particles at rest, one upon the other, give the fluid nothing. `exclude` spares their contact, and so the weight of the
 /// upper one seems to let it fall: taken for a free particle it pushed the fluid down for ever.
 TEST(GroupChange, RestingParticlesDoNotPushTheFluidByTheirAddedMass)

@@ -39,7 +39,7 @@ double pressureDropOfFixedBed(const std::string& modelType, const std::string& m
     test.box.upper = {side, side, length};
     test.cells = lattice;
     test.setThroughFlow("uniform (0 0 " + exactText(0.02 / voidFraction) + ")");
-    // An explicit source of momentum bears intervals up to 2 U/(dp/(rho L)), .06 ms here.
+    // An explicit source of momentum is stable for coupling steps up to 2 U/(dp/(rho L)), 0.06 ms here.
     const bool implicit = momentumModel == "implicitCouple";
     const double endTime = implicit ? 0.02 : 0.004;
     test.setTimes(endTime, implicit ? 2e-4 : 2e-5, endTime);

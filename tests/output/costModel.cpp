@@ -15,7 +15,7 @@ namespace clepsydra::tests
 namespace
 {
 
-/// What an interval costs on a machine that the model knows nothing of.
+/// Time that a coupling step takes on a machine that the model does not know.
 class Machine
 {
 public:
@@ -43,9 +43,10 @@ public:
 
 } // namespace
 
-/// A hundredth of a run has been done while particles came in and the interval became longer; then 5000 particles remain, and the
-/// interval is four times as long as at first. What is left is known to rounding, though the start took longer than all of
-/// it; by the wall time so far it would be 4 times as much, and by that without the start 1.9 times.
+/// A hundredth of a run has been done while particles came in and the coupling step became longer; then 5000 particles
+/// remain, and the coupling step is four times as long as at first. What is left is known to rounding, though the start
+/// took longer than all of it; by the wall time so far it would be 4 times as much, and by that without the start 1.9
+/// times.
 TEST(CostModel, KnowsTheRestOfARunByItsFirstIntervals)
 {
     Machine machine;

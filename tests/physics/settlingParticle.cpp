@@ -49,7 +49,7 @@ struct Fall
     }
 };
 
-/// A whole number of DEM steps in an interval, each below a fraction of the Rayleigh time of the case's particles.
+/// A whole number of DEM steps in a coupling step, each below a fraction of the Rayleigh time of the case's particles.
 /// \return how many
 int setDemStep(TestCase& test, double interval, double fraction)
 {
@@ -242,7 +242,7 @@ TEST(SettlingParticle, SelfInducedVelocityCorrectionIsRemovedAndWallsAreNot)
 
 /// A sphere of 15 mm let go in oil (Re 31) with history force and added mass, its own disturbance taken out: after .2 s it
 /// sinks by some .09 m/s, as it does one-way. Taking out what added mass and history force stir up as well, each DEM step
-/// answered the last one more strongly, and the sphere was lost within the first interval.
+/// answered the last one more strongly, and the sphere was lost within the first coupling step.
 TEST(SettlingParticle, SelfInducedVelocityCorrectionGoesWithHistoryForceAndAddedMass)
 {
     TestCase test;

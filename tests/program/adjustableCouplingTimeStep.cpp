@@ -46,7 +46,7 @@ void fillIn(TestCase& test)
     test.control().set("functions/massInHopper/type", "massInHopper").set("functions/massInHopper/patch", "walls");
 }
 
-/// Ends of the intervals in DEM steps, each of which is a row of m(t). The first is 0.
+/// Ends of the coupling steps in DEM steps, each of which is a row of m(t). The first is 0.
 std::vector<long> ends(const TestCase& test)
 {
     std::vector<long> steps;
@@ -59,10 +59,10 @@ std::vector<long> ends(const TestCase& test)
     return steps;
 }
 
-/// The interval grows while the particles are slow and shrinks as they get faster; write times and the end are hit to the
-/// DEM step, no interval is longer than allowed or more than a fifth (or one step) longer than the one before, and momentum
-/// is conserved. On two ranks the intervals are the same. A constant interval would neither grow nor keep the
-/// limit; one that does not look ahead would write at other times.
+/// The coupling step grows while the particles are slow and shrinks as they get faster; write times and the end are hit
+/// to the DEM step, no coupling step is longer than allowed or more than a fifth (or one step) longer than the one
+/// before, and momentum is conserved. On two ranks the coupling steps are the same. A constant coupling step would
+/// neither grow nor keep the limit; one that does not look ahead would write at other times.
 TEST(AdjustableCouplingTimeStep, FollowsTheParticles)
 {
     TestCase test;
@@ -82,7 +82,7 @@ TEST(AdjustableCouplingTimeStep, FollowsTheParticles)
     for (std::size_t i = 1; i < length.size(); ++i)
     {
         EXPECT_GE(length[i], 1);
-        EXPECT_LE(length[i], length[i - 1] + std::max(1l, length[i - 1] / 5)) << "interval " << i;
+        EXPECT_LE(length[i], length[i - 1] + std::max(1l, length[i - 1] / 5)) << "coupling step " << i;
     }
     const long most = *std::max_element(length.begin(), length.end());
     EXPECT_GT(most, 45);

@@ -425,7 +425,7 @@ TEST(BadInput, Steps)
         {controlDict, "'adjustTimeStep'", "allowed: off"}, SeenBy::dictionaries);
 }
 
-/// Limits of an adjustable interval that leave none, and times that no whole number of DEM steps can hit.
+/// Limits of an adjustable coupling step that leave none, and times that no whole number of DEM steps can hit.
 TEST(BadInput, AdjustableCouplingTimeStep)
 {
     const auto refused = [](const std::string& file, const std::string& entry, const std::string& value,
@@ -570,7 +570,8 @@ TEST(BadInput, UnconvergedPressure)
     expectRefused(test.runCommand("$SOLVER"), {"DICPCG stopped after 1 iterations", "in the last 50 coupling steps"});
 }
 
-/// An interval in which a particle crosses many cells: warned of with the figure. A hundredfold deltaT went unnoticed.
+/// A coupling step in which a particle crosses many cells: warned of with the figure. A hundredfold deltaT went
+/// unnoticed.
 TEST(BadInput, LongInterval)
 {
     TestCase test;

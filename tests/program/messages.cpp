@@ -116,11 +116,12 @@ Counts countsOn(int ranks, const std::string& boxes, double writeInterval)
 
 } // namespace
 
-/// The same bed on 2, 4 and 8 ranks. Nothing that a rank is reported grows with their number: not the bytes of collective
-/// calls, which a list of all ranks' boxes in every interval made grow by 96 a rank; not the messages to one neighbour; not
-/// its memory. The smoothing passes the mesh twice in an interval, with all that the particles give and with what they feel:
-/// one message to each neighbour a sweep, and two for each of the few rounds in which cells near particles are found. When it
-/// took eight quantities at most, and what is given semi-implicitly by itself, there were four passes.
+/// The same bed on 2, 4 and 8 ranks. Nothing that a rank is reported grows with their number: not the bytes of
+/// collective calls, which a list of all ranks' boxes in every coupling step made grow by 96 a rank; not the messages
+/// to one neighbour; not its memory. The smoothing passes the mesh twice in a coupling step, with all that the
+/// particles give and with what they feel: one message to each neighbour a sweep, and two for each of the few rounds in
+/// which cells near particles are found. When it took eight quantities at most, and what is given semi-implicitly by
+/// itself, there were four passes.
 TEST(Messages, OfARankDoNotGrowWithTheRanks)
 {
     const Counts two = countsOn(2, "(2 1 1)", 4 * interval);
@@ -147,8 +148,9 @@ TEST(Messages, OfARankDoNotGrowWithTheRanks)
     EXPECT_LT(eight.largestMemory(), two.largestMemory());
 }
 
-/// With a checkpoint in every interval a rank hands on what lies at its border and the checksums of its files, not its particles:
-/// those it writes itself. When the first rank wrote all that the others sent to it, they sent as much as lies on the disk.
+/// With a checkpoint in every coupling step a rank hands on what lies at its border and the checksums of its files, not
+/// its particles: those it writes itself. When the first rank wrote all that the others sent to it, they sent as much
+/// as lies on the disk.
 TEST(Messages, OfACheckpointAreNotItsParticles)
 {
     const Counts counts = countsOn(2, "(2 1 1)", interval);

@@ -58,17 +58,17 @@ Noise noise(const Eigen::VectorXd& pressure, double step)
         std::sqrt(fast.squaredNorm() / static_cast<double>(fast.size())), (windowEnd - windowStart) / (2 * memoryTime)};
 }
 
-/// The pressure 3 mm above the orifice does not get noisier as the interval falls: the noise is the grains', not the
-/// coupling's. The pressure answers to d2(eps)/dt2, so a void fraction that jumps in time (whole particles in the cells of
-/// their centres) makes it grow like a power of 1/step: 50, 18 and 11 Pa at .5, 1 and 2 ms in a prototype with a compact
-/// kernel. A program that left d(eps)/dt out, or moved no particles, would be quiet: 2.7 Pa there. So the noise has a lower
-/// limit here as well.
+/// The pressure 3 mm above the orifice does not get noisier as the coupling step falls: the noise is the grains', not
+/// the coupling's. The pressure answers to d2(eps)/dt2, so a void fraction that jumps in time (whole particles in the
+/// cells of their centres) makes it grow like a power of 1/step: 50, 18 and 11 Pa at .5, 1 and 2 ms in a prototype with
+/// a compact kernel. A program that left d(eps)/dt out, or moved no particles, would be quiet: 2.7 Pa there. So the
+/// noise has a lower limit here as well.
 ///
 /// One packing of 1300 particles, two runs, the case's own low-pass of d(eps)/dt (smoothingTime 4 ms). After the first
 /// contacts the runs are independent of one another. Measured at .5 and 2 ms: 6.5 and 5.1 Pa, each +-6 % (one standard
-/// error from 140 independent samples in 1 s), so a ratio of 1.29 +- .11: the drag that is given for the whole interval
-/// damps some of the noise. The limit is a growth like the root of 1/step, a ratio of 2, three standard errors or more
-/// above what is measured; the prototype's ratio of .5 to 2 ms was 4.5.
+/// error from 140 independent samples in 1 s), so a ratio of 1.29 +- .11: the drag that is given for the whole coupling
+/// step damps some of the noise. The limit is a growth like the root of 1/step, a ratio of 2, three standard errors or
+/// more above what is measured; the prototype's ratio of .5 to 2 ms was 4.5.
 TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
 {
     QuickHopper hopper({{"particleCount", "1300"}, {"hopperDiameter", "0.018"}, {"orificeDiameter", "0.009"},
@@ -98,7 +98,7 @@ TEST(PressureNoise, DoesNotGrowAsTheIntervalFalls)
             pressure[i] = hopper.parameter("fluidDensity") * rows[static_cast<std::size_t>(i)][1];
         }
         measured.push_back(noise(pressure, interval));
-        std::cout << "interval " << milliseconds << " ms: standard deviation of p " << measured.back().deviation
+        std::cout << "coupling step " << milliseconds << " ms: standard deviation of p " << measured.back().deviation
                   << " Pa +- " << 100 * measured.back().relativeError() << " % ("
                   << std::lround(measured.back().independentSamples) << " independent samples), "
                   << hopper.table(step, "massInHopper/0/massInHopper.dat").back()[2] << " particles left, "

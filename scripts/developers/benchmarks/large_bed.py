@@ -12,7 +12,7 @@ from .hopper import Hopper, conservation, forget_results, solver
 
 RANKS = 2
 INTERVALS = 40
-DEM_STEPS = 20  # in an interval
+DEM_STEPS = 20  # in a coupling step
 
 # Particles along a side and up, cells along a side and up. As many coupling steps of both: the first finds all
 # particles again.

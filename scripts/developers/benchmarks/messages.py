@@ -1,4 +1,4 @@
-"""What the ranks of one run send each other in an interval, and their memory, against their number: counts, no
+"""What the ranks of one run send each other in a coupling step, and their memory, against their number: counts, no
 times."""
 
 import functools

@@ -31,7 +31,7 @@ TARGETS = {
     "effects": ("libraries of effects: study/readEffects", seeds.effects, 1500),
     "entries": ("parameters, in traceResidual: runner/entries", seeds.parameters, 400),
     "parameters": ("parameters, in scripts: scripts/clepsydra/parameter_file.py", seeds.parameters, 400),
-    "couplingProperties": ("couplingProperties: interval/couplingSettings", seeds.coupling_properties, 3000),
+    "couplingProperties": ("couplingProperties: couplingStep/couplingSettings", seeds.coupling_properties, 3000),
 }
 
 
