@@ -17,10 +17,10 @@ install(TARGETS coupling EXPORT ClepsydraTargets LIBRARY DESTINATION ${_programs
 if(TARGET scotchDecomp)
     install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)
 endif()
-# Manual pages, of what the programs say of themselves; what bash completes.
-set(_manual_of_pimpleDemFoam "grains in water: PIMPLE with LIGGGHTS particles" -help)
-set(_manual_of_traceResidual "from a measured residual to a named effect" --help)
-set(_manual_of_closures "values of closed formulas for grains in a fluid" --help)
+# Manual pages, made of the programs' own help texts; completion for bash.
+set(_manual_of_pimpleDemFoam "unresolved CFD-DEM: OpenFOAM's PIMPLE algorithm with LIGGGHTS particles" -help)
+set(_manual_of_traceResidual "finds the physical effect that explains why a simulation differs from a measurement" --help)
+set(_manual_of_closures "values of drag laws and correlations for particles in a fluid" --help)
 set(_more_of_pimpleDemFoam -listModels Models)
 set(_target_of_closures closuresProgram)
 foreach(_program IN ITEMS pimpleDemFoam traceResidual closures)

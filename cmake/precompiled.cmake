@@ -42,7 +42,7 @@ function(clepsydra_precompile target)
     target_precompile_headers(${target} PRIVATE ${headers})
 endfunction()
 
-# Those of another target, which must be compiled with the same options.
+# Reuses the precompiled headers of another target, which must be compiled with the same options.
 function(clepsydra_reuse_precompiled target other)
     if(CLEPSYDRA_PRECOMPILE)
         target_precompile_headers(${target} REUSE_FROM ${other})

@@ -3,21 +3,22 @@
 namespace clepsydra::identification
 {
 
-// Boost's distributions, in one file of ours: they take 4 s to compile.
+// Boost's distributions are used in one file only, because their headers take 4 s to compile.
 
-/// Which value a normal variable of mean 0 and standard deviation 1 exceeds with the probability 1 - `probability`.
+/// Quantile of the standard normal distribution: a variable is below the result with this probability.
 double normalQuantile(double probability);
 
-/// The probability that it exceeds `value`.
+/// Probability that a standard normal variable exceeds `value`.
 double probabilityBeyondNormal(double value);
 
-/// The probability that a variable of Fisher's F distribution exceeds `value`.
+/// Probability that a variable of Fisher's F distribution exceeds `value`.
+/// \param freedom, freedomOfNoise  degrees of freedom of numerator and denominator
 double probabilityBeyondFisher(double value, double freedom, double freedomOfNoise);
 
-/// Which value it exceeds with that probability.
+/// The value that a variable of Fisher's F distribution exceeds with this probability.
 double fisherValueBeyond(double probability, double freedom, double freedomOfNoise);
 
-/// The derivative of the logarithm of the gamma function.
+/// Derivative of the logarithm of the gamma function.
 double digamma(double value);
 
 } // namespace clepsydra::identification

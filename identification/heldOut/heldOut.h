@@ -13,7 +13,7 @@
 namespace clepsydra::identification
 {
 
-/// Errors on held-out conditions, which no fit has seen, without and with the effect.
+/// Errors on held-out conditions, which are used in no fit, without and with the effect.
 struct HeldOutResult
 {
     HeldOutScore before;               // null fit

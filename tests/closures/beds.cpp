@@ -1,5 +1,5 @@
 /// \file
-/// Ergun's bed and Richardson & Zaki's suspension: shared/validation.md, section 3.
+/// Ergun's packed bed and Richardson & Zaki's suspension, against values worked out by hand from the printed equations.
 
 #include "closures/ergun.h"
 #include "closures/richardsonZaki.h"

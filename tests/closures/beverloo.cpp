@@ -1,5 +1,5 @@
 /// \file
-/// Discharge rates of the hopper, D = 1 cm: shared/validation.md, section 1.
+/// Discharge rates of a hopper with an orifice of 1 cm, against values worked out by hand from the printed equations.
 
 #include "closures/beverloo.h"
 

@@ -1,5 +1,5 @@
 /// \file
-/// One row per drag law. Every law is held against numbers worked out from the printed formula (with pow and C_d, not
+/// One row per drag law. Every law is compared with numbers worked out from the printed formula (with pow and C_d, not
 /// with the regular form that the code evaluates), and against what any drag law must do.
 /// TO ADD A LAW: one row in dragLawTable().
 

@@ -1,5 +1,5 @@
 /// \file
-/// Terminal velocities of shared/validation.md, section 2, from the closures. g = 9.81 throughout.
+/// Terminal velocities from the closures, against values worked out by hand. g = 9.81 m/s2 throughout.
 
 #include "closures/terminalVelocity.h"
 

@@ -1,5 +1,5 @@
-// The fluid's continuity: what a closed tank cannot balance is taken evenly from all cells and recorded, and fluid that is
-// made of nothing ends the run.
+// The fluid's continuity: the volume imbalance of a closed tank is subtracted evenly from all cells and recorded, and a
+// continuity error above the tolerance ends the run.
 
 #include "conservation/faults.h"
 

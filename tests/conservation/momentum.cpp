@@ -1,5 +1,6 @@
-// The momentum conservation check compares what the particles were given with what the solved equation holds. A conservation check that works out one
-// from the other balances whatever happens; so each kind of loss is made here on purpose, and must end the run.
+// The conservation check of momentum compares the momentum that particles received with the source in the solved
+// equation. A check that derived one from the other would never find an error, so each kind of loss is introduced here
+// on purpose and must end the run.
 
 #include "conservation/faults.h"
 
@@ -29,7 +30,7 @@ protected:
 
 } // namespace
 
-// Twenty coupling steps of an honest run balance; without this the others would show nothing.
+// Twenty coupling steps without a fault pass the check; without this test the others would show nothing.
 TEST_P(MomentumBalance, BalancesWhereNothingIsLost)
 {
     Stream stream(streamWith(GetParam()));

@@ -1,5 +1,5 @@
-// The pressure force on the particles is held against its reaction in the fluid's equation, eps grad p. The one is made wrong
-// here on purpose, and must end the run.
+// The pressure force on the particles is compared with its reaction in the fluid's equation, eps grad p. The force is
+// falsified here on purpose, which must end the run.
 
 #include "conservation/faults.h"
 
@@ -19,7 +19,8 @@ StreamSetup withForceTimes(double factor, const std::string& cells)
 
 } // namespace
 
-// The same water without a fault, and with honest smoothing over finer cells; without this the others would show nothing.
+// The same water without a fault, and with correct smoothing over finer cells, passes; without this test the others
+// would show nothing.
 TEST(PressureForceBalance, BalancesWhereNothingIsLost)
 {
     EXPECT_NO_THROW(Stream(withForceTimes(1, "all")).advance([](fvVectorMatrix&) {}));

@@ -1,5 +1,6 @@
-// The solid volume in the cells is held against the particles' own. A conservation check that adds up the cells twice balances whatever
-// happens; so volume is lost and made here on purpose, between shares and void fraction, and must end the run.
+// The solid volume in the cells is compared with that of the particles. A check that added up the cells twice would
+// never find an error, so volume is removed and added here on purpose, between the distribution and the void fraction,
+// and must end the run.
 
 #include "conservation/faults.h"
 
@@ -17,7 +18,7 @@ StreamSetup withSolidVolumeTimes(double factor)
 
 } // namespace
 
-// The same stream without a fault; without this the others would show nothing.
+// The same stream without a fault passes; without this test the others would show nothing.
 TEST(SolidVolumeBalance, BalancesWhereNothingIsLost)
 {
     EXPECT_NO_THROW(Stream(withSolidVolumeTimes(1)).advance([](fvVectorMatrix&) {}));

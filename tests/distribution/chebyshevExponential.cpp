@@ -1,5 +1,5 @@
 /// \file
-/// The series behind the smoothing against the function that it stands for.
+/// The series that the smoothing uses, against the exponential that it approximates.
 
 #include "distribution/chebyshevExponential.h"
 

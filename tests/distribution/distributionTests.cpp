@@ -1,5 +1,5 @@
-// How particles are shared among cells: on real meshes with cells smaller and larger than a particle, beside a baffle, on one
-// rank and on two. Every expectation is an identity that holds for any particles, so the particles are random.
+// How particles are distributed to cells: on real meshes with cells smaller and larger than a particle, beside a
+// baffle, on one rank and on two. Every expectation is an identity that holds for any particles, so the particles are random.
 
 #include "distribution/distribution.h"
 #include "exchange/particleExchange.h"

@@ -1,5 +1,5 @@
 /// \file
-/// A library that calls functions of its own, which replacedFunctions.cpp has, too.
+/// A library with functions of the same names as in replacedFunctions.cpp, which it calls itself.
 
 #include <cstdio>
 

@@ -1,6 +1,6 @@
 /// \file
-/// At its start the program notices a LIGGGHTS library that is not the one of its headers. Libraries that lie about it are
-/// preloaded (lyingLibrary.cpp).
+/// At its start the program detects a LIGGGHTS library that does not match the headers that it was compiled with.
+/// lyingLibrary.cpp, preloaded, imitates such libraries.
 
 #include "support/testCase.h"
 

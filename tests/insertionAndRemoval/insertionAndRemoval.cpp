@@ -1,4 +1,4 @@
-// Particles that come and go, few of them, without a fluid: what of them is inside, and that the balances find what is lost.
+// A few particles that enter and leave, without a fluid: the part of each that is inside; the checks find losses.
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 /// \file
-/// virtualMassForce: implicit in the particle's inertia, and all of it handed to the fluid.
+/// virtualMassForce: implicit in the particle's inertia, and its whole reaction acts on the fluid.
 
 #include "closures/addedMass.h"
 #include "forcesOnParticles.h"

@@ -1,5 +1,5 @@
 /// \file
-/// historyForce: the motion of a particle that starts in still fluid, and who is given what.
+/// historyForce: the motion of a particle that starts in still fluid, and the reaction on the fluid.
 
 #include "closures/historyForce.h"
 #include "forcesOnParticles.h"

@@ -1,5 +1,5 @@
 /// \file
-/// The directions of the lift forces, which their closures leave open.
+/// The directions of the lift forces; their closures give the magnitude only.
 
 #include "forcesOnParticles.h"
 

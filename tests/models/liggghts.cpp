@@ -1,5 +1,5 @@
 /// \file
-/// What the models ask of LIGGGHTS, and LIGGGHTS' own models that cases use, through the engine on one rank and on two.
+/// The features of LIGGGHTS that the models rely on, and LIGGGHTS' own models that cases use, on one rank and on two.
 
 #include "closures/addedMass.h"
 #include "closures/lubrication.h"

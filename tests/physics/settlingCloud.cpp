@@ -1,6 +1,6 @@
 /// \file
-/// What the pressure of the water carries: all of a cloud that settles, nothing of the bed that it becomes. (Beds at rest
-/// and in upward flow: cases/validation/hydrostatics and fixedAndFluidisedBed.)
+/// The pressure of the water carries the whole buoyant weight of a cloud that settles, and nothing of the bed that it
+/// forms. (Beds at rest and in upward flow: cases/validation/hydrostatics and fixedAndFluidisedBed.)
 ///
 /// p is without its hydrostatic part, so in still water it is the same everywhere.
 

@@ -1,8 +1,9 @@
 /// \file
-/// One particle settling in still fluid: shared/validation.md, section 2. Two-way coupled, as the program runs.
+/// One particle that settles in still fluid, against the terminal velocity of its drag law. Two-way coupled, as the
+/// program runs.
 ///
-/// A drag law speaks of the velocity far from the particle, the program takes it from the cells at the particle, which the
-/// particle itself stirs through the smoothed force it hands over. That disturbance falls with the smoothing bandwidth b,
+/// A drag law refers to the velocity far from the particle. The program samples it in the cells at the particle, where
+/// the particle's own smoothed reaction disturbs the fluid. That disturbance falls with the smoothing bandwidth b,
 /// roughly as d/b at small Re (Stokes' flow about a smeared force) and as C_d d^2/b^2 at large Re (momentum of a wake
 /// as wide as b). So each row states its b, wide enough for the tolerance, and the last test shows that it matters.
 

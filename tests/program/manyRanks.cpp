@@ -1,5 +1,5 @@
 /// \file
-/// Particles that visit three ranks and more at once, with decompositions of all kinds.
+/// Particles that overlap the subdomains of three or more ranks at once, with decompositions of all kinds.
 
 #include "support/testCase.h"
 #include "tokens/exactText.h"

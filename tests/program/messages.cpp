@@ -1,6 +1,6 @@
 /// \file
-/// What keeps a run off more ranks: messages, bytes and memory of a rank, counted on 2, 4 and 8 ranks of one machine. No
-/// time is measured here.
+/// What limits the number of ranks: messages, bytes and memory of a rank, counted on 2, 4 and 8 ranks of one machine.
+/// No time is measured here.
 
 #include "support/testCase.h"
 
