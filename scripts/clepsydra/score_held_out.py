@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""A study's answer on conditions that were held back: their measured files are put in, and the study is run again from
-its stored runs. The answer is on disk before the files are looked at.
+"""Scores a study on a blind test set: the measured files of candidate conditions are entered as held-out conditions, and
+the study is run again from its stored runs. The answer is written before the files are read.
 
-Writes STUDY's folder/results/heldOut/report.json and .html. The study itself stays as it is. """
+Writes STUDY's folder/results/heldOut/report.json and .html. The study file is not changed. """
 
 import argparse
 import glob

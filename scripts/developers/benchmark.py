@@ -3,8 +3,8 @@
 
 Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY ...]
 
-Without ENTRY all of them; with --quick all but the longest. Prints a table and, with --json, writes it with machine,
-date and load. An entry that cannot be measured here is skipped, with the reason. LAMMPS and Yade come with
+Without ENTRY, all entries are measured; with --quick all but the longest. Prints a table and, with --json, writes it with
+machine, date and load. An entry that cannot be measured on this machine is skipped, with the reason. LAMMPS and Yade come with
 scripts/setup --with otherCodes. """
 
 import argparse
@@ -111,13 +111,13 @@ def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("entries", nargs="*", metavar="ENTRY", help=", ".join(ENTRIES))
     parser.add_argument("--quick", action="store_true", help="3000 particles, short windows")
-    parser.add_argument("--repetitions", type=int, default=3)
+    parser.add_argument("--repetitions", type=int, default=3, help="runs of each program (%(default)d)")
     parser.add_argument(
         "--realTime",
         action="store_true",
         help="timed programs of one rank push all other work on this machine aside, others are left out; root only",
     )
-    parser.add_argument("--json", type=Path, metavar="FILE")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results to this file")
     options = parser.parse_args()
     unknown = [name for name in options.entries if name not in ENTRIES]
     if unknown:

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""The statistics of traceResidual from end to end, on a surrogate for the solver: false alarms, detection, right names,
-sets, abstention, coverage, the same answer under other seeds.
+"""Error rates of traceResidual with a surrogate of the solver: false alarms, detection, right names, sets of candidates,
+answers `unknown`, coverage of intervals, the same answer with other seeds.
 
-Prints the table of what has been run, all seeds together (seconds). With --run SEED, options of
+Prints the table of all seeds that have been run (takes seconds). With --run SEED, options of
 build/bin/checkIdentification may follow, for instance --libraries 3. """
 
 import argparse

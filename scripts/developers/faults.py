@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Does to a small run, a parameter study and a study what goes wrong in long ones: nothing may be lost, or silently
-wrong.
+"""Injects faults of disks, systems and users into a small run, a parameter study and a study of traceResidual. After
+each fault, a run must end with a message or resume with the results of an undisturbed run.
 
 Usage: faults [--quick] [--json FILE] [--keep] [NAME ...]
 
-Without NAME all kinds of fault; with --quick a part of them, a minute. Each is tried several times, against an
-undisturbed run. Prints a line per kind and ends with status 1 where one does not hold. A fault that cannot be made on
-this machine is skipped, with the reason. --page writes the table of a JSON file into the page. """
+Without NAME, all kinds of fault are tried; with --quick a selection, in a minute. Each kind is tried several times and
+compared with an undisturbed run. Prints a line per kind; exit status 1 if one of them fails. A fault that cannot be made
+on this machine is skipped, with the reason. --page writes the table of a JSON file into the page. """
 
 import argparse
 import os
@@ -70,8 +70,8 @@ def main() -> int:
 def read_options() -> Any:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(KINDS))
-    parser.add_argument("--quick", action="store_true", help="a part of the kinds and tries: a minute")
-    parser.add_argument("--json", type=Path, metavar="FILE")
+    parser.add_argument("--quick", action="store_true", help="a selection of kinds and tries, in a minute")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="write the results to this file")
     parser.add_argument("--keep", action="store_true", help="keep the folders of all tries")
     parser.add_argument(
         "--page", type=Path, metavar="FILE", help="only write the table of this JSON file into the page"

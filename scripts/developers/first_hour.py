@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Does on a bare Debian what the first pages say, line by line as they stand there, and times each line.
+"""Types the commands of the first pages on a bare Debian, line by line, and times each line.
 
 Usage: firstHour --json FILE [--quick] [--page PAGE] [--suite NAME] [--keep FOLDER] [--mirror URL]
        firstHour --list [--quick] [--page PAGE]
 
-Needs root and debootstrap (apt-get install debootstrap). Two roots are made, of Debian's smallest set of packages: one
-with a clone of this repository's last commit, one that gets nothing but the Debian package which was packed in the
-first. What a reader does beside the lines stands in tests/pages/firstHour.yaml. FILE: a list of step, command, seconds,
-ok, in order. Exit status 1 where a line failed. """
+Needs root and debootstrap (apt-get install debootstrap). Two systems with Debian's smallest set of packages are made in
+folders: one with a clone of this repository's last commit, and one in which only the Debian package is installed that was
+built in the first. What a reader does besides the lines is in tests/pages/firstHour.yaml. FILE receives a list of step,
+command, seconds and ok, in order. Exit status 1 if a line failed. """
 
 import argparse
 import json
@@ -50,7 +50,7 @@ def main() -> None:
         "--keep",
         type=Path,
         metavar="FOLDER",
-        help="make the roots in this folder, and leave them there with their logs",
+        help="make the systems in this folder, and keep them there with their logs",
     )
     parser.add_argument(
         "--mirror", default="http://deb.debian.org/debian", metavar="URL", help="where Debian comes from (%(default)s)"

@@ -4,11 +4,11 @@ reports.
 
 Usage: fuzz [--seconds N] [--json FILE] [--build FOLDER] [--build-only] [TARGET ...]
 
-Each TARGET (default: all) first reads every file of tests/fuzz/found/TARGET, where the finds of former runs are kept,
-and then mutations of the repository's own files for N seconds (default 60; 0: the former finds only). Inputs that
-reached new code are kept in FOLDER/corpus (default FOLDER: build-fuzz) and are where the next run goes on. --json adds
-the numbers to FILE. What is found lies in FOLDER/found. Exit status 1 where anything was found, 77 where clang cannot
-build fuzzers. """
+Each TARGET (default: all) first reads every file of tests/fuzz/found/TARGET, where the findings of earlier runs are kept,
+and then mutations of the repository's own files for N seconds (default 60; with 0, the earlier findings only). Inputs
+that reached new code are kept in FOLDER/corpus (default FOLDER: build-fuzz), from which the next run continues. --json
+adds the numbers to FILE. Findings are in FOLDER/found. Exit status 1 if anything was found, 77 if clang cannot build
+fuzzers. """
 
 import argparse
 import sys
@@ -37,12 +37,16 @@ def main() -> Any:
 
 
 def parsed(arguments: Any) -> Any:
-    parser = argparse.ArgumentParser(usage=__doc__.split("\n\n")[1][len("Usage: ") :], add_help=True)
-    parser.add_argument("--seconds", type=int, default=60)
-    parser.add_argument("--json", type=Path)
-    parser.add_argument("--build", type=Path, default=REPOSITORY / "build-fuzz")
-    parser.add_argument("--build-only", action="store_true")
-    parser.add_argument("targets", nargs="*", metavar="TARGET")
+    parser = argparse.ArgumentParser(
+        usage=__doc__.split("\n\n")[1][len("Usage: ") :],
+        description="\n\n".join(__doc__.split("\n\n")[::2]),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("--seconds", type=int, default=60, help="time for each target (%(default)d)")
+    parser.add_argument("--json", type=Path, help="add the numbers to this file")
+    parser.add_argument("--build", type=Path, default=REPOSITORY / "build-fuzz", help="build folder (build-fuzz)")
+    parser.add_argument("--build-only", action="store_true", help="build the fuzzers and do not run them")
+    parser.add_argument("targets", nargs="*", metavar="TARGET", help=", ".join(targets.TARGETS))
     options = parser.parse_args(arguments)
     for name in options.targets:
         if name not in targets.TARGETS:

@@ -1,14 +1,14 @@
 #!/usr/bin/python3
-"""All studies on real measurements, in one table: what was lacking, and the error before and after on what no fit has
-seen.
+"""All studies on real measurements, in one table: the missing effect, and the error without and with it on measurements
+that no fit used.
 
 usage: studies [STUDY ...] [--run]     from the committed reports (seconds); --run: the studies are run again first
        studies --leaveOut STUDY ...    each training condition in turn is left out and predicted from the others
-       studies --picture FILE STUDY ...    the candidates, and measured and simulated values that no fit has seen
+       studies --picture FILE STUDY ...    the candidates, and measured and simulated values that no fit used
 
-Errors are those of held-out conditions: the study's own (results/), or those that were held back (results/heldOut, by
-scoreHeldOut), or of training conditions left out in turn (results/leftOut), which no fit has seen, but whoever wrote
-the library may have. In this order; the table says which. """
+Errors are those of held-out conditions: the study's own (results/), or a blind test set (results/heldOut, by
+scoreHeldOut), or training conditions left out in turn (results/leftOut), which no fit used, though the authors of the
+library may have known them. The first of these that exists is taken; the table states which. """
 
 import argparse
 import json
@@ -37,10 +37,10 @@ STUDIES = {
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("study", nargs="*", help="of " + ", ".join(STUDIES))
-    parser.add_argument("--run", action="store_true")
-    parser.add_argument("--leaveOut", action="store_true")
-    parser.add_argument("--picture", metavar="FILE")
+    parser.add_argument("study", nargs="*", help="one of " + ", ".join(STUDIES))
+    parser.add_argument("--run", action="store_true", help="run the studies again first")
+    parser.add_argument("--leaveOut", action="store_true", help="predict each training condition from the others")
+    parser.add_argument("--picture", metavar="FILE", help="draw the studies into this file")
     arguments = parser.parse_args()
     unknown = [name for name in arguments.study if name not in STUDIES]
     if unknown:
@@ -77,8 +77,8 @@ def leave_out(original: Any) -> None:
 
 def table(chosen: Any) -> None:
     print(
-        "| data | baseline | what was lacking | held out | error before | after | one more parameter | noise alone |"
-        " entered | runs | their time |"
+        "| data | baseline | missing effect | held out | error before | after | one more parameter | noise alone |"
+        " accepted | runs | time |"
     )
     print("|---|---|---|---|---|---|---|---|---|---|---|")
     for name in chosen:
@@ -97,7 +97,7 @@ def table(chosen: Any) -> None:
 
 
 def answer(report: Any) -> Any:
-    return {"named": report["name"], "noResidual": "nothing", "unknown": "unknown"}.get(
+    return {"named": report["name"], "noResidual": "no residual", "unknown": "unknown"}.get(
         report["decision"]
     ) or "one of: " + ", ".join(
         [one["name"] for one in report["set"]] + ["something else"] * report["somethingElseInSet"]
@@ -105,13 +105,13 @@ def answer(report: Any) -> Any:
 
 
 def unseen(name: str, report: Any) -> dict[str, Any]:
-    """Labels and reports of what no fit has seen, one line of the table each."""
+    """Labels and reports of conditions that no fit used, one line of the table each."""
     folder = CASES / name / "results"
     if report["heldOut"].get("before"):
         return {", ".join(report["heldOut"]["conditions"]): report}
     scored = read(folder / "heldOut/report.json")
     if scored:
-        return {", ".join(scored["heldOut"]["conditions"]) + " (held back)": scored}
+        return {", ".join(scored["heldOut"]["conditions"]) + " (blind test set)": scored}
     left = {path.parent.name: read(path) for path in sorted(folder.glob("leftOut/*/report.json"))}
     return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
 
@@ -121,7 +121,7 @@ CANDIDATES = 5  # effects in the picture's left panel
 
 def picture(names: list[str], file: Path) -> None:
     """A row for each study, from the measurement to the answer: how well each effect explains the training data;
-    then each condition that no fit has seen, as measured and as simulated without and with the effect that was named.
+    then each condition that no fit used, as measured and as simulated without and with the effect that was named.
     """
     from clepsydra import picture_style
     from clepsydra.picture_style import pyplot
