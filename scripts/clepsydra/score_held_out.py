@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Scores a study on a blind test set: the measured files of candidate conditions are entered as held-out conditions, and
-the study is run again from its stored runs. The answer is written before the files are read.
+"""Scores a study on a blind test set: the measured files of candidate conditions are entered as held-out conditions,
+and the study is run again from its stored runs. The answer is written before the files are read.
 
 Writes STUDY's folder/results/heldOut/report.json and .html. The study file is not changed. """
 

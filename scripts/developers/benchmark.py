@@ -3,9 +3,9 @@
 
 Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY ...]
 
-Without ENTRY, all entries are measured; with --quick all but the longest. Prints a table and, with --json, writes it with
-machine, date and load. An entry that cannot be measured on this machine is skipped, with the reason. LAMMPS and Yade come with
-scripts/setup --with otherCodes. """
+Without ENTRY, all entries are measured; with --quick all but the longest. Prints a table and, with --json, writes
+it with machine, date and load. An entry that cannot be measured on this machine is skipped, with the reason. LAMMPS
+and Yade come with scripts/setup --with otherCodes. """
 
 import argparse
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Error rates of traceResidual with a surrogate of the solver: false alarms, detection, right names, sets of candidates,
-answers `unknown`, coverage of intervals, the same answer with other seeds.
+"""Error rates of traceResidual with a surrogate of the solver: false alarms, detection, right names, sets of
+candidates, answers `unknown`, coverage of intervals, the same answer with other seeds.
 
 Prints the table of all seeds that have been run (takes seconds). With --run SEED, options of
 build/bin/checkIdentification may follow, for instance --libraries 3. """

@@ -4,9 +4,9 @@ each fault, a run must end with a message or resume with the results of an undis
 
 Usage: faults [--quick] [--json FILE] [--keep] [NAME ...]
 
-Without NAME, all kinds of fault are tried; with --quick a selection, in a minute. Each kind is tried several times and
-compared with an undisturbed run. Prints a line per kind; exit status 1 if one of them fails. A fault that cannot be made
-on this machine is skipped, with the reason. --page writes the table of a JSON file into the page. """
+Without NAME, all kinds of fault are tried; with --quick a selection, in a minute. Each kind is tried several times
+and compared with an undisturbed run. Prints a line per kind; exit status 1 if one of them fails. A fault that
+cannot be made on this machine is skipped, with the reason. --page writes the table of a JSON file into the page. """
 
 import argparse
 import os

@@ -4,10 +4,10 @@
 Usage: firstHour --json FILE [--quick] [--page PAGE] [--suite NAME] [--keep FOLDER] [--mirror URL]
        firstHour --list [--quick] [--page PAGE]
 
-Needs root and debootstrap (apt-get install debootstrap). Two systems with Debian's smallest set of packages are made in
-folders: one with a clone of this repository's last commit, and one in which only the Debian package is installed that was
-built in the first. What a reader does besides the lines is in tests/pages/firstHour.yaml. FILE receives a list of step,
-command, seconds and ok, in order. Exit status 1 if a line failed. """
+Needs root and debootstrap (apt-get install debootstrap). Two systems with Debian's smallest set of packages are
+made in folders: one with a clone of this repository's last commit, and one in which only the Debian package is
+installed that was built in the first. What a reader does besides the lines is in tests/pages/firstHour.yaml. FILE
+receives a list of step, command, seconds and ok, in order. Exit status 1 if a line failed. """
 
 import argparse
 import json
