@@ -201,7 +201,6 @@ class Meanings(Folder):
         said = self.imported(HERE / "packedColumn")
         self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
 
-
     def test_what_todays_tutorials_write(self) -> None:
         """A regular expression as keyword, couple_every beside couplingInterval, executeProps of a command that is not
         chosen, and dictionaries of other programs: ErgunTestMPI of CFDEMcoupling-PUBLIC has all of them."""
@@ -212,9 +211,9 @@ class Meanings(Folder):
         with open(case / "CFD/constant/liggghtsCommands", "a") as commands:
             commands.write("executeProps2 { command (run); }\n")
         (case / "CFD/system/funkySetFieldsDict").write_text("expressions ( );\n")
-        told = self.imported(case)
+        printed = self.imported(case)
         for word in ("couple_every 50", "executeProps2", "funkySetFieldsDict"):
-            self.assertIn(word, told)
+            self.assertIn(word, printed)
         self.assertIn('"DEM/in.liggghts_run"', (self.target / "constant/couplingProperties").read_text())
         self.assertTrue((self.target / "system/funkySetFieldsDict").exists())
 
@@ -223,7 +222,9 @@ class Meanings(Folder):
         schemes = "CFD/system/fvSchemes"
         case = self.case("settlingParticle", schemes)
         old = (case / schemes).read_text()
-        (case / schemes).write_text(old.replace("divSchemes\n{", "divSchemes\n{\n    div((nuEff*dev2(T(grad(U))))) none;"))
+        (case / schemes).write_text(
+            old.replace("divSchemes\n{", "divSchemes\n{\n    div((nuEff*dev2(T(grad(U))))) none;")
+        )
         self.imported(case)
         written = (self.target / "system/fvSchemes").read_text()
         self.assertRegex(written, r"\sdiv\(\(nuEff\*dev2\(T\(grad\(U\)\)\)\)\) +none;")
@@ -234,7 +235,8 @@ class Meanings(Folder):
         case = self.case("settlingParticle", control)
         with open(case / control, "a") as end:
             end.write(
-                "functions { flow { type surfaceFieldValue; functionObjectLibs (fieldFunctionObjects); fields ( phi ); } }"
+                "functions { flow { type surfaceFieldValue; functionObjectLibs (fieldFunctionObjects); "
+                "fields ( phi ); } }"
             )
         self.imported(case)
         written = (self.target / "system/controlDict").read_text()

@@ -376,7 +376,8 @@ TEST(Liggghts, ForgetsWhatItsOwnForgetsWithAListForEveryStep)
     constexpr int steps = 1200;
     const Eigen::MatrixXd ours = heap(steps, "");
     EXPECT_EQ(ours, heap(steps, "tangential_reset on tangential_damping on"));
-    EXPECT_EQ(ours, heap(steps, "tangential_reset off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
+    EXPECT_EQ(
+        ours, heap(steps, "tangential_reset off tangential_damping on", "neigh_modify delay 0 every 1 check no\n"));
     EXPECT_NE(ours, heap(steps, "tangential_reset off"));
 }
 
