@@ -5,7 +5,7 @@ usage: pages.py table BUILD                 each command of the pages has its ro
 command,
                                             the tests that rows name are tests of BUILD, links within the repository
                                             lead
-                                            to files, and README.md has at most 900 words
+                                            to files, and README.md has at most 700 words
        pages.py run PAGE BUILD HEADERS [--long]     runs a page's commands; with --long those that take long instead
 
 A command is a line of an indented block, or words in backquotes, that begins with a file of the repository or with a
@@ -28,7 +28,7 @@ from clepsydra.environment import REPOSITORY as ROOT
 from developers.page_text import commands, links
 
 TABLE = Path(__file__).with_name("commands.yaml")
-WORDS_OF_FRONT_PAGE = 900  # one screen: what is more belongs on the page beside what it describes
+WORDS_OF_FRONT_PAGE = 700  # one screen: what is more belongs on the page beside what it describes
 KINDS = ("run", "long", "test")
 PATH = "/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin"
 

@@ -85,10 +85,8 @@ class Settings:
         self.entries: dict[str, Any] = {
             "fluid": "incompressible",
             "modelType": self.one_of("modelType", ("A", "B")),
-            "voidFractionModel": self.one_of("voidFractionModel", ("divided", "centre", "Gaussian", "Gauss")),
+            "voidFractionModel": self.one_of("voidFractionModel", ("divided", "centre")),
         }
-        if self.entries["voidFractionModel"] == "Gauss":
-            self.entries["voidFractionModel"] = "Gaussian"
         self.void_fraction_props()
         self.smoothing()
         self.forces()
