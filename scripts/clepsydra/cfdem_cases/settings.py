@@ -32,6 +32,17 @@ SAME_FORCES = (
     "RongDrag",
     "SchillerNaumannDrag",
 )
+ONLY_IN_MODEL_A = ("gradPForce", "viscForce")
+# Models that a term of the equations has -> the word that leaves the term out, and what that means.
+TERMS = {
+    tuple(name for name in SAME_FORCES if name.endswith("Drag")): ("noDrag", "without drag"),
+    ("gradPForce",): ("noPressureGradient", "without the pressure gradient on the particles"),
+    ("viscForce",): ("noViscousStress", "without the viscous stress on the particles"),
+    ("Archimedes",): (
+        "noBuoyancy",
+        "without buoyancy, which is right only where the fluid is much lighter than the particles",
+    ),
+}
 OTHER_NAMES = {"MeiLift": "SaffmanLiftForce"}
 DIAGNOSTICS = (
     "volWeightedAverage",
@@ -152,16 +163,27 @@ class Settings:
             if name in OTHER_NAMES:
                 self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
             self.force_props(name)
-        if "Archimedes" not in chosen:
-            self.report.change(
-                self.where,
-                "forceModels",
-                (
-                    "has no Archimedes: particles feel no buoyancy, as before; that is right only where "
-                    "the fluid is much lighter than the particles"
-                ),
-            )
-        self.entries["forceModels"] = f"( {' '.join(chosen)} )"
+        self.entries["forceModels"] = f"( {' '.join([*chosen, *self.left_out_of(chosen)])} )"
+
+    def left_out_of(self, chosen: list[str]) -> list[str]:
+        """The words for terms of the equations that the old case does not have."""
+        words = []
+        for models, (word, meaning) in TERMS.items():
+            of_term = [name for name in chosen if name in models]
+            if len(of_term) > 1:
+                self.report.error(
+                    self.where, "forceModels", f"has {' and '.join(of_term)}, whose forces add up; allowed: one of them"
+                )
+            if self.entries["modelType"] == "B" and models[0] in ONLY_IN_MODEL_A:
+                if of_term:
+                    self.report.error(
+                        self.where, models[0], "stands in model B, whose drag contains it; allowed: without it"
+                    )
+            elif not of_term:
+                words.append(word)
+                lacks = "no drag law" if word == "noDrag" else f"no {models[0]}"
+                self.report.change(self.where, "forceModels", f"has {lacks}, so {word} is added: {meaning}, as before")
+        return words
 
     def force_props(self, name: str) -> None:
         props = self.old.sub(f"{name}Props")
