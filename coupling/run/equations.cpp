@@ -53,7 +53,7 @@ std::string termIn(ModelType modelType, const ForceModel& force)
     switch (textOf(force.family()).reaction)
     {
         case ReactionPlace::source:
-            return term + "/eps";
+            return term.substr(0, 1) + " 1/eps" + term.substr(1);
         case ReactionPlace::ofOwnKind:
             return term + ", divided by eps where its reaction is a source of the fluid";
         case ReactionPlace::inFluid:

@@ -234,8 +234,13 @@ class Errors(Folder):
             (coupling, 'granVelFieldName "Us";\n    verbose', "slipFactor 2;\n    verbose", "slipFactor"),
             (coupling, "modelType B;", "modelType Bfull;", "modelType"),
             (coupling, "    Archimedes\n", "    Archimedes\n    magicForce\n", "magicForce"),
-            (coupling, "    Archimedes\n", "    Archimedes\n    KochHillDrag\n", "DiFeliceDrag and KochHillDrag"),
-            (coupling, "    //gradPForce\n", "    gradPForce\n", "gradPForce"),
+            (
+                coupling,
+                "    Archimedes\n",
+                "    Archimedes\n    KochHillDrag\n",
+                "KochHillDrag: its force adds to that of DiFeliceDrag",
+            ),
+            (coupling, "    //gradPForce\n", "    gradPForce\n", "gradPForce: the drag of model B"),
             (coupling, "dataExchangeModel twoWayMPI", "dataExchangeModel twoWayM2M", "dataExchangeModel"),
             (coupling, "scaleUpVol 1.0", "scaleUpVol 1.3", "scaleUpVol"),
             (control, "adjustTimeStep  no", "adjustTimeStep  yes", "adjustTimeStep"),
@@ -276,6 +281,16 @@ class Errors(Folder):
             "modelType B; useImplicitWhatever on;",
         )
         self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
+
+    def test_without_a_second_drag_law(self) -> None:
+        case = self.case(
+            "settlingParticle",
+            "CFD/constant/couplingProperties",
+            "    Archimedes\n",
+            "    Archimedes\n    KochHillDrag\n",
+        )
+        self.imported(case, "--without", "KochHillDrag")
+        self.assertIn("( DiFeliceDrag Archimedes );", (self.target / "constant/couplingProperties").read_text())
 
     def test_without_that_names_nothing(self) -> None:
         done = self.importing(HERE / "settlingParticle", "--without", "misspelt")

@@ -140,7 +140,7 @@ TEST(Equations, AreThoseOfModelB)
 {
     EXPECT_THAT(printed("modelType B; useDDTvoidfraction off; forceModels (RongDrag Archimedes);"),
         AllOf(HasSubstr("continuity          div(eps U) = 0"), HasSubstr("= - grad(p) + div(tau) - S"),
-            testing::ContainsRegex("\\+ S_p \\(U - v\\)/eps +drag: RongDrag"),
+            testing::ContainsRegex("\\+ 1/eps S_p \\(U - v\\) +drag: RongDrag"),
             testing::ContainsRegex("- rho_f V_p g +buoyancy: Archimedes"), testing::Not(HasSubstr("V_p grad(p)"))));
 }
 

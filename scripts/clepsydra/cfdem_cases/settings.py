@@ -163,23 +163,20 @@ class Settings:
             if name in OTHER_NAMES:
                 self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
             self.force_props(name)
-        self.entries["forceModels"] = f"( {' '.join([*chosen, *self.left_out_of(chosen)])} )"
+        words = self.left_out_of(chosen)
+        self.entries["forceModels"] = f"( {' '.join([*chosen, *words])} )"
 
     def left_out_of(self, chosen: list[str]) -> list[str]:
-        """The words for terms of the equations that the old case does not have."""
+        """The words for terms of the equations that the old case does not have. What no equation has is removed."""
         words = []
         for models, (word, meaning) in TERMS.items():
             of_term = [name for name in chosen if name in models]
-            if len(of_term) > 1:
-                self.report.error(
-                    self.where, "forceModels", f"has {' and '.join(of_term)}, whose forces add up; allowed: one of them"
-                )
-            if self.entries["modelType"] == "B" and models[0] in ONLY_IN_MODEL_A:
-                if of_term:
-                    self.report.error(
-                        self.where, models[0], "stands in model B, whose drag contains it; allowed: without it"
-                    )
-            elif not of_term:
+            contained = self.entries["modelType"] == "B" and models[0] in ONLY_IN_MODEL_A
+            for name in of_term if contained else of_term[1:]:
+                chosen.remove(name)
+                why = "the drag of model B contains it" if contained else f"its force adds to that of {of_term[0]}"
+                self.report.error(self.where, name, f"{why}; allowed: without it")
+            if not contained and not of_term:
                 words.append(word)
                 lacks = "no drag law" if word == "noDrag" else f"no {models[0]}"
                 self.report.change(self.where, "forceModels", f"has {lacks}, so {word} is added: {meaning}, as before")
