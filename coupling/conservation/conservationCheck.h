@@ -92,10 +92,18 @@ public:
         const ReceivedMomentum& received, const Foam::vector& fluidLost, const Foam::vector& semiImplicitMomentum);
 
     /// Records the pressure force of one coupling step, over all ranks [N].
-    /// \param onParticles  force of the fluid's pressure gradient on all particles
+    /// \param onParticles  force of the fluid's pressure gradient that was applied to all particles
     /// \param inFluid  force whose reaction is in the fluid's equation
-    /// \param sumOfMagnitudes  sum of the magnitudes of the forces on the particles
-    void recordPressureForce(const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes);
+    /// \param sumOfMagnitudes  sum of the magnitudes of the forces that the gradient at the particles amounts to
+    /// \param leftOut  true where the case leaves this force out: the error is reported, but it is no reason to stop
+    void recordPressureForce(
+        const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes, bool leftOut = false);
+
+    /// Error of the pressure force in the last coupling step [-].
+    double pressureForceError() const
+    {
+        return pressureForceError_;
+    }
 
     /// Records the continuity error of one coupling step, d(eps)/dt + div(eps U) times the coupling step [-]: the
     /// volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it.

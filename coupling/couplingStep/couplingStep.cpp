@@ -20,7 +20,8 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
       fluidDensity_(fluid.density),
       timers_(timers),
       conservation_(settings.dict(), mesh.time()),
-      insertionAndRemoval_(settings.dict(), mesh, settings.couplingTimeStep())
+      insertionAndRemoval_(settings.dict(), mesh, settings.couplingTimeStep()),
+      forces_(models ? &models->forces : nullptr)
 {
     if (models && models->forces.needs().pairReach > 0)
     {
@@ -72,6 +73,7 @@ void CouplingStep::advance(const Foam::volVectorField& U, const Foam::volScalarF
 {
     couplingTimeStep_ = length_.seconds();
     advanceParticles();
+    checkPressureForce();
     if (length_.isAdjustable())
     {
         length_.choose(limits(phi), timeLeft);
@@ -114,8 +116,22 @@ void CouplingStep::restartInPlace(const Foam::volVectorField& U, const Foam::vol
     resetReceivedImpulse();
 }
 
+void CouplingStep::checkPressureForce()
+{
+    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
+    if (settings_.modelType() == ModelType::A)
+    {
+        fluid_->checkPressureForce(
+            returnReduce(toFoam(Vector3d(forces_->takePressureImpulse() / demTime_)), Foam::sumOp<Foam::vector>()));
+    }
+}
+
 ReceivedMomentum CouplingStep::resetReceivedImpulse()
 {
+    if (forces_)
+    {
+        forces_->takePressureImpulse();
+    }
     const ParticlesView particles = engine_.particles();
     Vector3d sum = Vector3d::Zero();
     double sumOfMagnitudes = 0;
@@ -146,6 +162,7 @@ std::vector<CouplingStepLimit> CouplingStep::limits(const Foam::surfaceScalarFie
 void CouplingStep::advanceParticles()
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
+    demTime_ = length_.steps() * engine_.timeStep();
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
     const int highestBefore = conservation_.countParticles(particles);

@@ -96,6 +96,9 @@ private:
     /// Removes particles that are entirely beyond an outlet. \return true if there were any; the engine has then been
     /// prepared for its next step
     bool removeParticlesThatLeft();
+    /// Compares the impulse that the pressure gradient gave the particles in the last coupling step with the fluid's.
+    /// Collective.
+    void checkPressureForce();
     /// Sets the received impulses of all particles to zero. \return their sum over all ranks
     ReceivedMomentum resetReceivedImpulse();
     /// Upper limits of the next coupling step, one line for each reason. Collective.
@@ -114,6 +117,10 @@ private:
     PhaseTimers& timers_;
     ConservationCheck conservation_;
     InsertionAndRemoval insertionAndRemoval_;
+    /// Null for DEM only.
+    ParticleForces* forces_;
+    /// DEM time of the last coupling step: the number of DEM steps times their length [s].
+    double demTime_ = 0;
     std::unique_ptr<FluidCoupling> fluid_;
 };
 

@@ -203,7 +203,7 @@ Reactions FluidCoupling::reactions() const
         const Vector3d velocity = particles.velocity.col(particle);
         // Explicit coupling anticipates no motion: without the response to the pressure it would be worse than none.
         const double volume = settings_.implicitCoupling() ? volumeInFluid(particles, particle) : 0;
-        const double pressureForce = settings_.modelType() == ModelType::A ? fluid_.density * volume : 0;
+        const double pressureForce = pressureActsOnParticles() ? fluid_.density * volume : 0;
         all.col(particle) << particles.state[particle].received.impulse
                                  - ofParticle.col(particle).segment<3>(semiImplicitImpulse) - motion.drag * velocity,
             motion.drag, volume * motion.velocityResponse, volume * motion.pressureResponse * pressureForce,
@@ -225,9 +225,10 @@ void FluidCoupling::assignSemiImplicitDrag(const volVectorField& U, const volSca
     {
         const AnticipatedMotion& motion = anticipated_[static_cast<std::size_t>(particle)];
         const FluidAtParticle& fluid = particles.state[particle].fluid;
+        const double pressureVolume = pressureActsOnParticles() ? volumeInFluid(particles, particle) : 0;
         fromFluid.col(particle) =
             motion.drag * fluid.velocityInCells
-            + anticipatedTime_ * motion.velocityResponse * volumeInFluid(particles, particle) * fluid.pressureGradient;
+            + anticipatedTime_ * motion.velocityResponse * pressureVolume * fluid.pressureGradient;
         checkpointedState(particles).col(particle).segment<3>(semiImplicitImpulse) =
             fromFluid.col(particle) - motion.drag * particles.velocity.col(particle);
     }
@@ -236,8 +237,8 @@ void FluidCoupling::assignSemiImplicitDrag(const volVectorField& U, const volSca
 
 tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) const
 {
-    const dimensionedScalar inModelA("inModelA", dimless, settings_.modelType() == ModelType::A ? 1 : 0);
-    return inModelA * (voidFraction_ - pressureFactor_) * fvc::grad(p);
+    const dimensionedScalar active("active", dimless, pressureActsOnParticles() ? 1 : 0);
+    return active * (voidFraction_ - pressureFactor_) * fvc::grad(p);
 }
 
 void FluidCoupling::findCells()
@@ -323,13 +324,13 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
 void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse)
 {
     pressureFactor_ = voidFraction_;
-    if (settings_.modelType() == ModelType::A)
-    {
-        columns(pressureFactor_.primitiveFieldRef()) += velocityResponse;
-    }
-    else
+    if (settings_.modelType() == ModelType::B)
     {
         pressureFactor_.primitiveFieldRef() = 1;
+    }
+    else if (pressureActsOnParticles())
+    {
+        columns(pressureFactor_.primitiveFieldRef()) += velocityResponse;
     }
     pressureFactor_.correctBoundaryConditions();
 }
@@ -353,7 +354,7 @@ void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarFie
     const tmp<volVectorField> gradient = fvc::grad(p);
 
     Eigen::MatrixXd pascalPerMetre = fluid_.density * columns(gradient().primitiveField());
-    const vector pressureForceInFluid =
+    pressureForceInFluid_ =
         -gSum(vectorField(fluid_.density * gradient().primitiveField() * solidFraction_ * mesh_.V().field()));
     if (settings_.modelType() == ModelType::A)
     {
@@ -406,28 +407,29 @@ void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarFie
         });
     }
     sampled.store(exchange_.sumAtOwners(distribution_.sample(sampled.inCells())));
-
-    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
-    if (settings_.modelType() == ModelType::A)
-    {
-        recordPressureForce(pressureForceInFluid);
-    }
+    magnitudeOfPressureForces_ = magnitudeOfPressureForces();
 }
 
-void FluidCoupling::recordPressureForce(const vector& inFluid)
+double FluidCoupling::magnitudeOfPressureForces()
 {
     const ParticlesView particles = engine_.particles();
-    vector onParticles = vector::zero;
-    scalar sumOfMagnitudes = 0;
+    scalar sum = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        const vector onParticle =
-            -volumeInFluid(particles, particle) * toFoam(particles.state[particle].fluid.pressureGradient);
-        onParticles += onParticle;
-        sumOfMagnitudes += mag(onParticle);
+        sum += volumeInFluid(particles, particle) * particles.state[particle].fluid.pressureGradient.norm();
     }
+    return returnReduce(sum, sumOp<scalar>());
+}
+
+void FluidCoupling::checkPressureForce(const vector& onParticles)
+{
     conservation_.recordPressureForce(
-        returnReduce(onParticles, sumOp<vector>()), inFluid, returnReduce(sumOfMagnitudes, sumOp<scalar>()));
+        onParticles, pressureForceInFluid_, magnitudeOfPressureForces_, !pressureActsOnParticles());
+}
+
+bool FluidCoupling::pressureActsOnParticles() const
+{
+    return settings_.modelType() == ModelType::A && needs_.pressureGradient;
 }
 
 string FluidCoupling::describeCell(label cell) const

@@ -67,6 +67,10 @@ public:
     /// field, so that a resumed run has it too.
     void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
 
+    /// Compares the force of the pressure gradient on the particles with its reaction in the fluid's equation.
+    /// \param onParticles  mean over the coupling step since fluidToParticles(), sum over all ranks [N]
+    void checkPressureForce(const Foam::vector& onParticles);
+
     /// Samples the fluid at the particles, for the next coupling step. Collective.
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
@@ -128,7 +132,10 @@ private:
     /// each cell
     void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse);
     void smooth(Eigen::MatrixXd& densities);
-    void recordPressureForce(const Foam::vector& inFluid);
+    /// Sum over all ranks of the magnitudes of the pressure forces on the particles [N].
+    double magnitudeOfPressureForces();
+    /// Whether the pressure gradient acts on the particles: in model A, unless it is left out.
+    bool pressureActsOnParticles() const;
     [[noreturn]] void reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const;
     Foam::string describeCell(Foam::label cell) const;
 
@@ -154,6 +161,10 @@ private:
     double anticipatedTime_ = 0;
     /// Drag coefficient of all particles per volume [kg/(m3 s)]; null where the self-induced velocity is not removed.
     Foam::autoPtr<Foam::volScalarField> resistance_;
+    /// Force whose reaction to the particles is in the fluid's equation, and the sum of the magnitudes of the forces on
+    /// the particles in the next coupling step, over all ranks [N]; model A only.
+    Foam::vector pressureForceInFluid_ = Foam::vector::zero;
+    double magnitudeOfPressureForces_ = 0;
     /// DU/Dt [m/s2]; null where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
 

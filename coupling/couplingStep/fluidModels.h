@@ -16,7 +16,9 @@ struct FluidModels
         const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid, PhaseTimers& timers)
         : forces(settings.dict(), settings.modelType(), fluid, timers),
           distribution(settings.dict(), mesh)
-    {}
+    {
+        forces.requireAllTerms(settings.dict());
+    }
 
     ParticleForces forces;
     Distribution distribution;

@@ -12,7 +12,7 @@ namespace
 /// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: multiplied by a factor
 /// and corrected for walls.
 template<class Law>
-class Drag : public ForceModel
+class Drag : public ForceOf<ForceFamily::drag>
 {
 public:
     Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
@@ -35,6 +35,16 @@ public:
             many.dynamicViscosity = fluid_.viscosityAt(particles.position.col(first), 2 * particles.radius[first]);
             addTo(particles, first, std::min(atATime, particles.size() - first), many, sum);
         }
+    }
+
+    std::vector<WallPlane> resistingWalls() const override
+    {
+        return walls_.planes();
+    }
+
+    Foam::string term() const override
+    {
+        return walls_.hasPlanes() ? Foam::string("+ S_p (U - v + the slip that plane walls add)") : ForceModel::term();
     }
 
     Foam::string description() const override

@@ -10,7 +10,7 @@ namespace
 
 /// -V_p grad p, where p is the pressure without its hydrostatic part. In model A the fluid has eps grad p, so the
 /// reaction (1 - eps) grad p is already in its equation. Anderson & Jackson, I&EC Fundamentals 6, 527 (1967).
-class PressureGradientForce : public ForceModel
+class PressureGradientForce : public ForceOf<ForceFamily::pressureGradient>
 {
 public:
     TypeName("gradPForce");
@@ -24,9 +24,16 @@ public:
     {
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
-            sum.shared.col(particle) -=
+            sum.pressure.col(particle) -=
                 sphereVolume(particles.radius[particle]) * particles.state[particle].fluid.pressureGradient;
         }
+    }
+
+    ForceNeeds needs() const override
+    {
+        ForceNeeds needs;
+        needs.pressureGradient = true;
+        return needs;
     }
 
     bool onlyInModelA() const override
@@ -41,7 +48,7 @@ public:
 };
 
 /// V_p div(tau): the force of the undisturbed flow's viscous stress on the particle.
-class ViscousForce : public ForceModel
+class ViscousForce : public ForceOf<ForceFamily::viscousStress>
 {
 public:
     TypeName("viscForce");
@@ -79,7 +86,7 @@ public:
 };
 
 /// -rho_f V_p g: the force of the hydrostatic part of the pressure gradient. Its reaction acts on the tank's floor.
-class Archimedes : public ForceModel
+class Archimedes : public ForceOf<ForceFamily::buoyancy>
 {
 public:
     TypeName("Archimedes");
@@ -113,10 +120,12 @@ defineTypeNameAndDebug(ViscousForce, 0);
 addToRunTimeSelectionTable(ForceModel, ViscousForce, dictionary);
 defineTypeNameAndDebug(Archimedes, 0);
 addToRunTimeSelectionTable(ForceModel, Archimedes, dictionary);
-const ModelLines lines(
-    "forceModels", {{PressureGradientForce::typeName_(), "-V grad p, p without its hydrostatic part (model A)"},
-                       {ViscousForce::typeName_(), "viscous force V div(tau) (model A)"},
-                       {Archimedes::typeName_(), "buoyancy; necessary with either modelType"}});
+const ForceLines pressureGradient(ForceFamily::pressureGradient,
+    {{PressureGradientForce::typeName_(), "-V grad p, p without its hydrostatic part (model A)"}});
+const ForceLines viscousStress(
+    ForceFamily::viscousStress, {{ViscousForce::typeName_(), "viscous force V div(tau) (model A)"}});
+const ForceLines buoyancy(
+    ForceFamily::buoyancy, {{Archimedes::typeName_(), "buoyancy; necessary with either modelType"}});
 
 } // namespace
 

@@ -12,6 +12,7 @@ void ForceSum::setZero(Eigen::Index particleCount)
 {
     implicitCoefficient.setZero(particleCount);
     source.setZero(3, particleCount);
+    pressure.setZero(3, particleCount);
     shared.setZero(3, particleCount);
     mutual.setZero(3, particleCount);
     addedMass.setZero(particleCount);

@@ -2,6 +2,8 @@
 
 #include "couplingState.h"
 #include "forces/fluidProperties.h"
+#include "forces/forceFamily.h"
+#include "forces/wallPlanes.h"
 #include "runTimeSelection.h"
 
 namespace clepsydra
@@ -10,6 +12,8 @@ namespace clepsydra
 /// Quantities that a force needs beyond those that are always available.
 struct ForceNeeds
 {
+    /// grad p.
+    bool pressureGradient = false;
     /// DU/Dt.
     bool acceleration = false;
     /// curl U.
@@ -28,7 +32,8 @@ struct ForceNeeds
 ///
 ///     implicitCoefficient[i] (U_fluid - v_i) + source.col(i)
 ///     + addedMass[i] (DU/Dt - dv_i/dt)    reaction: a source of the fluid
-///     + shared.col(i)                     reaction: already in the fluid's equation
+///     + pressure.col(i)                   reaction: already in the fluid's equation
+///     + shared.col(i)                     reaction: on the tank
 ///     + mutual.col(i)                     reaction: on another particle or a wall
 ///
 /// In model B the first two lines are divided by the void fraction; ParticleForces does this, the force models do not.
@@ -38,7 +43,10 @@ struct ForceSum
     Eigen::ArrayXd implicitCoefficient;
     /// Su [N]. Its reaction is a source of the fluid.
     Eigen::Matrix3Xd source;
-    /// Su [N]. Its reaction is already in the fluid's equation: model A's eps grad p, and the hydrostatic part of p.
+    /// Su [N]. Its reaction is already in the fluid's equation: model A's -V_p grad p. The conservation check compares
+    /// both.
+    Eigen::Matrix3Xd pressure;
+    /// Su [N]. Its reaction acts on the tank: the hydrostatic part of p.
     Eigen::Matrix3Xd shared;
     /// Su between two particles, or a particle and a wall [N]. Its reaction acts on the other one.
     Eigen::Matrix3Xd mutual;
@@ -52,7 +60,8 @@ struct ForceSum
 
 /// One force of the fluid on the particles. It is selected by name in `forceModels (...)` of couplingProperties, with
 /// coefficients in `<name>Props`. A model adds its force on all particles of the rank at once. Values that it stores
-/// between calls are in ParticlesView::memory, because particles change ranks.
+/// between calls are in ParticlesView::memory, because particles change ranks. A model declares its family, most simply
+/// by the base class ForceOf.
 class ForceModel
 {
 public:
@@ -68,6 +77,20 @@ public:
 
     virtual void add(const ParticlesView& particles, ForceSum& sum) const = 0;
 
+    virtual ForceFamily family() const = 0;
+
+    /// The term in the equation of motion of a particle, with its sign, as the report at the start of the log prints it.
+    virtual Foam::string term() const
+    {
+        return textOf(family()).term;
+    }
+
+    /// True for an entry of forceModels that leaves the term of its family out.
+    virtual bool isLeftOut() const
+    {
+        return false;
+    }
+
     virtual ForceNeeds needs() const
     {
         return {};
@@ -79,8 +102,28 @@ public:
         return false;
     }
 
+    /// Plane walls whose resistance the force contains at gaps above a fifth of a radius. Two forces with the same wall
+    /// would count it twice.
+    virtual std::vector<WallPlane> resistingWalls() const
+    {
+        return {};
+    }
+
     /// One line with the coefficients for the report at the start of the log.
     virtual Foam::string description() const = 0;
+};
+
+/// Base of the models of one family.
+template<ForceFamily Family>
+class ForceOf : public ForceModel
+{
+public:
+    static constexpr ForceFamily declaredFamily = Family;
+
+    ForceFamily family() const final
+    {
+        return Family;
+    }
 };
 
 /// Registers a law of closures/ as a force model under the law's own name.
@@ -89,10 +132,10 @@ struct RegisterLaw : ForceModel::adddictionaryConstructorToTable<Model<Law>>
 {
     RegisterLaw()
         : ForceModel::adddictionaryConstructorToTable<Model<Law>>(Law::name),
-          line("forceModels", {{Law::name, Law::line}})
+          line(Model<Law>::declaredFamily, {{Law::name, Law::line}})
     {}
 
-    const ModelLines line;
+    const ForceLines line;
 };
 
 } // namespace clepsydra

@@ -35,7 +35,7 @@ static_assert(std::is_standard_layout_v<MotionHistory>, "an engine stores it as 
 ///     historyForceProps { law Basset; }         // creeping flow
 ///     historyForceProps { law MeiAdrian; }      // finite Re; the default
 ///     historyForceProps { law MeiAdrian; }      // finite Re; the default
-class HistoryForce : public ForceModel
+class HistoryForce : public ForceOf<ForceFamily::history>
 {
 public:
     TypeName("historyForce");
@@ -119,7 +119,8 @@ private:
 
 defineTypeNameAndDebug(HistoryForce, 0);
 addToRunTimeSelectionTable(ForceModel, HistoryForce, dictionary);
-const ModelLines lines("forceModels", {{HistoryForce::typeName_(), "history force (Basset; Mei & Adrian 1992)"}});
+const ForceLines lines(
+    ForceFamily::history, {{HistoryForce::typeName_(), "history force (Basset; Mei & Adrian 1992)"}});
 
 } // namespace
 

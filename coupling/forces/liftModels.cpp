@@ -10,7 +10,8 @@ namespace
 
 /// A lift law of closures/ as a force model, C (U_f - u_p) x w.
 template<class Law>
-class Lift : public ForceModel
+class Lift
+    : public ForceOf<Law::rotation == closures::Rotation::ofFluid ? ForceFamily::shearLift : ForceFamily::rotationLift>
 {
 public:
     Lift(const Foam::dictionary& coefficients, const FluidProperties& fluid)

@@ -24,7 +24,7 @@ namespace
 ///
 /// The force is explicit in every DEM step, so the step must stay below m/(6 pi mu R_eff^2/roughness), which is 0.5 ms
 /// for 2 mm glass beads at a wall in water with a roughness of 1 um. FatalError for DEM steps above half of it.
-class LubricationForce : public ForceModel
+class LubricationForce : public ForceOf<ForceFamily::lubrication>
 {
 public:
     TypeName("lubricationForce");
@@ -53,6 +53,13 @@ public:
         ForceNeeds needs;
         needs.pairReach = reach_;
         return needs;
+    }
+
+    std::vector<WallPlane> resistingWalls() const override
+    {
+        // The correction of the drag is constant in smaller gaps; see WallCorrection.
+        constexpr double largestBesideCorrectedDrag = 0.1;
+        return wallReach_ > largestBesideCorrectedDrag ? walls_ : std::vector<WallPlane>();
     }
 
     Foam::string description() const override
@@ -131,8 +138,8 @@ private:
 
 defineTypeNameAndDebug(LubricationForce, 0);
 addToRunTimeSelectionTable(ForceModel, LubricationForce, dictionary);
-const ModelLines lines(
-    "forceModels", {{LubricationForce::typeName_(), "lubrication between particles and at walls (Cox 1974)"}});
+const ForceLines lines(ForceFamily::lubrication,
+    {{LubricationForce::typeName_(), "lubrication between particles and at walls (Cox 1974)"}});
 
 } // namespace
 

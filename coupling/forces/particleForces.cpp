@@ -1,11 +1,16 @@
 #include "forces/particleForces.h"
 
-#include "HashSet.H"
+#include "vectors.h"
+
 #include "wordList.H"
 
 #include <algorithm>
 #include <cstddef>
+#include <sstream>
+#include <string>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace clepsydra
 {
@@ -41,6 +46,22 @@ ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eige
         particles.memorySize, particles.advancesMemory, values(particles.fixed)};
 }
 
+/// "(WenYuDrag StokesDrag noDrag)": the models of a family, and the word that leaves it out.
+std::string allowedFor(ForceFamily family)
+{
+    Foam::wordList names = ForceLines::namesOf(family);
+    if (const Foam::word leftOutBy(textOf(family).leftOutBy); !leftOutBy.empty())
+    {
+        names.append(leftOutBy);
+    }
+    std::string text;
+    for (const Foam::word& name : names)
+    {
+        text += (text.empty() ? "(" : " ") + name;
+    }
+    return text + ')';
+}
+
 } // namespace
 
 ParticleForces::ParticleForces(
@@ -48,33 +69,98 @@ ParticleForces::ParticleForces(
     : timers_(timers),
       modelType_(modelType)
 {
-    Foam::wordHashSet names;
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
-        if (!names.insert(name))
+        if (names_.found(name))
         {
             FatalIOErrorInFunction(couplingProperties)
                 << "Entry 'forceModels' lists '" << name << "' twice; allowed: each force once"
                 << Foam::exit(Foam::FatalIOError);
         }
-        const bool memoryTaken = needs().memory > 0;
         models_.append(ForceModel::New(name, couplingProperties, fluid).ptr());
-        if (modelType_ == ModelType::B && models_.last().onlyInModelA())
+        names_.append(name);
+        checkLastModel(couplingProperties);
+    }
+    checkWalls(couplingProperties);
+    pairs_ = needs().pairReach > 0;
+}
+
+void ParticleForces::checkWalls(const Foam::dictionary& couplingProperties) const
+{
+    std::vector<WallPlane> walls;
+    for (const ForceModel& model : models_)
+    {
+        const std::vector<WallPlane> ofModel = model.resistingWalls();
+        for (const WallPlane& wall : ofModel)
         {
-            FatalIOErrorInFunction(couplingProperties)
-                << "Entry 'forceModels' lists '" << name
-                << "' and entry 'modelType' is B; allowed: without it, because in "
-                << "model B the fluid has the whole pressure gradient and viscous stress, and the particles' part of "
-                << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
+            if (std::any_of(walls.begin(), walls.end(), [&](const WallPlane& other) { return wall.isSameAs(other); }))
+            {
+                FatalIOErrorInFunction(couplingProperties)
+                    << "Two models of entry 'forceModels' contain the resistance of the wall at " << toFoam(wall.point)
+                    << " m, so it would be counted twice; allowed: one of wallCorrection of the drag law, and a "
+                    << "wallReach (or reach) above 0.1 of lubricationForce" << Foam::exit(Foam::FatalIOError);
+            }
         }
-        if (memoryTaken && models_.last().needs().memory > 0)
+        walls.insert(walls.end(), ofModel.begin(), ofModel.end());
+    }
+}
+
+void ParticleForces::checkLastModel(const Foam::dictionary& couplingProperties) const
+{
+    const Foam::word& name = names_.last();
+    const ForceModel& last = models_.last();
+    if (modelType_ == ModelType::B && last.onlyInModelA())
+    {
+        FatalIOErrorInFunction(couplingProperties)
+            << "Entry 'forceModels' lists '" << name << "' and entry 'modelType' is B; allowed: without it, because in "
+            << "model B the fluid has the whole pressure gradient and viscous stress, and the particles' part of "
+            << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
+    }
+    for (Foam::label other = 0; other < models_.size() - 1; ++other)
+    {
+        const ForceModel& before = models_[other];
+        if (last.family() != ForceFamily::other && before.family() == last.family())
+        {
+            const bool oneIsLeftOut = before.isLeftOut() || last.isLeftOut();
+            FatalIOErrorInFunction(couplingProperties)
+                << "Entry 'forceModels' lists '" << names_[other] << "' and '" << name << "', which are both for the "
+                << textOf(last.family()).name
+                << (oneIsLeftOut ? ": one is the force, the other one leaves it out" : ": their forces would add up")
+                << "; allowed: one of " << allowedFor(last.family()).c_str() << Foam::exit(Foam::FatalIOError);
+        }
+        if (last.needs().memory > 0 && before.needs().memory > 0)
         {
             FatalIOErrorInFunction(couplingProperties)
                 << "Entry 'forceModels' lists a second force that stores values per particle, '" << name
                 << "'; allowed: one such force" << Foam::exit(Foam::FatalIOError);
         }
     }
-    pairs_ = needs().pairReach > 0;
+}
+
+void ParticleForces::requireAllTerms(const Foam::dictionary& couplingProperties) const
+{
+    std::vector<ForceFamily> terms = {ForceFamily::drag, ForceFamily::buoyancy};
+    if (modelType_ == ModelType::A)
+    {
+        terms.insert(terms.end(), {ForceFamily::pressureGradient, ForceFamily::viscousStress});
+    }
+    std::ostringstream faults;
+    for (const ForceFamily term : terms)
+    {
+        if (std::none_of(
+                models_.begin(), models_.end(), [term](const ForceModel& model) { return model.family() == term; }))
+        {
+            const ForceFamilyText& text = textOf(term);
+            faults << "Entry 'forceModels' has no model of the " << text.name << ", " << text.term
+                   << ", which the equations of model " << (modelType_ == ModelType::A ? 'A' : 'B')
+                   << " contain; allowed: " << allowedFor(term) << ", where " << text.leftOutBy
+                   << " solves the equations without this term\n";
+        }
+    }
+    if (!faults.str().empty())
+    {
+        FatalIOErrorInFunction(couplingProperties) << faults.str().c_str() << Foam::exit(Foam::FatalIOError);
+    }
 }
 
 ForceNeeds ParticleForces::needs() const
@@ -82,6 +168,7 @@ ForceNeeds ParticleForces::needs() const
     ForceNeeds needs;
     for (const ForceModel& model : models_)
     {
+        needs.pressureGradient = needs.pressureGradient || model.needs().pressureGradient;
         needs.acceleration = needs.acceleration || model.needs().acceleration;
         needs.vorticity = needs.vorticity || model.needs().vorticity;
         needs.viscousStress = needs.viscousStress || model.needs().viscousStress;
@@ -114,6 +201,7 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
     {
         model.add(particles, sum_);
     }
+    Vector3d pressureForce = Vector3d::Zero();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
@@ -124,7 +212,9 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
         const double addedMass = ofModel * sum_.addedMass[particle];
         Vector3d withReaction = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
                                 + ofModel * sum_.source.col(particle);
-        const Vector3d withoutReaction = submergedFraction * sum_.shared.col(particle) + sum_.mutual.col(particle);
+        const Vector3d withoutReaction =
+            submergedFraction * (sum_.pressure.col(particle) + sum_.shared.col(particle)) + sum_.mutual.col(particle);
+        pressureForce += submergedFraction * sum_.pressure.col(particle);
         if (addedMass > 0)
         {
             state.received.addedMassTime += timeStep * addedMass;
@@ -144,6 +234,12 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
         state.received.impulse += timeStep * withReaction;
         state.received.implicitCoefficientTime += timeStep * coefficient;
     }
+    pressureImpulse_ += timeStep * pressureForce;
+}
+
+Vector3d ParticleForces::takePressureImpulse()
+{
+    return std::exchange(pressureImpulse_, Vector3d::Zero());
 }
 
 void ParticleForces::removeSelfInducedVelocity(const ParticlesView& particles)

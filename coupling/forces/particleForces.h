@@ -16,21 +16,40 @@ namespace clepsydra
 class ParticleForces final : public FluidForces
 {
 public:
-    /// FatalIOError for an unknown force and for one that is incompatible with `modelType`.
+    /// FatalIOError for an unknown force, for one that is incompatible with `modelType`, and for two of one family.
     ParticleForces(const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid,
         PhaseTimers& timers);
 
     void evaluate(const ParticlesView& particles, double timeStep, Vectors force) override;
 
+    /// Checks that `forceModels` has a model, or the word that leaves it out, for each term that the equations of
+    /// `modelType` ask for: drag and buoyancy, in model A also pressure gradient and viscous stress. FatalIOError that
+    /// names what is missing and what is allowed.
+    void requireAllTerms(const Foam::dictionary& couplingProperties) const;
+
     /// Quantities that at least one of the forces needs.
     ForceNeeds needs() const;
+
+    /// Sum over this rank's particles of the impulse that the pressure gradient has given them since the last call
+    /// [N s]; model A only.
+    Vector3d takePressureImpulse();
 
     const Foam::PtrList<ForceModel>& models() const
     {
         return models_;
     }
 
+    /// Names of models(), in the same order.
+    const Foam::wordList& names() const
+    {
+        return names_;
+    }
+
 private:
+    /// FatalIOError where a wall is in the drag and in another force, so that it is counted twice.
+    void checkWalls(const Foam::dictionary& couplingProperties) const;
+    /// FatalIOError where the last model must not stand beside those before it, or in this `modelType`.
+    void checkLastModel(const Foam::dictionary& couplingProperties) const;
     void evaluatePart(const ParticlesView& particles, double timeStep, Vectors force);
     /// Sets the velocity that the forces use to the sampled one less the particle's self-induced velocity.
     static void removeSelfInducedVelocity(const ParticlesView& particles);
@@ -38,8 +57,10 @@ private:
     PhaseTimers& timers_;
     const ModelType modelType_;
     bool pairs_ = false;
+    Foam::wordList names_;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;
+    Vector3d pressureImpulse_ = Vector3d::Zero();
 };
 
 } // namespace clepsydra

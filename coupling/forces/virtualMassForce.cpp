@@ -18,7 +18,7 @@ const ModelLines laws(
 ///
 ///     virtualMassForceProps { law constant; Cadd 0.5; }     // the default
 ///     virtualMassForceProps { law Zuber; }                  // increases with the solid fraction
-class VirtualMassForce : public ForceModel
+class VirtualMassForce : public ForceOf<ForceFamily::addedMass>
 {
 public:
     TypeName("virtualMassForce");
@@ -70,8 +70,8 @@ private:
 
 defineTypeNameAndDebug(VirtualMassForce, 0);
 addToRunTimeSelectionTable(ForceModel, VirtualMassForce, dictionary);
-const ModelLines lines(
-    "forceModels", {{VirtualMassForce::typeName_(), "added mass force (Auton, Hunt & Prud'homme 1988)"}});
+const ForceLines lines(
+    ForceFamily::addedMass, {{VirtualMassForce::typeName_(), "added mass force (Auton, Hunt & Prud'homme 1988)"}});
 
 } // namespace
 

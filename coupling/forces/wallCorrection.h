@@ -64,6 +64,11 @@ public:
         return closures::diFeliceWallVelocityRatioAtSpeed(lambda, closures::isolatedReynolds(particle));
     }
 
+    const std::vector<WallPlane>& planes() const
+    {
+        return planes_;
+    }
+
     bool hasPlanes() const
     {
         return !planes_.empty();

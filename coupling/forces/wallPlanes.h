@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <vector>
 
 namespace clepsydra
@@ -23,6 +24,13 @@ struct WallPlane
     double distance(const Eigen::Vector3d& position) const
     {
         return normal.dot(position - point);
+    }
+
+    /// Whether it is the same plane, but for the rounding of numbers that were typed twice.
+    bool isSameAs(const WallPlane& other) const
+    {
+        constexpr double tolerance = 1e-9;
+        return normal.dot(other.normal) > 1 - tolerance && std::abs(distance(other.point)) < tolerance;
     }
 };
 

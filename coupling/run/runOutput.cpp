@@ -1,6 +1,7 @@
 #include "run/runOutput.h"
 
 #include "run/caseSizes.h"
+#include "run/equations.h"
 #include "functionObjects/massInHopper.h"
 #include "run/startReport.h"
 #include "run/unreadFields.h"
@@ -87,7 +88,8 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
         lines.push_back(choice);
     }
     const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_);
-    printStartReport(engine_, lines, scales, settings_.demDict());
+    printStartReport(
+        engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr), scales, settings_.demDict());
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.particles > 0;
 }

@@ -42,8 +42,8 @@ double maxRayleighFraction(const dictionary& demDict)
 
 } // namespace
 
-void printStartReport(const DemEngine& engine, const std::vector<std::string>& models, const DemTimeScales& scales,
-    const dictionary& demDict)
+void printStartReport(const DemEngine& engine, const std::vector<std::string>& models,
+    const std::vector<std::string>& equations, const DemTimeScales& scales, const dictionary& demDict)
 {
     Info << "Versions\n"
          << "    Clepsydra " << version << ", commit " << gitCommit << nl << "    OpenFOAM v" << foamVersion::api
@@ -52,6 +52,11 @@ void printStartReport(const DemEngine& engine, const std::vector<std::string>& m
     for (const std::string& model : models)
     {
         Info << "    " << model.c_str() << nl;
+    }
+    Info << nl << "Equations" << nl;
+    for (const std::string& line : equations)
+    {
+        Info << "    " << line.c_str() << nl;
     }
 
     std::ostringstream speed;

@@ -45,7 +45,7 @@ SETTINGS = (
     "0/p",
 )
 # Headings of the log's first part that are reported as they stand.
-SECTIONS = ("Versions", "Models", "Time scales", "Sizes")
+SECTIONS = ("Versions", "Models", "Equations", "Time scales", "Sizes")
 STYLE = """body { font: 16px/1.45 sans-serif; max-width: 62em; margin: 2em auto; padding: 0 1em; color: #222; }
 h1 { font-size: 1.5em } h2 { font-size: 1.15em; margin-top: 2em; border-bottom: 1px solid #ccc }
 td, th { padding: .15em 1em .15em 0; text-align: left; vertical-align: top }

@@ -107,6 +107,27 @@ class Meanings(Folder):
         self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
         self.assertIn("couplingInterval 100: is in seconds here", said)
 
+    def test_terms_that_were_not_there_are_left_out(self) -> None:
+        """Without the words the program refuses the case."""
+        said = self.imported(HERE / "packedColumn")
+        text = (self.target / "constant/couplingProperties").read_text()
+        self.assertIn("( gradPForce viscForce GidaspowDrag noBuoyancy );", text)
+        self.assertIn("has no Archimedes, so noBuoyancy is added", said)
+
+    def test_model_b_lacks_no_pressure_gradient(self) -> None:
+        self.imported(HERE / "settlingParticle")
+        text = (self.target / "constant/couplingProperties").read_text()
+        self.assertIn("( DiFeliceDrag Archimedes );", text)
+
+    def test_case_without_drag_law(self) -> None:
+        self.imported(
+            self.case(
+                "settlingParticle", "CFD/constant/couplingProperties", "    DiFeliceDrag\n    //grad", "    //grad"
+            )
+        )
+        text = (self.target / "constant/couplingProperties").read_text()
+        self.assertIn("( Archimedes noDrag );", text)
+
     def test_smoothing_length_spreads_alike(self) -> None:
         self.imported(HERE / "settlingParticle")
         self.assertIn("bandwidth               0.0006;", (self.target / "constant/couplingProperties").read_text())
@@ -254,6 +275,13 @@ class Errors(Folder):
             (coupling, 'granVelFieldName "Us";\n    verbose', "slipFactor 2;\n    verbose", "slipFactor"),
             (coupling, "modelType B;", "modelType Bfull;", "modelType"),
             (coupling, "    Archimedes\n", "    Archimedes\n    magicForce\n", "magicForce"),
+            (
+                coupling,
+                "    Archimedes\n",
+                "    Archimedes\n    KochHillDrag\n",
+                "KochHillDrag: its force adds to that of DiFeliceDrag",
+            ),
+            (coupling, "    //gradPForce\n", "    gradPForce\n", "gradPForce: the drag of model B"),
             (coupling, "dataExchangeModel twoWayMPI", "dataExchangeModel twoWayM2M", "dataExchangeModel"),
             (coupling, "scaleUpVol 1.0", "scaleUpVol 1.3", "scaleUpVol"),
             (control, "adjustTimeStep  no", "adjustTimeStep  yes", "adjustTimeStep"),
@@ -293,6 +321,16 @@ class Errors(Folder):
             "modelType B; useImplicitWhatever on;",
         )
         self.assertIn("useImplicitWhatever: by --without", self.imported(case, "--without", "useImplicitWhatever"))
+
+    def test_without_a_second_drag_law(self) -> None:
+        case = self.case(
+            "settlingParticle",
+            "CFD/constant/couplingProperties",
+            "    Archimedes\n",
+            "    Archimedes\n    KochHillDrag\n",
+        )
+        self.imported(case, "--without", "KochHillDrag")
+        self.assertIn("( DiFeliceDrag Archimedes );", (self.target / "constant/couplingProperties").read_text())
 
     def test_without_that_names_nothing(self) -> None:
         done = self.importing(HERE / "settlingParticle", "--without", "misspelt")

@@ -31,17 +31,45 @@ TEST(PressureForceBalance, BalancesWhereNothingIsLost)
 
 TEST(PressureForceBalance, FindsAForceThatIsDoubled)
 {
-    expectFound([] { const Stream stream(withForceTimes(2, "all")); }, "pressureForceTolerance");
+    expectFound([] { Stream(withForceTimes(2, "all")).advance([](fvVectorMatrix&) {}); }, "pressureForceTolerance");
 }
 
 TEST(PressureForceBalance, FindsAWrongSign)
 {
-    expectFound([] { const Stream stream(withForceTimes(-1, "all")); }, "pressureForceTolerance");
+    expectFound([] { Stream(withForceTimes(-1, "all")).advance([](fvVectorMatrix&) {}); }, "pressureForceTolerance");
 }
 
 TEST(PressureForceBalance, FindsThatTheParticleOfOneCellDoesNotFeelIt)
 {
-    expectFound([] { const Stream stream(withForceTimes(0, "one")); }, "pressureForceTolerance");
+    expectFound([] { Stream(withForceTimes(0, "one")).advance([](fvVectorMatrix&) {}); }, "pressureForceTolerance");
+}
+
+// The gradient that was sampled balances; the force that a particle then received does not. A check of the sampled gradient
+// finds neither this nor the next fault.
+TEST(PressureForceBalance, FindsAParticleThatDoesNotFeelWhatWasSampledAtIt)
+{
+    Stream stream(withForceTimes(1, "all"));
+    EXPECT_NO_THROW(stream.advance([](fvVectorMatrix&) {}));
+    stream.engine().losePressureGradientFromNowOn();
+    expectFound([&] { stream.advance([](fvVectorMatrix&) {}); }, "pressureForceTolerance");
+}
+
+TEST(PressureForceBalance, FindsADemStepThatIsMissing)
+{
+    Stream stream(withForceTimes(1, "all"));
+    EXPECT_NO_THROW(stream.advance([](fvVectorMatrix&) {}));
+    stream.engine().missAStepFromNowOn();
+    expectFound([&] { stream.advance([](fvVectorMatrix&) {}); }, "pressureForceTolerance");
+}
+
+// A case that leaves the force out on purpose runs on, and the error is reported in full.
+TEST(PressureForceBalance, IsNoReasonToStopWhereTheForceIsLeftOut)
+{
+    StreamSetup setup = withForceTimes(1, "all");
+    setup.pressureForce = "noPressureGradient";
+    Stream stream(setup);
+    EXPECT_NO_THROW(stream.advance([](fvVectorMatrix&) {}));
+    EXPECT_NEAR(stream.pressureForceError(), 1, 1e-9);
 }
 
 } // namespace clepsydra::tests

@@ -23,7 +23,11 @@ public:
 
     void advance(int steps) override
     {
-        FakeEngine::advance(steps);
+        if (losesPressureGradient_)
+        {
+            FakeEngine::particles().state[0].fluid.pressureGradient.setZero();
+        }
+        FakeEngine::advance(steps - missingSteps_);
         viewsWithout_ = forgets_ ? 5 : 0;
     }
 
@@ -45,8 +49,22 @@ public:
         forgets_ = true;
     }
 
+    /// From now on the first particle moves as if no pressure gradient had been sampled at it.
+    void losePressureGradientFromNowOn()
+    {
+        losesPressureGradient_ = true;
+    }
+
+    /// From now on each interval lacks a DEM step.
+    void missAStepFromNowOn()
+    {
+        missingSteps_ = 1;
+    }
+
 private:
     bool forgets_ = false;
+    bool losesPressureGradient_ = false;
+    int missingSteps_ = 0;
     int viewsWithout_ = 0;
     std::vector<CouplingState> shown_;
 };
@@ -56,6 +74,7 @@ struct StreamSetup
 {
     std::string momentumModel = "implicitCouple";
     std::string drag = "SchillerNaumannDrag";
+    std::string pressureForce = "gradPForce";
     std::string smoothing = "constDiffSmoothing; constDiffSmoothingProps { bandwidth 0.15; }";
     std::array<int, 3> cells = {6, 6, 6};
     /// Along each axis, in the middle of equal boxes.
@@ -90,7 +109,7 @@ public:
                         ? "; adjustableCouplingTimeStep yes; maxCo 1e9; minCouplingTimeStep 1e-3; maxCouplingTimeStep 1"
                         : "")
                 + "; voidFractionModel divided; smoothingModel " + setup.smoothing + "; forceModels (" + setup.drag
-                + " gradPForce Archimedes); momCoupleModels (" + setup.momentumModel
+                + ' ' + setup.pressureForce + " noViscousStress Archimedes); momCoupleModels (" + setup.momentumModel
                 + "); DEM { engine liggghts; script none; }");
         mesh_ = boxMesh(case_.time(), point::zero, point::one, setup.cells);
         readFromCase<fvSchemes>(*mesh_);
@@ -142,6 +161,12 @@ public:
     ForgetfulEngine& engine()
     {
         return engine_;
+    }
+
+    /// Of the last coupling step, relative to the sum of the magnitudes.
+    double pressureForceError() const
+    {
+        return couplingStep_->conservation().pressureForceError();
     }
 
     /// Length of the coupling step that was advanced over last [s].

@@ -141,6 +141,27 @@ TEST(AddedMass, IsStableNearAndBelowTheWatersDensity)
     }
 }
 
+/// With all four terms left out a particle in water falls as in a vacuum, and the log says what is missing and what is
+/// solved. A word that left its force in would slow it down by a third.
+TEST(LeftOut, TermsActNoMore)
+{
+    TestCase test;
+    test.cells = {8, 8, 16};
+    test.coupling().set("forceModels", "(noDrag noPressureGradient noViscousStress noBuoyancy)");
+    test.setTimes(0.01, 1e-3, 0.01);
+    test.dem.timeStep = 2e-5;
+    test.dem.particles = {{0.0203, 0.0197, 0.03}};
+    test.dem.dumpEvery = 500;
+    const Outcome outcome = test.run();
+    ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_NEAR(test.particleHistory().back().velocity(2, 0), -9.81 * 0.01, 1e-9);
+    EXPECT_TRUE(outcome.says("rho_f eps (dU/dt + U . grad(U)) = - eps grad(p) + div(tau) - S")) << outcome.output;
+    for (const std::string word : {"noDrag", "noPressureGradient", "noViscousStress", "noBuoyancy"})
+    {
+        EXPECT_TRUE(outcome.says(", by " + word)) << outcome.output;
+    }
+}
+
 /// 105 particles that fall through water with every force that there is, spread by the Gaussian model.
 void fallingCloud(TestCase& test)
 {

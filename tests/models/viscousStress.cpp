@@ -26,7 +26,7 @@ TEST(ViscousStress, OfAParticleIsThatOfTheEquationWhereDivergenceIsNotZero)
     TemporaryCase folder;
     folder.writeDictionary("constant/couplingProperties",
         "fluid incompressible; modelType A; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
-        "forceModels (gradPForce viscForce); momCoupleModels (explicitCouple); "
+        "forceModels (noDrag gradPForce viscForce noBuoyancy); momCoupleModels (explicitCouple); "
         "DEM { engine liggghts; script none; }");
     const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
     readFromCase<fvSchemes>(*mesh);

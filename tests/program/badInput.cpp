@@ -205,6 +205,22 @@ TEST(BadInput, UnknownModels)
     expectEntryRefused("DEM/engine", "lammps", {"'lammps'", "liggghts"});
 }
 
+/// A set of forces that belongs to no equation is refused. Without the check each of these runs to its end: a bed without
+/// gradPForce does not lift, a particle without Archimedes falls half as fast again, two drag laws are added.
+TEST(BadInput, SetsOfForcesThatBelongToNoEquation)
+{
+    expectEntryRefused("forceModels", "(DiFeliceDrag viscForce Archimedes)",
+        {"no model of the pressure gradient", "model A", "(gradPForce noPressureGradient)"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag gradPForce viscForce)",
+        {"no model of the buoyancy", "model A", "(Archimedes noBuoyancy)"});
+    expectEntryRefused("forceModels", "(DiFeliceDrag GidaspowDrag gradPForce viscForce Archimedes)",
+        {"'DiFeliceDrag' and 'GidaspowDrag'", "would add up", "one of (BeetstraDrag"});
+    expectEntryRefused("forceModels", "(gradPForce Archimedes)",
+        {"no model of the drag", "SchillerNaumannDrag", "noDrag", "(viscForce noViscousStress)"});
+    expectRefused([](TestCase& test) { test.coupling().set("modelType", "B").set("forceModels", "(DiFeliceDrag)"); },
+        {couplingProperties, "forceModels", "model B", "(Archimedes noBuoyancy)"}, SeenBy::dictionaries);
+}
+
 /// A keyword that is unknown is refused, with the known one that it may stand for: the user waits for its effect in
 /// vain. A program that looks up what it knows and no more would run to its end.
 TEST(BadInput, EntriesThatNobodyReads)

@@ -49,7 +49,7 @@ struct ParticleSnapshot
 ///     test.box.upper = {0.04, 0.04, 0.08};
 ///     test.cells = {10, 10, 20};
 ///     test.dem.particles = {{0.02, 0.02, 0.07}};
-///     test.coupling().set("forceModels", "(SchillerNaumannDrag Archimedes)");
+///     test.coupling().set("forceModels", "(SchillerNaumannDrag gradPForce viscForce Archimedes)");
 ///     test.setTimes(0.2, 1e-3, 0.05);
 ///     const Outcome outcome = test.run();
 ///     ASSERT_TRUE(outcome.succeeded()) << outcome.output;

@@ -34,6 +34,17 @@ SAME_FORCES = (
     "RongDrag",
     "SchillerNaumannDrag",
 )
+ONLY_IN_MODEL_A = ("gradPForce", "viscForce")
+# Models that a term of the equations has -> the word that leaves the term out, and what that means.
+TERMS = {
+    tuple(name for name in SAME_FORCES if name.endswith("Drag")): ("noDrag", "without drag"),
+    ("gradPForce",): ("noPressureGradient", "without the pressure gradient on the particles"),
+    ("viscForce",): ("noViscousStress", "without the viscous stress on the particles"),
+    ("Archimedes",): (
+        "noBuoyancy",
+        "without buoyancy, which is right only where the fluid is much lighter than the particles",
+    ),
+}
 OTHER_NAMES = {"MeiLift": "SaffmanLiftForce"}
 DIAGNOSTICS = (
     "volWeightedAverage",
@@ -159,16 +170,24 @@ class Settings:
             if name in OTHER_NAMES:
                 self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
             self.force_props(name)
-        if "Archimedes" not in chosen:
-            self.report.change(
-                self.where,
-                "forceModels",
-                (
-                    "has no Archimedes: particles feel no buoyancy, as before; that is right only where "
-                    "the fluid is much lighter than the particles"
-                ),
-            )
-        self.entries["forceModels"] = f"( {' '.join(chosen)} )"
+        words = self.left_out_of(chosen)
+        self.entries["forceModels"] = f"( {' '.join([*chosen, *words])} )"
+
+    def left_out_of(self, chosen: list[str]) -> list[str]:
+        """The words for terms of the equations that the old case does not have. What no equation has is removed."""
+        words = []
+        for models, (word, meaning) in TERMS.items():
+            of_term = [name for name in chosen if name in models]
+            contained = self.entries["modelType"] == "B" and models[0] in ONLY_IN_MODEL_A
+            for name in of_term if contained else of_term[1:]:
+                chosen.remove(name)
+                why = "the drag of model B contains it" if contained else f"its force adds to that of {of_term[0]}"
+                self.report.error(self.where, name, f"{why}; allowed: without it")
+            if not contained and not of_term:
+                words.append(word)
+                lacks = "no drag law" if word == "noDrag" else f"no {models[0]}"
+                self.report.change(self.where, "forceModels", f"has {lacks}, so {word} is added: {meaning}, as before")
+        return words
 
     def force_props(self, name: str) -> None:
         props = self.old.sub(f"{name}Props")

@@ -10,7 +10,7 @@ namespace
 using namespace clepsydra;
 
 /// The same force on every particle, as a magnet far away would give it; no reaction in the fluid. ConstantForceProps { force (x y z); } [N].
-class ConstantForce : public ForceModel
+class ConstantForce : public ForceOf<ForceFamily::other>
 {
 public:
     TypeName("ConstantForce");

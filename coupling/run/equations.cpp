@@ -1,0 +1,128 @@
+#include "run/equations.h"
+
+#include <iomanip>
+#include <sstream>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+namespace
+{
+
+std::string lineOf(const std::string& what, const std::string& text)
+{
+    std::ostringstream line;
+    line << std::left << std::setw(20) << what << text;
+    return line.str();
+}
+
+std::string continuity(const CouplingSettings& settings)
+{
+    if (!settings.ddtVoidFraction())
+    {
+        return "div(eps U) = 0";
+    }
+    std::ostringstream text;
+    text << "d(eps)/dt + div(eps U) = 0";
+    if (settings.ddtSmoothingTime() > 0)
+    {
+        text << ", eps in d(eps)/dt low-pass filtered over " << settings.ddtSmoothingTime() << " s";
+    }
+    return text.str();
+}
+
+std::string stress(const FluidProperties& fluid)
+{
+    std::ostringstream text;
+    text << "tau = mu (grad(U) + grad(U)^T - 2/3 div(U) I), mu = " << fluid.dynamicViscosity << " Pa s"
+         << (fluid.stratification.isThere() ? " in the lower liquid, stratified" : "");
+    return text.str();
+}
+
+/// The term of a force as it is in the equation of motion: in model B, forces whose reaction is a source of the fluid
+/// are divided by the void fraction.
+std::string termIn(ModelType modelType, const ForceModel& force)
+{
+    const std::string term = force.term();
+    if (modelType == ModelType::A)
+    {
+        return term;
+    }
+    switch (textOf(force.family()).reaction)
+    {
+        case ReactionPlace::source:
+            return term.substr(0, 1) + " 1/eps" + term.substr(1);
+        case ReactionPlace::ofOwnKind:
+            return term + ", divided by eps where its reaction is a source of the fluid";
+        case ReactionPlace::inFluid:
+        case ReactionPlace::mutual:
+            break;
+    }
+    return term;
+}
+
+std::string reactionOf(const ForceModel& force)
+{
+    switch (textOf(force.family()).reaction)
+    {
+        case ReactionPlace::source:
+            return "reaction in S";
+        case ReactionPlace::inFluid:
+            return force.family() == ForceFamily::buoyancy ? "reaction on the tank" : "reaction in - eps grad(p)";
+        case ReactionPlace::mutual:
+            return "reaction on the other particle or the wall";
+        case ReactionPlace::ofOwnKind:
+            break;
+    }
+    return "reaction as the model states";
+}
+
+void addForces(const ParticleForces& forces, ModelType modelType, std::vector<std::string>& lines)
+{
+    std::vector<std::string> leftOut;
+    for (label i = 0; i < forces.models().size(); ++i)
+    {
+        const ForceModel& force = forces.models()[i];
+        const std::string name = forces.names()[i];
+        const ForceFamilyText& text = textOf(force.family());
+        if (force.isLeftOut())
+        {
+            leftOut.push_back(lineOf("left out", std::string(text.term) + ", " + text.name + ", by " + name
+                                                     + (force.family() == ForceFamily::pressureGradient
+                                                             ? "; momentum is not conserved, because the fluid's "
+                                                               "equation keeps - eps grad(p)"
+                                                             : "")));
+            continue;
+        }
+        std::ostringstream line;
+        line << "    " << std::left << std::setw(36) << termIn(modelType, force) << ' ' << text.name << ": " << name
+             << ", " << reactionOf(force);
+        lines.push_back(lineOf("", line.str()));
+    }
+    lines.insert(lines.end(), leftOut.begin(), leftOut.end());
+}
+
+} // namespace
+
+std::vector<std::string> equations(
+    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces)
+{
+    const std::string motion = "m dv/dt = forces of the DEM script (contacts, gravity)";
+    if (forces == nullptr)
+    {
+        return {lineOf("particle", motion)};
+    }
+    const bool isA = settings.modelType() == ModelType::A;
+    std::vector<std::string> lines = {lineOf("continuity", continuity(settings)),
+        lineOf("momentum", std::string("rho_f eps (dU/dt + U . grad(U)) = ") + (isA ? "- eps grad(p)" : "- grad(p)")
+                               + " + div(tau) - S"),
+        lineOf("", stress(fluid)),
+        lineOf("", "S: the terms below whose reaction is in S, summed over the particles, per volume"),
+        lineOf("", "p [Pa]: without its hydrostatic part; the field p is p/rho_f"), lineOf("particle", motion)};
+    addForces(*forces, settings.modelType(), lines);
+    return lines;
+}
+
+} // namespace clepsydra
