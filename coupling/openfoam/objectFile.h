@@ -13,7 +13,7 @@ namespace clepsydra
 template<class Type>
 bool hasFile(const Foam::IOobject& object)
 {
-    return Foam::returnReduce(!typeFilePath<Type>(object).empty(), Foam::orOp<bool>());
+    return Foam::returnReduce(!clepsydra::typeFilePath<Type>(object).empty(), Foam::orOp<bool>());
 }
 
 } // namespace clepsydra

@@ -26,8 +26,8 @@ IOobject optionsIn(const fileName& folder, const Time& time)
 /// File of the options, constant/fvOptions or system/fvOptions; empty where there is none. Collective.
 fileName findOptions(const Time& time)
 {
-    const fileName inConstant = typeFilePath<IOdictionary>(optionsIn(time.constant(), time));
-    const fileName inSystem = typeFilePath<IOdictionary>(optionsIn(time.system(), time));
+    const fileName inConstant = clepsydra::typeFilePath<IOdictionary>(optionsIn(time.constant(), time));
+    const fileName inSystem = clepsydra::typeFilePath<IOdictionary>(optionsIn(time.system(), time));
     if (!inConstant.empty() && !inSystem.empty())
     {
         FatalErrorInFunction << "There are both " << inConstant << " and " << inSystem

@@ -13,7 +13,7 @@ using namespace Foam;
 void refuseMovingMesh(const Time& time)
 {
     IOobject file("dynamicMeshDict", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false);
-    if (typeFilePath<IOdictionary>(file).empty())
+    if (clepsydra::typeFilePath<IOdictionary>(file).empty())
     {
         return;
     }
