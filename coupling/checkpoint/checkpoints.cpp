@@ -275,8 +275,7 @@ void requireWholeFoamFile(const fs::path& file, int ranks)
 /// Time::write() does not report whether this file could be created.
 void requireFunctionState(const Time& time)
 {
-    const fileName file =
-        time.globalPath() / writtenName(time, "functionObjectProperties", "uniform/functionObjects");
+    const fileName file = time.globalPath() / writtenName(time, "functionObjectProperties", "uniform/functionObjects");
     if (!functionObjectState(time).empty() && !isFile(file))
     {
         throw FileError(file + " could not be made");

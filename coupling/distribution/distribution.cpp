@@ -26,7 +26,8 @@ const Foam::fvMesh& withPatchesForSpheres(const Foam::fvMesh& mesh)
             FatalErrorInFunction
                 << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
                 << " is of type wedge; allowed: wall, patch, symmetryPlane and others that couple no cells, because "
-                << "the mesh must hold whole particles, and a wedge holds a slice of each" << Foam::exit(Foam::FatalError);
+                << "the mesh must hold whole particles, and a wedge holds a slice of each"
+                << Foam::exit(Foam::FatalError);
         }
         const bool betweenRanks =
             Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch);

@@ -33,8 +33,7 @@ public:
     FluidSources& operator=(const FluidSources&) = delete;
 
     /// Adds the sources to the momentum equation.
-    void addTo(
-        Foam::fvVectorMatrix& UEqn, Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
+    void addTo(Foam::fvVectorMatrix& UEqn, Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 
     /// Applies the constraints, which fix values or damp them, to the relaxed momentum equation.
     void constrain(Foam::fvVectorMatrix& UEqn) const;

@@ -69,8 +69,8 @@ void checkScalarTransport(const fvMesh& mesh)
                 << exit(FatalIOError);
         }
         WarningInFunction << "Function object '" << item.keyword() << "' (scalarTransport) with the flux " << flux
-                          << " is right only where the void fraction does not change in time, and for a steady " << field
-                          << "; otherwise use phi with a scheme '" << scheme
+                          << " is right only where the void fraction does not change in time, and for a steady "
+                          << field << "; otherwise use phi with a scheme '" << scheme
                           << "' in system/fvSchemes that begins with 'bounded'" << endl;
     }
 }

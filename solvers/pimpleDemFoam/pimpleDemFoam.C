@@ -122,9 +122,8 @@ private:
     const int before_ = messageStream::level;
 };
 
-void runWithFluid(
-    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, CouplingStep& couplingStep,
-    RunOutput& output)
+void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
+    CouplingStep& couplingStep, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid, modelType);
     couplingStep.start(flow.U(), flow.p());

@@ -20,8 +20,8 @@ void requireDimensions(const Field& field, const dimensionSet& allowed, const st
     if (field.dimensions() != allowed)
     {
         FatalErrorInFunction << "The file " << field.time().timeName() << '/' << field.name() << " has the dimensions "
-                             << field.dimensions() << "; allowed: dimensions " << allowed << " of "
-                             << meaning.c_str() << exit(FatalError);
+                             << field.dimensions() << "; allowed: dimensions " << allowed << " of " << meaning.c_str()
+                             << exit(FatalError);
     }
 }
 

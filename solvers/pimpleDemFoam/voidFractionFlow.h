@@ -45,8 +45,7 @@ public:
     SolvedFluid solve(CouplingStep& couplingStep);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(
-        const CouplingStep& couplingStep, const Foam::fvVectorMatrix& particleSource);
+    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep, const Foam::fvVectorMatrix& particleSource);
     /// \return the implicit part of d(eps)/dt as a flux [m3/s]
     Foam::tmp<Foam::surfaceScalarField> correctPressure(
         CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);

@@ -16,9 +16,7 @@ void prepare(TestCase& test, double endTime)
     pilingParticles(test, true);
     test.dem.dumpEvery = 0;
     test.setTimes(endTime, interval, 0.01);
-    test.control()
-        .set("functions/particleHeight/type", "particleHeight")
-        .set("functions/particleHeight/particle", "5");
+    test.control().set("functions/particleHeight/type", "particleHeight").set("functions/particleHeight/particle", "5");
     test.file("system/decomposeParDict")
         .set("numberOfSubdomains", "2")
         .set("method", "simple")
@@ -97,7 +95,8 @@ TEST(Collated, GivesTheSameFieldsAndIsResumedOnOneRank)
     }
     for (const std::string field : {"U", "p", "phi", "voidFraction", "alphaPhi"})
     {
-        EXPECT_TRUE(usual.runCommand("cmp 0.01/" + field + ' ' + (collated.path() / "0.01" / field).string()).succeeded())
+        EXPECT_TRUE(
+            usual.runCommand("cmp 0.01/" + field + ' ' + (collated.path() / "0.01" / field).string()).succeeded())
             << field;
     }
     const Outcome serial = collated.runCommand(goOnTo("0.011") + "$SOLVER");

@@ -198,12 +198,11 @@ TEST(BadInput, Wedges)
               "(0.0389629 -0.0017012 0.06) (0.0389629 0.0017012 0.06));\n"
               "blocks (hex (0 1 2 0 3 4 5 3) (12 1 15) simpleGrading (1 1 1));\n"
               "boundary ( front { type wedge; faces ((0 1 4 3)); } back { type wedge; faces ((0 3 5 2)); }\n"
-              "walls { type wall; faces ((1 2 5 4) (0 0 2 1) (3 4 5 3)); } axis { type empty; faces ((0 3 3 0)); } );\n";
+              "walls { type wall; faces ((1 2 5 4) (0 0 2 1) (3 4 5 3)); } axis { type empty; faces ((0 3 3 0)); } "
+              ");\n";
         for (const char* field : {"0/U", "0/p"})
         {
-            test.file(field)
-                .set("boundaryField/\"front|back\"/type", "wedge")
-                .set("boundaryField/axis/type", "empty");
+            test.file(field).set("boundaryField/\"front|back\"/type", "wedge").set("boundaryField/axis/type", "empty");
         }
     };
     expectRefused(makeWedge, {"'front'", "polyMesh/boundary", "wedge", "allowed:"}, SeenBy::dictionaries);
@@ -214,8 +213,7 @@ TEST(BadInput, MovingMesh)
 {
     const auto meshOf = [](const std::string& type) {
         return [type](TestCase& test) {
-            test.extraFiles["constant/dynamicMeshDict"] =
-                FoamFile().set("dynamicFvMesh", type).text("dynamicMeshDict");
+            test.extraFiles["constant/dynamicMeshDict"] = FoamFile().set("dynamicFvMesh", type).text("dynamicMeshDict");
         };
     };
     for (const int ranks : {1, 2})
@@ -250,9 +248,8 @@ TEST(BadInput, DimensionsOfFields)
 TEST(BadInput, FluidSources)
 {
     const auto with = [](const std::string& options) {
-        return [options](TestCase& test) {
-            test.extraFiles["constant/fvOptions"] = FoamFile().text("fvOptions") + options;
-        };
+        return [options](
+                   TestCase& test) { test.extraFiles["constant/fvOptions"] = FoamFile().text("fvOptions") + options; };
     };
     const std::string specific = " selectionMode all; volumeMode specific; injectionRateSuSp { ";
     expectRefused(with("heat { type scalarSemiImplicitSource;" + specific + "T (1 0); } }"),
@@ -283,7 +280,8 @@ TEST(BadInput, ScalarTransportWithoutBoundedScheme)
             .set("functions/tracer/type", "scalarTransport")
             .set("functions/tracer/libs", "(\"libsolverFunctionObjects.so\")");
     };
-    expectRefused(tracer, {controlDict, "'tracer'", "scalarTransport", "'div(phi,s)'", "bounded"}, SeenBy::dictionaries);
+    expectRefused(
+        tracer, {controlDict, "'tracer'", "scalarTransport", "'div(phi,s)'", "bounded"}, SeenBy::dictionaries);
 }
 
 /// Unknown names of models are refused with a list of the known ones. A program that took the usual model instead, or

@@ -69,8 +69,8 @@ Eigen::VectorXd gradients(const TestCase& test)
 
 void expectAll(const Eigen::VectorXd& values, double expected, double tolerance)
 {
-    EXPECT_LT((values.array() / expected - 1).abs().maxCoeff(), tolerance)
-        << "expected " << expected << ", found\n" << values.transpose();
+    EXPECT_LT((values.array() / expected - 1).abs().maxCoeff(), tolerance) << "expected " << expected << ", found\n"
+                                                                           << values.transpose();
 }
 
 /// Gradient in the middle of a column with or without a bed and a porous zone [m/s2].
