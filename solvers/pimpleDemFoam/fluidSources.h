@@ -1,6 +1,6 @@
 #pragma once
 
-#include "couplingStep/couplingSettings.h"
+#include "forces/modelType.h"
 #include "forces/fluidProperties.h"
 
 #include "fvMatricesFwd.H"
