@@ -1,5 +1,7 @@
 #include "couplingStep/couplingStepLength.h"
 
+#include "openfoam/objectFile.h"
+
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
