@@ -1,13 +1,16 @@
 #include "checkpoint/checkpoints.h"
 
 #include "checkpoint/manifest.h"
+#include "checkpoint/partsOfCase.h"
 #include "engine/demEngine.h"
+#include "files/timeFolders.h"
 #include "openfoam/compatibility.h"
 #include "ranks.h"
 
 #include "IFstream.H"
 #include "OSspecific.H"
 #include "Pstream.H"
+#include "fileOperation.H"
 
 #include <clepsydra/version.h>
 
@@ -36,18 +39,16 @@ const std::string oldParticlesName("particles.restart");
 /// Holds the time of the fresh start, whose fields are the user's own.
 const std::string beginningName("beginning");
 /// Marks each time folder that this program has written as half of a checkpoint.
-const std::string halfName("uniform/checkpoint");
+const word halfName("checkpoint");
+const fileName halfFolder("uniform");
 
 /// The case's own folder and those of the ranks.
 fileNameList partsOf(const fileName& caseDirectory)
 {
     fileNameList parts(1, caseDirectory);
-    for (const fileName& folder : readDir(caseDirectory, fileName::DIRECTORY))
+    for (const std::string& folder : foldersOfRanks(std::string(caseDirectory)))
     {
-        if (folder.starts_with("processor"))
-        {
-            parts.append(caseDirectory / folder);
-        }
+        parts.append(caseDirectory / folder);
     }
     return parts;
 }
@@ -71,12 +72,6 @@ instant beginningOf(const fileName& folder)
     return {value, line};
 }
 
-/// This rank's part of the case, which begins the names in a manifest: "" or "processor1/".
-std::string partPrefix()
-{
-    return Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
-}
-
 bool startsWith(const std::string& text, const std::string& beginning)
 {
     return text.compare(0, beginning.size(), beginning) == 0;
@@ -94,14 +89,15 @@ fs::path particlesOf(const std::string& timeName)
     return fs::path(folderName) / timeName;
 }
 
-/// Error that this rank finds in the particles' files. They are divided evenly between the ranks, whichever ranks have
-/// written them.
-std::string mismatchOfParticles(const fs::path& caseDirectory, const Manifest& manifest)
+/// Error that this rank finds in files of which none belongs to a single rank. They are divided evenly between the
+/// ranks, whichever ranks have written them.
+template<class IsOfThese>
+std::string mismatchOfShared(const fs::path& caseDirectory, const Manifest& manifest, const IsOfThese& isOfThese)
 {
     int turn = 0;
     for (const Manifest::File& file : manifest.files)
     {
-        if (isParticlesFile(file) && turn++ % Pstream::nProcs() == Pstream::myProcNo())
+        if (isOfThese(file) && turn++ % Pstream::nProcs() == Pstream::myProcNo())
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
@@ -115,9 +111,10 @@ std::string mismatchOfParticles(const fs::path& caseDirectory, const Manifest& m
 /// Error that this rank finds in the fields of a checkpoint that was written on the same number of ranks.
 std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest)
 {
+    const std::string own = partsOfThisRank(caseDirectory).front();
     for (const Manifest::File& file : manifest.files)
     {
-        if (!isParticlesFile(file) && startsWith(file.name, partPrefix()))
+        if (!isParticlesFile(file) && startsWith(file.name, own))
         {
             if (std::string found = Manifest::mismatch(caseDirectory, file); !found.empty())
             {
@@ -125,7 +122,8 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
             }
         }
     }
-    return {};
+    return mismatchOfShared(caseDirectory, manifest,
+        [](const Manifest::File& file) { return !isParticlesFile(file) && isCollated(file.name); });
 }
 
 /// Error in the fields of a checkpoint that was written on another number of ranks. The fields are those that
@@ -133,6 +131,7 @@ std::string mismatchHere(const fs::path& caseDirectory, const Manifest& manifest
 /// they were written.
 std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Manifest& manifest)
 {
+    const std::vector<std::string> parts = partsOfThisRank(caseDirectory);
     for (const Manifest::File& file : manifest.files)
     {
         if (isParticlesFile(file))
@@ -149,11 +148,14 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
                 return found;
             }
         }
-        const std::string name = partPrefix() + file.name.substr(ofRank ? file.name.find('/') + 1 : 0);
-        std::error_code missing;
-        if (fs::file_size(caseDirectory / name, missing) == 0 || missing)
+        const std::string name = nameInPart(file.name);
+        const bool isHere = std::any_of(parts.begin(), parts.end(), [&](const std::string& part) {
+            std::error_code missing;
+            return fs::file_size(caseDirectory / (part + name), missing) > 0 && !missing;
+        });
+        if (!isHere)
         {
-            return name + " is missing or empty (made from " + file.name + ')';
+            return parts.front() + name + " is missing or empty (made from " + file.name + ')';
         }
     }
     return {};
@@ -169,7 +171,7 @@ std::string damageOf(const fileName& caseDirectory, const std::string& timeName,
     {
         manifest = Manifest::read(folder / folderName / timeName / completeName);
         found = manifest.time != timeName ? "it has the manifest of time " + manifest.time
-                                          : mismatchOfParticles(folder, manifest);
+                                          : mismatchOfShared(folder, manifest, isParticlesFile);
         if (found.empty())
         {
             found = manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
@@ -192,11 +194,11 @@ wordList writtenTimes(const fileName& caseDirectory, scalar beginning)
         std::set<std::pair<scalar, word>> times;
         for (const fileName& part : partsOf(caseDirectory))
         {
-            for (const instant& time : Time::findTimes(part))
+            for (const TimeFolder& folder : timeFolders(std::string(part)))
             {
-                if (time.name() != "constant" && time.value() > beginning)
+                if (folder.time > beginning)
                 {
-                    times.emplace(time.value(), time.name());
+                    times.emplace(folder.time, folder.name);
                 }
             }
         }
@@ -242,8 +244,10 @@ void removeParticlesWithoutFields(const fileName& caseDirectory)
     }
 }
 
-/// A FoamFile ends with a line after which nothing is written. Where it is missing, the disk was full.
-void requireWholeFoamFile(const fs::path& file)
+/// A FoamFile ends with a line after which nothing is written. Where it is missing, the disk was full. A file of
+/// several ranks is a FoamFile that ends with the block of the last rank.
+/// \param ranks  number of ranks that share the file
+void requireWholeFoamFile(const fs::path& file, int ranks)
 {
     constexpr std::streamoff headerSize = 2000;
     constexpr std::streamoff footerSize = 200;
@@ -255,7 +259,13 @@ void requireWholeFoamFile(const fs::path& file)
         input.read(text.data(), static_cast<std::streamsize>(text.size()));
         return text;
     };
-    const bool isFoamFile = textFrom(0, headerSize).find("FoamFile") != std::string::npos;
+    const std::string header = textFrom(0, headerSize);
+    if (header.find("decomposedBlockData") != std::string::npos)
+    {
+        requireWholeBlocks(file, ranks);
+        return;
+    }
+    const bool isFoamFile = header.find("FoamFile") != std::string::npos;
     if (size == 0 || (isFoamFile && textFrom(size - footerSize, footerSize).find("// ****") == std::string::npos))
     {
         throw FileError(file.string() + " was not written to its end: is the disk full?");
@@ -265,7 +275,7 @@ void requireWholeFoamFile(const fs::path& file)
 /// Time::write() does not report whether this file could be created.
 void requireFunctionState(const Time& time)
 {
-    const fileName file = time.timePath() / "uniform/functionObjects/functionObjectProperties";
+    const fileName file = time.globalPath() / writtenName(time, "functionObjectProperties", "uniform/functionObjects");
     if (!functionObjectState(time).empty() && !isFile(file))
     {
         throw FileError(file + " could not be made");
@@ -273,17 +283,21 @@ void requireFunctionState(const Time& time)
 }
 
 /// Lines of the manifest for the files that this rank has written. \throws FileError
+/// \param timeFolder  that of the fields which this rank has written, relative to the case; empty where another rank has
 /// \param particles  files of the particles, relative to the case
 std::string linesOfThisRank(
-    const fs::path& caseDirectory, const std::string& timeName, const std::vector<fs::path>& particles)
+    const fs::path& caseDirectory, const fs::path& timeFolder, const std::vector<fs::path>& particles)
 {
     std::vector<std::string> names;
-    for (const auto& entry : fs::recursive_directory_iterator(caseDirectory / (partPrefix() + timeName)))
+    if (!timeFolder.empty())
     {
-        if (entry.is_regular_file())
+        for (const auto& entry : fs::recursive_directory_iterator(caseDirectory / timeFolder))
         {
-            // Not fs::relative(), which would resolve a processor folder that is a symbolic link.
-            names.push_back(entry.path().lexically_relative(caseDirectory));
+            if (entry.is_regular_file())
+            {
+                // Not fs::relative(), which would resolve a processor folder that is a symbolic link.
+                names.push_back(entry.path().lexically_relative(caseDirectory));
+            }
         }
     }
     names.insert(names.end(), particles.begin(), particles.end());
@@ -291,7 +305,7 @@ std::string linesOfThisRank(
     std::string lines;
     for (const std::string& name : names)
     {
-        requireWholeFoamFile(caseDirectory / name);
+        requireWholeFoamFile(caseDirectory / name, ranksOfFile(name));
         flushToDisk(caseDirectory / name);
         lines += Manifest::line({name, contentsOf(caseDirectory / name)});
     }
@@ -440,8 +454,10 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
 
 void Checkpoints::startAfresh(bool writes)
 {
-    const fileName half = time_.path() / time_.timeName() / halfName;
-    if (returnReduce(isFile(half), orOp<bool>()))
+    const fileNameList parts = partsOf(time_.globalPath());
+    const bool isHalf = std::any_of(parts.begin(), parts.end(),
+        [&](const fileName& part) { return isFile(part / time_.timeName() / halfFolder / halfName); });
+    if (returnReduce(isHalf, orOp<bool>()))
     {
         FatalErrorInFunction
             << "The fields of time " << time_.timeName() << " are half of a checkpoint whose other half, "
@@ -492,19 +508,29 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         mkDir(checkpoint.c_str());
     }
+    const bool writesFields = writesItsPart(time_);
+    const fs::path half = writtenName(time_, halfName, halfFolder);
+    const fs::path timeFolder = writesFields ? half.parent_path().parent_path() : fs::path();
     std::vector<fs::path> particles;
     List<string> linesOfRanks(Pstream::nProcs());
     const std::function<void()> steps[] = {
         [&] {
-            const fileName half = time_.path() / timeName / halfName;
-            mkDir(half.path());
-            writeWhole(half.c_str(),
-                "The particles of this time are in the case's folder " + folderName + '/' + timeName + ".\n");
+            // A thread of the file handler may still be writing.
+            fileHandler().flush();
+            if (writesFields)
+            {
+                fs::create_directories((caseDirectory / half).parent_path());
+                writeWhole(caseDirectory / half,
+                    "The particles of this time are in the case's folder " + folderName + '/' + timeName + ".\n");
+            }
         },
         [&] { particles = engine.writeCheckpoint(particlesOf(timeName) / particlesName); },
         [&] {
-            requireFunctionState(time_);
-            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeName, particles);
+            if (writesFields)
+            {
+                requireFunctionState(time_);
+            }
+            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeFolder, particles);
         },
         [&] {
             Pstream::gatherList(linesOfRanks);

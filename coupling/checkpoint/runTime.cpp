@@ -60,7 +60,11 @@ void RunTime::resume(double beginning)
 
 void RunTime::requireWholeState() const
 {
-    IFstream file(timePath() / "uniform/functionObjects/functionObjectProperties");
+    const IOobject properties("functionObjectProperties", timeName(), "uniform/functionObjects", *this,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false);
+    // Where there is no file, the message names its place.
+    const fileName found = clepsydra::typeFilePath<IOdictionary>(properties);
+    IFstream file(found.empty() ? properties.objectPath() : found);
     dictionary state(file);
     state.remove("FoamFile");
     if (state.digest() != functionObjectState(*this).digest())

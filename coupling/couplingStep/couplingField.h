@@ -1,5 +1,7 @@
 #pragma once
 
+#include "openfoam/objectFile.h"
+
 #include "volFields.H"
 #include "zeroGradientFvPatchFields.H"
 
@@ -15,7 +17,7 @@ Foam::GeometricField<Type, Foam::fvPatchField, Foam::volMesh> couplingField(
     using namespace Foam;
     using Field = GeometricField<Type, fvPatchField, volMesh>;
     IOobject file(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
-    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    if (hasFile<Field>(file))
     {
         return Field(file, mesh);
     }

@@ -1,5 +1,7 @@
 #include "couplingStep/couplingStepLength.h"
 
+#include "openfoam/objectFile.h"
+
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
@@ -48,7 +50,7 @@ CouplingStepLength::CouplingStepLength(
     mostSteps_ = wholeStepsIn(settings_.adjustableCouplingTimeStep()->longest, demTimeStep_);
 
     IOobject file("couplingTimeStep", time.timeName(), "uniform", time, IOobject::NO_READ, IOobject::AUTO_WRITE);
-    if (resumed && returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    if (resumed && hasFile<IOdictionary>(file))
     {
         file.readOpt() = IOobject::MUST_READ;
     }

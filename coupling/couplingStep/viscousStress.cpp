@@ -43,23 +43,30 @@ void setViscosity(scalarField& nu, const vectorField& places, const FluidPropert
 
 } // namespace
 
-ViscousStress::ViscousStress(const fvMesh& mesh, const FluidProperties& fluid)
-    : uniform_("nu", dimViscosity, fluid.dynamicViscosity / fluid.density)
+std::unique_ptr<volScalarField> kinematicViscosity(
+    const IOobject& object, const fvMesh& mesh, const FluidProperties& fluid)
 {
-    if (!fluid.stratification.isThere())
-    {
-        return;
-    }
-    const IOobject unregistered("nu", mesh.time().constant(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false);
-    stratified_ = std::make_unique<volScalarField>(unregistered, mesh, uniform_);
-    setViscosity(stratified_->primitiveFieldRef(), mesh.C().primitiveField(), fluid);
-    stratified_->correctBoundaryConditions();
+    auto nu = std::make_unique<volScalarField>(
+        object, mesh, dimensionedScalar("nu", dimViscosity, fluid.dynamicViscosity / fluid.density));
+    setViscosity(nu->primitiveFieldRef(), mesh.C().primitiveField(), fluid);
+    nu->correctBoundaryConditions();
     forAll (mesh.boundary(), patch)
     {
         if (!mesh.boundary()[patch].coupled())
         {
-            setViscosity(stratified_->boundaryFieldRef()[patch], mesh.boundary()[patch].Cf(), fluid);
+            setViscosity(nu->boundaryFieldRef()[patch], mesh.boundary()[patch].Cf(), fluid);
         }
+    }
+    return nu;
+}
+
+ViscousStress::ViscousStress(const fvMesh& mesh, const FluidProperties& fluid)
+    : uniform_("nu", dimViscosity, fluid.dynamicViscosity / fluid.density)
+{
+    if (fluid.stratification.isThere())
+    {
+        const IOobject unregistered("nu", mesh.time().constant(), mesh, IOobject::NO_READ, IOobject::NO_WRITE, false);
+        stratified_ = kinematicViscosity(unregistered, mesh, fluid);
     }
 }
 

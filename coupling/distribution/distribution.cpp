@@ -1,6 +1,7 @@
 #include "distribution/distribution.h"
 
 #include "processorCyclicPolyPatch.H"
+#include "wedgePolyPatch.H"
 
 #include <algorithm>
 #include <cmath>
@@ -14,11 +15,20 @@ namespace
 /// Margin in units of a particle's reach. A larger one needs fewer searches and more cells to examine between them.
 constexpr double neighbourhoodMargin = 0.3;
 
-/// A particle at a cyclic patch would have to be in two places, in the fluid and among its neighbours.
-const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
+/// A particle at a cyclic patch would have to be in two places, in the fluid and among its neighbours. Between wedge
+/// patches the mesh is a slice of an axisymmetric flow, in which a whole sphere would have its volume and drag.
+const Foam::fvMesh& withPatchesForSpheres(const Foam::fvMesh& mesh)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh())
     {
+        if (Foam::isA<Foam::wedgePolyPatch>(patch))
+        {
+            FatalErrorInFunction
+                << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
+                << " is of type wedge; allowed: wall, patch, symmetryPlane and others that couple no cells, because "
+                << "the mesh must hold whole particles, and a wedge holds a slice of each"
+                << Foam::exit(Foam::FatalError);
+        }
         const bool betweenRanks =
             Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch);
         if (patch.coupled() && !betweenRanks)
@@ -36,7 +46,7 @@ const Foam::fvMesh& withoutCyclicPatches(const Foam::fvMesh& mesh)
 } // namespace
 
 Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
-    : mesh_(withoutCyclicPatches(mesh)),
+    : mesh_(withPatchesForSpheres(mesh)),
       cells_(mesh),
       voidFraction_(VoidFractionModel::New(couplingProperties, cells_)),
       smoothing_(SmoothingModel::New(couplingProperties, mesh))

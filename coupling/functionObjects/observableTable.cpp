@@ -1,5 +1,7 @@
 #include "functionObjects/observableTable.h"
 
+#include "files/timeFolders.h"
+
 #include "IFstream.H"
 #include "OSspecific.H"
 
@@ -83,14 +85,14 @@ label makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
     {
         return stayed;
     }
-    for (const instant& start : Time::findTimes(folder))
+    for (const TimeFolder& start : timeFolders(std::string(folder)))
     {
-        const fileName file = folder / start.name() / table;
+        const fileName file = folder / start.name / table;
         if (!isFile(file))
         {
             continue;
         }
-        if (start.value() < startTime - sameTime)
+        if (start.time < startTime - sameTime)
         {
             stayed += dropRowsFrom(startTime, file);
         }

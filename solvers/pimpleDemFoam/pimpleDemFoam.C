@@ -6,13 +6,14 @@
 #include "checkpoint/runTime.h"
 #include "files/wholeFile.h"
 #include "couplingStep/couplingStep.h"
+#include "ignoredInputs.h"
 #include "liggghtsSetup.h"
+#include "fluidSources.h"
 #include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
 #include "runTimeSelection.h"
-#include "tokens/renamed.h"
 #include "vectors.h"
 #include "voidFractionFlow.h"
 
@@ -27,22 +28,6 @@ namespace
 {
 
 using namespace clepsydra;
-
-/// Refuses a function object whose type has the name of an earlier version; the FatalIOError names the new one.
-/// OpenFOAM itself would only warn of an unknown type and run without it.
-void refuseRenamedFunctionObjects(const Time& runTime)
-{
-    for (const entry& item : runTime.controlDict().subOrEmptyDict("functions"))
-    {
-        const word type = item.isDict() ? item.dict().getOrDefault<word>("type", word::null) : word::null;
-        if (const Renamed* const change = renamed(type))
-        {
-            FatalIOErrorInFunction(item.dict())
-                << "Function object '" << item.keyword() << "' has the type '" << type << "', which is now called '"
-                << change->newName.c_str() << "'" << exit(FatalIOError);
-        }
-    }
-}
 
 /// Refuses entries of OpenFOAM's other solvers that would have no effect here.
 void requireLaminar(const Time& runTime, const dictionary& transportProperties)
@@ -137,11 +122,12 @@ private:
     const int before_ = messageStream::level;
 };
 
-void runWithFluid(
-    RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, CouplingStep& couplingStep, RunOutput& output)
+void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
+    CouplingStep& couplingStep, RunOutput& output)
 {
-    VoidFractionFlow flow(mesh, fluid);
+    VoidFractionFlow flow(mesh, fluid, modelType);
     couplingStep.start(flow.U(), flow.p());
+    flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
 
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
@@ -211,11 +197,20 @@ int main(int argc, char* argv[])
 
     RunTime runTime = start.empty() ? RunTime(args) : RunTime(args, start);
     refuseRenamedFunctionObjects(runTime);
+    refuseMovingMesh(runTime);
 #include "createMesh.H"
 
     const CouplingSettings settings(runTime);
     requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
     const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
+    if (settings.hasFluid())
+    {
+        checkScalarTransport(mesh);
+    }
+    else
+    {
+        warnOfFluidSources(runTime);
+    }
     PhaseTimers timers;
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     try
@@ -235,7 +230,7 @@ int main(int argc, char* argv[])
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, couplingStep, output);
+            runWithFluid(runTime, mesh, fluid, settings.modelType(), couplingStep, output);
         }
         else
         {

@@ -1,5 +1,7 @@
 #include "voidFractionFlow.h"
 
+#include "openfoam/objectFile.h"
+
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
 #include "fvCFD.H"
@@ -10,12 +12,25 @@ namespace clepsydra
 namespace
 {
 
+/// FatalError that names the file where a field that was read has other dimensions than the equations.
+/// \param meaning  what the field is, for the message
+template<class Field>
+void requireDimensions(const Field& field, const dimensionSet& allowed, const std::string& meaning)
+{
+    if (field.dimensions() != allowed)
+    {
+        FatalErrorInFunction << "The file " << field.time().timeName() << '/' << field.name() << " has the dimensions "
+                             << field.dimensions() << "; allowed: dimensions " << allowed << " of " << meaning.c_str()
+                             << exit(FatalError);
+    }
+}
+
 /// Not OpenFOAM's createPhi.H, which treats a file that cannot be opened as missing.
 surfaceScalarField readFlux(const volVectorField& U)
 {
     const fvMesh& mesh = U.mesh();
     IOobject file("phi", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
-    if (returnReduce(isFile(file.objectPath()), orOp<bool>()))
+    if (hasFile<surfaceScalarField>(file))
     {
         return surfaceScalarField(file, mesh);
     }
@@ -49,16 +64,27 @@ scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField
 
 } // namespace
 
-VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid)
+VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, ModelType modelType)
     : mesh_(mesh),
       pimple_(mesh),
       p_(readAndWritten("p", mesh), mesh),
       U_(readAndWritten("U", mesh), mesh),
       phi_(readFlux(U_)),
-      viscousStress_(mesh, fluid)
+      alphaPhi_(
+          IOobject("alphaPhi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), phi_),
+      viscousStress_(mesh, fluid),
+      sources_(mesh, fluid, modelType)
 {
+    requireDimensions(p_, sqr(dimVelocity), "the kinematic pressure, which is the pressure in Pa divided by rho");
+    requireDimensions(U_, dimVelocity, "a velocity");
+    requireDimensions(phi_, dimVolume / dimTime, "a flux of volume");
     setRefCell(p_, pimple_.dict(), pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
+}
+
+void VoidFractionFlow::updateAlphaPhi(const volScalarField& voidFraction)
+{
+    alphaPhi_ = fvc::interpolate(voidFraction) * phi_;
 }
 
 SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
@@ -69,8 +95,9 @@ SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
     tmp<surfaceScalarField> anticipatedFlux;
     while (pimple_.loop())
     {
+        alphaPhi_ = voidFractionf * phi_;
         const fvVectorMatrix particleSource(particles.momentumSource(U_));
-        const fvVectorMatrix UEqn(momentumEquation(couplingStep, voidFractionf, particleSource));
+        const fvVectorMatrix UEqn(momentumEquation(couplingStep, particleSource));
         while (pimple_.correct())
         {
             anticipatedFlux = correctPressure(couplingStep, voidFractionf, UEqn);
@@ -78,35 +105,38 @@ SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
         sourceOfParticles =
             sum(mesh_.V().field() * ((particleSource & U_) + particles.sourceOfPressure(p_))().primitiveField());
     }
+    alphaPhi_ = voidFractionf * phi_;
     couplingStep.closeContinuity(anticipatedFlux);
-    return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(voidFractionf * phi_)};
+    return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(alphaPhi_)};
 }
 
 // The layout shows the terms of the equations.
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
-    const CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& particleSource)
+    const CouplingStep& couplingStep, const fvVectorMatrix& particleSource)
 {
     const PhaseTimers::Scope timing = couplingStep.timers().time("momentum");
     const volScalarField& voidFraction = couplingStep.fluid().voidFraction();
-    const surfaceScalarField alphaPhi("alphaPhi", voidFractionf*phi_);
 
     fvVectorMatrix UEqn
     (
         fvm::ddt(voidFraction, U_)
-      + fvm::div(alphaPhi, U_, "div(phi,U)")
-      // alphaPhi is that of the last coupling step. Its continuity error must not act as a source of momentum.
-      - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi), U_)
+      + fvm::div(alphaPhi_, U_, "div(phi,U)")
+      // alphaPhi has the flux of the last coupling step. Its continuity error must not act as a source of momentum.
+      - fvm::Sp(fvc::ddt(voidFraction) + fvc::div(alphaPhi_), U_)
       - viscousStress_.implicitDivergence(U_)
      ==
         particleSource
     );
+    sources_.addTo(UEqn, U_, voidFraction);
     UEqn.relax();
+    sources_.constrain(UEqn);
 
     if (pimple_.momentumPredictor())
     {
         Foam::solve(UEqn == -couplingStep.fluid().pressureFactor()*fvc::grad(p_));
+        sources_.correct(U_);
     }
     return UEqn;
 }
@@ -161,6 +191,7 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
 
     U_ = HbyA - rAU*pressureFactor*fvc::grad(p_);
     U_.correctBoundaryConditions();
+    sources_.correct(U_);
     return anticipatedFlux;
 }
 

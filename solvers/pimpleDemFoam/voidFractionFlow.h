@@ -2,6 +2,7 @@
 
 #include "couplingStep/couplingStep.h"
 #include "couplingStep/viscousStress.h"
+#include "fluidSources.h"
 
 #include "pimpleControl.H"
 #include "surfaceFields.H"
@@ -14,8 +15,9 @@ namespace clepsydra
 class VoidFractionFlow
 {
 public:
-    /// Reads p and U and, where the run was stopped, phi.
-    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid);
+    /// Reads p and U, where the run was stopped also phi, and the sources. FatalError that names the file where a field
+    /// has wrong dimensions.
+    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType);
 
     /// Interstitial velocity [m/s].
     Foam::volVectorField& U()
@@ -35,12 +37,15 @@ public:
         return phi_;
     }
 
+    /// Sets the registered field alphaPhi, the flux of fluid through the faces as a volume per time [m3/s], to that of the
+    /// present phi. Call before the first step; solve() does so after each.
+    void updateAlphaPhi(const Foam::volScalarField& voidFraction);
+
     /// Solves the fluid's equations over one coupling step.
     SolvedFluid solve(CouplingStep& couplingStep);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep,
-        const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& particleSource);
+    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep, const Foam::fvVectorMatrix& particleSource);
     /// \return the implicit part of d(eps)/dt as a flux [m3/s]
     Foam::tmp<Foam::surfaceScalarField> correctPressure(
         CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
@@ -50,9 +55,11 @@ private:
     Foam::volScalarField p_;
     Foam::volVectorField U_;
     Foam::surfaceScalarField phi_;
+    Foam::surfaceScalarField alphaPhi_;
     Foam::label pRefCell_ = 0;
     Foam::scalar pRefValue_ = 0;
     const ViscousStress viscousStress_;
+    const FluidSources sources_;
 };
 
 } // namespace clepsydra

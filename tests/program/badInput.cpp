@@ -187,6 +187,103 @@ TEST(BadInput, CyclicPatches)
     }
 }
 
+/// In a slice of an axisymmetric flow a whole sphere would have its volume and its drag: in a wedge of five degrees, 72 times
+/// too much.
+TEST(BadInput, Wedges)
+{
+    const Change makeWedge = [](TestCase& test) {
+        test.extraFiles["system/blockMeshDict"] =
+            FoamFile().text("blockMeshDict")
+            + "scale 1; vertices ((0 0 0) (0.0389629 -0.0017012 0) (0.0389629 0.0017012 0) (0 0 0.06)\n"
+              "(0.0389629 -0.0017012 0.06) (0.0389629 0.0017012 0.06));\n"
+              "blocks (hex (0 1 2 0 3 4 5 3) (12 1 15) simpleGrading (1 1 1));\n"
+              "boundary ( front { type wedge; faces ((0 1 4 3)); } back { type wedge; faces ((0 3 5 2)); }\n"
+              "walls { type wall; faces ((1 2 5 4) (0 0 2 1) (3 4 5 3)); } axis { type empty; faces ((0 3 3 0)); } "
+              ");\n";
+        for (const char* field : {"0/U", "0/p"})
+        {
+            test.file(field).set("boundaryField/\"front|back\"/type", "wedge").set("boundaryField/axis/type", "empty");
+        }
+    };
+    expectRefused(makeWedge, {"'front'", "polyMesh/boundary", "wedge", "allowed:"}, SeenBy::dictionaries);
+}
+
+/// The mesh does not move: ignored, the file would leave walls where they are.
+TEST(BadInput, MovingMesh)
+{
+    const auto meshOf = [](const std::string& type) {
+        return [type](TestCase& test) {
+            test.extraFiles["constant/dynamicMeshDict"] = FoamFile().set("dynamicFvMesh", type).text("dynamicMeshDict");
+        };
+    };
+    for (const int ranks : {1, 2})
+    {
+        expectRefused(meshOf("dynamicMotionSolverFvMesh"),
+            {"constant/dynamicMeshDict", "'dynamicFvMesh'", "dynamicMotionSolverFvMesh", "allowed: staticFvMesh"},
+            SeenBy::dictionaries, ranks);
+    }
+    TestCase still;
+    fillIn(still);
+    meshOf("staticFvMesh")(still);
+    const Outcome outcome = still.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// A pressure in Pa is 1000 times the kinematic one. OpenFOAM itself stops at the first equation, with a stack trace and
+/// without a file.
+TEST(BadInput, DimensionsOfFields)
+{
+    const auto withDimensions = [](const std::string& file, const std::string& dimensions) {
+        return [=](TestCase& test) { test.file(file).set("dimensions", dimensions); };
+    };
+    expectRefused(withDimensions("0/p", "[1 -1 -2 0 0 0 0]"),
+        {"The file 0/p has the dimensions [1 -1 -2 0 0 0 0]", "allowed: dimensions [0 2 -2 0 0 0 0]", "Pa"},
+        SeenBy::engine);
+    expectRefused(withDimensions("0/U", "[0 0 0 0 0 0 0]"),
+        {"The file 0/U has the dimensions [0 0 0 0 0 0 0]", "allowed: dimensions [0 1 -1 0 0 0 0]"}, SeenBy::engine);
+}
+
+/// Options that the momentum equation cannot have, or that would be wrong in it, are refused by their names. OpenFOAM warns of
+/// the first after two steps and takes the others.
+TEST(BadInput, FluidSources)
+{
+    const auto with = [](const std::string& options) {
+        return [options](
+                   TestCase& test) { test.extraFiles["constant/fvOptions"] = FoamFile().text("fvOptions") + options; };
+    };
+    const std::string specific = " selectionMode all; volumeMode specific; injectionRateSuSp { ";
+    expectRefused(with("heat { type scalarSemiImplicitSource;" + specific + "T (1 0); } }"),
+        {"constant/fvOptions", "'heat'", "scalarSemiImplicitSource", "allowed: options of U"}, SeenBy::engine);
+    expectRefused(with("lift { type buoyancyForce; fields (U); }"), {"constant/fvOptions", "'lift'", "buoyancyForce"},
+        SeenBy::engine);
+    expectRefused(with("push { type vectorSource; }"), {"vectorSource", "vectorSemiImplicitSource"}, SeenBy::engine);
+    const std::string push = "push { type vectorSemiImplicitSource;" + specific + "U ((0 0 1) 0); } }";
+    expectRefused(
+        [&](TestCase& test) {
+            with(push)(test);
+            test.extraFiles["system/fvOptions"] = test.extraFiles["constant/fvOptions"];
+        },
+        {"constant/fvOptions", "system/fvOptions", "allowed: one of them"}, SeenBy::engine);
+    TestCase inactive;
+    fillIn(inactive);
+    with("heat { type scalarSemiImplicitSource; active no;" + specific + "T (1 0); } }")(inactive);
+    const Outcome outcome = inactive.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// OpenFOAM's transport equation with the flux between the particles would change a uniform concentration, to 0.64 to 1.46
+/// in a fluidised bed; a scheme that subtracts the divergence of the flux does not.
+TEST(BadInput, ScalarTransportWithoutBoundedScheme)
+{
+    const Change tracer = [](TestCase& test) {
+        test.control()
+            .set("functions/tracer/type", "scalarTransport")
+            .set("functions/tracer/libs", "(\"libsolverFunctionObjects.so\")");
+    };
+    expectRefused(
+        tracer, {controlDict, "'tracer'", "scalarTransport", "'div(phi,s)'", "bounded"}, SeenBy::dictionaries);
+}
+
 /// Unknown names of models are refused with a list of the known ones. A program that took the usual model instead, or
 /// left the force out, would run to its end with status 0.
 TEST(BadInput, UnknownModels)

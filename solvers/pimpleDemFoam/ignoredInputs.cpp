@@ -1,0 +1,78 @@
+#include "ignoredInputs.h"
+
+#include "openfoam/compatibility.h"
+#include "tokens/renamed.h"
+
+#include "IOdictionary.H"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+void refuseMovingMesh(const Time& time)
+{
+    IOobject file("dynamicMeshDict", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false);
+    if (clepsydra::typeFilePath<IOdictionary>(file).empty())
+    {
+        return;
+    }
+    const IOdictionary dict(file);
+    const word type = dict.getOrDefault<word>("dynamicFvMesh", "none");
+    if (type != "staticFvMesh")
+    {
+        FatalIOErrorInFunction(dict) << "Entry 'dynamicFvMesh' of constant/dynamicMeshDict is " << type
+                                     << "; allowed: staticFvMesh, or no such file, because the mesh does not move"
+                                     << exit(FatalIOError);
+    }
+}
+
+void refuseRenamedFunctionObjects(const Time& time)
+{
+    for (const entry& item : time.controlDict().subOrEmptyDict("functions"))
+    {
+        const word type = item.isDict() ? item.dict().getOrDefault<word>("type", word::null) : word::null;
+        if (const Renamed* const change = renamed(type))
+        {
+            FatalIOErrorInFunction(item.dict())
+                << "Function object '" << item.keyword() << "' has the type '" << type << "', which is now called '"
+                << change->newName.c_str() << "'" << exit(FatalIOError);
+        }
+    }
+}
+
+void checkScalarTransport(const fvMesh& mesh)
+{
+    for (const entry& item : mesh.time().controlDict().subOrEmptyDict("functions"))
+    {
+        if (!item.isDict() || item.dict().getOrDefault<word>("type", word::null) != "scalarTransport"
+            || !item.dict().getOrDefault<bool>("enabled", true))
+        {
+            continue;
+        }
+        const dictionary& dict = item.dict();
+        const word field = dict.getOrDefault<word>("field", "s");
+        const word flux = dict.getOrDefault<word>("phi", "phi");
+        // OpenFOAM takes this scheme whatever the flux is called.
+        const word scheme("div(phi," + dict.getOrDefault<word>("schemesField", field) + ')');
+        const token first(mesh.divScheme(scheme));
+        if (first.isWord() && first.wordToken() == "bounded")
+        {
+            continue;
+        }
+        if (flux == "phi")
+        {
+            FatalIOErrorInFunction(dict)
+                << "Function object '" << item.keyword() << "' (scalarTransport) would change a uniform " << field
+                << ", because the flux phi between the particles is not solenoidal; allowed: a scheme '" << scheme
+                << "' in system/fvSchemes that begins with 'bounded', such as bounded Gauss upwind"
+                << exit(FatalIOError);
+        }
+        WarningInFunction << "Function object '" << item.keyword() << "' (scalarTransport) with the flux " << flux
+                          << " is right only where the void fraction does not change in time, and for a steady "
+                          << field << "; otherwise use phi with a scheme '" << scheme
+                          << "' in system/fvSchemes that begins with 'bounded'" << endl;
+    }
+}
+
+} // namespace clepsydra
