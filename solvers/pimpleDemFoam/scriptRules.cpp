@@ -97,8 +97,14 @@ std::string objectionToGravity(const ScriptFacts::Fix& gravity, const ScriptFact
 
 void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
 {
+    const bool hasIf = facts.lastCommand("if") != nullptr;
     for (const ScriptFacts::Fix& fix : facts.fixes)
     {
+        // A fix without a command belongs to one that has a command, unless an `if` has made it.
+        if (fix.command.text.empty() && !hasIf)
+        {
+            continue;
+        }
         const std::string place = placeOf(fix.command);
         const std::string name = "fix " + fix.id + " has the style '" + fix.style + "': ";
         if (knownFixes.count(fix.style) == 0)

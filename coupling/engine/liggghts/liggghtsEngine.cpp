@@ -180,7 +180,8 @@ public:
         {
             command += ' ' + std::to_string(value);
         }
-        program_.execute(command, "coupling state");
+        // LIGGGHTS warns of so many values per particle.
+        program_.execute(command, "coupling state", LiggghtsProgram::Warnings::dropped);
         stateFix_ = program_->modify->find_fix_property(
             stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewParticle_.size()), 0, "coupling");
     }
@@ -375,7 +376,7 @@ public:
         {
             command += " 0.";
         }
-        program_.execute(command, "memory of forces");
+        program_.execute(command, "memory of forces", LiggghtsProgram::Warnings::dropped);
         memoryFix_ =
             program_->modify->find_fix_property(memoryFixId, "property/atom", "vector", memorySize_, 0, "coupling");
     }

@@ -89,14 +89,21 @@ LiggghtsProgram::~LiggghtsProgram()
     forgetPropertyReads(*program_);
 }
 
-void LiggghtsProgram::execute(const std::string& command, const std::string& where)
+void LiggghtsProgram::execute(const std::string& command, const std::string& where, Warnings warnings)
 {
     const FloatingPointTraps none(0);
     trapsOutside_ = none.before();
     try
     {
         program_->input->one(command.c_str());
-        reportWarnings(where);
+        if (warnings == Warnings::reported)
+        {
+            reportWarnings(where);
+        }
+        else
+        {
+            static_cast<void>(warnings_.take());
+        }
     }
     catch (const DemEngineError&)
     {

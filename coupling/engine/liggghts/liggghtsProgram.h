@@ -30,10 +30,17 @@ public:
     LiggghtsProgram(const LiggghtsProgram&) = delete;
     LiggghtsProgram& operator=(const LiggghtsProgram&) = delete;
 
+    /// What happens to LIGGGHTS' warnings about a command.
+    enum class Warnings
+    {
+        reported,
+        dropped
+    };
+
     /// Executes one command.
     /// \param where  place of the command, for the error message
     /// \throws DemEngineError with LIGGGHTS' own message; after that the program can only end
-    void execute(const std::string& command, const std::string& where);
+    void execute(const std::string& command, const std::string& where, Warnings warnings = Warnings::reported);
 
     /// The command with the values of its variables, as LIGGGHTS reads it.
     std::string withVariables(const std::string& command) const;
