@@ -5,6 +5,7 @@
 
 #include <map>
 #include <set>
+#include <sstream>
 
 namespace clepsydra
 {
@@ -57,9 +58,16 @@ struct Unknown
     std::string name; ///< by which `allowedInScript` allows it
 };
 
+/// A command of a table in columns, or of several lines, with single blanks.
 std::string placeOf(const ScriptCommand& command)
 {
-    return command.where.empty() ? std::string() : command.where + ": '" + command.text + "': ";
+    std::istringstream tokens(command.text);
+    std::string text;
+    for (std::string token; tokens >> token;)
+    {
+        text += (text.empty() ? "" : " ") + token;
+    }
+    return command.where.empty() ? std::string() : command.where + ": '" + text + "': ";
 }
 
 std::string placeOf(const ScriptFacts& facts, const std::string& command)

@@ -277,7 +277,7 @@ TEST(DemScripts, UnitsAndStylesOfAtoms)
 }
 
 /// A coefficient for which the contact model has no word has no effect, and the user is told which. With the model in
-/// the line, or as a value of a variable, it is read.
+/// the line, or as a value of a variable, it is read. Zero has no effect either way, and cases state it on purpose.
 TEST(DemScripts, CoefficientsThatNoModelReadsAreWarnedOf)
 {
     const std::string rolling = "fix rolling all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 "
@@ -286,6 +286,16 @@ TEST(DemScripts, CoefficientsThatNoModelReadsAreWarnedOf)
     fillIn(forgotten);
     forgotten.dem.more = rolling;
     expectRuns(forgotten, {script + " line ", "'" + rolling + "': no model of pair_style", "so they have no effect"});
+    TestCase zero;
+    fillIn(zero);
+    zero.dem.more = rolling;
+    for (std::size_t at = 0; (at = zero.dem.more.find("0.1", at)) != std::string::npos;)
+    {
+        zero.dem.more.replace(at, 3, "0");
+    }
+    const Outcome ofZero = zero.run();
+    EXPECT_TRUE(ofZero.succeeded()) << ofZero.output;
+    EXPECT_FALSE(ofZero.says("have no effect")) << ofZero.output;
     const Words readers = {"pair_style gran model hertz tangential history rolling_friction cdt\npair_coeff * *",
         "fix slope all wall/gran model hertz tangential history rolling_friction cdt primitive type 2 zplane 0.0005",
         "variable resistance equal f_rolling[1][2]"};

@@ -141,7 +141,7 @@ public:
                 throw DemEngineError("No particle is left of the " + std::to_string(before)
                                      + " that were on a rank: " + lastParticleText(*program_)
                                      + ". The cause is a missing wall where it moves as a free particle does, and an "
-                                       "unstable force where it is much faster. Allowed: a wall in the DEM script "
+                                       "unstable force where it is much faster; allowed: a wall in the DEM script "
                                        "wherever the fluid has one, and a DEM step and a coupling step that are short "
                                        "enough");
             }

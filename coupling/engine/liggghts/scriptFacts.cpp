@@ -124,6 +124,21 @@ Property propertyOf(const std::string& command)
     return fix == "fix" && styles.count(style) > 0 ? property : Property{};
 }
 
+/// Whether a fix holds values of which one at least is not zero.
+bool hasValues(lmp::Fix& fix)
+{
+    bool found = fix.scalar_flag != 0 && fix.compute_scalar() != 0;
+    for (int i = 0; fix.vector_flag != 0 && i < fix.size_vector; ++i)
+    {
+        found |= fix.compute_vector(i) != 0;
+    }
+    for (int i = 0; fix.array_flag != 0 && i < fix.size_array_rows * fix.size_array_cols; ++i)
+    {
+        found |= fix.compute_array(i / fix.size_array_cols, i % fix.size_array_cols) != 0;
+    }
+    return found;
+}
+
 } // namespace
 
 std::vector<std::string> ScriptFacts::fixesOfStyle(const std::string& style) const
@@ -173,7 +188,8 @@ std::vector<ScriptCommand> unreadProperties(const LiggghtsProgram& program, cons
                             || std::any_of(commands.begin(), commands.end(), [&](const ScriptCommand& other) {
                                    return other.text.find(reference) != std::string::npos;
                                });
-        if (!property.empty() && program->modify->find_fix(id.c_str()) >= 0 && !isRead)
+        const int fix = property.empty() ? -1 : program->modify->find_fix(id.c_str());
+        if (fix >= 0 && !isRead && hasValues(*program->modify->fix[fix]))
         {
             unread.push_back(command);
         }

@@ -54,7 +54,8 @@ struct ScriptFacts
 ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> commands);
 
 /// Commands `fix ... property/global` whose values no model, no fix and no other command has looked up, so that they
-/// have no effect. Complete when LIGGGHTS has been initialised.
+/// have no effect. Values that are all zero are left out, because they would have none either. Complete when LIGGGHTS
+/// has been initialised.
 /// \param commands  as for factsOf()
 std::vector<ScriptCommand> unreadProperties(const LiggghtsProgram& program, const std::vector<ScriptCommand>& commands);
 
