@@ -59,8 +59,8 @@ CouplingSettings::CouplingSettings(const Time& time)
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
-    requireKnownEntries(dict_.subDict("DEM"), {"engine", "script", "writeRestart", "maxRayleighFraction"},
-        {"variables", "groupChanges"});
+    requireKnownEntries(dict_.subDict("DEM"),
+        {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
     requireKnownEntries(dict_.subOrEmptyDict("particleOutput"), {"writeVtk"});
     readChoices();
     checkTimeStep();

@@ -99,7 +99,7 @@ public:
     /// The DEM step [s]. Local.
     virtual double timeStep() const = 0;
 
-    /// Gravity as the engine's script states it [m/s2]. Local.
+    /// Gravity as the engine's script states it, the sum where it does so several times [m/s2]. Local.
     virtual Vector3d gravity() const = 0;
 
     /// Contact materials; empty where the script states none. Local.

@@ -47,7 +47,7 @@ std::string valueOf(const dictionary& variables, const word& name)
 
 /// Checks values of materials: no negative friction or cohesion, no density or diameter of zero. The script's own
 /// checks come too late or do not exist. The quantity is recognised by the variable's name, because the script may use
-/// any names.
+/// any names. A value that is no number, such as `cohesionStyle sjkr`, is the name of a model or a file.
 void checkMaterialValues(const dictionary& variables)
 {
     const auto names = [](const word& name, const std::string& quantity) {
@@ -56,13 +56,18 @@ void checkMaterialValues(const dictionary& variables)
     };
     for (const word& name : variables.toc())
     {
+        scalar value = 0;
+        if (!readScalar(valueOf(variables, name).c_str(), value))
+        {
+            continue;
+        }
         if (names(name, "friction") || names(name, "cohesion"))
         {
-            positiveEntry(variables, name, true);
+            requirePositive(variables, name, value, true);
         }
         else if (names(name, "density") || names(name, "diameter"))
         {
-            positiveEntry(variables, name);
+            requirePositive(variables, name, value);
         }
     }
 }
@@ -117,6 +122,7 @@ LiggghtsSetup liggghtsSetup(
     setup.logFile = writesNothing ? "/dev/null" : "log.liggghts";
     setup.writesNothing = writesNothing;
     setup.resumeFrom = resumeFrom;
+    setup.onWarning = [](const std::string& warning) { WarningInFunction << warning.c_str() << endl; };
     return setup;
 }
 

@@ -14,6 +14,7 @@
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
 #include "runTimeSelection.h"
+#include "scriptRules.h"
 #include "vectors.h"
 #include "voidFractionFlow.h"
 
@@ -66,15 +67,22 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
 }
 
 /// The DEM script gives the particles' weight and constant/g their buoyancy, so both must have the same gravity.
-void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine)
+void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine, const ScriptFacts& script)
 {
     const Vector3d dem = engine.gravity();
     if ((fluid.gravity - dem).norm() > 1e-6 * fluid.gravity.norm())
     {
+        const std::vector<std::string> fixes = script.fixesOfStyle("gravity");
+        std::string together;
+        for (const std::string& id : fixes)
+        {
+            together += fixes.size() > 1 ? (together.empty() ? " (together: " : ", ") + id : "";
+        }
+        together += together.empty() ? "" : ")";
         FatalErrorInFunction << "constant/g is (" << fluid.gravity.x() << ' ' << fluid.gravity.y() << ' '
-                             << fluid.gravity.z() << ") m/s2, but fix gravity of the DEM script gives (" << dem.x()
-                             << ' ' << dem.y() << ' ' << dem.z() << ") m/s2; allowed: the same in both"
-                             << exit(FatalError);
+                             << fluid.gravity.z() << ") m/s2, but fix gravity of the DEM script" << together.c_str()
+                             << " gives (" << dem.x() << ' ' << dem.y() << ' ' << dem.z()
+                             << ") m/s2; allowed: the same in both" << exit(FatalError);
     }
 }
 
@@ -221,11 +229,14 @@ int main(int argc, char* argv[])
             runTime.resume(checkpoints.beginning());
         }
         LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.particles(), dryRun));
+        const ScriptFacts script = engine.scriptFacts();
+        requireKnownScript(settings, script);
         if (models)
         {
-            requireSameGravity(fluid, engine);
+            requireSameGravity(fluid, engine, script);
         }
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
+        warnOfUnreadProperties(engine.unreadProperties());
         RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
 
         if (models)

@@ -12,6 +12,7 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cfenv>
 #include <cmath>
@@ -85,7 +86,9 @@ public:
         setup.script = name;
         setup.logFile = name + ".log";
         setup.groupChanges = groupChanges;
+        setup.variables = variables;
         engine_ = std::make_unique<LiggghtsEngine>(setup);
+        facts_ = engine_->scriptFacts();
         std::filesystem::remove(name);
         std::filesystem::remove(name + ".log");
         if (pairReach > 0)
@@ -124,12 +127,20 @@ public:
         return sumOverRanks(found);
     }
 
+    /// What the script has made. \pre started
+    const ScriptFacts& facts() const
+    {
+        return facts_;
+    }
+
     Box box;
     DemScript dem;
     std::vector<GroupChange> groupChanges;
+    std::vector<std::pair<std::string, std::string>> variables;
     std::string map = "map array";
 
 private:
+    ScriptFacts facts_;
     std::unique_ptr<LiggghtsEngine> engine_;
 };
 
@@ -314,8 +325,117 @@ TEST(Liggghts, TellsThatAllParticlesAreGone)
     catch (const DemEngineError& error)
     {
         const std::string message = error.what();
-        EXPECT_EQ(message.find("no particle is left of the 1") != std::string::npos, isHere) << message;
+        EXPECT_EQ(message.find("No particle is left of the 1") != std::string::npos, isHere) << message;
+        EXPECT_EQ(message.find("particle 1 is at (0.005 0.01 ") != std::string::npos, isHere) << message;
     }
+}
+
+/// Gravity is the sum of all fixes, in whatever direction; the first one alone was looked at.
+TEST(Liggghts, AddsUpTheGravityOfAllFixes)
+{
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}};
+    particles.dem.more = "fix sideways all gravity 3 vector 1 0 0\n";
+    const LiggghtsEngine& engine = particles.start(nullptr);
+    EXPECT_NEAR((engine.gravity() - Vector3d(3, 0, -9.81)).norm(), 0, 1e-12);
+}
+
+/// Fixes with their groups and commands as LIGGGHTS has read them, those that are gone left out, and those that
+/// integrate the same particles, also particles that are still to be inserted.
+TEST(Liggghts, StatesWhatTheScriptHasMade)
+{
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+    particles.dem.more = "variable second equal 2\ngroup later initialize\ngroup one id 1\ngroup two id ${second}\n"
+                         "unfix integrate\nfix a one nve/sphere\nfix b two nve/noforce\nfix c later nve/sphere\n"
+                         "region feed block 0.01 0.03 0.005 0.015 0.005 0.015 units box\n"
+                         "fix t all particletemplate/sphere 10007 atom_type 1 density constant 2500. radius constant "
+                         "0.001\nfix d all particledistribution/discrete 10009 1 t 1.0\n"
+                         "fix pour later insert/rate/region seed 86028121 distributiontemplate d nparticles ${most} "
+                         "particlerate 2000 insert_every 25 overlapcheck yes all_in yes vel constant 0. 0. 0. region "
+                         "feed\n";
+    particles.variables = {{"most", "INF"}, {"limit", "1e-3"}};
+    particles.start(nullptr);
+    const ScriptFacts& facts = particles.facts();
+    const auto find = [&](const std::string& id) {
+        return std::find_if(
+            facts.fixes.begin(), facts.fixes.end(), [&](const ScriptFacts::Fix& fix) { return fix.id == id; });
+    };
+    EXPECT_EQ(find("integrate"), facts.fixes.end());
+    ASSERT_NE(find("b"), facts.fixes.end());
+    EXPECT_EQ(find("b")->style, "nve/noforce");
+    EXPECT_EQ(find("b")->group, "two");
+    EXPECT_TRUE(find("b")->integrates);
+    EXPECT_EQ(find("b")->command.text, "fix b two nve/noforce");
+    EXPECT_NE(find("pour")->command.text.find("nparticles INF"), std::string::npos) << find("pour")->command.text;
+    EXPECT_EQ(facts.lastCommand("group")->text, "group two id 2");
+    EXPECT_EQ(facts.unitStyle, "si");
+    EXPECT_EQ(facts.atomStyle, "granular");
+    EXPECT_EQ(facts.runStyle, "verlet");
+    EXPECT_EQ(facts.pairStyle, "gran");
+    EXPECT_EQ(facts.periodic, (std::array<bool, 3>{false, false, false}));
+    EXPECT_TRUE(facts.integratedTwice.empty());
+
+    const auto shared = [](const std::string& more) {
+        Particles other;
+        other.dem.particles = {{0.005, 0.01, 0.01}, {0.035, 0.01, 0.01}};
+        other.dem.more = more;
+        std::string text;
+        other.start(nullptr);
+        for (const auto& [first, second] : other.facts().integratedTwice)
+        {
+            text += first + ' ' + second + ';';
+        }
+        return text;
+    };
+    EXPECT_EQ(shared("group two id 2\nfix again two nve/noforce\n"), "integrate again;");
+    EXPECT_EQ(shared("group none id 3\nfix again none nve/noforce\n"), "");
+}
+
+/// A step of another length in the middle of a coupling step would leave the particles behind the fluid.
+TEST(Liggghts, RefusesAStepThatChanges)
+{
+    Particles particles;
+    particles.dem.particles = {{0.005, 0.01, 0.01}};
+    particles.dem.more = "velocity all set 1 0 0 units box\nfix reset all dt/reset 1 1e-9 1e-6 1e-7 units box\n";
+    const std::string message = errorOf([&] { particles.start(nullptr).advance(10); });
+    EXPECT_NE(message.find("The script changes the DEM step during the run, from "), std::string::npos) << message;
+    EXPECT_NE(message.find("; allowed: a DEM step that remains the same"), std::string::npos) << message;
+}
+
+/// A box of 3 m with particles of 2 mm has more bins than LIGGGHTS can count, twice over: each message names the command
+/// that helps, and with both commands it starts.
+TEST(Liggghts, SaysWhatToDoAboutTooManyBins)
+{
+    const auto messageIn3m = [](const std::string& map, const std::string& more) {
+        Particles particles;
+        particles.box.upper = {3, 3, 3};
+        particles.map = "map hash" + map;
+        particles.dem.particles = {{0.005, 0.01, 0.01}};
+        particles.dem.more = more;
+        return errorOf([&] { particles.start(nullptr); });
+    };
+    const std::string ofSorting = messageIn3m("", "neigh_modify binsize 0.1\n");
+    EXPECT_NE(ofSorting.find("Too many atom sorting bins; allowed: "), std::string::npos) << ofSorting;
+    EXPECT_NE(ofSorting.find("'atom_modify sort 0 0'"), std::string::npos) << ofSorting;
+    const std::string ofNeighbours = messageIn3m(" sort 0 0", "");
+    EXPECT_NE(ofNeighbours.find("neighbor bins; allowed: "), std::string::npos) << ofNeighbours;
+    EXPECT_NE(ofNeighbours.find("'neigh_modify binsize <length>'"), std::string::npos) << ofNeighbours;
+    EXPECT_EQ(messageIn3m(" sort 0 0", "neigh_modify binsize 0.1\n"), "");
+}
+
+/// Particles without a radius of their own: the coupling would read an array that LIGGGHTS does not have.
+TEST(Liggghts, RefusesAtomsWithoutRadius)
+{
+    const std::string file = testing::TempDir() + "clepsydraModels" + std::to_string(getpid()) + ".atomic";
+    std::ofstream(file) << "atom_style atomic\nunits si\nregion domain block 0 1 0 1 0 1\ncreate_box 1 domain\n";
+    LiggghtsSetup setup;
+    setup.script = file;
+    setup.logFile = "/dev/null";
+    const std::string message = errorOf([&] { LiggghtsEngine engine(setup); });
+    EXPECT_NE(message.find("atom_style 'atomic'"), std::string::npos) << message;
+    EXPECT_NE(message.find("allowed: atom_style granular"), std::string::npos) << message;
+    std::filesystem::remove(file);
 }
 
 namespace

@@ -27,6 +27,7 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <sstream>
 #include <unordered_set>
 
 namespace clepsydra
@@ -43,8 +44,14 @@ constexpr const char* lastForceFixId = "clepsydraLastForces";
 constexpr const char* memoryFixId = "clepsydraMemory";
 constexpr const char* insertionRampFixId = "clepsydraInsertionRamp";
 
+/// Whether LIGGGHTS reads the text as a number. std::stod would also take INF, NAN and 0x10, which are words of the
+/// script.
 bool isNumber(const std::string& text)
 {
+    if (text.find_first_not_of("0123456789.+-eE") != std::string::npos)
+    {
+        return false;
+    }
     std::size_t used = 0;
     try
     {
@@ -57,6 +64,12 @@ bool isNumber(const std::string& text)
     return used == text.size();
 }
 
+/// A value of several words as one token of a command.
+std::string asToken(const std::string& value)
+{
+    return value.find_first_of(" \t") == std::string::npos ? value : '"' + value + '"';
+}
+
 /// Whether the fix moves its particles by the forces on them, and not as the script prescribes or not at all.
 bool movesByForces(const lmp::Fix& fix)
 {
@@ -65,28 +78,22 @@ bool movesByForces(const lmp::Fix& fix)
     return (fix.time_integrate == 1 && style != "move" && style.find("noforce") == std::string::npos) || isMultisphere;
 }
 
-lmp::Fix* findFixOfStyle(const lmp::Modify& modify, const std::string& style)
-{
-    lmp::Fix** const end = modify.fix + modify.nfix;
-    lmp::Fix** const found = std::find_if(modify.fix, end, [&](const lmp::Fix* fix) { return fix->style == style; });
-    return found == end ? nullptr : *found;
-}
-
 } // namespace
 
 class LiggghtsEngine::Implementation
 {
 public:
     explicit Implementation(const LiggghtsSetup& setup)
-        : program_(setup.logFile, setup.communicator)
+        : program_(setup.logFile, setup.communicator, setup.onWarning)
     {
         registerHertzPairStyle();
         for (const auto& [name, value] : setup.variables)
         {
             const std::string style = isNumber(value) ? "equal" : "string";
-            program_.execute("variable " + name + ' ' + style + ' ' + value, "DEM variables");
+            program_.execute("variable " + name + ' ' + style + ' ' + asToken(value), "DEM variables");
         }
         runScript(setup);
+        requireSpheres();
         freshStart_ = setup.resumeFrom.empty();
         for (const GroupChange& change : setup.groupChanges)
         {
@@ -100,6 +107,7 @@ public:
     {
         const auto before = program_->atom->natoms;
         program_.execute(command.text, command.where);
+        commands_.push_back({program_.withVariables(command.text), command.where});
         if (isCommand(command.text, "create_atoms") && program_->atom->natoms == before)
         {
             throw DemEngineError(command.where + ": '" + command.text + "'" + program_.valuesIn(command.text)
@@ -118,6 +126,7 @@ public:
     void run(int steps)
     {
         const int before = program_->atom->nlocal;
+        const double timeStep = program_->update->dt;
         try
         {
             program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM steps of a coupling step");
@@ -129,13 +138,28 @@ public:
             // ParticleCensus names the missing ones.
             if (before > 0 && program_->atom->nlocal == 0)
             {
-                throw DemEngineError(
-                    std::string(error.what()) + "; no particle is left of the " + std::to_string(before)
-                    + " that were here: a force has thrown them out of the box within these steps, as an unstable "
-                      "one does; allowed: a DEM step and a coupling step that are short enough");
+                throw DemEngineError("No particle is left of the " + std::to_string(before)
+                                     + " that were on a rank: " + lastParticleText(*program_)
+                                     + ". The cause is a missing wall where it moves as a free particle does, and an "
+                                       "unstable force where it is much faster; allowed: a wall in the DEM script "
+                                       "wherever the fluid has one, and a DEM step and a coupling step that are short "
+                                       "enough");
             }
             throw;
         }
+        if (program_->update->dt != timeStep)
+        {
+            std::ostringstream message;
+            message << "The script changes the DEM step during the run, from " << timeStep << " s to "
+                    << program_->update->dt << " s; allowed: a DEM step that remains the same, because a coupling step "
+                    << "is a number of DEM steps";
+            throw DemEngineError(message.str());
+        }
+    }
+
+    const std::vector<ScriptCommand>& commands() const
+    {
+        return commands_;
     }
 
     void requestState(const std::vector<double>& ofNewParticle)
@@ -156,7 +180,8 @@ public:
         {
             command += ' ' + std::to_string(value);
         }
-        program_.execute(command, "coupling state");
+        // LIGGGHTS warns of so many values per particle.
+        program_.execute(command, "coupling state", LiggghtsProgram::Warnings::dropped);
         stateFix_ = program_->modify->find_fix_property(
             stateFixId, "property/atom", "vector", static_cast<int>(stateOfNewParticle_.size()), 0, "coupling");
     }
@@ -351,7 +376,7 @@ public:
         {
             command += " 0.";
         }
-        program_.execute(command, "memory of forces");
+        program_.execute(command, "memory of forces", LiggghtsProgram::Warnings::dropped);
         memoryFix_ =
             program_->modify->find_fix_property(memoryFixId, "property/atom", "vector", memorySize_, 0, "coupling");
     }
@@ -393,6 +418,18 @@ public:
     LiggghtsProgram& program()
     {
         return program_;
+    }
+
+    /// Particles with a radius and a mass each, which the coupling reads from LIGGGHTS' arrays.
+    void requireSpheres() const
+    {
+        const lmp::Atom& atom = *program_->atom;
+        if (atom.radius_flag == 0 || atom.rmass_flag == 0)
+        {
+            throw DemEngineError(
+                std::string("The script's particles have the atom_style '") + atom.atom_style
+                + "', which gives them no radius or no mass of their own; allowed: atom_style granular");
+        }
     }
 
 private:
@@ -446,6 +483,7 @@ private:
     }
 
     LiggghtsProgram program_;
+    std::vector<ScriptCommand> commands_;
     lmp::Fix* stateFix_ = nullptr;
     std::vector<double> stateOfNewParticle_;
     FluidForces* forces_ = nullptr;
@@ -470,6 +508,16 @@ LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
 {}
 
 LiggghtsEngine::~LiggghtsEngine() = default;
+
+ScriptFacts LiggghtsEngine::scriptFacts() const
+{
+    return factsOf(implementation_->program(), implementation_->commands());
+}
+
+std::vector<ScriptCommand> LiggghtsEngine::unreadProperties() const
+{
+    return clepsydra::unreadProperties(implementation_->program(), implementation_->commands());
+}
 
 void LiggghtsEngine::requestPairs(double reach)
 {
@@ -541,12 +589,17 @@ double LiggghtsEngine::timeStep() const
 Vector3d LiggghtsEngine::gravity() const
 {
     Vector3d acceleration = Vector3d::Zero();
-    if (lmp::Fix* fix = findFixOfStyle(*implementation_->program()->modify, "gravity"))
-    {
-        // The fix computes its components in init(), which LIGGGHTS itself calls only before the first step.
-        fix->init();
-        static_cast<lmp::FixGravity*>(fix)->get_gravity(acceleration.data());
-    }
+    const lmp::Modify& modify = *implementation_->program()->modify;
+    std::for_each(modify.fix, modify.fix + modify.nfix, [&](lmp::Fix* fix) {
+        if (std::string(fix->style) == "gravity")
+        {
+            // The fix computes its components in init(), which LIGGGHTS itself calls only before the first step.
+            fix->init();
+            Vector3d ofFix = Vector3d::Zero();
+            static_cast<lmp::FixGravity*>(fix)->get_gravity(ofFix.data());
+            acceleration += ofFix;
+        }
+    });
     return acceleration;
 }
 

@@ -2,9 +2,11 @@
 
 #include "engine/demEngine.h"
 #include "engine/liggghts/groupChanges.h"
+#include "engine/liggghts/scriptFacts.h"
 
 #include <mpi.h>
 
+#include <functional>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -28,17 +30,26 @@ struct LiggghtsSetup
     std::filesystem::path resumeFrom;
     /// Applied in this order after each coupling step.
     std::vector<GroupChange> groupChanges;
+    /// Called on the first rank with each warning that LIGGGHTS prints, and the place in the script.
+    std::function<void(const std::string&)> onWarning;
     MPI_Comm communicator = MPI_COMM_WORLD;
 };
 
 /// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity. It must not define
-/// `fix external`, which the coupling adds as the last fix, so that it has access to all other forces.
+/// `fix external`, which the coupling adds as the last fix, so that it has access to all other forces, and no fix that
+/// changes the DEM step.
 class LiggghtsEngine final : public DemEngine
 {
 public:
     /// Runs the script. \throws DemEngineError that names the script, the line and LIGGGHTS' own message
     explicit LiggghtsEngine(const LiggghtsSetup& setup);
     ~LiggghtsEngine() override;
+
+    /// What the script has made of LIGGGHTS. Collective. \pre not yet initialised
+    ScriptFacts scriptFacts() const;
+
+    /// See the function of this name. Local. \pre initialised
+    std::vector<ScriptCommand> unreadProperties() const;
 
     void requestPairs(double reach) override;
     void requestState(const std::vector<double>& ofNewParticle) override;

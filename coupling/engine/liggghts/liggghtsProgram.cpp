@@ -4,6 +4,7 @@
 #include "engine/liggghts/floatingPointTraps.h"
 #include "engine/liggghts/librarySelfTest.h"
 #include "engine/liggghts/liggghtsErrors.h"
+#include "engine/liggghts/propertyReads.h"
 #include "engine/liggghts/quietRegistration.h"
 
 #include <input.h>
@@ -11,14 +12,42 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 #include <vector>
 
 namespace clepsydra
 {
 
-LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator)
+namespace
+{
+
+/// For errors in which LIGGGHTS names a limit, but not the command that lifts it.
+std::string remedyFor(const std::string& message)
+{
+    const auto isAbout = [&](const char* text) { return message.find(text) != std::string::npos; };
+    if (isAbout("Too many atom sorting bins"))
+    {
+        return "; allowed: a smaller box, or 'atom_modify sort 0 0' in the script, because LIGGGHTS sorts the "
+               "particles "
+               "by bins of half the neighbour distance, which fill the whole box";
+    }
+    if (isAbout("Too many neighbor bins") || isAbout("Domain too large for neighbor bins"))
+    {
+        return "; allowed: a smaller box, or 'neigh_modify binsize <length>' in the script with longer bins, which "
+               "fill "
+               "the whole box";
+    }
+    return {};
+}
+
+} // namespace
+
+LiggghtsProgram::LiggghtsProgram(
+    const std::filesystem::path& logFile, MPI_Comm communicator, std::function<void(const std::string&)> onWarning)
+    : onWarning_(std::move(onWarning))
 {
     replaceLiggghtsErrors();
+    recordPropertyReads();
     testLiggghtsLibrary();
     // The screen output must go to a file, because `-screen none` crashes fix mesh/surface of LIGGGHTS 3.8.
     std::vector<std::string> words{"liggghts", "-log", logFile.string(), "-screen", "/dev/null"};
@@ -38,6 +67,11 @@ LiggghtsProgram::LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm 
     {
         throw DemEngineError(std::string("LIGGGHTS did not start: ") + stopped.what());
     }
+    forgetPropertyReads(*program_); // of an earlier instance at the same address
+    if (program_->screen != nullptr)
+    {
+        screen_ = std::exchange(program_->screen, warnings_.stream());
+    }
 }
 
 LiggghtsProgram::~LiggghtsProgram()
@@ -46,16 +80,30 @@ LiggghtsProgram::~LiggghtsProgram()
     if (failed_)
     {
         static_cast<void>(program_.release());
+        return;
     }
+    if (screen_ != nullptr)
+    {
+        program_->screen = screen_;
+    }
+    forgetPropertyReads(*program_);
 }
 
-void LiggghtsProgram::execute(const std::string& command, const std::string& where)
+void LiggghtsProgram::execute(const std::string& command, const std::string& where, Warnings warnings)
 {
     const FloatingPointTraps none(0);
     trapsOutside_ = none.before();
     try
     {
         program_->input->one(command.c_str());
+        if (warnings == Warnings::reported)
+        {
+            reportWarnings(where);
+        }
+        else
+        {
+            static_cast<void>(warnings_.take());
+        }
     }
     catch (const DemEngineError&)
     {
@@ -65,13 +113,25 @@ void LiggghtsProgram::execute(const std::string& command, const std::string& whe
     catch (const LiggghtsStopped& stopped)
     {
         failed_ = true;
-        std::string message =
-            where + ": LIGGGHTS stopped at '" + command + "'" + valuesIn(command) + ": " + stopped.what();
+        reportWarnings(where);
+        std::string message = where + ": LIGGGHTS stopped at '" + command + "'" + valuesIn(command) + ": "
+                              + stopped.what() + remedyFor(stopped.what());
         if (stopped.onOneRankOnly())
         {
             message += " (reported by one rank)";
         }
         throw DemEngineError(message);
+    }
+}
+
+void LiggghtsProgram::reportWarnings(const std::string& where)
+{
+    for (const std::string& warning : warnings_.take())
+    {
+        if (onWarning_)
+        {
+            onWarning_(where + ": LIGGGHTS warns: " + warning);
+        }
     }
 }
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include "engine/liggghts/screenWarnings.h"
+
 #include <mpi.h>
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -18,17 +21,26 @@ namespace clepsydra
 class LiggghtsProgram
 {
 public:
+    /// \param onWarning  called on the first rank with each warning that LIGGGHTS prints; may be empty
     /// \throws DemEngineError where LIGGGHTS does not start
-    LiggghtsProgram(const std::filesystem::path& logFile, MPI_Comm communicator);
+    LiggghtsProgram(
+        const std::filesystem::path& logFile, MPI_Comm communicator, std::function<void(const std::string&)> onWarning);
     ~LiggghtsProgram();
 
     LiggghtsProgram(const LiggghtsProgram&) = delete;
     LiggghtsProgram& operator=(const LiggghtsProgram&) = delete;
 
+    /// What happens to LIGGGHTS' warnings about a command.
+    enum class Warnings
+    {
+        reported,
+        dropped
+    };
+
     /// Executes one command.
     /// \param where  place of the command, for the error message
     /// \throws DemEngineError with LIGGGHTS' own message; after that the program can only end
-    void execute(const std::string& command, const std::string& where);
+    void execute(const std::string& command, const std::string& where, Warnings warnings = Warnings::reported);
 
     /// The command with the values of its variables, as LIGGGHTS reads it.
     std::string withVariables(const std::string& command) const;
@@ -53,7 +65,13 @@ public:
     }
 
 private:
+    void reportWarnings(const std::string& where);
+
+    ScreenWarnings warnings_;
+    std::function<void(const std::string&)> onWarning_;
     std::unique_ptr<LAMMPS_NS::LAMMPS> program_;
+    /// LIGGGHTS' own stream, in whose place it prints to `warnings_`.
+    FILE* screen_ = nullptr;
     int trapsOutside_ = 0;
     bool failed_ = false;
 };

@@ -51,6 +51,16 @@ std::string boxText(const lmp::LAMMPS& program)
     return "the box, " + placeText(program.domain->boxlo) + " to " + placeText(program.domain->boxhi);
 }
 
+std::string lastParticleText(const lmp::LAMMPS& program)
+{
+    // LIGGGHTS has not overwritten the values of the last particle that it removed.
+    const lmp::Atom& atom = *program.atom;
+    std::ostringstream text;
+    text << "particle " << atom.tag[0] << " is at " << placeText(atom.x[0]) << " with a speed of "
+         << ConstVectors(atom.v[0], 3, 1).norm() << " m/s, outside " << boxText(program);
+    return text.str();
+}
+
 void requireParticlesInBox(const lmp::LAMMPS& program)
 {
     const lmp::Domain& domain = *program.domain;

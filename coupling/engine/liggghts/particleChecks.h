@@ -18,6 +18,9 @@ namespace clepsydra
 /// Text for messages: "the box, (0 0 0) m to (1 1 1) m".
 std::string boxText(const LAMMPS_NS::LAMMPS& program);
 
+/// Text for messages where no particle is left on a rank: which one left the box last, where and how fast.
+std::string lastParticleText(const LAMMPS_NS::LAMMPS& program);
+
 /// All particles are in the box. LIGGGHTS drops particles outside it.
 void requireParticlesInBox(const LAMMPS_NS::LAMMPS& program);
 

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "engine/liggghts/script.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace clepsydra
+{
+
+class LiggghtsProgram;
+
+/// What LIGGGHTS holds when the script has run, for the program that decides what of this it can work with.
+struct ScriptFacts
+{
+    /// A fix with the command that has made it; without a place and a command where LIGGGHTS has made it by itself, or
+    /// an `if` of the script.
+    struct Fix
+    {
+        std::string id;
+        std::string style;
+        std::string group;
+        ScriptCommand command;
+        bool integrates;
+    };
+
+    /// Two fixes that integrate the same particles, which therefore move twice in each step.
+    struct SharedParticles
+    {
+        std::string first;
+        std::string second;
+    };
+
+    /// Ids of the fixes with a style, in the script's order.
+    std::vector<std::string> fixesOfStyle(const std::string& style) const;
+
+    /// The last command with a name, and for fixes with an id: "boundary", "fix gravity"; nullptr where the script has
+    /// none.
+    const ScriptCommand* lastCommand(const std::string& name) const;
+
+    std::string unitStyle;
+    std::string atomStyle;
+    std::string runStyle;
+    std::string pairStyle;
+    std::array<bool, 3> periodic;
+    std::vector<Fix> fixes;
+    std::vector<SharedParticles> integratedTwice;
+    std::vector<ScriptCommand> commands;
+};
+
+/// \param commands  the script's that have been executed, each with the values of its variables
+/// Collective.
+ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> commands);
+
+/// Commands `fix ... property/global` whose values no model, no fix and no other command has looked up, so that they
+/// have no effect. Values that are all zero are left out, because they would have none either. Complete when LIGGGHTS
+/// has been initialised.
+/// \param commands  as for factsOf()
+std::vector<ScriptCommand> unreadProperties(const LiggghtsProgram& program, const std::vector<ScriptCommand>& commands);
+
+} // namespace clepsydra

@@ -1,0 +1,244 @@
+#include "scriptRules.h"
+
+#include "runTimeSelection.h"
+#include "wordRes.H"
+
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// Styles of fixes that cases and tests of this program use with a fluid, that measure only, or that LIGGGHTS makes for
+/// itself.
+const std::set<std::string> knownFixes = {
+    // motion and weight
+    "nve/sphere", "nve", "nve/noforce", "move", "freeze", "gravity",
+    // walls
+    "wall/gran", "mesh/surface", "mesh/surface/planar",
+    // insertion
+    "insert/pack", "insert/rate/region", "insert/stream", "particletemplate/sphere", "particledistribution/discrete",
+    "particledistribution/discrete/massbased", "particledistribution/discrete/numberbased",
+    // values
+    "property/global", "custom_property/global", "property/atomtype", "property/atomtypepair", "property/atom",
+    "property/atom/tracer", "property/atom/tracer/stream", "property/atom/timetracer",
+    "property/atom/regiontracer/time",
+    // output
+    "ave/atom", "ave/correlate", "ave/euler", "ave/euler/stress", "ave/histo", "ave/spatial", "ave/time",
+    "check/timestep/gran", "massflow/mesh", "print", "store/force", "store/state",
+    // made by LIGGGHTS itself
+    "READ_RESTART", "STORE", "contacthistory", "contacthistory/mesh", "neighlist/mesh", "contactproperty/atom",
+    "contactproperty/atom/wall", "diam/max"};
+
+/// Why fixes are not known to work with a fluid, by the beginning of their style.
+const std::map<std::string, std::string> reasons = {
+    {"buoyancy", "the fluid's forces are those of forceModels, and this force would be added to them"},
+    {"concave", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
+    {"couple/cfd", "the coupling works without LIGGGHTS' own fixes for it"},
+    {"deform", "the DEM box changes, and the fluid's mesh does not"},
+    {"drag", "the fluid's forces are those of forceModels, and this force would be added to them"},
+    {"external", "the coupling adds its own fix of this style, which must be the only one"},
+    {"heat/", "the fluid neither heats nor cools the particles"},
+    {"move/mesh", "the wall moves in the DEM only, and the fluid's wall remains where it is"},
+    {"multisphere", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
+    {"particletemplate/multi",
+        "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
+    {"rigid", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
+    {"viscous", "the fluid's forces are those of forceModels, and this force would be added to them"}};
+
+/// Something that the script holds and that is not known to work with a fluid.
+struct Unknown
+{
+    std::string place; ///< of a command in the script; may be empty
+    std::string what;
+    std::string name; ///< by which `allowedInScript` allows it
+};
+
+/// A command of a table in columns, or of several lines, with single blanks.
+std::string placeOf(const ScriptCommand& command)
+{
+    std::istringstream tokens(command.text);
+    std::string text;
+    for (std::string token; tokens >> token;)
+    {
+        text += (text.empty() ? "" : " ") + token;
+    }
+    return command.where.empty() ? std::string() : command.where + ": '" + text + "': ";
+}
+
+std::string placeOf(const ScriptFacts& facts, const std::string& command)
+{
+    const ScriptCommand* const found = facts.lastCommand(command);
+    return found ? placeOf(*found) : std::string();
+}
+
+std::string reasonFor(const std::string& style)
+{
+    for (const auto& [beginning, reason] : reasons)
+    {
+        if (style.rfind(beginning, 0) == 0)
+        {
+            return reason;
+        }
+    }
+    return "it is not known to work with a fluid";
+}
+
+/// Whether constant/g can be the particles' gravity: the fix acts on all particles that move, and is constant.
+std::string objectionToGravity(const ScriptFacts::Fix& gravity, const ScriptFacts& facts)
+{
+    for (const ScriptFacts::Fix& fix : facts.fixes)
+    {
+        if (gravity.group != "all" && fix.integrates && fix.group != gravity.group)
+        {
+            return "gravity acts on the group '" + gravity.group + "' only, and fix " + fix.id + " moves the group '"
+                   + fix.group + "', but constant/g gives buoyancy to all particles";
+        }
+    }
+    return gravity.command.text.find(" v_") != std::string::npos ? "gravity changes in time, but constant/g is constant"
+                                                                 : std::string();
+}
+
+void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
+{
+    const bool hasIf = facts.lastCommand("if") != nullptr;
+    for (const ScriptFacts::Fix& fix : facts.fixes)
+    {
+        // A fix without a command belongs to one that has a command, unless an `if` has made it.
+        if (fix.command.text.empty() && !hasIf)
+        {
+            continue;
+        }
+        const std::string place = placeOf(fix.command);
+        const std::string name = "fix " + fix.id + " has the style '" + fix.style + "': ";
+        if (knownFixes.count(fix.style) == 0)
+        {
+            unknown.push_back({place, name + reasonFor(fix.style), fix.style});
+        }
+        if (const std::string objection = fix.style == "gravity" ? objectionToGravity(fix, facts) : std::string();
+            !objection.empty())
+        {
+            unknown.push_back({place, name + objection, fix.style});
+        }
+    }
+}
+
+std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts)
+{
+    std::vector<Unknown> unknown;
+    const std::string axes = "xyz";
+    for (std::size_t axis = 0; axis < facts.periodic.size(); ++axis)
+    {
+        if (facts.periodic[axis])
+        {
+            unknown.push_back({placeOf(facts, "boundary"),
+                std::string("the DEM box is periodic along ") + axes[axis]
+                    + ": a particle that leaves it appears at the other side, but the fluid's mesh is not periodic",
+                "periodic"});
+        }
+    }
+    const auto requireOneOf = [&](const std::string& command, const std::string& style,
+                                  const std::set<std::string>& known) {
+        if (known.count(style) == 0)
+        {
+            unknown.push_back({placeOf(facts, command),
+                command + " is '" + style + "', which is not known to work with a fluid", style});
+        }
+    };
+    requireOneOf("atom_style", facts.atomStyle, {"granular", "sphere"});
+    requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
+    requireOneOf("run_style", facts.runStyle, {"verlet"});
+    addFixes(facts, unknown);
+    return unknown;
+}
+
+/// What is wrong with a fluid in every case.
+void requireRightWithFluid(const dictionary& demDict, const ScriptFacts& facts)
+{
+    if (facts.unitStyle != "si")
+    {
+        FatalIOErrorInFunction(demDict) << placeOf(facts, "units").c_str() << "The DEM script has units "
+                                        << facts.unitStyle.c_str() << "; allowed with a fluid: units si"
+                                        << exit(FatalIOError);
+    }
+    for (const auto& [first, second] : facts.integratedTwice)
+    {
+        FatalIOErrorInFunction(demDict) << placeOf(facts, "fix " + second).c_str() << "The fixes " << first.c_str()
+                                        << " and " << second.c_str()
+                                        << " move the same particles, which then move twice in each DEM step; allowed: "
+                                        << "groups that have no particle in common" << exit(FatalIOError);
+    }
+}
+
+/// A coupling step is a number of DEM steps of one length, with and without fluid.
+void requireConstantDemStep(const dictionary& demDict, const ScriptFacts& facts)
+{
+    for (const ScriptFacts::Fix& fix : facts.fixes)
+    {
+        if (fix.style == "dt/reset")
+        {
+            FatalIOErrorInFunction(demDict)
+                << placeOf(fix.command).c_str() << "fix " << fix.id.c_str()
+                << " changes the DEM step during the run, but a coupling step is a number of DEM steps of one length; "
+                << "allowed: a script without 'dt/reset' and with a constant timestep" << exit(FatalIOError);
+        }
+    }
+}
+
+} // namespace
+
+void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts)
+{
+    const dictionary& demDict = settings.demDict();
+    requireConstantDemStep(demDict, facts);
+    const wordRes allowed = demDict.getOrDefault<wordRes>("allowedInScript", {});
+    if (!settings.hasFluid())
+    {
+        return;
+    }
+    requireRightWithFluid(demDict, facts);
+    std::string text;
+    std::set<std::string> names;
+    for (const auto& [place, what, name] : unknownWithFluid(facts))
+    {
+        if (!allowed.match(name))
+        {
+            text += "    " + place + what + '\n';
+            names.insert('"' + name + '"');
+        }
+    }
+    if (names.empty())
+    {
+        return;
+    }
+    std::string list;
+    for (const std::string& name : names)
+    {
+        list += name + ' ';
+    }
+    FatalIOErrorInFunction(demDict)
+        << "The DEM script " << demDict.get<fileName>("script").c_str()
+        << " holds what is not known to work with a fluid:\n"
+        << text.c_str() << "allowed: a script without it; or, where you know that the results are right, the entry\n"
+        << "    allowedInScript ( " << list.c_str() << ");\nin the dictionary DEM" << exit(FatalIOError);
+}
+
+void warnOfUnreadProperties(const std::vector<ScriptCommand>& properties)
+{
+    for (const ScriptCommand& property : properties)
+    {
+        if (Pstream::master())
+        {
+            WarningInFunction << placeOf(property).c_str()
+                              << "no model of pair_style and no wall or other fix reads these values, so they have no "
+                              << "effect; allowed: a contact model that uses them (as 'rolling_friction cdt' uses "
+                              << "coefficientRollingFriction), or a script without the line" << endl;
+        }
+    }
+}
+
+} // namespace clepsydra

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "couplingStep/couplingSettings.h"
+#include "engine/liggghts/scriptFacts.h"
+
+namespace clepsydra
+{
+
+/// What the DEM script may hold. With a fluid, everything that is not known to work with one is a FatalIOError, which
+/// names the line of the script and the word by which the entry `allowedInScript` of DEM allows it. Without fluid only
+/// a change of the DEM step is refused.
+void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts);
+
+/// Warns of contact coefficients that have no effect because no model of the script reads them.
+/// \param properties  as unreadProperties() returns them
+void warnOfUnreadProperties(const std::vector<ScriptCommand>& properties);
+
+} // namespace clepsydra
