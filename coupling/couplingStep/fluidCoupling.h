@@ -96,9 +96,19 @@ public:
         return semiImplicitSource_.source(U);
     }
 
-    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet [N s]; sum over
-    /// all ranks. Collective.
-    Foam::vector semiImplicitMomentum() const;
+    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet. Its magnitudes
+    /// include those of the terms c U and c v of drag, whose difference is given. Collective.
+    /// \pre the particles are those of the last particlesToFluid() or start()
+    ExchangedMomentum semiImplicitMomentum() const;
+
+    /// Whether each particle of this rank is in no cell of the mesh on any rank. Collective.
+    std::vector<bool> particlesOutsideMesh();
+
+    /// See VoidFractionRate::filteredVolume(). Collective.
+    double filteredVolume() const
+    {
+        return voidFractionRate_.filteredVolume();
+    }
 
     /// Number of values that the coupling needs in ParticlesView::memory, after those of the forces.
     static constexpr int memory = 7;
@@ -110,6 +120,9 @@ public:
 
 private:
     void findCells();
+    /// What `communicate` returns; its time is that of the exchange.
+    template<class Communicate>
+    auto exchanged(const Communicate& communicate);
     /// Computes anticipated_ for every particle of this rank, from what it received in the last coupling step.
     void anticipate(double lastTimeStep, double nextTimeStep);
     Reactions reactions() const;
@@ -129,7 +142,11 @@ private:
     void updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse);
     void smooth(Eigen::MatrixXd& densities);
     void recordPressureForce(const Foam::vector& inFluid);
-    [[noreturn]] void reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const;
+    /// Sends the particles to the ranks of their cells. \return the sums of their shares over all ranks. Collective.
+    Eigen::MatrixXd locate(const Reactions& reactions);
+    /// Collective. FatalError where a particle has no share, and particles outside the mesh are not allowed.
+    void requireWithinMesh(const Eigen::MatrixXd& shareSums) const;
+    [[noreturn]] void reportOutsideMesh(Foam::label count, Foam::label id) const;
     Foam::string describeCell(Foam::label cell) const;
 
     const Foam::fvMesh& mesh_;

@@ -1,5 +1,6 @@
 #include "run/runChecks.h"
 
+#include "couplingState.h"
 #include "distribution/lengthOfChange.h"
 #include "openfoam/compatibility.h"
 
@@ -69,7 +70,16 @@ void RunChecks::checkConvergence()
 void RunChecks::checkTravel(const ParticlesView& particles)
 {
     Eigen::Index fastest = 0;
-    const double here = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff(&fastest) : 0;
+    double here = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const double ofParticle = particles.velocity.col(particle).norm();
+        if (ofParticle > here && !isOutsideMesh(particles.state[particle]))
+        {
+            here = ofParticle;
+            fastest = particle;
+        }
+    }
     const double speed = returnReduce(here, maxOp<scalar>());
     const double timeStep = mesh_.time().deltaTValue();
     const double travel = speed * timeStep / lengthOfChange_;

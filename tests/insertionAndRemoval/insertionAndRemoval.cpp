@@ -228,7 +228,7 @@ TEST(InsertionAndRemovalTest, TheConservationCheckFindsVolumeThatIsLost)
         ConservationCheck conservation(dictionary::null, cube.temporaryCase.time());
         conservation.setInitialSolidVolume(1e-6);
         conservation.recordNetInsertion(netVolume);
-        return errorOf([&] { conservation.recordSolidVolume(cells, cells, 0, "none"); });
+        return errorOf([&] { conservation.recordSolidVolume(cells, cells, ClippedVolume()); });
     };
     EXPECT_EQ(conservationError(0.9e-6, -0.1e-6), "");
     EXPECT_EQ(conservationError(1.2e-6, 0.2e-6), "");

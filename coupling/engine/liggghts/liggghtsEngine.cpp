@@ -113,6 +113,29 @@ public:
         {
             requireNoDeepOverlap(*program_, pairs());
         }
+        particleCount_ = program_->atom->natoms;
+    }
+
+    /// Examines the particles that have been inserted since the last call.
+    void checkInsertion()
+    {
+        const lmp::Atom& atom = *program_->atom;
+        const bool inserted = atom.natoms > particleCount_;
+        particleCount_ = atom.natoms;
+        if (!inserted || !stateFix_)
+        {
+            return;
+        }
+        std::vector<bool> isNew;
+        for (int particle = 0; particle < atom.nlocal; ++particle)
+        {
+            const double* const state = stateFix_->array_atom[particle];
+            isNew.push_back(std::equal(stateOfNewParticle_.begin(), stateOfNewParticle_.end(), state));
+        }
+        if (std::find(isNew.begin(), isNew.end(), true) != isNew.end())
+        {
+            requireNoDeepOverlap(*program_, pairs(), isNew);
+        }
     }
 
     void run(int steps)
@@ -122,6 +145,10 @@ public:
         {
             program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM steps of a coupling step");
             requireFiniteForces(*program_);
+            if (!forces_)
+            {
+                checkInsertion();
+            }
         }
         catch (const DemEngineError& error)
         {
@@ -436,6 +463,10 @@ private:
             ofFluid.setZero();
             return;
         }
+        if (!preparing)
+        {
+            engine.checkInsertion();
+        }
         engine.findFixedParticles();
         const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
             own.state, own.otherForce, engine.needsPairs_ ? engine.pairs() : ParticlePairs{},
@@ -463,6 +494,8 @@ private:
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
     bool freshStart_ = true;
+    /// Of all ranks when overlaps were last examined.
+    lmp::bigint particleCount_ = 0;
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)
