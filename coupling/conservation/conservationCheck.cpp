@@ -9,6 +9,8 @@
 #include "runTimeSelection.h"
 #include "tokens/jsonText.h"
 
+#include <cmath>
+
 namespace clepsydra
 {
 
@@ -20,10 +22,22 @@ double tolerance(const dictionary& dict, const word& entry, double byDefault)
     return dict.found(entry) ? positiveEntry(dict, entry) : byDefault;
 }
 
+// OpenFOAM traps comparisons of what is not a number, and its error would not say which quantity it is.
+
 /// False also for an error that is not a number.
 bool isWithin(double error, double tolerance)
 {
-    return error <= tolerance;
+    return !std::isnan(error) && error <= tolerance;
+}
+
+double larger(double largest, double error)
+{
+    return std::isnan(error) ? error : max(largest, error);
+}
+
+double relativeError(double error, double quantity)
+{
+    return std::isnan(error) || std::isnan(quantity) ? error + quantity : error / max(quantity, VSMALL);
 }
 
 } // namespace
@@ -58,11 +72,11 @@ void ConservationCheck::countAfterRemoval(const ParticlesView& particles, label 
 void ConservationCheck::recordSolidVolume(double particles, double cells, const ClippedVolume& clipped)
 {
     solidVolume_ = particles;
-    solidVolumeError_ = particles > 0 ? mag(cells - particles) / particles : mag(cells);
-    largestSolidVolumeError_ = max(largestSolidVolumeError_, solidVolumeError_);
+    solidVolumeError_ = relativeError(mag(cells - particles), particles);
+    largestSolidVolumeError_ = larger(largestSolidVolumeError_, solidVolumeError_);
     clippedVolume_ = clipped.sum;
-    largestClippedVolume_ = max(largestClippedVolume_, clipped.sum);
-    largestClippedPart_ = max(largestClippedPart_, clipped.largestPart);
+    largestClippedVolume_ = larger(largestClippedVolume_, clipped.sum);
+    largestClippedPart_ = larger(largestClippedPart_, clipped.largestPart);
     if (!isWithin(solidVolumeError_, solidVolumeTolerance_))
     {
         FatalErrorInFunction << "The cells hold " << cells << " m3 of particles, but the particles have a volume of "
@@ -71,8 +85,8 @@ void ConservationCheck::recordSolidVolume(double particles, double cells, const 
                              << exit(FatalError);
     }
     mostSolidVolume_ = max(mostSolidVolume_, cells);
-    insertionError_ = mag(solidVolumeAtStart_ + netInsertedVolume_ - cells) / max(mostSolidVolume_, VSMALL);
-    largestInsertionError_ = max(largestInsertionError_, insertionError_);
+    insertionError_ = relativeError(mag(solidVolumeAtStart_ + netInsertedVolume_ - cells), mostSolidVolume_);
+    largestInsertionError_ = larger(largestInsertionError_, insertionError_);
     if (!isWithin(insertionError_, solidVolumeTolerance_))
     {
         FatalErrorInFunction << "The cells hold " << cells << " m3 of particles. At the start they held "
@@ -106,8 +120,8 @@ void ConservationCheck::recordMomentum(
     fluidLost_ += fluidLost;
     const vector lost = received.sum + semiImplicit.sum - semiImplicit_.sum - fluidLost;
     const double magnitudes = received.sumOfMagnitudes + semiImplicit.sumOfMagnitudes + semiImplicit_.sumOfMagnitudes;
-    momentumError_ = mag(lost) / max(magnitudes, VSMALL);
-    largestMomentumError_ = max(largestMomentumError_, momentumError_);
+    momentumError_ = relativeError(mag(lost), magnitudes);
+    largestMomentumError_ = larger(largestMomentumError_, momentumError_);
     if (!isWithin(momentumError_, momentumTolerance_))
     {
         FatalErrorInFunction << "In the last coupling step the particles received " << received.sum
@@ -139,7 +153,7 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
     localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
     globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
     cumulativeContinuityError_ += globalContinuityError_;
-    largestContinuityError_ = max(largestContinuityError_, localContinuityError_);
+    largestContinuityError_ = larger(largestContinuityError_, localContinuityError_);
     if (!isWithin(localContinuityError_, continuityTolerance_))
     {
         FatalErrorInFunction
@@ -154,7 +168,7 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
 void ConservationCheck::recordFilteredVolume(double volume)
 {
     filteredVolume_ = solidVolume_ > 0 ? volume / solidVolume_ : 0;
-    largestFilteredVolume_ = max(largestFilteredVolume_, filteredVolume_);
+    largestFilteredVolume_ = larger(largestFilteredVolume_, filteredVolume_);
     if (!isWithin(filteredVolume_, filteredVolumeTolerance_))
     {
         FatalErrorInFunction << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "

@@ -8,6 +8,7 @@
 #include "fvc.H"
 #include "fvcCurl.H"
 #include "fvcGrad.H"
+#include "gaussGrad.H"
 
 #include <mpi.h>
 
@@ -516,6 +517,33 @@ string FluidCoupling::describeCell(label cell) const
     return "cell " + Foam::name(cell) + " at " + Foam::name(centre) + " m, void fraction "
            + Foam::name(1 - solidFraction_[cell])
            + (nearest ? ", nearest particle " + Foam::name(label(nearest->id)) : string());
+}
+
+double FluidCoupling::partNearClearFluid() const
+{
+    // Below this solid fraction few particles are within a bandwidth of each other, and its gradient is chance.
+    constexpr double dense = 0.15;
+    constexpr label fewestOfBed = 50;
+    // At the edge of a bed the smoothed solid fraction is proportional to 1 + erf(z/b) at the depth z. This is its
+    // gradient times b, over its value, at the depth b.
+    static const double atDepthOfBandwidth = 2 / std::sqrt(M_PI) * std::exp(-1.0) / (1 + std::erf(1.0));
+
+    const tmp<volVectorField> gradient = fv::gaussGrad<scalar>(mesh_).calcGrad(voidFraction_, "gradOfVoidFraction");
+    Eigen::MatrixXd inCells(4, mesh_.nCells());
+    inCells << columns(voidFraction_.primitiveField()), columns(gradient().primitiveField());
+    const Eigen::MatrixXd atParticles = exchange_.sumAtOwners(distribution_.sample(inCells));
+    const double bandwidth = distribution_.smoothingModel().bandwidth();
+    label ofBed = 0;
+    label nearEdge = 0;
+    for (const auto& sampled : atParticles.colwise())
+    {
+        const double solid = 1 - sampled[0];
+        ofBed += solid > dense;
+        nearEdge += solid > dense && bandwidth * sampled.tail<3>().norm() > atDepthOfBandwidth * solid;
+    }
+    reduce(ofBed, sumOp<label>());
+    reduce(nearEdge, sumOp<label>());
+    return ofBed < fewestOfBed ? 0 : static_cast<double>(nearEdge) / ofBed;
 }
 
 void FluidCoupling::requireWithinMesh(const Eigen::MatrixXd& shareSums) const

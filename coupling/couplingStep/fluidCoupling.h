@@ -70,6 +70,11 @@ public:
     /// Samples the fluid at the particles, for the next coupling step. Collective.
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
+    /// Part of the particles in dense regions that are within a smoothing bandwidth of clear fluid, where the smoothed
+    /// void fraction is one between those of the bed and of the fluid beyond it [-]; 0 without a bed or smoothing.
+    /// It describes the particles of the last particlesToFluid(). Collective.
+    double partNearClearFluid() const;
+
     const Foam::volScalarField& voidFraction() const
     {
         return voidFraction_;

@@ -28,6 +28,7 @@
 #include <cmath>
 #include <exception>
 #include <unordered_set>
+#include <vector>
 
 namespace clepsydra
 {
@@ -350,6 +351,7 @@ public:
         }
         const lmp::bigint here = atom.nlocal;
         MPI_Allreduce(&here, &atom.natoms, 1, MPI_LMP_BIGINT, MPI_SUM, program_->world);
+        particleCount_ = atom.natoms;
         // Copies of removed particles must not be found.
         atom.nghost = 0;
         if (atom.map_style != 0)

@@ -3,6 +3,7 @@
 #include "engine/particles.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS
 {
