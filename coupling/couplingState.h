@@ -77,6 +77,11 @@ struct CouplingState
     /// Velocity of the particle at the start of the coupling step [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
     PartWithin part;
+    /// Last position at which the particle, or the part of it before an outlet, was in the mesh [m].
+    Vector3d lastInMesh = Vector3d::Zero();
+    /// 1 for a particle that the engine has made since InsertionAndRemoval last saw the particles; 0 for all others. The
+    /// id is not sufficient: where the particle with the highest id is lost, the next new one receives the same id.
+    double isNew = 0;
 
     /// State of a particle that has been inserted since the void fraction was last computed: no fluid force acts on it
     /// yet.
@@ -84,6 +89,7 @@ struct CouplingState
     {
         CouplingState state;
         state.fluid.submergedFraction = 0;
+        state.isNew = 1;
         return state;
     }
 };
@@ -96,6 +102,19 @@ inline std::vector<double> numbersOf(const CouplingState& state)
 {
     const auto* const first = reinterpret_cast<const double*>(&state);
     return {first, first + sizeof(CouplingState) / sizeof(double)};
+}
+
+/// Whether a particle has been inserted since the last count, when the highest id was `highestBefore`.
+inline bool isNewParticle(const ParticlesView& particles, Eigen::Index particle, long highestBefore)
+{
+    return particles.id[particle] > highestBefore || particles.state[particle].isNew != 0;
+}
+
+/// Whether a particle is in a part of the DEM box without mesh (entry `allowParticlesOutsideMesh`). A particle that has
+/// left through an outlet has no share either, but an outlet.
+inline bool isOutsideMesh(const CouplingState& state)
+{
+    return !(state.part.share > 0) && state.part.outlet < 0;
 }
 
 /// Volume of the particle that is in the fluid [m3].

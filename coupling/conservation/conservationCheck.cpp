@@ -5,8 +5,11 @@
 #include "IOmanip.H"
 #include "OSspecific.H"
 #include "Pstream.H"
+#include "ranks.h"
 #include "runTimeSelection.h"
 #include "tokens/jsonText.h"
+
+#include <cmath>
 
 namespace clepsydra
 {
@@ -19,6 +22,24 @@ double tolerance(const dictionary& dict, const word& entry, double byDefault)
     return dict.found(entry) ? positiveEntry(dict, entry) : byDefault;
 }
 
+// OpenFOAM traps comparisons of what is not a number, and its error would not say which quantity it is.
+
+/// False also for an error that is not a number.
+bool isWithin(double error, double tolerance)
+{
+    return !std::isnan(error) && error <= tolerance;
+}
+
+double larger(double largest, double error)
+{
+    return std::isnan(error) ? error : max(largest, error);
+}
+
+double relativeError(double error, double quantity)
+{
+    return std::isnan(error) || std::isnan(quantity) ? error + quantity : error / max(quantity, VSMALL);
+}
+
 } // namespace
 
 ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const Time& time)
@@ -29,11 +50,13 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
       momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
       pressureForceTolerance_(tolerance(tolerances_, "pressureForceTolerance", 1e-9)),
       continuityTolerance_(tolerance(tolerances_, "continuityTolerance", 1e-4)),
+      filteredVolumeTolerance_(tolerance(tolerances_, "filteredVolumeTolerance", 0.5)),
       imbalanceTolerance_(tolerance(tolerances_, "imbalanceTolerance", 1e-3)),
       startTime_(time.timeName())
 {
     requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance",
-                                         "pressureForceTolerance", "continuityTolerance", "imbalanceTolerance"});
+                                         "pressureForceTolerance", "continuityTolerance", "filteredVolumeTolerance",
+                                         "imbalanceTolerance"});
 }
 
 int ConservationCheck::countParticles(const ParticlesView& particles)
@@ -46,14 +69,15 @@ void ConservationCheck::countAfterRemoval(const ParticlesView& particles, label 
     census_.countAfterRemoval(particles, removed);
 }
 
-void ConservationCheck::recordSolidVolume(double particles, double cells, double clipped, const string& worstCell)
+void ConservationCheck::recordSolidVolume(double particles, double cells, const ClippedVolume& clipped)
 {
     solidVolume_ = particles;
-    solidVolumeError_ = particles > 0 ? mag(cells - particles) / particles : mag(cells);
-    largestSolidVolumeError_ = max(largestSolidVolumeError_, solidVolumeError_);
-    clippedVolume_ = clipped;
-    largestClippedVolume_ = max(largestClippedVolume_, clipped);
-    if (solidVolumeError_ > solidVolumeTolerance_)
+    solidVolumeError_ = relativeError(mag(cells - particles), particles);
+    largestSolidVolumeError_ = larger(largestSolidVolumeError_, solidVolumeError_);
+    clippedVolume_ = clipped.sum;
+    largestClippedVolume_ = larger(largestClippedVolume_, clipped.sum);
+    largestClippedPart_ = larger(largestClippedPart_, clipped.largestPart);
+    if (!isWithin(solidVolumeError_, solidVolumeTolerance_))
     {
         FatalErrorInFunction << "The cells hold " << cells << " m3 of particles, but the particles have a volume of "
                              << particles << " m3: the relative error is " << solidVolumeError_
@@ -61,9 +85,9 @@ void ConservationCheck::recordSolidVolume(double particles, double cells, double
                              << exit(FatalError);
     }
     mostSolidVolume_ = max(mostSolidVolume_, cells);
-    insertionError_ = mag(solidVolumeAtStart_ + netInsertedVolume_ - cells) / max(mostSolidVolume_, VSMALL);
-    largestInsertionError_ = max(largestInsertionError_, insertionError_);
-    if (insertionError_ > solidVolumeTolerance_)
+    insertionError_ = relativeError(mag(solidVolumeAtStart_ + netInsertedVolume_ - cells), mostSolidVolume_);
+    largestInsertionError_ = larger(largestInsertionError_, insertionError_);
+    if (!isWithin(insertionError_, solidVolumeTolerance_))
     {
         FatalErrorInFunction << "The cells hold " << cells << " m3 of particles. At the start they held "
                              << solidVolumeAtStart_ << " m3, and " << netInsertedVolume_
@@ -71,38 +95,43 @@ void ConservationCheck::recordSolidVolume(double particles, double cells, double
                              << "; allowed: at most solidVolumeTolerance, which is " << solidVolumeTolerance_
                              << exit(FatalError);
     }
-    if (clipped > clippedVolumeTolerance_ * particles)
+    if (!isWithin(clipped.largestPart, clippedVolumeTolerance_))
     {
-        FatalErrorInFunction << "The void fraction was clipped at alphaMin: " << clipped << " m3 of " << particles
-                             << " m3 of particles were cut off; allowed: at most clippedVolumeTolerance, which is "
-                             << clippedVolumeTolerance_ << " of the particles' volume. The worst cell is "
-                             << worstCell.c_str()
+        FatalErrorInFunction << "The void fraction was clipped at alphaMin: in one cell a part of "
+                             << clipped.largestPart << " of the particles' volume was cut off, in all cells "
+                             << clipped.sum << " m3 of " << particles << " m3; allowed: at most "
+                             << "clippedVolumeTolerance, which is " << clippedVolumeTolerance_
+                             << " of the volume in any cell. The worst cell is "
+                             << firstOfRanks(clipped.worstCell).c_str()
                              << ". Increase bandwidth in constDiffSmoothingProps, or lower alphaMin"
                              << exit(FatalError);
     }
 }
 
-void ConservationCheck::setInitialMomentum(const vector& semiImplicitMomentum)
+void ConservationCheck::setInitialMomentum(const ExchangedMomentum& semiImplicit)
 {
-    semiImplicitMomentumAtStart_ = semiImplicitMomentum;
-    semiImplicitMomentum_ = semiImplicitMomentum;
+    semiImplicit_ = semiImplicit;
 }
 
 void ConservationCheck::recordMomentum(
-    const ReceivedMomentum& received, const vector& fluidLost, const vector& semiImplicitMomentum)
+    const ExchangedMomentum& received, const vector& fluidLost, const ExchangedMomentum& semiImplicit)
 {
     particlesReceived_ += received.sum;
     fluidLost_ += fluidLost;
-    semiImplicitMomentum_ = semiImplicitMomentum;
-    momentumMagnitudes_ += received.sumOfMagnitudes;
-    if (momentumError() > momentumTolerance_)
+    const vector lost = received.sum + semiImplicit.sum - semiImplicit_.sum - fluidLost;
+    const double magnitudes = received.sumOfMagnitudes + semiImplicit.sumOfMagnitudes + semiImplicit_.sumOfMagnitudes;
+    momentumError_ = relativeError(mag(lost), magnitudes);
+    largestMomentumError_ = larger(largestMomentumError_, momentumError_);
+    if (!isWithin(momentumError_, momentumTolerance_))
     {
-        FatalErrorInFunction << "The particles received " << particlesReceived_ << " N s from the fluid, and the fluid "
-                             << "lost " << fluidLost_ << " N s, of which " << semiImplicitMomentum_
-                             << " N s have been given semi-implicitly: the relative error is " << momentumError()
+        FatalErrorInFunction << "In the last coupling step the particles received " << received.sum
+                             << " N s from the fluid, and the fluid lost " << fluidLost
+                             << " N s. What it has given semi-implicitly changed from " << semiImplicit_.sum << " to "
+                             << semiImplicit.sum << " N s: the relative error is " << momentumError_
                              << "; allowed: at most momentumTolerance, which is " << momentumTolerance_
                              << exit(FatalError);
     }
+    semiImplicit_ = semiImplicit;
 }
 
 void ConservationCheck::recordPressureForce(
@@ -125,8 +154,8 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
     localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
     globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
     cumulativeContinuityError_ += globalContinuityError_;
-    largestContinuityError_ = max(largestContinuityError_, localContinuityError_);
-    if (localContinuityError_ > continuityTolerance_)
+    largestContinuityError_ = larger(largestContinuityError_, localContinuityError_);
+    if (!isWithin(localContinuityError_, continuityTolerance_))
     {
         FatalErrorInFunction
             << "The continuity error of one coupling step is " << localContinuityError_
@@ -137,10 +166,24 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
     }
 }
 
+void ConservationCheck::recordFilteredVolume(double volume)
+{
+    filteredVolume_ = solidVolume_ > 0 ? volume / solidVolume_ : 0;
+    largestFilteredVolume_ = larger(largestFilteredVolume_, filteredVolume_);
+    if (!isWithin(filteredVolume_, filteredVolumeTolerance_))
+    {
+        FatalErrorInFunction << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "
+                             << "fluid's continuity equation, which is " << filteredVolume_
+                             << " of the particles' volume; allowed: at most filteredVolumeTolerance, which is "
+                             << filteredVolumeTolerance_ << ". Decrease smoothingTime in useDDTvoidfractionProps"
+                             << exit(FatalError);
+    }
+}
+
 void ConservationCheck::recordImbalance(double imbalance)
 {
     imbalance_ += imbalance;
-    if (mag(imbalance_) > imbalanceTolerance_)
+    if (!isWithin(mag(imbalance_), imbalanceTolerance_))
     {
         FatalErrorInFunction << "The volume of the particles in a tank that no fluid can leave or enter has changed by "
                              << imbalance_ << " of the tank's volume; allowed: at most imbalanceTolerance, which is "
@@ -149,23 +192,17 @@ void ConservationCheck::recordImbalance(double imbalance)
     }
 }
 
-double ConservationCheck::momentumError() const
-{
-    return momentumMagnitudes_ > 0
-               ? mag(particlesReceived_ + semiImplicitMomentum_ - semiImplicitMomentumAtStart_ - fluidLost_)
-                     / momentumMagnitudes_
-               : 0;
-}
-
 void ConservationCheck::report() const
 {
     Info << "conservation check: time " << time_.timeName() << " s, particles " << census_.now() << " (inserted "
-         << census_.inserted() << ", left " << census_.removed() << ", lost " << census_.lost() << "), solid volume "
+         << census_.inserted() << ", left " << census_.removed() << ", lost " << census_.lost() << ", outside the mesh " << outsideMesh_
+         << "), solid volume "
          << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
          << " m3, momentum to particles " << particlesReceived_ << " N s, from fluid " << fluidLost_
-         << " N s, of which semi-implicit " << semiImplicitMomentum_ << " N s (error " << momentumError()
+         << " N s, of which semi-implicit " << semiImplicit_.sum << " N s (error " << momentumError_
          << "), pressure force error " << pressureForceError_ << ", continuity error local " << localContinuityError_
          << ", global " << globalContinuityError_ << ", cumulative " << cumulativeContinuityError_
+         << ", volume held back by the filter " << filteredVolume_
          << ", imbalance of a closed tank " << imbalance_ << endl;
 }
 
@@ -181,10 +218,12 @@ void ConservationCheck::writeSummary(
     std::vector<std::pair<std::string, JsonValue>> summary = {{"timeStart", std::stod(startTime_)},
         {"timeEnd", time_.value()}, {"particlesStart", census_.atStart()}, {"particlesEnd", census_.now()},
         {"particlesLost", census_.lost()}, {"particlesInserted", census_.inserted()},
-        {"particlesLeft", census_.removed()}, {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
+        {"particlesLeft", census_.removed()}, {"particlesOutsideMesh", outsideMesh_},
+        {"particlesThatLeftMesh", leftMesh_}, {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
         {"solidVolumeError", largestSolidVolumeError_}, {"clippedVolume", largestClippedVolume_},
-        {"momentumError", momentumError()}, {"pressureForceError", largestPressureForceError_},
+        {"clippedPart", largestClippedPart_}, {"momentumError", largestMomentumError_}, {"pressureForceError", largestPressureForceError_},
         {"continuityError", largestContinuityError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
+        {"filteredVolume", largestFilteredVolume_},
         {"imbalance", imbalance_}, {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()},
         {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};

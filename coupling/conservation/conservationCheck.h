@@ -14,12 +14,23 @@
 namespace clepsydra
 {
 
-/// Momentum that the particles received from the fluid in one coupling step, over all ranks [N s].
-struct ReceivedMomentum
+/// Momentum between particles and fluid, over all ranks [N s].
+struct ExchangedMomentum
 {
-    Foam::vector sum;
-    /// Sum of the magnitudes of the particles' impulses: in a tank at rest their sum may vanish.
-    double sumOfMagnitudes;
+    Foam::vector sum = Foam::vector::zero;
+    /// Sum of the magnitudes of the terms of the sum, which may cancel each other.
+    double sumOfMagnitudes = 0;
+};
+
+/// Solid volume that is cut off where the void fraction is below alphaMin.
+struct ClippedVolume
+{
+    /// Over all ranks [m3].
+    double sum = 0;
+    /// Largest part that was cut off of the solid volume in one cell of any rank [-].
+    double largestPart = 0;
+    /// Description of that cell on the rank that has it; empty on the others.
+    Foam::string worstCell;
 };
 
 /// Estimated duration of the whole run [s], made after a hundredth of it.
@@ -35,11 +46,13 @@ struct EstimatedSeconds
 ///
 ///     solidVolumeTolerance    1e-9;   // |cells - particles| / particles
 ///                                     // and |initial + inserted - left - cells| / largest solid volume so far
-///     clippedVolumeTolerance  1e-3;   // solid volume clipped at alphaMin / solid volume, in any coupling step
+///     clippedVolumeTolerance  1e-3;   // solid volume clipped at alphaMin / solid volume, in any cell
 ///     momentumTolerance       1e-9;   // |lost by fluid - semi-implicit - received by particles|
-///                                     // / sum over the particles of |impulse received|
+///                                     // / sum of the magnitudes of these terms, in any coupling step
 ///     pressureForceTolerance  1e-9;   // |force on particles - reaction in fluid| / sum of |force on a particle|
 ///     continuityTolerance     1e-4;   // mean of |d(eps)/dt + div(eps U)| times the coupling step
+///     filteredVolumeTolerance 0.5;    // solid volume whose motion the low-pass filter of d(eps)/dt has not passed yet
+///                                     // / solid volume
 ///     imbalanceTolerance      1e-3;   // net volume of fluid that a closed tank had to take up / volume of the tank
 class ConservationCheck
 {
@@ -75,21 +88,20 @@ public:
     /// equal that of the particles, and the initial volume plus what was inserted less what has left.
     /// \param particles  volume of the particles that is in the fluid
     /// \param cells  solid volume in the cells before clipping
-    /// \param clipped  solid volume that clipping has cut off
-    /// \param worstCell  description of the cell with the lowest void fraction, for the error message
-    void recordSolidVolume(double particles, double cells, double clipped, const Foam::string& worstCell);
+    void recordSolidVolume(double particles, double cells, const ClippedVolume& clipped);
 
-    /// Sets the momentum that the fluid has given semi-implicitly at the start [N s]; sum over all ranks.
-    void setInitialMomentum(const Foam::vector& semiImplicitMomentum);
+    /// Sets the momentum that the fluid has given semi-implicitly at the start.
+    void setInitialMomentum(const ExchangedMomentum& semiImplicit);
 
     /// Records the momentum of one coupling step [N s], over all ranks. Each value is computed in a different place, so
     /// that momentum which is lost between them is detected.
     /// \param received  what the particles received from the fluid, from the particles' own state
     /// \param fluidLost  what the particles' source took from the fluid, from the equation that was solved
-    /// \param semiImplicitMomentum  the part of fluidLost, in sum, that the particles will receive in the next coupling
-    /// step only
+    /// \param semiImplicit  the part of fluidLost, in sum, that the particles will receive in the next coupling step only.
+    /// The error is relative also to the magnitudes of its terms, because their rounding errors remain where particles
+    /// move with the fluid and receive nothing.
     void recordMomentum(
-        const ReceivedMomentum& received, const Foam::vector& fluidLost, const Foam::vector& semiImplicitMomentum);
+        const ExchangedMomentum& received, const Foam::vector& fluidLost, const ExchangedMomentum& semiImplicit);
 
     /// Records the pressure force of one coupling step, over all ranks [N].
     /// \param onParticles  force of the fluid's pressure gradient that was applied to all particles
@@ -109,6 +121,18 @@ public:
     /// volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it.
     void recordContinuity(const Foam::volScalarField& error);
 
+    /// Records the difference between the void fraction of the particles and that whose change the fluid's continuity
+    /// equation has seen, in volume over all ranks [m3]; see VoidFractionRate::filteredVolume().
+    void recordFilteredVolume(double volume);
+
+    /// Records the particles that are in parts of the DEM box without mesh, where these are allowed, and those that have
+    /// gone there since the start, over all ranks.
+    void recordOutsideMesh(Foam::label now, Foam::label sinceStart)
+    {
+        outsideMesh_ = now;
+        leftMesh_ = sinceStart;
+    }
+
     /// Records the volume of fluid that a closed tank had to take up or give away in one coupling step because the
     /// volume of the particles in it changed, divided by the tank's volume; see VoidFractionRate::spreadImbalance().
     void recordImbalance(double imbalance);
@@ -124,8 +148,6 @@ public:
         const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const;
 
 private:
-    double momentumError() const;
-
     const Foam::Time& time_;
     const Foam::dictionary tolerances_;
     const double solidVolumeTolerance_;
@@ -133,6 +155,7 @@ private:
     const double momentumTolerance_;
     const double pressureForceTolerance_;
     const double continuityTolerance_;
+    const double filteredVolumeTolerance_;
     const double imbalanceTolerance_;
     const Foam::word startTime_;
 
@@ -147,11 +170,13 @@ private:
     double largestSolidVolumeError_ = 0;
     double clippedVolume_ = 0;
     double largestClippedVolume_ = 0;
+    double largestClippedPart_ = 0;
+    /// Sums over the coupling steps [N s].
     Foam::vector particlesReceived_ = Foam::vector::zero;
     Foam::vector fluidLost_ = Foam::vector::zero;
-    Foam::vector semiImplicitMomentumAtStart_ = Foam::vector::zero;
-    Foam::vector semiImplicitMomentum_ = Foam::vector::zero;
-    double momentumMagnitudes_ = 0;
+    ExchangedMomentum semiImplicit_;
+    double momentumError_ = 0;
+    double largestMomentumError_ = 0;
     double pressureForceError_ = 0;
     double largestPressureForceError_ = 0;
     /// Mean magnitude and mean of the continuity error, and the sum of the means over the coupling steps [-].
@@ -159,6 +184,10 @@ private:
     double globalContinuityError_ = 0;
     double cumulativeContinuityError_ = 0;
     double largestContinuityError_ = 0;
+    double filteredVolume_ = 0;
+    double largestFilteredVolume_ = 0;
+    Foam::label outsideMesh_ = 0;
+    Foam::label leftMesh_ = 0;
     double imbalance_ = 0;
 };
 

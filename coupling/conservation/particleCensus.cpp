@@ -1,5 +1,6 @@
 #include "conservation/particleCensus.h"
 
+#include "couplingState.h"
 #include "vectors.h"
 
 #include "DynamicList.H"
@@ -39,7 +40,7 @@ int ParticleCensus::count(const ParticlesView& particles)
     label stillThere = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        stillThere += particles.id[particle] <= highestId_;
+        stillThere += !isNewParticle(particles, particle, highestId_);
     }
     reduce(stillThere, sumOp<label>());
     if (stillThere != now_)
@@ -100,10 +101,15 @@ void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label m
     }
     labelHashSet here;
     DynamicList<label> arrived;
-    for (const int id : particles.id)
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
+        const int id = particles.id[particle];
+        if (isNewParticle(particles, particle, highestId_))
+        {
+            continue;
+        }
         here.insert(id);
-        if (id <= highestId_ && !before.found(id))
+        if (!before.found(id))
         {
             arrived.append(id);
         }

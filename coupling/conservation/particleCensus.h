@@ -13,9 +13,9 @@ namespace clepsydra
 class ParticleCensus
 {
 public:
-    /// Counts the particles and compares them with the last count. New particles must have higher ids than all that
-    /// were there at the last count. Collective. FatalError that names the missing particles and their last positions
-    /// where some are missing.
+    /// Counts the particles and compares them with the last count. New particles have higher ids than all that were
+    /// there at the last count, or the state of a new particle (see isNewParticle()). Collective. FatalError that names
+    /// the missing particles and their last positions where some are missing.
     /// \return the highest id among the particles that are not new
     int count(const ParticlesView& particles);
 

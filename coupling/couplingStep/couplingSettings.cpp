@@ -57,7 +57,8 @@ CouplingSettings::CouplingSettings(const Time& time)
     requireKnownEntries(dict_,
         {"fluid", "couplingTimeStep", "adjustableCouplingTimeStep", "maxCo", "minCouplingTimeStep",
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
-            "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime"},
+            "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime",
+            "allowParticlesOutsideMesh"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
@@ -77,6 +78,7 @@ void CouplingSettings::readChoices()
     readAdjustableCouplingTimeStep();
     modelType_ = readModelType(dict_);
     ddtVoidFraction_ = dict_.getOrDefault<Switch>("useDDTvoidfraction", true);
+    particlesOutsideMesh_ = dict_.getOrDefault<Switch>("allowParticlesOutsideMesh", false);
 
     const dictionary ddtProps = dict_.subOrEmptyDict("useDDTvoidfractionProps");
     requireKnownEntries(ddtProps, {"smoothingTime"});
@@ -172,6 +174,8 @@ std::vector<std::string> CouplingSettings::descriptions() const
             ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
             : std::string("d(eps)/dt      OFF: WARNING, dilation of the particles does not move the fluid, so a "
                           "submerged hopper has no surge"),
+        particlesOutsideMesh_ ? "particles      may be in parts of the DEM box without mesh, where no fluid acts on them"
+                              : "particles      must be in the mesh",
         "drag in DEM    at every DEM step, from the particle's present velocity and the frozen fluid"};
 }
 

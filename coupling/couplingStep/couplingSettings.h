@@ -74,6 +74,12 @@ public:
         return ddtSmoothingTime_;
     }
 
+    /// Whether particles may be in parts of the DEM box without mesh, where no fluid acts on them.
+    bool particlesOutsideMesh() const
+    {
+        return particlesOutsideMesh_;
+    }
+
     /// Whether the drag is implicit in the fluid's momentum equation.
     bool implicitCoupling() const
     {
@@ -124,6 +130,7 @@ private:
     double couplingTimeStep_ = 0;
     std::optional<AdjustableCouplingTimeStep> adjustableCouplingTimeStep_;
     bool ddtVoidFraction_ = true;
+    bool particlesOutsideMesh_ = false;
     double ddtSmoothingTime_ = 0;
     bool implicitCoupling_ = true;
     double minimumVoidFraction_ = 0.1;

@@ -34,11 +34,15 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     engine_.requestState(numbersOf(CouplingState::ofNewParticle()));
     engine_.initialise(models ? &models->forces : nullptr);
     conservation_.countParticles(engine_.particles());
-    conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed));
     if (models)
     {
         fluid_ = std::make_unique<FluidCoupling>(
             mesh, settings, fluid, models->forces.needs(), engine, models->distribution, conservation_, timers_);
+    }
+    conservation_.setInitialSolidVolume(
+        insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
+    if (models)
+    {
         fluid_->start(resumed);
         lengthOfChange_ = lengthOfChange(models->distribution.smoothingModel().bandwidth(), smallestCellWidth(mesh));
     }
@@ -79,7 +83,7 @@ void CouplingStep::advance(const Foam::volVectorField& U, const Foam::volScalarF
         length_.choose(limits(phi), timeLeft);
     }
     fluid_->particlesToFluid(couplingTimeStep_, length_.seconds());
-    const ReceivedMomentum received = resetReceivedImpulse();
+    const ExchangedMomentum received = resetReceivedImpulse();
     const SolvedFluid solved = solveFluid();
     fluid_->updateAcceleration(U, couplingTimeStep_);
     fluid_->fluidToParticles(U, p);
@@ -88,6 +92,7 @@ void CouplingStep::advance(const Foam::volVectorField& U, const Foam::volScalarF
         -fluidDensity_ * couplingTimeStep_ * returnReduce(solved.sourceOfParticles, Foam::sumOp<Foam::vector>()),
         fluid_->semiImplicitMomentum());
     conservation_.recordContinuity(couplingTimeStep_ * solved.continuityError());
+    conservation_.recordFilteredVolume(fluid_->filteredVolume());
     if (removeParticlesThatLeft())
     {
         resetReceivedImpulse();
@@ -110,7 +115,7 @@ void CouplingStep::restartInPlace(const Foam::volVectorField& U, const Foam::vol
     const ParticlesView particles = engine_.particles();
     std::fill_n(particles.state, particles.size(), CouplingState());
     engine_.prepare();
-    insertionAndRemoval_.start(engine_.particles(), false);
+    insertionAndRemoval_.start(engine_.particles(), false, findOutsideMesh());
     fluid_->start(true);
     fluid_->fluidToParticles(U, p);
     resetReceivedImpulse();
@@ -126,7 +131,7 @@ void CouplingStep::checkPressureForce()
     }
 }
 
-ReceivedMomentum CouplingStep::resetReceivedImpulse()
+ExchangedMomentum CouplingStep::resetReceivedImpulse()
 {
     if (forces_)
     {
@@ -166,8 +171,15 @@ void CouplingStep::advanceParticles()
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
     const int highestBefore = conservation_.countParticles(particles);
-    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_);
+    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_, findOutsideMesh());
     conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
+    conservation_.recordOutsideMesh(insertionAndRemoval_.outsideMesh(), insertionAndRemoval_.leftMesh());
+}
+
+FindOutsideMesh CouplingStep::findOutsideMesh()
+{
+    return fluid_ && settings_.particlesOutsideMesh() ? [this] { return fluid_->particlesOutsideMesh(); }
+                                                      : FindOutsideMesh();
 }
 
 bool CouplingStep::removeParticlesThatLeft()

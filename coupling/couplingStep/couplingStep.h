@@ -93,6 +93,8 @@ private:
     void advanceParticles();
     /// Evaluates the fluid forces before the first step of a run, whose first half (velocity Verlet) already uses them.
     void evaluateFluidForces(const Foam::volVectorField& U, const Foam::volScalarField& p);
+    /// Finds the particles outside the mesh where these are allowed; null where they are not.
+    FindOutsideMesh findOutsideMesh();
     /// Removes particles that are entirely beyond an outlet. \return true if there were any; the engine has then been
     /// prepared for its next step
     bool removeParticlesThatLeft();
@@ -100,7 +102,7 @@ private:
     /// Collective.
     void checkPressureForce();
     /// Sets the received impulses of all particles to zero. \return their sum over all ranks
-    ReceivedMomentum resetReceivedImpulse();
+    ExchangedMomentum resetReceivedImpulse();
     /// Upper limits of the next coupling step, one line for each reason. Collective.
     std::vector<CouplingStepLimit> limits(const Foam::surfaceScalarField& phi) const;
 

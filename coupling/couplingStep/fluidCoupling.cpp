@@ -2,11 +2,13 @@
 
 #include "couplingStep/couplingField.h"
 #include "couplingStep/sampledFields.h"
+#include "ranks.h"
 #include "vectors.h"
 
 #include "fvc.H"
 #include "fvcCurl.H"
 #include "fvcGrad.H"
+#include "gaussGrad.H"
 
 #include <mpi.h>
 
@@ -41,6 +43,33 @@ enum CheckpointRow : Eigen::Index
 };
 
 static_assert(reactionSize == SemiImplicitSource::rowCount + VoidFractionRate::rowCount);
+
+/// Text that names the nearest patch where the mesh ends, and says whether the position is beyond it. Collective.
+string nearestPatch(const fvMesh& mesh, const point& position)
+{
+    scalar nearest = GREAT;
+    string text;
+    for (const polyPatch& patch : mesh.boundaryMesh())
+    {
+        forAll (patch, face)
+        {
+            if (patch.coupled())
+            {
+                break;
+            }
+            const pointHit found = patch[face].nearestPoint(position, mesh.points());
+            if (found.distance() < nearest)
+            {
+                nearest = found.distance();
+                const bool beyond = ((position - found.rawPoint()) & patch.faceAreas()[face]) > 0;
+                text = (beyond ? ", and is " + Foam::name(nearest) + " m beyond patch '" + patch.name()
+                                     + "', which it has crossed"
+                               : ", and the nearest patch is '" + patch.name() + '\'');
+            }
+        }
+    }
+    return firstOfRanks(nearest == returnReduce(nearest, minOp<scalar>()) ? text : string());
+}
 
 MPI_Comm duplicateWorld()
 {
@@ -92,12 +121,22 @@ FluidCoupling::checkpointedState(const ParticlesView& particles)
         Eigen::OuterStride<>(particles.memorySize)};
 }
 
-vector FluidCoupling::semiImplicitMomentum() const
+ExchangedMomentum FluidCoupling::semiImplicitMomentum() const
 {
-    const Vector3d ofParticles =
-        checkpointedState(engine_.particles()).middleRows<3>(semiImplicitImpulse).rowwise().sum();
-    return returnReduce(toFoam(ofParticles), sumOp<vector>())
-           + gSum(vectorField(fluid_.density * mesh_.V().field() * semiImplicitSource_.pendingMomentum()));
+    const ParticlesView particles = engine_.particles();
+    const auto ofParticles = checkpointedState(particles).middleRows<3>(semiImplicitImpulse);
+    const vectorField inCells(fluid_.density * mesh_.V().field() * semiImplicitSource_.pendingMomentum());
+    double magnitudes = sum(mag(inCells));
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const double drag = anticipated_[static_cast<std::size_t>(particle)].drag;
+        const FluidAtParticle& fluid = particles.state[particle].fluid;
+        magnitudes += ofParticles.col(particle).norm()
+                      + drag * (fluid.velocityInCells.norm() + particles.velocity.col(particle).norm());
+    }
+    const Vector3d sumOfParticles = ofParticles.rowwise().sum();
+    return {returnReduce(toFoam(sumOfParticles), sumOp<vector>()) + gSum(inCells),
+        returnReduce(magnitudes, sumOp<scalar>())};
 }
 
 void FluidCoupling::start(bool resumed)
@@ -241,26 +280,39 @@ tmp<volVectorField> FluidCoupling::sourceOfPressure(const volScalarField& p) con
     return active * (voidFraction_ - pressureFactor_) * fvc::grad(p);
 }
 
-void FluidCoupling::findCells()
+template<class Communicate>
+auto FluidCoupling::exchanged(const Communicate& communicate)
 {
-    const ParticlesView particles = engine_.particles();
-    const auto exchanged = [&](auto&& communicate) {
-        const PhaseTimers::Scope timing = timers_.time("exchange");
-        return communicate();
-    };
-    exchanged([&] { exchange_.send(particles, reactions()); });
+    const PhaseTimers::Scope timing = timers_.time("exchange");
+    return communicate();
+}
+
+Eigen::MatrixXd FluidCoupling::locate(const Reactions& reactions)
+{
+    exchanged([&] { exchange_.send(engine_.particles(), reactions); });
     const Eigen::MatrixXd sharesHere = [&] {
         const PhaseTimers::Scope timing = timers_.time("locate");
         return distribution_.findCells(exchange_.ghosts());
     }();
-    const Eigen::MatrixXd shareSums = exchanged([&] { return exchange_.sumAtOwners(sharesHere); });
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    return exchanged([&] { return exchange_.sumAtOwners(sharesHere); });
+}
+
+std::vector<bool> FluidCoupling::particlesOutsideMesh()
+{
+    const Eigen::Index count = engine_.particles().size();
+    const Eigen::MatrixXd shareSums = locate(Reactions::Zero(reactionSize, count));
+    std::vector<bool> outside;
+    for (Eigen::Index particle = 0; particle < count; ++particle)
     {
-        if (!(shareSums(0, particle) > 0))
-        {
-            reportParticleOutsideMesh(particles, particle);
-        }
+        outside.push_back(!(shareSums(0, particle) > 0));
     }
+    return outside;
+}
+
+void FluidCoupling::findCells()
+{
+    const Eigen::MatrixXd shareSums = locate(reactions());
+    requireWithinMesh(shareSums);
     distribution_.normalise(exchanged([&] { return exchange_.toGhosts(shareSums); }));
     const PhaseTimers::Scope timing = timers_.time("smooth");
     distribution_.smoothNearParticles();
@@ -304,7 +356,7 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
 
     scalarField& voidFraction = voidFraction_.primitiveFieldRef();
     voidFraction = 1 - solidFraction_;
-    double clipped = 0;
+    ClippedVolume clipped;
     label worstCell = -1;
     const double minimum = settings_.minimumVoidFraction();
     forAll (voidFraction, cell)
@@ -312,13 +364,22 @@ void FluidCoupling::updateVoidFraction(const Eigen::MatrixXd& densities)
         if (voidFraction[cell] < minimum)
         {
             worstCell = worstCell < 0 || solidFraction_[cell] > solidFraction_[worstCell] ? cell : worstCell;
-            clipped += (minimum - voidFraction[cell]) * cellVolumes[cell];
+            clipped.sum += (minimum - voidFraction[cell]) * cellVolumes[cell];
             voidFraction[cell] = minimum;
         }
     }
     voidFraction_.correctBoundaryConditions();
-    conservation_.recordSolidVolume(returnReduce(particleVolume, sumOp<scalar>()), cellVolume,
-        returnReduce(clipped, sumOp<scalar>()), worstCell < 0 ? string("none here") : describeCell(worstCell));
+    const double worstHere = worstCell < 0 ? 0 : 1 - (1 - minimum) / solidFraction_[worstCell];
+    clipped.sum = returnReduce(clipped.sum, sumOp<scalar>());
+    if (clipped.sum > 0)
+    {
+        clipped.largestPart = returnReduce(worstHere, maxOp<scalar>());
+        if (worstCell >= 0 && worstHere == clipped.largestPart)
+        {
+            clipped.worstCell = describeCell(worstCell);
+        }
+    }
+    conservation_.recordSolidVolume(returnReduce(particleVolume, sumOp<scalar>()), cellVolume, clipped);
 }
 
 void FluidCoupling::updatePressureFactor(const Eigen::Ref<const Eigen::RowVectorXd>& velocityResponse)
@@ -406,7 +467,16 @@ void FluidCoupling::fluidToParticles(const volVectorField& U, const volScalarFie
                     particles.radius[particle], particles.velocity.col(particle), value[0], value[1]);
         });
     }
-    sampled.store(exchange_.sumAtOwners(distribution_.sample(sampled.inCells())));
+    const auto isInMesh = [&](Eigen::Index particle) { return !isOutsideMesh(particles.state[particle]); };
+    sampled.store(exchange_.sumAtOwners(distribution_.sample(sampled.inCells())), isInMesh);
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        if (!isInMesh(particle))
+        {
+            particles.state[particle].fluid = FluidAtParticle();
+            particles.state[particle].fluid.submergedFraction = 0;
+        }
+    }
     magnitudeOfPressureForces_ = magnitudeOfPressureForces();
 }
 
@@ -451,14 +521,76 @@ string FluidCoupling::describeCell(label cell) const
            + (nearest ? ", nearest particle " + Foam::name(label(nearest->id)) : string());
 }
 
-void FluidCoupling::reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const
+double FluidCoupling::partNearClearFluid() const
 {
-    const vector position = toFoam(particles.position.col(particle));
-    const label nearest = mesh_.nCells() > 0 ? mesh_.findNearestCell(position) : -1;
-    FatalErrorInFunction << "Particle " << particles.id[particle] << " at " << position
-                         << " m lies in no cell of the mesh; the nearest one, cell " << nearest << " of rank "
-                         << Pstream::myProcNo() << ", is at " << (nearest < 0 ? vector::zero : mesh_.C()[nearest])
-                         << " m; allowed: particles within the mesh, which on this rank spans " << mesh_.bounds()
+    // Below this solid fraction few particles are within a bandwidth of each other, and its gradient is chance.
+    constexpr double dense = 0.15;
+    constexpr label fewestOfBed = 50;
+    // At the edge of a bed the smoothed solid fraction is proportional to 1 + erf(z/b) at the depth z. This is its
+    // gradient times b, over its value, at the depth b.
+    static const double atDepthOfBandwidth = 2 / std::sqrt(M_PI) * std::exp(-1.0) / (1 + std::erf(1.0));
+
+    const tmp<volVectorField> gradient = fv::gaussGrad<scalar>(mesh_).calcGrad(voidFraction_, "gradOfVoidFraction");
+    Eigen::MatrixXd inCells(4, mesh_.nCells());
+    inCells << columns(voidFraction_.primitiveField()), columns(gradient().primitiveField());
+    const Eigen::MatrixXd atParticles = exchange_.sumAtOwners(distribution_.sample(inCells));
+    const double bandwidth = distribution_.smoothingModel().bandwidth();
+    label ofBed = 0;
+    label nearEdge = 0;
+    for (const auto& sampled : atParticles.colwise())
+    {
+        const double solid = 1 - sampled[0];
+        ofBed += solid > dense;
+        nearEdge += solid > dense && bandwidth * sampled.tail<3>().norm() > atDepthOfBandwidth * solid;
+    }
+    reduce(ofBed, sumOp<label>());
+    reduce(nearEdge, sumOp<label>());
+    return ofBed < fewestOfBed ? 0 : static_cast<double>(nearEdge) / ofBed;
+}
+
+void FluidCoupling::requireWithinMesh(const Eigen::MatrixXd& shareSums) const
+{
+    const ParticlesView particles = engine_.particles();
+    label count = 0;
+    label lowestId = labelMax;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        if (!(shareSums(0, particle) > 0) && !isOutsideMesh(particles.state[particle]))
+        {
+            ++count;
+            lowestId = min(lowestId, label(particles.id[particle]));
+        }
+    }
+    reduce(count, sumOp<label>());
+    if (count > 0)
+    {
+        reportOutsideMesh(count, returnReduce(lowestId, minOp<label>()));
+    }
+}
+
+void FluidCoupling::reportOutsideMesh(label count, label id) const
+{
+    const ParticlesView particles = engine_.particles();
+    vector position = vector::zero;
+    vector velocity = vector::zero;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        if (particles.id[particle] == id)
+        {
+            position = toFoam(particles.position.col(particle));
+            velocity = toFoam(particles.velocity.col(particle));
+        }
+    }
+    reduce(position, sumOp<vector>());
+    reduce(velocity, sumOp<vector>());
+    const wordList outlets = settings_.dict().getOrDefault<wordList>("particleOutlets", wordList());
+    FatalErrorInFunction << "Particle " << id << " at " << position << " m lies in no cell of the mesh, which spans "
+                         << boundBox(mesh_.points(), true) << " m. It moves at " << mag(velocity) << " m/s, "
+                         << velocity << nearestPatch(mesh_, position).c_str() << "; " << count
+                         << " particles in all lie in no cell; allowed: particles within the mesh. Where particles may "
+                         << "leave, list the patch in particleOutlets, which is now " << flatOutput(outlets)
+                         << "; where they may be in parts of the DEM box without mesh and without fluid, set "
+                         << "allowParticlesOutsideMesh yes; otherwise a wall of the DEM script is missing there"
                          << exit(FatalError);
     std::abort();
 }

@@ -74,6 +74,11 @@ public:
     /// Samples the fluid at the particles, for the next coupling step. Collective.
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
+    /// Part of the particles in dense regions that are within a smoothing bandwidth of clear fluid, where the smoothed
+    /// void fraction is one between those of the bed and of the fluid beyond it [-]; 0 without a bed or smoothing.
+    /// It describes the particles of the last particlesToFluid(). Collective.
+    double partNearClearFluid() const;
+
     const Foam::volScalarField& voidFraction() const
     {
         return voidFraction_;
@@ -100,9 +105,19 @@ public:
         return semiImplicitSource_.source(U);
     }
 
-    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet [N s]; sum over
-    /// all ranks. Collective.
-    Foam::vector semiImplicitMomentum() const;
+    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet. Its magnitudes
+    /// include those of the terms c U and c v of drag, whose difference is given. Collective.
+    /// \pre the particles are those of the last particlesToFluid() or start()
+    ExchangedMomentum semiImplicitMomentum() const;
+
+    /// Whether each particle of this rank is in no cell of the mesh on any rank. Collective.
+    std::vector<bool> particlesOutsideMesh();
+
+    /// See VoidFractionRate::filteredVolume(). Collective.
+    double filteredVolume() const
+    {
+        return voidFractionRate_.filteredVolume();
+    }
 
     /// Number of values that the coupling needs in ParticlesView::memory, after those of the forces.
     static constexpr int memory = 7;
@@ -114,6 +129,9 @@ public:
 
 private:
     void findCells();
+    /// What `communicate` returns; its time is that of the exchange.
+    template<class Communicate>
+    auto exchanged(const Communicate& communicate);
     /// Computes anticipated_ for every particle of this rank, from what it received in the last coupling step.
     void anticipate(double lastTimeStep, double nextTimeStep);
     Reactions reactions() const;
@@ -136,7 +154,11 @@ private:
     double magnitudeOfPressureForces();
     /// Whether the pressure gradient acts on the particles: in model A, unless it is left out.
     bool pressureActsOnParticles() const;
-    [[noreturn]] void reportParticleOutsideMesh(const ParticlesView& particles, Eigen::Index particle) const;
+    /// Sends the particles to the ranks of their cells. \return the sums of their shares over all ranks. Collective.
+    Eigen::MatrixXd locate(const Reactions& reactions);
+    /// Collective. FatalError where a particle has no share, and particles outside the mesh are not allowed.
+    void requireWithinMesh(const Eigen::MatrixXd& shareSums) const;
+    [[noreturn]] void reportOutsideMesh(Foam::label count, Foam::label id) const;
     Foam::string describeCell(Foam::label cell) const;
 
     const Foam::fvMesh& mesh_;

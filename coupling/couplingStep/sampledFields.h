@@ -41,12 +41,18 @@ public:
         return all;
     }
 
-    /// Passes the sampled values to the functions that store them. \param atParticles  rows x particles, rows as in
-    /// inCells()
-    void store(const Eigen::MatrixXd& atParticles) const
+    /// Passes the sampled values to the functions that store them.
+    /// \param atParticles  rows x particles, rows as in inCells()
+    /// \param isSampled  function of a particle's index: false where its values are not stored
+    template<class IsSampled>
+    void store(const Eigen::MatrixXd& atParticles, const IsSampled& isSampled) const
     {
         for (Eigen::Index particle = 0; particle < atParticles.cols(); ++particle)
         {
+            if (!isSampled(particle))
+            {
+                continue;
+            }
             const double* value = atParticles.col(particle).data();
             for (std::size_t i = 0; i < values_.size(); ++i)
             {

@@ -57,6 +57,7 @@ void VoidFractionRate::update(
     }
     const fvMesh& mesh = voidFraction.mesh();
     const double approach = smoothingTime_ > 0 ? -std::expm1(-couplingTimeStep / smoothingTime_) : 1;
+    passed_ = approach;
     const auto inCells = [&](Eigen::Index row, const dimensionSet& dimensions) {
         auto field = temporaryField<volScalarField>("ofParticles", mesh, dimensions);
         columns(field.primitiveFieldRef()) = approach * densities.row(row);
@@ -92,6 +93,12 @@ void VoidFractionRate::close(const surfaceScalarField& flux)
     rate_ = explicitRate_ + fvc::div(flux);
     // The imbalance that was distributed does not remain as an error to be corrected.
     integral_.primitiveFieldRef() += couplingTimeStep_ * (rate_.primitiveField() + spread_);
+}
+
+double VoidFractionRate::filteredVolume() const
+{
+    const scalarField passed(couplingTimeStep_ * mag(rate_.primitiveField() + spread_));
+    return (1 / passed_ - 1) * gSum(scalarField(passed * rate_.mesh().V().field()));
 }
 
 } // namespace clepsydra

@@ -83,10 +83,17 @@ public:
         return rate_;
     }
 
+    /// Volume of particles whose motion the low-pass filter has not passed yet [m3], the integral over all cells of the
+    /// magnitude of the difference between the rate without the filter and with it, times the coupling step. It is zero
+    /// without a filter. \pre close() has been called. Collective.
+    double filteredVolume() const;
+
 private:
     const bool used_;
     const double smoothingTime_;
     double couplingTimeStep_ = 0;
+    /// Part of the change that the filter passes in this coupling step; 1 without a filter.
+    double passed_ = 1;
     /// Sum of what spreadImbalance() has subtracted in this coupling step [1/s].
     double spread_ = 0;
     /// Integral of the rate over time [-].

@@ -118,6 +118,9 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
     }
     // A mesh of one cell has no links; there any bound is valid.
     largestEigenvalue_ = std::max(2 * gMax(outOfCell), VSMALL);
+    meanEigenvalue_ = std::max(2 * sqr(gAverage(scalarField(sqrt(outOfCell)))), VSMALL);
+    const label stiffest = findMax(outOfCell);
+    stiffestCell_ = stiffest >= 0 && 2 * outOfCell[stiffest] >= largestEigenvalue_ ? stiffest : -1;
     std::partial_sum(whole.firstNeighbour.begin(), whole.firstNeighbour.end(), whole.firstNeighbour.begin());
 
     whole.neighbour.resize(links.size());
@@ -129,6 +132,24 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         whole.neighbour[at] = link.column;
         whole.rate[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
     }
+}
+
+CellDiffusion::StiffestCell CellDiffusion::stiffestCell() const
+{
+    const label rank = returnReduce(stiffestCell_ < 0 ? labelMax : label(Pstream::myProcNo()), minOp<label>());
+    StiffestCell found{vector::zero, 0};
+    if (rank == Pstream::myProcNo() && stiffestCell_ >= 0)
+    {
+        scalar largestFace = 0;
+        for (const label face : mesh_.cells()[stiffestCell_])
+        {
+            largestFace = max(largestFace, mag(mesh_.faceAreas()[face]));
+        }
+        found = {mesh_.C()[stiffestCell_], mesh_.V()[stiffestCell_] / largestFace};
+    }
+    reduce(found.centre, sumOp<vector>());
+    reduce(found.thickness, sumOp<scalar>());
+    return found;
 }
 
 void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)

@@ -29,6 +29,23 @@ public:
         return largestEigenvalue_;
     }
 
+    /// Square of the mean over the cells of the root of each cell's bound [1/m2]. The number of sweeps of an exponential
+    /// is proportional to the root.
+    double meanEigenvalue() const
+    {
+        return meanEigenvalue_;
+    }
+
+    /// Centre and thickness (volume over largest face) of the cell that determines largestEigenvalue() [m].
+    struct StiffestCell
+    {
+        Foam::point centre;
+        double thickness;
+    };
+
+    /// Collective.
+    StiffestCell stiffestCell() const;
+
     /// u <- sum_k c_k T_k(1 - 2 L/largestEigenvalue) u with the Chebyshev polynomials T_k. Collective; one message to
     /// each neighbouring rank per term for up to twelve quantities.
     /// \param coefficients  c_k, at least one
@@ -86,6 +103,9 @@ private:
     /// The cells that are smoothed, where these are not all.
     std::optional<Part> part_;
     double largestEigenvalue_;
+    double meanEigenvalue_;
+    /// The cell of this rank that determines largestEigenvalue(); -1 where it is on another rank.
+    Foam::label stiffestCell_ = -1;
 };
 
 } // namespace clepsydra

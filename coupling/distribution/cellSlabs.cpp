@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace clepsydra
 {
@@ -39,17 +40,19 @@ bool isWallFace(const Foam::polyMesh& mesh, label face)
 } // namespace
 
 CellSlabs::CellSlabs(const Foam::fvMesh& mesh)
+    : mesh_(mesh)
 {
+    std::vector<Box> boxes;
     firstSlab_.push_back(0);
     for (label cell = 0; cell < mesh.nCells(); ++cell)
     {
-        addCell(mesh, cell);
+        boxes.push_back(addCell(mesh, cell));
         firstSlab_.push_back(static_cast<int>(slabs_.size()));
     }
-    makeBins(mesh);
+    cellBoxes_ = BoxTree(std::move(boxes));
 }
 
-void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
+Box CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
 {
     struct Group
     {
@@ -81,7 +84,6 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
     {
         cellBox.extend(toEigen(mesh.points()[point]));
     }
-    cellBoxes_.push_back(cellBox);
     Brick brick;
     brick.isBrick = groups.size() == 6;
     for (const Group& group : groups)
@@ -118,6 +120,7 @@ void CellSlabs::addCell(const Foam::fvMesh& mesh, label cell)
         }
         slabs_.push_back(slab);
     }
+    return cellBox;
 }
 
 template<class Cut>
@@ -175,7 +178,7 @@ double CellSlabs::share(label cell, const Vector3d& centre, double radius, doubl
 
 double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius) const
 {
-    const Box& box = cellBoxes_[cell];
+    const Box& box = cellBoxes_[static_cast<std::size_t>(cell)];
     const Brick& brick = bricks_[cell];
     const auto distance = [perRadius = 1 / radius](
                               double inside, bool wall) { return wall ? infinitelyFar : inside * perRadius; };
@@ -188,106 +191,23 @@ double CellSlabs::shareInBrick(label cell, const Vector3d& centre, double radius
     return sphereInBox_(slabs);
 }
 
-double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double particleRadius) const
+double CellSlabs::gaussianShare(label cell, const Vector3d& centre, double bandwidth, double particleRadius,
+    const WayAroundWalls& aroundWalls) const
 {
-    const double before = partBeforeWalls(cell, centre, particleRadius);
+    double before = partBeforeWalls(cell, centre, particleRadius);
+    if (before < 1)
+    {
+        before = std::max(before, aroundWalls.factor(centre, cell, bandwidth));
+    }
     const auto cut = [bandwidth](double distance) { return 0.5 * std::erfc(-distance / bandwidth); };
     return before == 0 ? 0 : before * shareInSlabs(cell, centre, cut);
-}
-
-void CellSlabs::makeBins(const Foam::fvMesh& mesh)
-{
-    double meanSize = 0;
-    for (label cell = 0; cell < mesh.nCells(); ++cell)
-    {
-        const Box& cellBox = cellBoxes_[cell];
-        box_.extend(cellBox);
-        meanSize += cellBox.sizes().mean() / mesh.nCells();
-    }
-    if (mesh.nCells() == 0)
-    {
-        return;
-    }
-
-    const Vector3d sizes = box_.sizes();
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        binCount_[axis] = std::max(1, static_cast<int>(sizes[axis] / meanSize));
-        binSize_[axis] = sizes[axis] / binCount_[axis];
-    }
-
-    const auto forEachBin = [&](const Box& cellBox, auto&& act) {
-        const Eigen::Vector3i first = binOf(cellBox.min());
-        const Eigen::Vector3i last = binOf(cellBox.max());
-        for (int z = first.z(); z <= last.z(); ++z)
-        {
-            for (int y = first.y(); y <= last.y(); ++y)
-            {
-                for (int x = first.x(); x <= last.x(); ++x)
-                {
-                    act((z * binCount_.y() + y) * binCount_.x() + x);
-                }
-            }
-        }
-    };
-    firstInBin_.assign(static_cast<std::size_t>(binCount_.prod()) + 1, 0);
-    for (const Box& cellBox : cellBoxes_)
-    {
-        forEachBin(cellBox, [&](int bin) { ++firstInBin_[bin + 1]; });
-    }
-    for (std::size_t bin = 1; bin < firstInBin_.size(); ++bin)
-    {
-        firstInBin_[bin] += firstInBin_[bin - 1];
-    }
-    cellsInBins_.resize(firstInBin_.back());
-    std::vector<int> next = firstInBin_;
-    for (label cell = 0; cell < mesh.nCells(); ++cell)
-    {
-        forEachBin(cellBoxes_[cell], [&](int bin) { cellsInBins_[next[bin]++] = cell; });
-    }
-}
-
-Eigen::Vector3i CellSlabs::binOf(const Vector3d& point) const
-{
-    const Vector3d inBins = (point - box_.min()).cwiseQuotient(binSize_);
-    Eigen::Vector3i bin;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        bin[axis] = std::clamp(static_cast<int>(std::floor(inBins[axis])), 0, binCount_[axis] - 1);
-    }
-    return bin;
 }
 
 void CellSlabs::cellsNear(const Vector3d& centre, double radius, std::vector<label>& cells) const
 {
     cells.clear();
-    const Vector3d reach = Vector3d::Constant(radius);
-    const Box around(centre - reach, centre + reach);
-    if (!around.intersects(box_))
-    {
-        return;
-    }
-    const Eigen::Vector3i first = binOf(around.min());
-    const Eigen::Vector3i last = binOf(around.max());
-    for (int z = first.z(); z <= last.z(); ++z)
-    {
-        for (int y = first.y(); y <= last.y(); ++y)
-        {
-            for (int x = first.x(); x <= last.x(); ++x)
-            {
-                const int bin = (z * binCount_.y() + y) * binCount_.x() + x;
-                for (int i = firstInBin_[bin]; i < firstInBin_[bin + 1]; ++i)
-                {
-                    if (isNear(cellsInBins_[i], centre, radius))
-                    {
-                        cells.push_back(cellsInBins_[i]);
-                    }
-                }
-            }
-        }
-    }
+    cellBoxes_.forEachNear(centre, radius, [&](label cell) { cells.push_back(cell); });
     std::sort(cells.begin(), cells.end());
-    cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
 }
 
 } // namespace clepsydra

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "distribution/boxTree.h"
 #include "distribution/sphereInBox.h"
+#include "distribution/wayAroundWalls.h"
 #include "engine/particles.h"
 
 #include "fvMesh.H"
@@ -37,13 +39,20 @@ public:
 
     explicit CellSlabs(const Foam::fvMesh& mesh);
 
+    const Foam::fvMesh& mesh() const
+    {
+        return mesh_;
+    }
+
     /// Share of a sphere in one cell, not normalised, in [0, 1].
     /// \param radius  of the sphere [m]
     /// \param particleRadius  largest distance of the centre behind a wall [m]
     double share(Foam::label cell, const Vector3d& centre, double radius, double particleRadius) const;
 
-    /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; walls are treated in the same way.
-    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double particleRadius) const;
+    /// Share of a Gaussian exp(-r2/b2) in one cell, not normalised, in [0, 1]; walls are treated in the same way. A wide
+    /// kernel reaches past the end of a wall, where the plane of a wall cuts nothing off: there, the way around it counts.
+    double gaussianShare(Foam::label cell, const Vector3d& centre, double bandwidth, double particleRadius,
+        const WayAroundWalls& aroundWalls) const;
 
     /// Cells whose bounding boxes intersect the cube around the sphere, in ascending order.
     void cellsNear(const Vector3d& centre, double radius, std::vector<Foam::label>& cells) const;
@@ -51,13 +60,13 @@ public:
     /// Whether the cell's bounding box intersects the cube around the sphere.
     bool isNear(Foam::label cell, const Vector3d& centre, double radius) const
     {
-        return cubeMeets(cellBoxes_[cell], centre, radius);
+        return cubeMeets(cellBoxes_[static_cast<std::size_t>(cell)], centre, radius);
     }
 
     /// Box around the cells of this rank.
-    const Box& box() const
+    Box box() const
     {
-        return box_;
+        return cellBoxes_.around();
     }
 
 private:
@@ -95,22 +104,16 @@ private:
     template<class Cut>
     double shareInSlabs(Foam::label cell, const Vector3d& centre, const Cut& cut) const;
     double partBeforeWalls(Foam::label cell, const Vector3d& centre, double particleRadius) const;
-    void addCell(const Foam::fvMesh& mesh, Foam::label cell);
-    void makeBins(const Foam::fvMesh& mesh);
-    Eigen::Vector3i binOf(const Vector3d& point) const;
+    /// \return box around the cell
+    Box addCell(const Foam::fvMesh& mesh, Foam::label cell);
 
+    const Foam::fvMesh& mesh_;
     std::vector<Plane> planes_;
     std::vector<Slab> slabs_;
     std::vector<int> firstSlab_;
     std::vector<Brick> bricks_;
     mutable SphereInBox sphereInBox_;
-
-    Box box_;
-    std::vector<Box> cellBoxes_;
-    Eigen::Vector3i binCount_ = Eigen::Vector3i::Ones();
-    Vector3d binSize_ = Vector3d::Ones();
-    std::vector<int> firstInBin_;
-    std::vector<Foam::label> cellsInBins_;
+    BoxTree cellBoxes_;
 };
 
 } // namespace clepsydra

@@ -28,10 +28,10 @@ public:
     ConstDiffSmoothing(const dictionary& coefficients, const fvMesh& mesh)
         : smoothingBandwidth_(positiveEntry(coefficients, "bandwidth")),
           diffusion_(mesh),
-          series_(chebyshevExponential(
-              0.5 * diffusion_.largestEigenvalue() * smoothingBandwidth_ * smoothingBandwidth_ / 4, tolerance))
+          series_(seriesFor(diffusion_.largestEigenvalue()))
     {
         requireKnownEntries(coefficients, {"bandwidth"});
+        warnOfManySweeps();
     }
 
     void nearTo(const std::vector<Foam::label>& cells) override
@@ -61,6 +61,35 @@ private:
     /// Largest error of the operator, relative to its argument, in the volume-weighted root mean square. Conservation
     /// of volume and momentum does not depend on it; they are conserved to rounding.
     static constexpr double tolerance = 1e-5;
+    /// Fewer sweeps are no reason for a warning, nor are sweeps that most cells need.
+    static constexpr std::size_t manySweeps = 100;
+    static constexpr std::size_t timesAsMany = 3;
+
+    std::vector<double> seriesFor(double eigenvalue) const
+    {
+        return chebyshevExponential(0.5 * eigenvalue * smoothingBandwidth_ * smoothingBandwidth_ / 4, tolerance);
+    }
+
+    /// The number of sweeps grows with the bandwidth over the thickness of the thinnest cell. Collective.
+    void warnOfManySweeps() const
+    {
+        const std::size_t sweeps = series_.size() - 1;
+        const std::size_t ofMeanCells = seriesFor(diffusion_.meanEigenvalue()).size() - 1;
+        if (sweeps <= manySweeps || sweeps <= timesAsMany * ofMeanCells)
+        {
+            return;
+        }
+        const CellDiffusion::StiffestCell thinnest = diffusion_.stiffestCell();
+        if (Pstream::master())
+        {
+            WarningInFunction << "Smoothing over a bandwidth of " << smoothingBandwidth_ << " m takes "
+                              << label(sweeps) << " sweeps over the mesh in every coupling step because of its "
+                              << "thinnest cells, one of " << thinnest.thickness << " m at " << thinnest.centre
+                              << " m; with cells of the mesh's mean size " << label(ofMeanCells)
+                              << " would be enough. Thicker layers of cells at walls, or a smaller bandwidth in "
+                              << "constDiffSmoothingProps, make it cheaper" << endl;
+        }
+    }
 
     const double smoothingBandwidth_;
     CellDiffusion diffusion_;

@@ -125,7 +125,7 @@ void Distribution::pruneCache(std::size_t ghostCount)
 
 void Distribution::normalise(const Eigen::MatrixXd& shareSums)
 {
-    normalisation_ = shareSums.row(0).cwiseInverse();
+    normalisation_ = shareSums.row(0).transpose().unaryExpr([](double sum) { return sum > 0 ? 1 / sum : 0.0; });
 }
 
 void Distribution::smoothNearParticles()

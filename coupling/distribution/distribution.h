@@ -21,7 +21,8 @@ public:
     /// \return 1 x ghosts: sum of the shares on this rank, zero for a particle without a cell here
     Eigen::MatrixXd findCells(const std::vector<GhostParticle>& ghosts);
 
-    /// Scales the shares so that those of each particle add up to one over all ranks. Local.
+    /// Scales the shares so that those of each particle add up to one over all ranks. A particle without a cell on any
+    /// rank gives nothing and samples zero. Local.
     /// \param shareSums  1 x ghosts: sums of the shares over all ranks
     void normalise(const Eigen::MatrixXd& shareSums);
 

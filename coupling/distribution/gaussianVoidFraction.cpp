@@ -17,7 +17,9 @@ namespace
 ///
 /// A wall cell holds what would lie behind its wall. Only the cells at a baffle of zero thickness are affected by it:
 /// where 3 b exceeds a particle's radius plus the width of the cell behind the baffle, the kernel leaks into the second
-/// cell behind. constDiffSmoothing does not leak.
+/// cell behind. constDiffSmoothing does not leak. At the rim of a baffle and at edges at which a wall bends away from the
+/// fluid, the cells behind the wall's plane receive what comes around the rim (WayAroundWalls), so that nothing jumps
+/// from one side to the other where a particle passes over a rim.
 class Gaussian : public VoidFractionModel
 {
 public:
@@ -25,7 +27,8 @@ public:
 
     Gaussian(const Foam::dictionary& coefficients, const CellSlabs& cells)
         : VoidFractionModel(cells),
-          bandwidth_(positiveEntry(coefficients, "bandwidth"))
+          bandwidth_(positiveEntry(coefficients, "bandwidth")),
+          aroundWalls_(cells.mesh())
     {
         requireKnownEntries(coefficients, {"bandwidth", "alphaMin"});
     }
@@ -43,7 +46,7 @@ public:
 
     double share(Foam::label cell, const GhostParticle& particle) const override
     {
-        return cells().gaussianShare(cell, particle.position, bandwidth_, particle.radius);
+        return cells().gaussianShare(cell, particle.position, bandwidth_, particle.radius, aroundWalls_);
     }
 
     Foam::string description() const override
@@ -53,6 +56,7 @@ public:
 
 private:
     const double bandwidth_;
+    const WayAroundWalls aroundWalls_;
 };
 
 defineTypeNameAndDebug(Gaussian, 0);

@@ -63,52 +63,118 @@ InsertionAndRemoval::InsertionAndRemoval(
       lastDeparted_(static_cast<std::size_t>(outlets_.names().size()))
 {}
 
-double InsertionAndRemoval::start(const ParticlesView& particles, bool freshStart)
+void InsertionAndRemoval::findParts(
+    const ParticlesView& particles, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh)
 {
-    double inFluid = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        particles.state[particle].part = partOf(particles, particle, couplingTimeStep);
+    }
+    if (!findOutsideMesh)
+    {
+        return;
+    }
+    const std::vector<bool> outside = findOutsideMesh();
+    label count = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
+        const Vector3d position = particles.position.col(particle);
+        if (outside[static_cast<std::size_t>(particle)])
+        {
+            ++count;
+            // What it still owes to the fluid is given to the cells where it was last.
+            state.part = {0, state.lastInMesh - position, -1};
+            particles.insertionRamp[particle] = 0;
+        }
+        else
+        {
+            state.lastInMesh = position + state.part.shift;
+        }
+    }
+    outsideMesh_ = returnReduce(count, sumOp<label>());
+}
+
+double InsertionAndRemoval::start(
+    const ParticlesView& particles, bool freshStart, const FindOutsideMesh& findOutsideMesh)
+{
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        state.isNew = 0;
+        state.lastInMesh = particles.position.col(particle);
+        state.fluid.submergedFraction = 1;
         if (freshStart)
         {
             particles.insertionRamp[particle] = 1;
         }
-        state.part = partOf(particles, particle, couplingTimeStep_);
+    }
+    findParts(particles, couplingTimeStep_, findOutsideMesh);
+    double inFluid = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
         state.fluid.submergedFraction = shareAfterRamp(particles.insertionRamp[particle]) * state.part.share;
         inFluid += volumeInFluid(particles, particle);
     }
     return returnReduce(inFluid, sumOp<scalar>());
 }
 
-void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, double couplingTimeStep)
+void InsertionAndRemoval::advance(
+    const ParticlesView& particles, int newFrom, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh)
 {
     couplingTimeStep_ = couplingTimeStep;
     ParticleTransfer inserted;
     std::vector<ParticleTransfer> left(lastDeparted_.size());
+    ParticleTransfer outOfMesh;
     departed_.clear();
+    std::vector<PartWithin> partsBefore;
+    std::vector<double> sharesBefore;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
-        double& insertionRamp = particles.insertionRamp[particle];
-        const double volume = sphereVolume(particles.radius[particle]);
-        if (particles.id[particle] > newFrom)
+        if (isNewParticle(particles, particle, newFrom))
         {
-            insertionRamp = 0;
+            state.isNew = 0;
+            state.lastInMesh = particles.position.col(particle);
+            state.fluid.submergedFraction = 1;
+            particles.insertionRamp[particle] = 0;
             addParticle(inserted, particles.mass[particle], particles.velocity.col(particle));
         }
-        const double before = shareAfterRamp(insertionRamp);
+        partsBefore.push_back(state.part);
+        sharesBefore.push_back(shareAfterRamp(particles.insertionRamp[particle]));
+    }
+    findParts(particles, couplingTimeStep, findOutsideMesh);
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        const PartWithin& part = state.part;
+        PartWithin partBefore = partsBefore[static_cast<std::size_t>(particle)];
+        const double before = sharesBefore[static_cast<std::size_t>(particle)];
+        const double volume = sphereVolume(particles.radius[particle]);
+        if (isOutsideMesh(state))
+        {
+            state.fluid.submergedFraction = 0;
+            outOfMesh.particles += before * partBefore.share > 0 ? 1 : 0;
+            outOfMesh.volume += before * partBefore.share * volume;
+            continue;
+        }
+        if (!(partBefore.share > 0) && partBefore.outlet < 0)
+        {
+            // It has come back into the mesh.
+            partBefore.share = part.share;
+        }
+        double& insertionRamp = particles.insertionRamp[particle];
         insertionRamp = std::min(1.0, insertionRamp + couplingTimeStep / insertionTime_);
         const double now = shareAfterRamp(insertionRamp);
 
-        const PartWithin part = partOf(particles, particle, couplingTimeStep);
         // A particle that has turned back is recorded at the outlet where it had begun to leave.
-        const auto outlet = static_cast<label>(part.outlet < 0 ? state.part.outlet : part.outlet);
-        inserted.volume += (now - before) * state.part.share * volume;
+        const auto outlet = static_cast<label>(part.outlet < 0 ? partBefore.outlet : part.outlet);
+        inserted.volume += (now - before) * partBefore.share * volume;
         if (outlet >= 0)
         {
-            left[outlet].volume += now * (state.part.share - part.share) * volume;
+            left[outlet].volume += now * (partBefore.share - part.share) * volume;
         }
-        state.part = part;
         state.fluid.submergedFraction = now * part.share;
         if (!(part.share > 0))
         {
@@ -122,6 +188,12 @@ void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, d
     {
         lastDeparted_[outlet] = sumOfRanks(left[outlet]);
         netVolume_ -= lastDeparted_[outlet].volume;
+    }
+    if (findOutsideMesh)
+    {
+        outOfMesh = sumOfRanks(outOfMesh);
+        leftMesh_ += outOfMesh.particles;
+        netVolume_ -= outOfMesh.volume;
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "regIOobject.H"
 
+#include <functional>
 #include <vector>
 
 namespace clepsydra
@@ -24,6 +25,9 @@ struct ParticleTransfer
     ParticleTransfer& operator+=(const ParticleTransfer& other);
 };
 
+/// Whether each particle of this rank is in no cell of the mesh, at the position that its state holds. Collective.
+using FindOutsideMesh = std::function<std::vector<bool>()>;
+
 /// Insertion and removal of particles: the submerged fraction of each particle, the particles that have left, and their
 /// balances.
 ///
@@ -35,6 +39,10 @@ struct ParticleTransfer
 /// the run enters the fluid within insertionTime: the fraction is 3 r2 - 2 r3 at the fraction r of that time. In
 /// neither case does the rate of the void fraction jump. No fluid force acts on the part of a particle that is not in
 /// the fluid.
+///
+/// Where particles may be in parts of the DEM box without mesh, such a particle is not in the fluid, and nothing else
+/// happens to it. Its volume leaves the fluid at once when its centre is farther behind a wall of the mesh than its
+/// radius, and enters it again within insertionTime when its centre is back in a cell.
 ///
 /// The object is registered with the mesh's database under the name "insertionAndRemoval", for function objects.
 class InsertionAndRemoval : public Foam::regIOobject
@@ -48,12 +56,15 @@ public:
     /// Determines the submerged fraction of the particles at the start, without recording insertions. Collective.
     /// \param freshStart  true where no particle is being inserted; otherwise the engine's checkpoint holds each
     /// particle's insertion ramp
+    /// \param findOutsideMesh  null where no particle may be outside the mesh
     /// \return volume of the particles that is in the fluid, over all ranks [m3]
-    double start(const ParticlesView& particles, bool freshStart);
+    double start(const ParticlesView& particles, bool freshStart, const FindOutsideMesh& findOutsideMesh = nullptr);
 
     /// Updates the submerged fractions after the engine has advanced by one coupling step. Collective.
     /// \param newFrom  particles with a higher id have been inserted in this coupling step
-    void advance(const ParticlesView& particles, int newFrom, double couplingTimeStep);
+    /// \param findOutsideMesh  null where no particle may be outside the mesh
+    void advance(const ParticlesView& particles, int newFrom, double couplingTimeStep,
+        const FindOutsideMesh& findOutsideMesh = nullptr);
 
     /// Removes particles that are entirely beyond an outlet from the engine, and records them. Collective.
     /// \return number of removed particles on all ranks. If it is not zero, views are invalid and DemEngine::prepare()
@@ -63,6 +74,19 @@ public:
     const Foam::wordList& outlets() const
     {
         return outlets_.names();
+    }
+
+    /// Number of particles that are outside the mesh, over all ranks.
+    Foam::label outsideMesh() const
+    {
+        return outsideMesh_;
+    }
+
+    /// Number of times that a particle has left the mesh since start(), over all ranks. Particles that have left through
+    /// an outlet are not counted.
+    Foam::label leftMesh() const
+    {
+        return leftMesh_;
     }
 
     /// Particles inserted in the last coupling step.
@@ -98,6 +122,8 @@ private:
         Vector3d velocity;
     };
 
+    /// Sets the part of each particle on the fluid's side of the outlets and of the mesh. Collective.
+    void findParts(const ParticlesView& particles, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh);
     PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const;
 
     const ParticleOutlets outlets_;
@@ -106,6 +132,8 @@ private:
     ParticleTransfer lastInserted_;
     std::vector<ParticleTransfer> lastDeparted_;
     double netVolume_ = 0;
+    Foam::label outsideMesh_ = 0;
+    Foam::label leftMesh_ = 0;
     std::vector<DepartedParticle> departed_;
 };
 

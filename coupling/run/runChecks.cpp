@@ -1,5 +1,6 @@
 #include "run/runChecks.h"
 
+#include "couplingState.h"
 #include "distribution/lengthOfChange.h"
 #include "openfoam/compatibility.h"
 
@@ -22,10 +23,15 @@ constexpr long mostUnconvergedInRow = 50;
 /// A run ends where a particle travels this many lengths of change of the fluid in one coupling step.
 constexpr double farthestTravel = 10;
 
+/// Part of the particles within a bandwidth of clear fluid above which there is a warning: that of a bed six bandwidths
+/// high with clear fluid on both sides.
+constexpr double largestPartNearClearFluid = 1.0 / 3;
+
 } // namespace
 
 RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
     : mesh_(mesh),
+      smoothingBandwidth_(smoothingBandwidth),
       lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
@@ -69,7 +75,16 @@ void RunChecks::checkConvergence()
 void RunChecks::checkTravel(const ParticlesView& particles)
 {
     Eigen::Index fastest = 0;
-    const double here = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff(&fastest) : 0;
+    double here = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const double ofParticle = particles.velocity.col(particle).norm();
+        if (ofParticle > here && !isOutsideMesh(particles.state[particle]))
+        {
+            here = ofParticle;
+            fastest = particle;
+        }
+    }
     const double speed = returnReduce(here, maxOp<scalar>());
     const double timeStep = mesh_.time().deltaTValue();
     const double travel = speed * timeStep / lengthOfChange_;
@@ -93,6 +108,24 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     {
         WarningInFunction << "A particle " << text.str().c_str()
                           << ". This warning is printed once, and such steps are counted" << endl;
+    }
+}
+
+void RunChecks::checkBeds(double partNearClearFluid)
+{
+    if (partNearClearFluid <= largestPartNearClearFluid || warnedOfBeds_)
+    {
+        return;
+    }
+    warnedOfBeds_ = true;
+    if (Pstream::master())
+    {
+        WarningInFunction << "Of the particles in beds a part of " << partNearClearFluid
+                          << " is within a smoothing bandwidth of clear fluid, " << smoothingBandwidth_
+                          << " m. There the smoothed void fraction is larger than that of the bed, and drag is too "
+                          << "small; a bed three bandwidths high between clear fluid has half of its drag. Decrease "
+                          << "bandwidth in constDiffSmoothingProps to a sixth of the bed's height, or let the mesh end "
+                          << "at the floor on which the bed lies. This warning is printed once" << endl;
     }
 }
 

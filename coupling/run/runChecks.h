@@ -21,6 +21,10 @@ public:
     /// Call when the fluid has been solved. Collective.
     void afterCouplingStep(const ParticlesView& particles);
 
+    /// Warns once where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
+    /// not that of the bed. \param partNearClearFluid  see FluidCoupling::partNearClearFluid()
+    void checkBeds(double partNearClearFluid);
+
     /// Prints the number of violations, where there were any.
     void report() const;
 
@@ -29,12 +33,14 @@ private:
     void checkTravel(const ParticlesView& particles);
 
     const Foam::fvMesh& mesh_;
+    const double smoothingBandwidth_;
     /// Computed with the mean width of the cells [m], because locally refined cells are no reason for a warning.
     const double lengthOfChange_;
     long couplingSteps_ = 0;
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;
+    bool warnedOfBeds_ = false;
 };
 
 } // namespace clepsydra

@@ -178,6 +178,11 @@ bool RunOutput::afterCouplingStep()
     if (runChecks_)
     {
         runChecks_->afterCouplingStep(engine_.particles());
+        if (!bedsChecked_ || time_.writeTime())
+        {
+            runChecks_->checkBeds(couplingStep_.fluid().partNearClearFluid());
+            bedsChecked_ = true;
+        }
     }
     const double wallLeft = estimate();
     if (scratch_)

@@ -85,6 +85,7 @@ private:
     double couplingStepCount_ = 0;
     /// False while there are no particles yet, as at the start of a filling.
     bool demStepChecked_ = false;
+    bool bedsChecked_ = false;
     bool stopped_ = false;
 };
 

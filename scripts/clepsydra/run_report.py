@@ -27,7 +27,7 @@ ERRORS = {
     "solidVolumeError": "solid volume in the cells minus that of the particles, relative to the latter",
     "insertionError": "solid volume inserted minus removed minus present, relative to that of the particles",
     "clippedVolume": "solid volume clipped at alphaMin [m3]",
-    "momentumError": "momentum received by the particles minus that given by the fluid, relative to all impulses",
+    "momentumError": "momentum that particles received minus that given by the fluid, relative to all of a step",
     "pressureForceError": "difference between the pressure force on the particles and its reaction in the fluid",
     "continuityError": "continuity error of the water in a coupling step, relative to the volume",
     "imbalance": "volume that a closed tank could not balance, relative to its volume",

@@ -194,7 +194,7 @@ public:
         const scalarField voidFraction(couplingStep_->fluid().voidFraction().primitiveField());
         return density * sum(mesh_->V().field() * voidFraction * U_->primitiveField().component(vector::Z))
                + (particles.velocity.row(2).array() * particles.mass.transpose()).sum()
-               + couplingStep_->fluid().semiImplicitMomentum().z();
+               + couplingStep_->fluid().semiImplicitMomentum().sum.z();
     }
 
 private:

@@ -28,13 +28,15 @@ constexpr double boxHeight = 0.032;
 
 const char* const baffleCommands = "topoSet > log.topoSet 2>&1 && createBaffles -overwrite > log.createBaffles 2>&1";
 
-/// A zero-thickness wall over the whole box at half its height.
-void addBaffle(TestCase& box)
+/// A zero-thickness wall at half the height of the box, over the box's depth, from x = 0 on.
+void addBaffle(TestCase& box, double length)
 {
     const std::string header = "FoamFile { version 2.0; format ascii; class dictionary; object baffle; }\n";
     box.extraFiles["system/topoSetDict"] =
         header
-        + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) (1 1 0.0161); }"
+        + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) ("
+        + std::to_string(length)
+        + " 1 0.0161); }"
           " { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );";
     box.extraFiles["system/createBafflesDict"] =
         header
@@ -54,11 +56,11 @@ Eigen::Vector3i cubes(double cellSize)
 class BoxOnRanks
 {
 public:
-    BoxOnRanks(double cellSize, bool baffle)
-        : BoxOnRanks(cubes(cellSize), baffle)
+    BoxOnRanks(double cellSize, bool baffle, double baffleLength = boxWidth)
+        : BoxOnRanks(cubes(cellSize), baffle, baffleLength)
     {}
 
-    explicit BoxOnRanks(const Eigen::Vector3i& cells, bool baffle = false)
+    explicit BoxOnRanks(const Eigen::Vector3i& cells, bool baffle = false, double baffleLength = boxWidth)
     {
         Foam::fileName folder;
         if (Foam::Pstream::master())
@@ -74,7 +76,7 @@ public:
                 .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
             if (baffle)
             {
-                addBaffle(*case_);
+                addBaffle(*case_, baffleLength);
             }
             Outcome made = case_->makeMesh();
             if (made.succeeded() && baffle)
@@ -368,6 +370,135 @@ TEST(Baffle, NothingLeaksThrough)
             EXPECT_NEAR(particles.integral(smooth) / particleVolume, 1, 1e-12);
         }
     }
+}
+
+/// Part of each cell in the volume of one particle at `centre`, without smoothing.
+Foam::scalarField partsOfParticle(
+    const BoxOnRanks& box, const Vector3d& centre, const char* model, double kernelBandwidth)
+{
+    Foam::dictionary dict = properties(model, "off");
+    dict.subDict("GaussianProps").set("bandwidth", kernelBandwidth);
+    return Foam::scalarField(ParticlesOnMesh(box.mesh(), {centre}, dict).solidFraction() * box.mesh().V().field()
+                             / sphereVolume(diameter / 2));
+}
+
+// A particle beside the rim of a baffle that covers half of the box, in the plane of the baffle: what lies under the baffle
+// hardly changes where the centre goes from half a micrometre above the plane to half a micrometre below. A kernel that takes
+// the plane of the wall as endless moves a fifth of the particle from one side to the other.
+TEST(Baffle, NothingJumpsBesideItsRim)
+{
+    const double rim = boxWidth / 2;
+    for (const double cellSize : {1e-3, 2e-3})
+    {
+        const BoxOnRanks box(cellSize, true, rim);
+        for (const char* model : {"divided", "Gaussian"})
+        {
+            const auto partUnderBaffle = [&](double above) {
+                const Foam::scalarField parts = partsOfParticle(
+                    box, {rim + 0.5 * diameter, boxWidth / 2, boxHeight / 2 + above}, model, diameter);
+                double part = 0;
+                forAll (parts, cell)
+                {
+                    const Foam::point& at = box.mesh().C()[cell];
+                    part += at.x() < rim && at.z() < boxHeight / 2 ? parts[cell] : 0;
+                }
+                return Foam::returnReduce(part, Foam::sumOp<Foam::scalar>());
+            };
+            const double before = partUnderBaffle(0.5e-6);
+            EXPECT_NEAR(partUnderBaffle(-0.5e-6), before, 1e-3) << model << ", cells of " << cellSize;
+            // The cells on either side of the baffle hold all of the kernel to the left of the rim, erfc(r/b)/2, before
+            // the shares are normalised.
+            const double left = 0.5 * std::erfc(0.5);
+            EXPECT_NEAR(before, std::string(model) == "Gaussian" ? left / (1 + left) : 0, 0.02)
+                << model << ", cells of " << cellSize;
+        }
+    }
+}
+
+// On its way around the rim, from below the baffle to above it, a particle's share of any cell changes by less the smaller the
+// steps are. Where a wall cuts shares off at once, the largest change does not fall with the step.
+TEST(Baffle, SharesAreContinuousAroundItsRim)
+{
+    const double rim = boxWidth / 2;
+    const BoxOnRanks box(1e-3, true, rim);
+    for (const char* model : {"divided", "Gaussian"})
+    {
+        for (const double distance : {0.5 * diameter, 0.8 * diameter})
+        {
+            const auto largestChange = [&](int steps) {
+                // In contact with the rim, and as far as the baffle's sides allow.
+                const double end = M_PI - std::asin(0.5 * diameter / distance) * 0.999;
+                double largest = 0;
+                Foam::scalarField before;
+                for (int step = 0; step <= steps; ++step)
+                {
+                    const double angle = end * (2.0 * step / steps - 1);
+                    const Foam::scalarField now = partsOfParticle(box,
+                        {rim + distance * std::cos(angle), 0.51 * boxWidth,
+                            boxHeight / 2 + distance * std::sin(angle)},
+                        model, 0.5 * diameter);
+                    if (step > 0)
+                    {
+                        largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(now - before))));
+                    }
+                    before = now;
+                }
+                return largest;
+            };
+            const double coarse = largestChange(100);
+            const double fine = largestChange(400);
+            EXPECT_LT(fine, 0.35 * coarse) << model << " at " << distance << ": " << coarse;
+        }
+    }
+}
+
+// The boxes near a point are those that a look at all of them finds: in three arms of 26 m with 2 x 2 cells of 10 mm each, and
+// among boxes of very different sizes. Bins of a cell's size over the box around the arms would be 2e10.
+TEST(BoxTree, FindsWhatALookAtAllFinds)
+{
+    std::vector<clepsydra::Box> boxes;
+    constexpr double width = 0.01;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        for (int along = 0; along < 2600; ++along)
+        {
+            for (int across = 0; across < 4; ++across)
+            {
+                Vector3d low;
+                low[axis] = along * width;
+                low[(axis + 1) % 3] = (across % 2) * width;
+                low[(axis + 2) % 3] = (across / 2) * width;
+                boxes.emplace_back(low, low + Vector3d::Constant(width));
+            }
+        }
+    }
+    boxes.emplace_back(Vector3d(0, 0, 0), Vector3d(30, 30, 30));
+    const BoxTree tree(boxes);
+    EXPECT_EQ(tree.around().min(), Vector3d(0, 0, 0));
+    EXPECT_EQ(tree.around().max(), Vector3d(30, 30, 30));
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-1, 27);
+    for (int query = 0; query < 60; ++query)
+    {
+        Vector3d centre(0.012, 0.004, 0.011);
+        centre[query % 3] = place(random);
+        const double radius = query % 2 == 0 ? 0.004 : 0.3;
+        std::vector<int> found;
+        tree.forEachNear(centre, radius, [&](int box) { found.push_back(box); });
+        std::sort(found.begin(), found.end());
+        std::vector<int> expected;
+        for (std::size_t box = 0; box < boxes.size(); ++box)
+        {
+            if (cubeMeets(boxes[box], centre, radius))
+            {
+                expected.push_back(static_cast<int>(box));
+            }
+        }
+        EXPECT_EQ(found, expected) << centre.transpose();
+    }
+    int none = 0;
+    BoxTree().forEachNear(Vector3d::Zero(), 1, [&](int) { ++none; });
+    EXPECT_EQ(none, 0);
 }
 
 // A mesh's walls are not quite the engine's: at an edge that snappyHexMesh cut short a small particle's centre may lie behind them.

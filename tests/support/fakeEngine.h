@@ -35,6 +35,13 @@ public:
         insertionRamp_.push_back(1);
     }
 
+    /// As addParticle(), and the particle has the state of one that an engine has just made.
+    void insertParticle(int id, const Vector3d& position, double radius)
+    {
+        addParticle(id, position, radius);
+        state_.back() = CouplingState::ofNewParticle();
+    }
+
     /// From now on no force moves it.
     void holdParticle(int id)
     {

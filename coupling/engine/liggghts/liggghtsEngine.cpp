@@ -29,6 +29,7 @@
 #include <exception>
 #include <sstream>
 #include <unordered_set>
+#include <vector>
 
 namespace clepsydra
 {
@@ -121,6 +122,29 @@ public:
         {
             requireNoDeepOverlap(*program_, pairs());
         }
+        particleCount_ = program_->atom->natoms;
+    }
+
+    /// Examines the particles that have been inserted since the last call.
+    void checkInsertion()
+    {
+        const lmp::Atom& atom = *program_->atom;
+        const bool inserted = atom.natoms > particleCount_;
+        particleCount_ = atom.natoms;
+        if (!inserted || !stateFix_)
+        {
+            return;
+        }
+        std::vector<bool> isNew;
+        for (int particle = 0; particle < atom.nlocal; ++particle)
+        {
+            const double* const state = stateFix_->array_atom[particle];
+            isNew.push_back(std::equal(stateOfNewParticle_.begin(), stateOfNewParticle_.end(), state));
+        }
+        if (std::find(isNew.begin(), isNew.end(), true) != isNew.end())
+        {
+            requireNoDeepOverlap(*program_, pairs(), isNew);
+        }
     }
 
     void run(int steps)
@@ -131,6 +155,10 @@ public:
         {
             program_.execute("run " + std::to_string(steps) + " pre no post no", "DEM steps of a coupling step");
             requireFiniteForces(*program_);
+            if (!forces_)
+            {
+                checkInsertion();
+            }
         }
         catch (const DemEngineError& error)
         {
@@ -348,6 +376,7 @@ public:
         }
         const lmp::bigint here = atom.nlocal;
         MPI_Allreduce(&here, &atom.natoms, 1, MPI_LMP_BIGINT, MPI_SUM, program_->world);
+        particleCount_ = atom.natoms;
         // Copies of removed particles must not be found.
         atom.nghost = 0;
         if (atom.map_style != 0)
@@ -473,6 +502,10 @@ private:
             ofFluid.setZero();
             return;
         }
+        if (!preparing)
+        {
+            engine.checkInsertion();
+        }
         engine.findFixedParticles();
         const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
             own.state, own.otherForce, engine.needsPairs_ ? engine.pairs() : ParticlePairs{},
@@ -501,6 +534,8 @@ private:
     std::vector<std::array<int, 2>> pairList_;
     std::vector<GroupChanger> groupChangers_;
     bool freshStart_ = true;
+    /// Of all ranks when overlaps were last examined.
+    lmp::bigint particleCount_ = 0;
 };
 
 LiggghtsEngine::LiggghtsEngine(const LiggghtsSetup& setup)

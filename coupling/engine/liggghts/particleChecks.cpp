@@ -80,13 +80,22 @@ void requireParticlesInBox(const lmp::LAMMPS& program)
     }
 }
 
-void requireNoDeepOverlap(const lmp::LAMMPS& program, const ParticlePairs& pairs)
+void requireNoDeepOverlap(
+    const lmp::LAMMPS& program, const ParticlePairs& pairs, const std::vector<bool>& isExamined)
 {
     constexpr double largestPart = 0.1;
+    const auto examined = [&](int particle) {
+        const auto own = static_cast<std::size_t>(particle);
+        return isExamined.empty() || (own < isExamined.size() && isExamined[own]);
+    };
     for (Eigen::Index pair = 0; pair < pairs.list.cols(); ++pair)
     {
         const int i = pairs.list(0, pair);
         const int j = pairs.list(1, pair);
+        if (!examined(i) && !examined(j))
+        {
+            continue;
+        }
         const double smaller = 2 * std::min(pairs.radius[i], pairs.radius[j]);
         const double overlap =
             pairs.radius[i] + pairs.radius[j] - (pairs.position.col(i) - pairs.position.col(j)).norm();
@@ -96,7 +105,8 @@ void requireNoDeepOverlap(const lmp::LAMMPS& program, const ParticlePairs& pairs
             std::ostringstream message;
             message << "Particles " << atom.tag[i] << " and " << atom.tag[j] << " at " << placeText(atom.x[i])
                     << " and " << placeText(atom.x[j]) << " overlap by " << overlap << " m, " << overlap / smaller
-                    << " of the smaller one's diameter; allowed at the start: at most " << largestPart;
+                    << " of the smaller one's diameter; allowed at the start and at an insertion: at most "
+                    << largestPart;
             throw DemEngineError(message.str());
         }
     }

@@ -3,6 +3,7 @@
 #include "engine/particles.h"
 
 #include <string>
+#include <vector>
 
 namespace LAMMPS_NS
 {
@@ -24,8 +25,11 @@ std::string lastParticleText(const LAMMPS_NS::LAMMPS& program);
 /// All particles are in the box. LIGGGHTS drops particles outside it.
 void requireParticlesInBox(const LAMMPS_NS::LAMMPS& program);
 
-/// No particles overlap deeply at the start, where they would be thrown apart by their contact force.
-void requireNoDeepOverlap(const LAMMPS_NS::LAMMPS& program, const ParticlePairs& pairs);
+/// No particles overlap deeply at the start or where one is inserted, because their contact force would throw them
+/// apart.
+/// \param isExamined  for each own particle, whether its pairs are examined; empty for all
+void requireNoDeepOverlap(
+    const LAMMPS_NS::LAMMPS& program, const ParticlePairs& pairs, const std::vector<bool>& isExamined = {});
 
 /// All positions and all forces except the fluid's are finite numbers.
 void requireFiniteForces(const LAMMPS_NS::LAMMPS& program);

@@ -1,0 +1,183 @@
+/// \file
+/// What a user meets at the edges of mesh, bed and fluid: particles that leave the mesh, that come in on top of others,
+/// that move with the water, beds that are low for their smoothing, thin cells, long arms.
+
+#include <gmock/gmock.h>
+
+#include "support/testCase.h"
+
+#include <gtest/gtest.h>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+constexpr double interval = 1e-3;
+
+/// Water that rises in a box through which particles of its density move with it; the DEM box goes on above the mesh.
+void upwards(TestCase& test, double waterSpeed)
+{
+    test.box.upper = {0.01, 0.01, 0.02};
+    test.cells = {5, 5, 10};
+    test.setThroughFlow("uniform (0 0 " + std::to_string(waterSpeed) + ')');
+    test.file("0/U").set("internalField", "uniform (0 0 " + std::to_string(waterSpeed) + ')');
+    test.coupling().set("constDiffSmoothingProps/bandwidth", "3e-3");
+    test.dem.diameter = 0.001;
+    test.dem.density = 1000;
+    test.dem.timeStep = 2e-5;
+    test.dem.particles = simpleLattice(Box{{0, 0, 0.01}, {0.01, 0.01, 0.014}}, {2, 2, 1});
+    test.dem.more = "velocity all set 0 0 0.1 units box";
+    test.setTimes(0.02, interval, 0.02);
+}
+
+/// The DEM box and its walls reach so far above the mesh that no particle is lost.
+void openAbove(TestCase& test)
+{
+    Box tall = test.box;
+    tall.upper.z() = 0.05;
+    test.extraFiles["DEM/in.particles"] = test.dem.text(tall);
+}
+
+} // namespace
+
+/// A particle as heavy as the water that moves exactly with it: nothing is exchanged but rounding, of drag times velocity.
+/// Relative to what is exchanged that rounding is everything, and stopped the run.
+TEST(GeometryAndChecks, ParticlesThatMoveWithTheWaterRun)
+{
+    TestCase test;
+    upwards(test, 0.1);
+    test.setTimes(0.005, interval, 0.005);
+    const Outcome outcome = test.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_LT(test.conservationSummary()["momentumError"].get<double>(), 1e-9);
+}
+
+/// Two layers of thin cells in a box of coarse ones make the smoothing ten times as expensive.
+TEST(GeometryAndChecks, ThinCellsAreWarnedOf)
+{
+    TestCase test;
+    test.box.upper = {0.02, 0.02, 0.04};
+    test.dem.particles = {{0.01, 0.01, 0.01}};
+    test.setTimes(2 * interval, interval, 2 * interval);
+    EXPECT_FALSE(test.run().says("sweeps over the mesh in every coupling step because"));
+
+    TestCase thin;
+    thin.box = test.box;
+    thin.dem.particles = test.dem.particles;
+    thin.setTimes(2 * interval, interval, 2 * interval);
+    thin.write();
+    const Outcome outcome =
+        thin.runCommand("sed -i 's/simpleGrading (1 1 1)/simpleGrading (1 1 200)/' system/blockMeshDict && blockMesh && "
+                        "$SOLVER");
+    EXPECT_TRUE(outcome.says("sweeps over the mesh in every coupling step because")) << outcome.output;
+}
+
+/// A bed of three bandwidths with clear water around it has half of its drag; one of twelve has not.
+TEST(GeometryAndChecks, ALowBedIsWarnedOf)
+{
+    for (const bool low : {true, false})
+    {
+        TestCase test;
+        test.box.upper = {0.01, 0.01, 0.04};
+        test.cells = {10, 10, 40};
+        test.coupling().set("constDiffSmoothingProps/bandwidth", low ? "3e-3" : "1e-3");
+        test.dem.diameter = 0.001;
+        test.dem.fixed = true;
+        test.dem.timeStep = 2e-5;
+        test.dem.particles = simpleLattice(Box{{0, 0, 0.01}, {0.01, 0.01, 0.021}}, {9, 9, 10});
+        test.setTimes(2 * interval, interval, 2 * interval);
+        const Outcome outcome = test.run();
+        ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+        EXPECT_EQ(outcome.says("is within a smoothing bandwidth of clear fluid"), low) << outcome.output;
+    }
+}
+
+/// Three arms of 26 m with 2 x 2 cells of 20 mm: memory in proportion to the cells, 2 GB of address space and not the bins
+/// of the box around the arms.
+TEST(GeometryAndChecks, LongArmsNeedMemoryForTheirCellsOnly)
+{
+    TestCase test;
+    test.box.upper = {0.04, 0.04, 0.04};
+    test.coupling().set("constDiffSmoothingProps/bandwidth", "4e-2");
+    test.dem.particles = {{0.01, 0.011, 0.012}};
+    test.setTimes(2 * interval, interval, 2 * interval);
+    test.extraFiles["system/blockMeshDict"] =
+        "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }\n"
+        "scale 1; w 0.04; L 26; n 1298;\n"
+        "vertices ( (0 0 0) ($w 0 0) ($w $w 0) (0 $w 0) (0 0 $w) ($w 0 $w) ($w $w $w) (0 $w $w)\n"
+        " ($L 0 0) ($L $w 0) ($L 0 $w) ($L $w $w) (0 $L 0) ($w $L 0) (0 $L $w) ($w $L $w)\n"
+        " (0 0 $L) ($w 0 $L) ($w $w $L) (0 $w $L) );\n"
+        "blocks ( hex (0 1 2 3 4 5 6 7) (2 2 2) simpleGrading (1 1 1)\n"
+        " hex (1 8 9 2 5 10 11 6) ($n 2 2) simpleGrading (1 1 1)\n"
+        " hex (3 2 13 12 7 6 15 14) (2 $n 2) simpleGrading (1 1 1)\n"
+        " hex (4 5 6 7 16 17 18 19) (2 2 $n) simpleGrading (1 1 1) );\n"
+        "defaultPatch { name walls; type wall; } boundary ();\n";
+    const Outcome outcome = test.runCommand("ulimit -v 2000000; blockMesh > log.blockMesh 2>&1 && $SOLVER");
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// A particle that leaves where no outlet is listed: the message says which one, how fast, through which patch, and both words
+/// that would allow it.
+TEST(GeometryAndChecks, AParticleThatLeavesTheMeshIsNamedWithItsPatch)
+{
+    TestCase test;
+    upwards(test, 0.1);
+    test.setTimes(0.2, interval, 0.2);
+    openAbove(test);
+    const Outcome outcome = test.run();
+    EXPECT_FALSE(outcome.succeeded());
+    for (const char* word : {"Particle 1 at", "lies in no cell of the mesh", "m/s", "beyond patch 'outlet'",
+             "particleOutlets", "allowParticlesOutsideMesh"})
+    {
+        EXPECT_THAT(outcome.output, testing::HasSubstr(word));
+    }
+}
+
+/// With the word, they move on in the part of the DEM box that has no mesh, feel no water, and are counted; one that has begun
+/// there falls back into the mesh. All balances close.
+TEST(GeometryAndChecks, ParticlesOutsideTheMeshMayBeAllowed)
+{
+    for (const int ranks : {1, 2})
+    {
+        TestCase test;
+        upwards(test, 0.1);
+        test.coupling().set("allowParticlesOutsideMesh", "yes");
+        test.dem.dumpEvery = 50;
+        // It falls from above the mesh into it.
+        test.dem.particles.emplace_back(0.005, 0.005, 0.022);
+        openAbove(test);
+        test.setTimes(0.15, interval, 0.15);
+        const Outcome outcome = test.run(ranks);
+        ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+        const auto balances = test.conservationSummary();
+        EXPECT_EQ(balances["particlesLost"], 0);
+        EXPECT_EQ(balances["particlesEnd"], 5);
+        EXPECT_GE(balances["particlesThatLeftMesh"], 4);
+        EXPECT_LT(balances["insertionError"].get<double>(), 1e-12);
+        EXPECT_LT(balances["momentumError"].get<double>(), 1e-9);
+        // The fifth begins at the others' upward 0.1 m/s: without water it falls freely until it is back in the mesh.
+        const ParticleSnapshot early = test.particleHistory().at(10);
+        EXPECT_NEAR(early.velocity(2, 4), 0.1 - 9.81 * 0.01, 1e-3);
+    }
+}
+
+/// A particle that is inserted on top of another is refused as at the start: otherwise their contact force throws both out.
+TEST(GeometryAndChecks, AnInsertionOnTopOfAnotherParticleIsRefused)
+{
+    TestCase test;
+    test.dem.particles = {{0.01, 0.01, 0.001}};
+    test.setTimes(0.02, interval, 0.02);
+    test.dem.more = "region spot block 0.0098 0.0102 0.0098 0.0102 0.0005 0.0015 units box\n"
+                    "fix sphere all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
+                    "constant 0.001\n"
+                    "fix spheres all particledistribution/discrete 32452843 1 sphere 1.0\n"
+                    "fix pour all insert/pack seed 86028121 distributiontemplate spheres insert_every 200 "
+                    "overlapcheck no all_in no vel constant 0. 0. 0. region spot particles_in_region 1\n";
+    const Outcome outcome = test.run();
+    EXPECT_FALSE(outcome.succeeded());
+    EXPECT_THAT(outcome.output, testing::HasSubstr("allowed at the start and at an insertion"));
+}
+
+} // namespace clepsydra::tests
