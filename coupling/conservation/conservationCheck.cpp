@@ -50,7 +50,7 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
       momentumTolerance_(tolerance(tolerances_, "momentumTolerance", 1e-9)),
       pressureForceTolerance_(tolerance(tolerances_, "pressureForceTolerance", 1e-9)),
       continuityTolerance_(tolerance(tolerances_, "continuityTolerance", 1e-4)),
-      filteredVolumeTolerance_(tolerance(tolerances_, "filteredVolumeTolerance", 0.5)),
+      filteredVolumeTolerance_(tolerance(tolerances_, "filteredVolumeTolerance", 1)),
       imbalanceTolerance_(tolerance(tolerances_, "imbalanceTolerance", 1e-3)),
       startTime_(time.timeName())
 {
@@ -168,13 +168,13 @@ void ConservationCheck::recordContinuity(const volScalarField& error)
 
 void ConservationCheck::recordFilteredVolume(double volume)
 {
-    filteredVolume_ = solidVolume_ > 0 ? volume / solidVolume_ : 0;
+    filteredVolume_ = relativeError(volume, mostSolidVolume_);
     largestFilteredVolume_ = larger(largestFilteredVolume_, filteredVolume_);
     if (!isWithin(filteredVolume_, filteredVolumeTolerance_))
     {
         FatalErrorInFunction << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "
                              << "fluid's continuity equation, which is " << filteredVolume_
-                             << " of the particles' volume; allowed: at most filteredVolumeTolerance, which is "
+                             << " of the particles' largest volume so far; allowed: at most filteredVolumeTolerance, which is "
                              << filteredVolumeTolerance_ << ". Decrease smoothingTime in useDDTvoidfractionProps"
                              << exit(FatalError);
     }

@@ -51,8 +51,8 @@ struct EstimatedSeconds
 ///                                     // / sum of the magnitudes of these terms, in any coupling step
 ///     pressureForceTolerance  1e-9;   // |force on particles - reaction in fluid| / sum of |force on a particle|
 ///     continuityTolerance     1e-4;   // mean of |d(eps)/dt + div(eps U)| times the coupling step
-///     filteredVolumeTolerance 0.5;    // solid volume whose motion the low-pass filter of d(eps)/dt has not passed yet
-///                                     // / solid volume
+///     filteredVolumeTolerance 1;      // solid volume whose motion the low-pass filter of d(eps)/dt has not passed yet
+///                                     // / largest solid volume so far; 2 where it passes nothing
 ///     imbalanceTolerance      1e-3;   // net volume of fluid that a closed tank had to take up / volume of the tank
 class ConservationCheck
 {
