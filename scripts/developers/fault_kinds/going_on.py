@@ -251,11 +251,8 @@ def disk_full_for_other_output(bench: Bench) -> list[Any]:
         entries = "probes { type probes; libs (sampling); fields (p U); probeLocations ((.006 .006 .01)); }"
         return case.edit("system/controlDict", r"^functions\s*\{", "functions\n{\n" + entries)
 
-    return [
-        functools.partial(fill, "post", 64, dumps),
-        functools.partial(fill, "post", 64, pictures),
-        functools.partial(fill, "postProcessing/probes", 8, probes),
-    ]
+    places = [("post", 64, dumps), ("post", 64, pictures), ("postProcessing/probes", 8, probes)]
+    return [functools.partial(fill, *place) for place in bench.some(places, quick=2)]
 
 
 @fault(
@@ -393,6 +390,7 @@ def preloaded(bench: Bench, text: str) -> Path:
 @fault(
     "the system's clock is set a day forward in a run with maxClockTime, or the clock of one of two ranks is ahead",
     "the first goes on to the same end; the second stops on both ranks with a checkpoint",
+    in_quick=False,
 )
 def clock_set(bench: Bench) -> list[Any]:
     def limited(ranks: int) -> Case:
@@ -429,6 +427,7 @@ def clock_set(bench: Bench) -> list[Any]:
 @fault(
     "purgeWrite 1 or writeCompression on is written into controlDict during a run",
     "a warning; what was allowed stays: the same end",
+    in_quick=False,
 )
 def controls_edited(bench: Bench) -> list[Any]:
     entries = ["purgeWrite 1;", "writeCompression on;"]
@@ -463,7 +462,7 @@ def edit_controls(bench: Bench, entry: str) -> str:
 )
 def power_lost(bench: Bench) -> list[Any]:
     bench.needs("strace", "strace")
-    return [functools.partial(lose_power, bench, ranks) for ranks in (1, 2)]
+    return [functools.partial(lose_power, bench, ranks) for ranks in bench.some((2, 1), quick=1)]
 
 
 CALL = re.compile(r"^(\d+) +(\w+)\((.*)\) += (-?\d+)")
