@@ -1,4 +1,5 @@
 /// Traces a measured residual to a physical effect. See docs/howTo/ownMeasurement.md.
+#include "files/standardStreams.h"
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
 #include "report/html.h"
@@ -98,6 +99,7 @@ void renewReport(const fs::path& study, const fs::path& folder)
 
 int main(int argc, char** argv)
 {
+    clepsydra::openClosedStandardStreams();
     Arguments arguments;
     CLI::App app(
         "Traces a measured residual to the physical effect that the model lacks, and reports the error on held-out "
@@ -146,6 +148,10 @@ int main(int argc, char** argv)
         {
             renewReport(arguments.study, reportFolder(arguments));
             showReport(reportFolder(arguments));
+        }
+        if (!std::cout.flush())
+        {
+            throw std::runtime_error("standard output could not be written: is the disk full?");
         }
         return 0;
     }

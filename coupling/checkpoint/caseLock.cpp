@@ -31,8 +31,15 @@ std::string contents(int file)
     return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string("unknown process");
 }
 
+/// Whether flock() has failed because the file system has no locks, as a network file system without a lock server.
+bool hasNoLocks(int error)
+{
+    return error == ENOLCK || error == ENOSYS || error == EOPNOTSUPP;
+}
+
 /// \return why the lock could not be taken; empty where it was taken. `file` is open only in that case.
-std::string takeLock(const std::string& path, int& file)
+/// \param warning  set where the file system has no locks
+std::string takeLock(const std::string& path, int& file, std::string& warning)
 {
     // Close on exec, because a program that is started by this one must not keep the lock.
     file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
@@ -40,7 +47,13 @@ std::string takeLock(const std::string& path, int& file)
     {
         return "Cannot open the lock file " + path + ": " + std::strerror(errno);
     }
-    if (flock(file, LOCK_EX | LOCK_NB) != 0)
+    const bool locked = flock(file, LOCK_EX | LOCK_NB) == 0;
+    if (!locked && hasNoLocks(errno))
+    {
+        warning = "the file system of " + path + " has no locks (" + std::strerror(errno)
+                  + "), so this run cannot notice a second program that runs in this case";
+    }
+    else if (!locked)
     {
         std::string cause = errno == EWOULDBLOCK
                                 ? "Another program runs in this case: " + contents(file) + " holds the lock file "
@@ -67,14 +80,19 @@ CaseLock::CaseLock(const Foam::fileName& caseDirectory)
     using namespace Foam;
 
     string problem;
+    std::string warning;
     if (Pstream::master())
     {
-        problem = takeLock(caseDirectory / ".pimpleDemFoam.lock", file_);
+        problem = takeLock(caseDirectory / ".pimpleDemFoam.lock", file_, warning);
     }
     Pstream::scatter(problem);
     if (!problem.empty())
     {
         FatalErrorInFunction << problem.c_str() << exit(FatalError);
+    }
+    if (!warning.empty())
+    {
+        Info << "WARNING: " << warning.c_str() << nl << endl;
     }
 }
 

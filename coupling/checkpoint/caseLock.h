@@ -13,7 +13,8 @@ class CaseLock
 {
 public:
     /// Takes the lock on the master rank. Collective. FatalError on all ranks where another program holds it, which
-    /// names the case and the holder's host and process, or where the file cannot be opened.
+    /// names the case and the holder's host and process, or where the file cannot be opened. Warns where the file system has no
+    /// locks.
     /// \param caseDirectory  directory of the whole case (Time::globalPath(), argList::globalPath()), not that of one
     /// rank
     explicit CaseLock(const Foam::fileName& caseDirectory);

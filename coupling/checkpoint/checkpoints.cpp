@@ -3,6 +3,7 @@
 #include "checkpoint/manifest.h"
 #include "checkpoint/partsOfCase.h"
 #include "engine/demEngine.h"
+#include "files/fileSystemProbe.h"
 #include "files/timeFolders.h"
 #include "openfoam/compatibility.h"
 #include "ranks.h"
@@ -11,14 +12,18 @@
 #include "OSspecific.H"
 #include "Pstream.H"
 #include "fileOperation.H"
+#include "functionObject.H"
 
 #include <clepsydra/version.h>
 
 #include <algorithm>
 #include <fstream>
 #include <functional>
+#include <iomanip>
 #include <numeric>
+#include <random>
 #include <set>
+#include <sstream>
 
 namespace clepsydra
 {
@@ -36,8 +41,9 @@ const std::string completeName("complete");
 const std::string particlesName("particles.%.restart");
 /// File with the particles of all ranks in checkpoints of earlier versions.
 const std::string oldParticlesName("particles.restart");
-/// Holds the time of the fresh start, whose fields are the user's own.
+/// Holds the time of the fresh start, whose fields are the user's own, and the identifier of the run.
 const std::string beginningName("beginning");
+const std::string runWord("run ");
 /// Marks each time folder that this program has written as half of a checkpoint.
 const word halfName("checkpoint");
 const fileName halfFolder("uniform");
@@ -53,23 +59,55 @@ fileNameList partsOf(const fileName& caseDirectory)
     return parts;
 }
 
-/// Time of the fresh start; its name is empty where there was none. Collective.
-instant beginningOf(const fileName& folder)
+/// The fresh start of a run.
+struct Beginning
+{
+    /// Its name is empty where there was no fresh start.
+    instant time;
+    /// Empty where an earlier version has started the run.
+    std::string run;
+};
+
+/// Collective.
+Beginning beginningOf(const fileName& folder)
 {
     const fileName file = folder / beginningName;
     string line;
+    string run;
     if (Pstream::master() && isFile(file))
     {
-        IFstream(file).getLine(line);
+        IFstream text(file);
+        text.getLine(line);
+        text.getLine(run);
     }
     Pstream::scatter(line);
+    Pstream::scatter(run);
     scalar value = 0;
     if (!line.empty() && !readScalar(line, value))
     {
         FatalErrorInFunction << file << " holds '" << line.c_str() << "'; allowed: the time of the fresh start"
                              << exit(FatalError);
     }
-    return {value, line};
+    return {{value, line}, run.compare(0, runWord.size(), runWord) == 0 ? run.substr(runWord.size()) : string()};
+}
+
+/// The same on all ranks. Collective.
+std::string randomIdentifier()
+{
+    string identifier;
+    if (Pstream::master())
+    {
+        std::random_device random;
+        std::ostringstream text;
+        text << std::hex << std::setfill('0');
+        for (int part = 0; part < 4; ++part)
+        {
+            text << std::setw(8) << random();
+        }
+        identifier = text.str();
+    }
+    Pstream::scatter(identifier);
+    return identifier;
 }
 
 bool startsWith(const std::string& text, const std::string& beginning)
@@ -80,6 +118,14 @@ bool startsWith(const std::string& text, const std::string& beginning)
 bool isParticlesFile(const Manifest::File& file)
 {
     return startsWith(file.name, folderName + '/');
+}
+
+/// Whether the file marks the fields of a time as half of a checkpoint.
+bool isHalf(const Manifest::File& file)
+{
+    const std::string ending = '/' + halfFolder + '/' + halfName;
+    return file.name.size() > ending.size()
+           && file.name.compare(file.name.size() - ending.size(), ending.size(), ending) == 0;
 }
 
 /// Folder of the particles, relative to the case directory in which the program runs. In an absolute path LIGGGHTS
@@ -157,21 +203,44 @@ std::string mismatchAfterRedistribution(const fs::path& caseDirectory, const Man
         {
             return parts.front() + name + " is missing or empty (made from " + file.name + ')';
         }
+        // The mark of the fields' half holds random identifiers, and reconstructPar and decomposePar copy it last.
+        const auto isOfThisCheckpoint = [&](const std::string& part) {
+            return Manifest::mismatch(caseDirectory, {part + name, file.contents}).empty();
+        };
+        if (isHalf(file) && std::none_of(parts.begin(), parts.end(), isOfThisCheckpoint))
+        {
+            return parts.front() + name
+                   + " is not that of this checkpoint, so the fields in that folder are those of another run, or "
+                     "older: run reconstructPar or decomposePar for this time";
+        }
     }
     return {};
 }
 
 /// Why a checkpoint cannot be resumed from; empty where it can. Collective.
+/// \param run  identifier of the run; empty where it has none
 /// \param manifest  set to the checkpoint's manifest, where that can be read
-std::string damageOf(const fileName& caseDirectory, const std::string& timeName, Manifest& manifest)
+std::string damageOf(
+    const fileName& caseDirectory, const std::string& timeName, const std::string& run, Manifest& manifest)
 {
     const fs::path folder(caseDirectory.c_str());
     std::string found;
     try
     {
         manifest = Manifest::read(folder / folderName / timeName / completeName);
-        found = manifest.time != timeName ? "it has the manifest of time " + manifest.time
-                                          : mismatchOfShared(folder, manifest, isParticlesFile);
+        if (manifest.time != timeName)
+        {
+            found = "it has the manifest of time " + manifest.time;
+        }
+        else if (!run.empty() && !manifest.run.empty() && manifest.run != run)
+        {
+            found = "it is of another run (" + manifest.run + ") than " + folderName + '/' + beginningName + " (" + run
+                    + ')';
+        }
+        else
+        {
+            found = mismatchOfShared(folder, manifest, isParticlesFile);
+        }
         if (found.empty())
         {
             found = manifest.ranks == Pstream::nProcs() ? mismatchHere(folder, manifest)
@@ -244,6 +313,19 @@ void removeParticlesWithoutFields(const fileName& caseDirectory)
     }
 }
 
+/// Lines of the manifest for the files to which this rank's engine appends, which are on the disk afterwards.
+/// \throws FileError
+std::string linesOfOutputs(const std::vector<EngineOutput>& outputs)
+{
+    std::string lines;
+    for (const EngineOutput& output : outputs)
+    {
+        flushToDisk(output.file);
+        lines += Manifest::outputLine({output.file.string(), output.size});
+    }
+    return lines;
+}
+
 /// A FoamFile ends with a line after which nothing is written. Where it is missing, the disk was full. A file of
 /// several ranks is a FoamFile that ends with the block of the last rank.
 /// \param ranks  number of ranks that share the file
@@ -312,6 +394,31 @@ std::string linesOfThisRank(
     return lines;
 }
 
+/// FatalError where a checkpoint could not be written here, which would otherwise show when the first is due.
+/// Collective.
+void requireUsableFileSystem(const fileName& folder)
+{
+    const std::string problem = problemOfRanks(
+        [&] { probeFileSystem(fs::path(folder.c_str()), "probe." + std::to_string(Pstream::myProcNo())); });
+    if (!problem.empty())
+    {
+        FatalErrorInFunction << problem.c_str() << exit(FatalError);
+    }
+}
+
+/// Syncs a folder and all folders in it, so that the names of new files are on the disk.
+void flushTree(const fs::path& folder)
+{
+    flushToDisk(folder);
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+    {
+        if (entry.is_directory() && !entry.is_symlink())
+        {
+            flushToDisk(entry.path());
+        }
+    }
+}
+
 /// Times that a start must not use as the latest time, the latest first.
 struct UnusableTimes
 {
@@ -333,14 +440,14 @@ UnusableTimes unusableTimes(const fileName& caseDirectory)
 {
     UnusableTimes found;
     const fileName folder = caseDirectory / folderName;
-    const instant beginning = beginningOf(folder);
-    if (beginning.name().empty())
+    const Beginning beginning = beginningOf(folder);
+    if (beginning.time.name().empty())
     {
         return found;
     }
 
     wordList finished;
-    for (const word& time : writtenTimes(caseDirectory, beginning.value()))
+    for (const word& time : writtenTimes(caseDirectory, beginning.time.value()))
     {
         const bool isFinished = returnReduce(isFile(folder / time / completeName), orOp<bool>());
         (isFinished ? finished : found.unfinished).append(time);
@@ -349,11 +456,11 @@ UnusableTimes unusableTimes(const fileName& caseDirectory)
     {
         return found;
     }
-    found.latestUsable = beginning.name();
+    found.latestUsable = beginning.time.name();
     for (const word& time : finished)
     {
         Manifest manifest;
-        const std::string damage = damageOf(caseDirectory, time, manifest);
+        const std::string damage = damageOf(caseDirectory, time, beginning.run, manifest);
         if (damage.empty())
         {
             found.latestUsable = time;
@@ -406,8 +513,9 @@ word Checkpoints::startInPlaceOfUnusable(const argList& args)
     return found.latestUsable;
 }
 
-Checkpoints::Checkpoints(const Time& time, bool writes)
-    : time_(time)
+Checkpoints::Checkpoints(const Time& time, RunInputs inputs, bool writes)
+    : time_(time),
+      inputs_(std::move(inputs))
 {
     if (time.controlDict().getOrDefault<label>("purgeWrite", 0) == 1)
     {
@@ -426,30 +534,98 @@ Checkpoints::Checkpoints(const Time& time, bool writes)
     }
 
     const fileName folder = time.globalPath() / folderName;
-    const instant beginning = beginningOf(folder);
+    const Beginning beginning = beginningOf(folder);
     const word start = time.timeName();
-    if (beginning.name().empty() || beginning.name() == start)
+    if (beginning.time.name().empty() || beginning.time.name() == start)
     {
         startAfresh(writes);
         return;
     }
-    beginning_ = beginning.value();
+    beginning_ = beginning.time.value();
+    run_ = beginning.run;
     Manifest manifest;
-    const std::string damage = damageOf(time.globalPath(), start, manifest);
+    const std::string damage = damageOf(time.globalPath(), start, run_, manifest);
     if (!damage.empty())
     {
         FatalErrorInFunction
             << "There is no complete checkpoint of time " << start << ": " << damage.c_str()
             << "\nThere are checkpoints of the times " << flatOutput(readDir(folder, fileName::DIRECTORY))
             << ": choose one by startTime in system/controlDict, or use startFrom latestTime. To start "
-            << "afresh, remove the folder " << folder << " and all times after " << beginning.name()
+            << "afresh, remove the folder " << folder << " and all times after " << beginning.time.name()
             << exit(FatalError);
+    }
+    resumeFrom(manifest, writes);
+}
+
+void Checkpoints::resumeFrom(const Manifest& manifest, bool writes)
+{
+    const word start = time_.timeName();
+    if (!manifest.run.empty())
+    {
+        if (const std::string change = inputs_.changeOfMesh(manifest); !change.empty())
+        {
+            FatalErrorInFunction << "The mesh is not that of the checkpoint of time " << start << ": " << change.c_str()
+                                 << "; allowed: the mesh with which the run began. For another mesh, map the fields "
+                                    "to a new case (mapFields) and start afresh there"
+                                 << exit(FatalError);
+        }
+    }
+    if (writes)
+    {
+        requireUsableFileSystem(time_.globalPath() / folderName);
     }
     const fs::path oldParticles = particlesOf(start) / oldParticlesName;
     const bool old = std::any_of(manifest.files.begin(), manifest.files.end(),
         [&](const Manifest::File& file) { return file.name == oldParticles.string(); });
     resumeFrom_ = old ? oldParticles : particlesOf(start) / particlesName;
+    outputs_ = manifest.outputs;
     Info << "Resuming from the checkpoint of time " << start << nl << endl;
+    warnOfChanges(manifest);
+    if (run_.empty())
+    {
+        run_ = randomIdentifier();
+        if (writes)
+        {
+            writeBeginning(beginningOf(time_.globalPath() / folderName).time.name());
+        }
+    }
+}
+
+void Checkpoints::warnOfChanges(const Manifest& manifest) const
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+    if (manifest.run.empty())
+    {
+        Info << "WARNING: this checkpoint was written by an earlier version, which did not record from which mesh, "
+                "DEM script and dictionaries its run was made. Whether they are the same now is not known"
+             << nl << endl;
+        return;
+    }
+    const std::vector<std::string> changes = inputs_.changesOfFiles(manifest);
+    if (!changes.empty())
+    {
+        Info << "WARNING: the run does not go on as if it had never stopped, because its inputs are others than when "
+                "the checkpoint was written:";
+        for (const std::string& change : changes)
+        {
+            Info << "\n    " << change.c_str();
+        }
+        Info << nl << endl;
+    }
+    for (const Manifest::Output& output : manifest.outputs)
+    {
+        std::error_code missing;
+        const std::uintmax_t size = fs::file_size(time_.globalPath().c_str() / fs::path(output.name), missing);
+        if (missing || size < output.size)
+        {
+            Info << "WARNING: " << output.name.c_str() << " has " << (missing ? 0 : size)
+                 << " bytes, but the DEM engine had written " << output.size
+                 << " before this checkpoint: was it edited, truncated or removed since then?" << nl << endl;
+        }
+    }
 }
 
 void Checkpoints::startAfresh(bool writes)
@@ -466,19 +642,32 @@ void Checkpoints::startAfresh(bool writes)
             << "you want to keep into a new case" << exit(FatalError);
     }
     beginning_ = time_.value();
-    if (writes && Pstream::master())
+    run_ = randomIdentifier();
+    if (writes)
     {
-        mkDir(time_.globalPath() / folderName);
-        try
+        if (Pstream::master())
         {
-            writeWhole((time_.globalPath() / folderName / beginningName).c_str(), time_.timeName() + '\n');
+            mkDir(time_.globalPath() / folderName);
         }
-        catch (const FileError& error)
-        {
-            FatalErrorInFunction << error.what() << exit(FatalError);
-        }
+        waitForAllRanks();
+        requireUsableFileSystem(time_.globalPath() / folderName);
+        writeBeginning(time_.timeName());
     }
-    waitForAllRanks();
+}
+
+void Checkpoints::writeBeginning(const word& startTime) const
+{
+    const std::string problem = problemOfRanks([&] {
+        if (Pstream::master())
+        {
+            writeWhole(
+                (time_.globalPath() / folderName / beginningName).c_str(), startTime + '\n' + runWord + run_ + '\n');
+        }
+    });
+    if (!problem.empty())
+    {
+        FatalErrorInFunction << problem.c_str() << exit(FatalError);
+    }
 }
 
 void Checkpoints::begin() const
@@ -499,6 +688,50 @@ void Checkpoints::begin() const
     }
 }
 
+void Checkpoints::flushTables() const
+{
+    const fs::path folder((time_.globalPath() / functionObject::outputPrefix).c_str());
+    if (!Pstream::master() || !fs::is_directory(folder))
+    {
+        return;
+    }
+    bool anyNew = false;
+    for (const auto& entry : fs::recursive_directory_iterator(folder))
+    {
+        if (entry.is_regular_file())
+        {
+            const fs::file_time_type changed = entry.last_write_time();
+            const auto [before, isNew] = flushed_.try_emplace(entry.path(), changed);
+            if (isNew || before->second != changed)
+            {
+                before->second = changed;
+                flushToDisk(entry.path());
+            }
+            anyNew = anyNew || isNew;
+        }
+    }
+    if (anyNew)
+    {
+        flushTree(folder);
+    }
+}
+
+void Checkpoints::flushFolders(const fs::path& timeFolder) const
+{
+    const fs::path caseDirectory(time_.globalPath().c_str());
+    if (!timeFolder.empty())
+    {
+        flushTree(caseDirectory / timeFolder);
+        flushToDisk((caseDirectory / timeFolder).parent_path());
+    }
+    if (Pstream::master())
+    {
+        flushTree(caseDirectory / folderName / time_.timeName());
+        flushToDisk(caseDirectory / folderName);
+        flushToDisk(caseDirectory);
+    }
+}
+
 void Checkpoints::complete(DemEngine& engine) const
 {
     const fs::path caseDirectory(time_.globalPath().c_str());
@@ -508,6 +741,7 @@ void Checkpoints::complete(DemEngine& engine) const
     {
         mkDir(checkpoint.c_str());
     }
+    const std::string identifier = randomIdentifier();
     const bool writesFields = writesItsPart(time_);
     const fs::path half = writtenName(time_, halfName, halfFolder);
     const fs::path timeFolder = writesFields ? half.parent_path().parent_path() : fs::path();
@@ -520,8 +754,9 @@ void Checkpoints::complete(DemEngine& engine) const
             if (writesFields)
             {
                 fs::create_directories((caseDirectory / half).parent_path());
-                writeWhole(caseDirectory / half,
-                    "The particles of this time are in the case's folder " + folderName + '/' + timeName + ".\n");
+                writeWhole(caseDirectory / half, "The particles of this time are in the case's folder " + folderName
+                                                     + '/' + timeName + ".\n" + runWord + run_ + "\ncheckpoint "
+                                                     + identifier + '\n');
             }
         },
         [&] { particles = engine.writeCheckpoint(particlesOf(timeName) / particlesName); },
@@ -530,13 +765,19 @@ void Checkpoints::complete(DemEngine& engine) const
             {
                 requireFunctionState(time_);
             }
-            linesOfRanks[Pstream::myProcNo()] = linesOfThisRank(caseDirectory, timeFolder, particles);
+            linesOfRanks[Pstream::myProcNo()] = linesOfOutputs(engine.outputs()) + inputs_.lines()
+                                                + linesOfThisRank(caseDirectory, timeFolder, particles);
+        },
+        // What the manifest names is on the disk before the manifest itself, also after a loss of power.
+        [&] {
+            flushTables();
+            flushFolders(timeFolder);
         },
         [&] {
             Pstream::gatherList(linesOfRanks);
             if (Pstream::master())
             {
-                const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, {}};
+                const Manifest manifest{timeName, Pstream::nProcs(), gitCommit, run_, inputs_.mesh(), {}, {}, {}};
                 writeWhole(checkpoint / completeName,
                     manifest.text(std::accumulate(linesOfRanks.begin(), linesOfRanks.end(), std::string())));
             }

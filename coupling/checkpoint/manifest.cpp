@@ -1,5 +1,7 @@
 #include "checkpoint/manifest.h"
 
+#include "tokens/exactText.h"
+
 #include <fstream>
 #include <sstream>
 
@@ -9,6 +11,10 @@ namespace clepsydra
 namespace
 {
 
+const std::string runWord = "run";
+const std::string meshWord = "mesh";
+const std::string inputWord = "input";
+const std::string outputWord = "output";
 const std::string lastWord = "end ";
 
 /// The value of a line "<name> <value>".
@@ -24,6 +30,50 @@ Value entry(std::istream& lines, const std::string& name, const std::filesystem:
     return value;
 }
 
+/// The rest of a line, without the space before it.
+std::string restOf(std::istream& line)
+{
+    std::string rest;
+    line.ignore();
+    std::getline(line, rest);
+    return rest;
+}
+
+void readLine(Manifest& manifest, const std::string& text)
+{
+    std::istringstream line(text);
+    std::string first;
+    line >> first;
+    if (first == runWord)
+    {
+        line >> manifest.run;
+    }
+    else if (first == meshWord)
+    {
+        line >> manifest.mesh.cells >> manifest.mesh.volume >> manifest.mesh.squaredVolume;
+    }
+    else if (first == outputWord)
+    {
+        Manifest::Output output;
+        line >> output.size;
+        output.name = restOf(line);
+        manifest.outputs.push_back(output);
+    }
+    else
+    {
+        const bool isInput = first == inputWord;
+        Manifest::File file;
+        file.contents.sha256 = first;
+        if (isInput)
+        {
+            line >> file.contents.sha256;
+        }
+        line >> file.contents.size;
+        file.name = restOf(line);
+        (isInput ? manifest.inputs : manifest.files).push_back(file);
+    }
+}
+
 } // namespace
 
 std::string Manifest::line(const File& file)
@@ -31,11 +81,22 @@ std::string Manifest::line(const File& file)
     return file.contents.sha256 + ' ' + std::to_string(file.contents.size) + ' ' + file.name + '\n';
 }
 
-std::string Manifest::text(const std::string& fileLines) const
+std::string Manifest::inputLine(const File& file)
 {
-    const std::string lines =
-        "time " + time + "\nranks " + std::to_string(ranks) + "\ncommit " + commit + '\n' + fileLines;
-    return lines + lastWord + sha256(lines) + '\n';
+    return inputWord + ' ' + line(file);
+}
+
+std::string Manifest::outputLine(const Output& file)
+{
+    return outputWord + ' ' + std::to_string(file.size) + ' ' + file.name + '\n';
+}
+
+std::string Manifest::text(const std::string& lines) const
+{
+    const std::string body = "time " + time + "\nranks " + std::to_string(ranks) + "\ncommit " + commit + '\n' + runWord
+                             + ' ' + run + '\n' + meshWord + ' ' + std::to_string(mesh.cells) + ' '
+                             + exactText(mesh.volume) + ' ' + exactText(mesh.squaredVolume) + '\n' + lines;
+    return body + lastWord + sha256(body) + '\n';
 }
 
 Manifest Manifest::read(const std::filesystem::path& file)
@@ -59,10 +120,9 @@ Manifest Manifest::read(const std::filesystem::path& file)
     manifest.time = entry<std::string>(lines, "time", file);
     manifest.ranks = entry<int>(lines, "ranks", file);
     manifest.commit = entry<std::string>(lines, "commit", file);
-    for (File listed;
-         lines >> listed.contents.sha256 >> listed.contents.size && lines.ignore() && std::getline(lines, listed.name);)
+    for (std::string line; std::getline(lines >> std::ws, line);)
     {
-        manifest.files.push_back(listed);
+        readLine(manifest, line);
     }
     return manifest;
 }

@@ -75,6 +75,33 @@ void RunTime::requireWholeState() const
     }
 }
 
+void RunTime::readDict()
+{
+    const label purgeBefore = purgeWrite_;
+    Time::readDict();
+    bool corrected = false;
+    const auto keep = [&](const word& entry, const auto& kept, const char* allowed) {
+        // The registry's own copy of controlDict, which is not constant. Readers of the entry then see what is done.
+        auto& controls = const_cast<dictionary&>(controlDict());
+        Info << "WARNING: entry '" << entry << "' of system/controlDict was changed to " << controls.lookup(entry)[0]
+             << "; allowed: " << allowed << ". The run keeps " << kept << nl << endl;
+        controls.set(entry, kept);
+        corrected = true;
+    };
+    if (purgeWrite_ == 1)
+    {
+        keep("purgeWrite", purgeBefore, "0 for all times, or at least 2");
+    }
+    if (writeCompression() == IOstream::COMPRESSED)
+    {
+        keep("writeCompression", word("off"), "off");
+    }
+    if (corrected)
+    {
+        Time::readDict();
+    }
+}
+
 bool RunTime::loop()
 {
     if (atEnd())

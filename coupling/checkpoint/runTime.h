@@ -51,6 +51,11 @@ public:
     /// True if this step is the last.
     bool atEnd() const;
 
+protected:
+    /// Called when system/controlDict has been edited during the run. Values of purgeWrite and writeCompression with
+    /// which no run may start (Checkpoints) are not accepted then either: the run keeps the earlier ones and warns.
+    void readDict() override;
+
 private:
     void requireWholeState() const;
     /// Whether write times are given as times, and not as steps or wall time.

@@ -5,8 +5,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <chrono>
 #include <csignal>
-#include <string_view>
+#include <iterator>
+#include <vector>
 
 namespace clepsydra
 {
@@ -14,41 +18,106 @@ namespace clepsydra
 namespace
 {
 
+using Clock = std::chrono::steady_clock;
+
 // A signal handler can access nothing but such a variable.
 volatile std::sig_atomic_t signalCame = 0;
 
-void noteSignal(int signal)
+constexpr std::array fromUsers = {SIGTERM, SIGINT};
+constexpr std::array fromBatchSystems = {SIGUSR1, SIGUSR2, SIGXCPU};
+
+template<std::size_t count>
+void answer(const char (&text)[count])
 {
     signalCame = 1;
-    constexpr std::string_view answer =
-        "\nStopping: a checkpoint is written at the end of this coupling step. A second signal ends the run at once.\n";
-    static_cast<void>(!write(STDERR_FILENO, answer.data(), answer.size()));
+    static_cast<void>(!write(STDERR_FILENO, text, count - 1));
+}
+
+void noteUsersSignal(int signal)
+{
+    answer("\nStopping: a checkpoint is written at the end of this coupling step. A second signal ends the run at "
+           "once.\n");
     std::signal(signal, SIG_DFL);
+}
+
+void noteBatchSystemsSignal(int)
+{
+    if (signalCame == 0)
+    {
+        answer("\nStopping: a checkpoint is written at the end of this coupling step.\n");
+    }
+}
+
+using Handler = void (*)(int);
+
+Handler handlerOf(int signal)
+{
+    struct sigaction action = {};
+    sigaction(signal, nullptr, &action);
+    return action.sa_handler;
+}
+
+std::vector<int> ignoredSignals()
+{
+    std::vector<int> ignored;
+    std::copy_if(fromUsers.begin(), fromUsers.end(), std::back_inserter(ignored),
+        [](int signal) { return handlerOf(signal) == SIG_IGN; });
+    return ignored;
+}
+
+// Both are taken when the program is loaded: OpenFOAM sets a handler of its own for SIGINT, and reads meshes before a
+// StopRequest exists.
+const std::vector<int> ignoredAtStart = ignoredSignals();
+const Clock::time_point start = Clock::now();
+
+bool isClockTimeOver(const Foam::Time& time)
+{
+    constexpr const char* entry = "maxClockTime";
+    return time.controlDict().found(entry)
+           && std::chrono::duration<double>(Clock::now() - start).count() > positiveEntry(time.controlDict(), entry);
 }
 
 } // namespace
 
-StopRequest::StopRequest(const Time& time)
+StopRequest::StopRequest(const Foam::Time& time)
     : time_(time)
 {
-    if (time.controlDict().found("maxClockTime"))
+    isClockTimeOver(time_);
+    for (const int signal : fromUsers)
     {
-        maxClockTime_ = positiveEntry(time.controlDict(), "maxClockTime");
+        const bool ignored = std::count(ignoredAtStart.begin(), ignoredAtStart.end(), signal) > 0;
+        std::signal(signal, ignored ? SIG_IGN : noteUsersSignal);
     }
-    std::signal(SIGTERM, noteSignal);
-    std::signal(SIGINT, noteSignal);
+    for (const int signal : fromBatchSystems)
+    {
+        if (handlerOf(signal) == SIG_DFL)
+        {
+            std::signal(signal, noteBatchSystemsSignal);
+        }
+    }
 }
 
 StopRequest::~StopRequest()
 {
-    std::signal(SIGTERM, SIG_DFL);
-    std::signal(SIGINT, SIG_DFL);
+    for (const int signal : fromUsers)
+    {
+        if (handlerOf(signal) == noteUsersSignal)
+        {
+            std::signal(signal, SIG_DFL);
+        }
+    }
+    for (const int signal : fromBatchSystems)
+    {
+        if (handlerOf(signal) == noteBatchSystemsSignal)
+        {
+            std::signal(signal, SIG_DFL);
+        }
+    }
 }
 
 bool StopRequest::asked() const
 {
-    const bool here = signalCame != 0 || time_.elapsedClockTime() > maxClockTime_;
-    return returnReduce(here, orOp<bool>());
+    return Foam::returnReduce(signalCame != 0 || isClockTimeOver(time_), Foam::orOp<bool>());
 }
 
 } // namespace clepsydra

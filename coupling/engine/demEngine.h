@@ -2,6 +2,7 @@
 
 #include "engine/particles.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -36,6 +37,13 @@ struct ContactMaterial
 {
     double youngsModulus;
     double poissonRatio;
+};
+
+/// A file to which the engine appends while it runs.
+struct EngineOutput
+{
+    std::filesystem::path file;
+    std::uintmax_t size = 0;
 };
 
 /// A discrete-element program that advances particles and their contacts in the same process.
@@ -117,6 +125,14 @@ public:
 
     /// Name and version of the engine. Local.
     virtual std::string version() const = 0;
+
+    /// The files to which this rank's engine appends while it runs, as the script's dumps and tables, with all that was
+    /// written so far in them. A resumed engine continues them from this size on, so that nothing is in them twice.
+    /// \throws FileError where something that the engine wrote by itself did not get into its file
+    virtual std::vector<EngineOutput> outputs()
+    {
+        return {};
+    }
 };
 
 } // namespace clepsydra

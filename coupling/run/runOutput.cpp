@@ -1,8 +1,9 @@
 #include "run/runOutput.h"
 
+#include "files/writeFailures.h"
+#include "functionObjects/massInHopper.h"
 #include "run/caseSizes.h"
 #include "run/equations.h"
-#include "functionObjects/massInHopper.h"
 #include "run/startReport.h"
 #include "run/unreadFields.h"
 
@@ -150,6 +151,7 @@ void RunOutput::start()
         FatalErrorInFunction << "A function object could not be started; the warning above gives the cause"
                              << exit(FatalError);
     }
+    requireTablesWritten();
     if (scratch_)
     {
         return;
@@ -207,6 +209,7 @@ bool RunOutput::afterCouplingStep()
     }
     // The state of function objects is part of the checkpoint.
     time_.functionObjects().execute();
+    requireTablesWritten();
     if (atWriteTime)
     {
         writeCheckpoint();
@@ -221,6 +224,16 @@ bool RunOutput::afterCouplingStep()
     return atWriteTime;
 }
 
+void RunOutput::requireTablesWritten() const
+{
+    const std::string failure = firstWriteFailure();
+    if (!failure.empty())
+    {
+        FatalErrorInFunction << failure.c_str() << ". The same command resumes from the last checkpoint"
+                             << exit(FatalError);
+    }
+}
+
 void RunOutput::writeCheckpoint()
 {
     if (!time_.write())
@@ -229,6 +242,7 @@ void RunOutput::writeCheckpoint()
                              << time_.timePath() << ": is the disk full? The same command resumes from the previous "
                              << "checkpoint" << exit(FatalError);
     }
+    requireTablesWritten();
     checkpoints_.complete(engine_);
 }
 
@@ -238,6 +252,7 @@ void RunOutput::finish()
     if (!scratch_)
     {
         time_.functionObjects().end();
+        requireTablesWritten();
     }
     couplingStep_.conservation().report();
     if (runChecks_)

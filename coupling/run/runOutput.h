@@ -56,6 +56,7 @@ public:
 
 private:
     void checkDemStepOnce();
+    void requireTablesWritten() const;
     void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
     /// Updates the estimates of the run time after each coupling step. \return wall time that is left [s], negative

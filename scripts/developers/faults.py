@@ -23,6 +23,7 @@ from clepsydra import environment
 from developers.fault_kinds import (
     damage,
     disk,
+    going_on,
     limits,
     parallel,
     parameter_studies,
@@ -37,7 +38,7 @@ from developers.fault_kinds.kinds import ALL, Fault, Skipped, Wrong
 
 IN_NAMESPACE = "CLEPSYDRA_FAULTS_MAY_MOUNT"
 # In the order of the table. Each module enters its kinds of fault into ALL when it is imported.
-MODULES = (stops, parallel, disk, system_calls, damage, limits, parameter_studies, studies, shell)
+MODULES = (stops, parallel, disk, system_calls, damage, going_on, limits, parameter_studies, studies, shell)
 KINDS = {name: kind for module in MODULES for name, kind in ALL.items() if kind.tries.__module__ == module.__name__}
 
 

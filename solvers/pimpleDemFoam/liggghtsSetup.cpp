@@ -98,8 +98,7 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
 
 } // namespace
 
-LiggghtsSetup liggghtsSetup(
-    const CouplingSettings& settings, const std::filesystem::path& resumeFrom, bool writesNothing)
+LiggghtsSetup liggghtsSetup(const CouplingSettings& settings, bool writesNothing)
 {
     const dictionary& dem = settings.demDict();
     selectedModel(dem, "engine", {"liggghts"});
@@ -121,9 +120,21 @@ LiggghtsSetup liggghtsSetup(
     setup.groupChanges = readGroupChanges(dem.subOrEmptyDict("groupChanges"));
     setup.logFile = writesNothing ? "/dev/null" : "log.liggghts";
     setup.writesNothing = writesNothing;
-    setup.resumeFrom = resumeFrom;
     setup.onWarning = [](const std::string& warning) { WarningInFunction << warning.c_str() << endl; };
     return setup;
+}
+
+void resume(LiggghtsSetup& setup, const Checkpoints& checkpoints)
+{
+    setup.resumeFrom = checkpoints.particles();
+    if (setup.writesNothing)
+    {
+        return;
+    }
+    for (const Manifest::Output& output : checkpoints.outputs())
+    {
+        setup.outputs.push_back({output.name, output.size});
+    }
 }
 
 } // namespace clepsydra

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "checkpoint/checkpoints.h"
 #include "engine/liggghts/liggghtsEngine.h"
 #include "couplingStep/couplingSettings.h"
 
@@ -10,9 +11,10 @@ namespace clepsydra
 /// changes.
 ///
 /// FatalIOError that names file, entry and what is allowed where an entry is missing or wrong.
-/// \param resumeFrom  the particles' part of a checkpoint, empty for a fresh start
 /// \param writesNothing  true where the engine must not write files, including its log
-LiggghtsSetup liggghtsSetup(
-    const CouplingSettings& settings, const std::filesystem::path& resumeFrom, bool writesNothing = false);
+LiggghtsSetup liggghtsSetup(const CouplingSettings& settings, bool writesNothing = false);
+
+/// Where the run is resumed, the engine goes on from the checkpoint.
+void resume(LiggghtsSetup& setup, const Checkpoints& checkpoints);
 
 } // namespace clepsydra

@@ -4,6 +4,8 @@
 #include "checkpoint/caseLock.h"
 #include "checkpoint/checkpoints.h"
 #include "checkpoint/runTime.h"
+#include "engine/liggghts/script.h"
+#include "files/standardStreams.h"
 #include "files/wholeFile.h"
 #include "couplingStep/couplingStep.h"
 #include "ignoredInputs.h"
@@ -169,6 +171,7 @@ void runDemOnly(RunTime& runTime, CouplingStep& couplingStep, RunOutput& output)
 
 int main(int argc, char* argv[])
 {
+    openClosedStandardStreams();
     argList::addNote("Particles in a fluid: PIMPLE coupled with LIGGGHTS as constant/couplingProperties states");
     // OpenFOAM's own -dry-run replaces the mesh by a column of cells; this option checks the case as it is.
     argList::addBoolOption("dryRun", "Case check: start the case, solve one coupling step, write nothing");
@@ -223,12 +226,14 @@ int main(int argc, char* argv[])
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     try
     {
-        const Checkpoints checkpoints(runTime, !dryRun);
+        LiggghtsSetup setup = liggghtsSetup(settings, dryRun);
+        const Checkpoints checkpoints(runTime, RunInputs(mesh, filesOfScript(setup.script, setup.variables)), !dryRun);
         if (checkpoints.resumed())
         {
             runTime.resume(checkpoints.beginning());
+            resume(setup, checkpoints);
         }
-        LiggghtsEngine engine(liggghtsSetup(settings, checkpoints.particles(), dryRun));
+        LiggghtsEngine engine(setup);
         const ScriptFacts script = engine.scriptFacts();
         requireKnownScript(settings, script);
         if (models)

@@ -94,8 +94,7 @@ TEST(DamagedCheckpoint, IsNamedAndTheOneBeforeIsTaken)
         const Outcome outcome = inCopy(stopped,
             damage.command
                 + " && echo 'endTime 0.03;' >> system/controlDict && timeout 60 $SOLVER && ls -d damaged.0.02 && "
-                  "cmp checkpoints/0.03/complete "
-                + (through.path() / "checkpoints/0.03/complete").string());
+                + TestCase::sameCheckpoint("0.03", through));
         EXPECT_TRUE(outcome.succeeded()) << damage.command << '\n' << outcome.output;
         EXPECT_TRUE(outcome.says(damage.namedFile)) << damage.command << '\n' << outcome.output;
         EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << damage.command << '\n'

@@ -2,6 +2,7 @@
 // command goes on.
 
 #include "checkpoint/pilingParticles.h"
+#include "files/fileSystemProbe.h"
 #include "files/wholeFile.h"
 #include "support/smallDisk.h"
 
@@ -63,6 +64,32 @@ TEST_F(WholeFile, IsTheOldOneOrTheNewOne)
     writeWhole(file_, "new\n");
     EXPECT_EQ(text(), "new\n");
     EXPECT_EQ(filesThere(), 1u);
+}
+
+// A folder that has no room for a few bytes, or is not there, cannot hold a checkpoint, which is said with its name; one that can
+// is left as it was.
+TEST_F(WholeFile, IsTriedInAFolderBeforehand)
+{
+    const auto errorIn = [](const std::filesystem::path& folder) -> std::string {
+        try
+        {
+            probeFileSystem(folder, "probe");
+        }
+        catch (const FileError& error)
+        {
+            return error.what();
+        }
+        return {};
+    };
+    EXPECT_EQ(errorIn(folder_), "");
+    EXPECT_EQ(filesThere(), 1u);
+    {
+        const SmallDisk disk(10);
+        EXPECT_NE(
+            errorIn(folder_).find("The folder " + folder_.string() + " cannot hold a checkpoint: "), std::string::npos);
+    }
+    EXPECT_EQ(filesThere(), 1u);
+    EXPECT_NE(errorIn(folder_ / "none").find("/none cannot hold a checkpoint"), std::string::npos);
 }
 
 // A writer that does not look whether its bytes are taken: those that have no room are missed all the same.
@@ -149,8 +176,7 @@ protected:
     void expectUndisturbed(TestCase& test, const Outcome& outcome)
     {
         EXPECT_TRUE(outcome.succeeded()) << outcome.output;
-        const std::string manifest = (through_.path() / "checkpoints/0.03/complete").string();
-        EXPECT_TRUE(test.runCommand("cmp checkpoints/0.03/complete " + manifest).succeeded()) << outcome.output;
+        EXPECT_TRUE(test.runCommand(TestCase::sameCheckpoint("0.03", through_)).succeeded()) << outcome.output;
         EXPECT_EQ(massRows(test), massRows(through_));
     }
 

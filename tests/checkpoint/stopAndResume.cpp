@@ -206,13 +206,11 @@ TEST(TwoRanks, WriteTheirOwnParticlesAndGoOn)
         stopped.runCommand("echo \"endTime 0.02;\" >> system/controlDict && mpirun -np 2 $SOLVER -parallel");
     ASSERT_TRUE(resumed.succeeded()) << resumed.output;
     EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
-    EXPECT_TRUE(
-        stopped.runCommand("cmp checkpoints/0.02/complete " + (through.path() / "checkpoints/0.02/complete").string())
-            .succeeded());
+    EXPECT_TRUE(stopped.runCommand(TestCase::sameCheckpoint("0.02", through)).succeeded());
 }
 
-// A checkpoint of the time when one file held the particles of all ranks. A program that looks for a file of each rank only does
-// not find it.
+// A checkpoint of the time when one file held the particles of all ranks, and no run had an identifier: it is resumed from, with
+// the warning that nothing is known of its inputs. A program that looks for a file of each rank only does not find it.
 TEST(OneFileOfAllParticles, IsResumedFrom)
 {
     TestCase test;
@@ -224,7 +222,10 @@ TEST(OneFileOfAllParticles, IsResumedFrom)
 import hashlib, os
 folder = 'checkpoints/0.01/'
 checksum = lambda bytes: hashlib.sha256(bytes).hexdigest()
-lines = [line for line in open(folder + 'complete').read().splitlines()[:-1] if 'particles.' not in line]
+new = ('run ', 'mesh ', 'input ', 'output ')
+lines = [line for line in open(folder + 'complete').read().splitlines()[:-1]
+         if 'particles.' not in line and not line.startswith(new)]
+open('checkpoints/beginning', 'w').write('0\n')
 for name in ('base', '0'):
     os.remove(folder + 'particles.' + name + '.restart')
 os.rename('all.restart', folder + 'particles.restart')
@@ -235,6 +236,8 @@ end
 echo "endTime 0.02;" >> system/controlDict && $SOLVER)");
     EXPECT_TRUE(resumed.succeeded()) << resumed.output;
     EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
+    EXPECT_TRUE(resumed.says("written by an earlier version")) << resumed.output;
+    EXPECT_TRUE(test.runCommand("grep -q '^run [0-9a-f]' checkpoints/beginning").succeeded());
     EXPECT_EQ(test.conservationSummary("0.01")["particlesEnd"], static_cast<int>(test.dem.particles.size()));
 }
 
@@ -271,9 +274,7 @@ TEST(Killed, EndsAsIfNeverDisturbed)
     EXPECT_GE(killed, 3);
 
     // The manifest holds the checksums of fields, particles, and the state of function objects.
-    EXPECT_TRUE(
-        test.runCommand("cmp checkpoints/0.15/complete " + (undisturbed.path() / "checkpoints/0.15/complete").string())
-            .succeeded());
+    EXPECT_TRUE(test.runCommand(TestCase::sameCheckpoint("0.15", undisturbed)).succeeded());
     EXPECT_EQ(massRows(test), massRows(undisturbed));
     EXPECT_EQ(massRows(test).size(), 151u);
 }
@@ -466,9 +467,7 @@ TEST(Inserted, ParticlesAreNotInsertedAgain)
 
     const Outcome resumed = runInTwo(stopped, "0.02");
     ASSERT_TRUE(resumed.succeeded()) << resumed.output;
-    EXPECT_TRUE(
-        stopped.runCommand("cmp checkpoints/0.03/complete " + (through.path() / "checkpoints/0.03/complete").string())
-            .succeeded());
+    EXPECT_TRUE(stopped.runCommand(TestCase::sameCheckpoint("0.03", through)).succeeded());
 }
 
 } // namespace clepsydra::tests

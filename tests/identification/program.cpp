@@ -347,6 +347,19 @@ TEST(Program, PlansBeforeItRuns)
     EXPECT_THAT(workshop.output, HasSubstr("addedMass"));
 }
 
+/// A plan that went to a full disk is not a plan: the program ends with an error. Status 0 would let a script go on without it.
+TEST(Program, FailsWhereItsOutputIsLost)
+{
+    Workshop workshop;
+    workshop.measure({});
+    const std::string message = (workshop.path() / "message").string();
+    const int status = std::system((std::string(TRACE_RESIDUAL) + " plan " + (workshop.path() / "study.yaml").string()
+                                    + " > /dev/full 2> " + message)
+                                       .c_str());
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    EXPECT_THAT(contentOf(message), HasSubstr("traceResidual: standard output could not be written"));
+}
+
 /// The time of a run is stated as an assumption until one run has been timed, and is stored then. The surrogate takes
 /// far less than the 60 s that a study assumes by default.
 TEST(Program, PlansByTheTimeOfOneRun)

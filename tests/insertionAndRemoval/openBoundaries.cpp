@@ -137,9 +137,7 @@ TEST(OpenBoundaries, StoppedAndResumedIsNeverStopped)
     EXPECT_GT(rows.back()[insertedParticles], 15);
     EXPECT_GT(rows.back()[leftParticles], resumed.front()[leftParticles]);
     EXPECT_GT(resumed.front()[leftParticles], 0);
-    EXPECT_TRUE(
-        through.runCommand("cmp checkpoints/0.2/complete " + (stopped.path() / "checkpoints/0.2/complete").string())
-            .succeeded());
+    EXPECT_TRUE(through.runCommand(TestCase::sameCheckpoint("0.2", stopped)).succeeded());
 }
 
 // On two ranks, cut in the middle of the outlet, the same particles leave, and the same is where they are on the way. A

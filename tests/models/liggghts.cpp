@@ -275,6 +275,51 @@ TEST(Liggghts, RefusesWhatIsNoRestartFile)
     std::filesystem::remove(file);
 }
 
+/// What a resumed run does with a command. Repeated, `replicate` would double the particles, `write_restart` would write the
+/// state of the checkpoint over that of the start, and `shell rm` would remove what the run has written; left out, a fix or a
+/// dump would be missing.
+TEST(Liggghts, KnowsWhichCommandsAResumedRunRepeats)
+{
+    const std::vector<std::pair<OnResume, std::vector<std::string>>> expected = {
+        {OnResume::repeat, {"", "# replicate 1 1 2", "fix gravity all gravity 9.81 vector 0 0 -1",
+                               "dump d all custom 50 DEM/d id x", "variable t equal step",
+                               "print \"file and append in a text\"", "shell mkdir post", "region r block 0 1"}},
+        {OnResume::takeFromCheckpoint,
+            {"create_box 2 domain", "read_data packing", "replicate 1 1 2", "change_box all z final 0 1 units box",
+                "read_dump frames.dump 50 x y z", "create_atoms 1 single 0 0 0", "set group all diameter 1e-3",
+                "  velocity all set 0 0 1", "group moving union all", "reset_timestep 0"}},
+        {OnResume::leaveOut,
+            {"write_restart start.restart", "write_dump all custom start.dump id", "print \"begun\" file begun.txt",
+                "print begun append begun.txt", "shell rm -r post", "shell"}},
+        {OnResume::unknown, {"make_particles all"}},
+    };
+    for (const auto& [what, commands] : expected)
+    {
+        for (const std::string& command : commands)
+        {
+            EXPECT_EQ(onResume(command), what) << command;
+        }
+    }
+}
+
+/// Commands that end the program, or hide others from it, are refused with their line, also within an `if`; so is there one
+/// that a resumed run would have to leave out.
+TEST(Liggghts, RefusesCommandsThatHideOrEndIt)
+{
+    const std::string file = testing::TempDir() + "clepsydraModels" + std::to_string(getpid()) + ".hiding";
+    for (const std::string command : {"clear", "partition yes 1 fix g all gravity 9.81 vector 0 0 -1", "quit",
+             "run_time 1", "if \"1 > 0\" then \"replicate 1 1 2\"", "if \"1 > 0\" then \"shell rm -r post\"",
+             "if \"1 > 0\" then \"write_restart start.restart\""})
+    {
+        std::ofstream(file) << "units si\n" << command << '\n';
+        const std::string message = errorOf([&] { readScript(file, {}); });
+        EXPECT_NE(message.find(file + " line 2: '" + command + "'; allowed"), std::string::npos) << message;
+    }
+    std::ofstream(file) << "if \"1 > 0\" then \"shell mkdir post\" else \"print no\"\n";
+    EXPECT_EQ(errorOf([&] { readScript(file, {}); }), "");
+    std::filesystem::remove(file);
+}
+
 /// A variable whose value holds its own name is one without a value. Replaced again and again it never comes to an end.
 TEST(Liggghts, RefusesAnIncludeWhoseVariableHoldsItself)
 {

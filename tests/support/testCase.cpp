@@ -196,6 +196,16 @@ void TestCase::write()
     written_ = true;
 }
 
+std::string TestCase::sameCheckpoint(const std::string& time, const TestCase& other)
+{
+    const std::string manifest = "checkpoints/" + time + "/complete";
+    const auto contents = [](const std::string& file) {
+        return "\"$(sed -E '/^run |^input |uniform.checkpoint$|^end /d' " + quoted(file) + ")\"";
+    };
+    return "[ -s " + manifest + " ] && [ " + contents(manifest) + " = " + contents((other.path() / manifest).string())
+           + " ]";
+}
+
 Outcome TestCase::runCommand(const std::string& command)
 {
     if (!written_)

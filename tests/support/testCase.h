@@ -142,6 +142,10 @@ public:
     /// Components x cells; cells in blockMesh's order, x fastest, then y, then z.
     Eigen::MatrixXd field(const std::string& name, const std::string& time) const;
 
+    /// A shell condition that the folder in which it is evaluated, this case or a copy, has a checkpoint of a time with the
+    /// same contents as that of another case, to the last bit. Only the random identifiers and the inputs may differ.
+    static std::string sameCheckpoint(const std::string& time, const TestCase& other);
+
     /// The times that were written, as folders are called, without "0", in order.
     std::vector<std::string> times() const;
 

@@ -4,6 +4,7 @@
 #include "engine/liggghts/floatingPointTraps.h"
 #include "engine/liggghts/hertzPairStyle.h"
 #include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/outputFiles.h"
 #include "engine/liggghts/restartFiles.h"
 #include "engine/liggghts/rows.h"
 #include "engine/liggghts/script.h"
@@ -85,7 +86,8 @@ class LiggghtsEngine::Implementation
 {
 public:
     explicit Implementation(const LiggghtsSetup& setup)
-        : program_(setup.logFile, setup.communicator, setup.onWarning)
+        : outputFiles_(setup.logFile, setup.outputs),
+          program_(setup.logFile, setup.communicator, setup.onWarning)
     {
         registerHertzPairStyle();
         for (const auto& [name, value] : setup.variables)
@@ -159,6 +161,7 @@ public:
             {
                 checkInsertion();
             }
+            outputFiles_.requireWritten();
         }
         catch (const DemEngineError& error)
         {
@@ -444,6 +447,17 @@ public:
                 static_cast<Eigen::Index>(pairList_.size()))};
     }
 
+    /// LIGGGHTS writes again, in a resumed run, what it had written at the step of the checkpoint.
+    void continueOutputs()
+    {
+        outputFiles_.cutToCheckpoint();
+    }
+
+    std::vector<EngineOutput> outputs()
+    {
+        return outputFiles_.outputs();
+    }
+
     LiggghtsProgram& program()
     {
         return program_;
@@ -476,17 +490,36 @@ private:
             {
                 command.text = withoutFiles(command.text);
             }
-            if (resumeFrom.empty() || !makesParticles(command.text))
+            if (!resumeFrom.empty() && hasArgument(command.text, "overwrite"))
+            {
+                // Such a file is replaced as a whole each time.
+                outputFiles_.beginAgain(argumentAfter(program_.withVariables(command.text), "file"));
+            }
+            const OnResume onResume = whatOnResume(command.text);
+            if (resumeFrom.empty() || onResume == OnResume::repeat || onResume == OnResume::unknown)
             {
                 requireUndamagedInput(program_, command);
                 executeOfScript(command);
             }
-            else if (!boxMade)
+            else if (onResume == OnResume::takeFromCheckpoint && !boxMade)
             {
                 program_.execute("read_restart " + resumeFrom.string(), command.where + ", resumed");
                 boxMade = true;
             }
+            if (onResume == OnResume::unknown)
+            {
+                // After LIGGGHTS, which has its own message for a command that does not exist.
+                throw DemEngineError(command.where + ": '" + command.text
+                                     + "'; allowed: commands of which this program knows whether a resumed run must "
+                                       "repeat them");
+            }
         }
+    }
+
+    /// The values of variables are looked up only where they are needed, because that may draw random numbers.
+    OnResume whatOnResume(const std::string& command) const
+    {
+        return onResume(!command.empty() && command.front() == '$' ? program_.withVariables(command) : command);
     }
 
     static void fluidForceCallback(void* self, lmp::bigint, int, int*, double**, double** force)
@@ -515,6 +548,7 @@ private:
         engine.clearForceOnFixedParticles(ofFluid);
     }
 
+    OutputFiles outputFiles_;
     LiggghtsProgram program_;
     std::vector<ScriptCommand> commands_;
     lmp::Fix* stateFix_ = nullptr;
@@ -586,6 +620,7 @@ void LiggghtsEngine::initialise(FluidForces* forces)
     requireParticlesInBox(*implementation_->program());
     implementation_->allowNoParticles();
     prepare();
+    implementation_->continueOutputs();
     implementation_->checkStart();
 }
 
@@ -662,6 +697,11 @@ std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 std::vector<std::filesystem::path> LiggghtsEngine::writeCheckpoint(const std::filesystem::path& name)
 {
     return writeRestart(implementation_->program(), name);
+}
+
+std::vector<EngineOutput> LiggghtsEngine::outputs()
+{
+    return implementation_->outputs();
 }
 
 std::string LiggghtsEngine::version() const

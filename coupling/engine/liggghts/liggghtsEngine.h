@@ -25,9 +25,13 @@ struct LiggghtsSetup
     bool writesNothing = false;
     /// Name of a checkpoint to resume from, as it was passed to DemEngine::writeCheckpoint(); empty for a fresh start.
     /// With a checkpoint, the script's first `create_box`, `read_data` or `read_restart` reads the checkpoint instead,
-    /// and other commands that create or change particles (`create_atoms`, `group`, `set`, `velocity`, ...) are left
-    /// out. Materials, walls and fixes are created as in a fresh start.
+    /// and other commands whose result it holds (`create_atoms`, `group`, `set`, `velocity`, `replicate`, ...) or that
+    /// wrote a file at the start are left out; see onResume(). Materials, walls and fixes are created as in a fresh
+    /// start.
     std::filesystem::path resumeFrom;
+    /// The files that the run had open at the checkpoint, on all ranks, with their sizes then. They are continued from
+    /// there.
+    std::vector<EngineOutput> outputs;
     /// Applied in this order after each coupling step.
     std::vector<GroupChange> groupChanges;
     /// Called on the first rank with each warning that LIGGGHTS prints, and the place in the script.
@@ -64,6 +68,7 @@ public:
     Vector3d gravity() const override;
     std::vector<ContactMaterial> contactMaterials() const override;
     std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& name) override;
+    std::vector<EngineOutput> outputs() override;
     std::string version() const override;
 
 private:

@@ -50,11 +50,36 @@ std::vector<std::string> tokensOf(const std::string& command)
     return tokens;
 }
 
+/// Commands whose results a checkpoint holds.
+const std::set<std::string> held = {"change_box", "create_atoms", "create_box", "delete_atoms", "delete_bonds",
+    "displace_atoms", "group", "read_data", "read_dump", "read_restart", "replicate", "reset_timestep", "rotate", "set",
+    "velocity"};
+
+/// Commands that write a file once, at the start. Repeated, they would write the state of the checkpoint over it.
+const std::set<std::string> writing = {"info", "pair_write", "write_data", "write_dump", "write_restart"};
+
+/// Commands that a resumed run needs again.
+const std::set<std::string> repeated = {"angle_coeff", "angle_style", "atom_modify", "atom_style", "bond_coeff",
+    "bond_style", "boundary", "box", "communicate", "compute", "compute_modify", "dielectric", "dihedral_coeff",
+    "dihedral_style", "dimension", "dump", "dump_modify", "echo", "fix", "fix_modify", "force_dt_reset",
+    "hard_particles", "if", "improper_coeff", "improper_style", "kspace_modify", "kspace_style", "lattice", "log",
+    "mass", "min_modify", "min_style", "modify_timing", "neigh_modify", "neigh_settings", "neighbor", "newton",
+    "package", "pair_coeff", "pair_modify", "pair_style", "processors", "region", "restart", "run_style",
+    "soft_particles", "special_bonds", "suffix", "thermo", "thermo_log", "thermo_modify", "thermo_style", "timestep",
+    "uncompute", "undump", "unfix", "units", "variable"};
+
+bool isLeftOutOnResume(const std::string& command)
+{
+    const OnResume what = onResume(command);
+    return what == OnResume::takeFromCheckpoint || what == OnResume::leaveOut;
+}
+
 /// Commands within `if` are executed by LIGGGHTS and not seen line by line here, so commands that this program must
 /// know of are refused.
 void requireHarmless(const std::string& ifCommand, const std::string& where)
 {
-    static const std::set<std::string> others = {"run", "rerun", "minimize", "jump", "label", "next", "include"};
+    static const std::set<std::string> others = {"run", "run_time", "rerun", "minimize", "jump", "label", "next",
+        "include", "clear", "partition", "quit", "write_restart_on_signal"};
     for (const std::string& found : tokensOf(ifCommand))
     {
         const bool quoted = isQuote(found.front());
@@ -64,7 +89,7 @@ void requireHarmless(const std::string& ifCommand, const std::string& where)
         {
             requireHarmless(inside, where);
         }
-        else if (others.count(name) > 0 || makesParticles(name))
+        else if (others.count(name) > 0 || isLeftOutOnResume(inside))
         {
             throw DemEngineError(
                 where + ": '" + ifCommand + "'; allowed: an 'if' without '" + name
@@ -73,17 +98,24 @@ void requireHarmless(const std::string& ifCommand, const std::string& where)
     }
 }
 
-/// The name of a file with the values of its variables.
-std::string withValues(std::string name, const ScriptVariables& variables, const std::string& where)
+/// A text with the values of the variables that the dictionary DEM/variables sets.
+std::string withValues(std::string text, const ScriptVariables& variables)
 {
     for (const auto& [variable, value] : variables)
     {
         const std::string reference = "${" + variable + '}';
-        for (std::size_t at = 0; (at = name.find(reference, at)) != std::string::npos; at += value.size())
+        for (std::size_t at = 0; (at = text.find(reference, at)) != std::string::npos; at += value.size())
         {
-            name.replace(at, reference.size(), value);
+            text.replace(at, reference.size(), value);
         }
     }
+    return text;
+}
+
+/// The name of an included file with the values of its variables.
+std::string nameOfIncluded(const std::string& text, const ScriptVariables& variables, const std::string& where)
+{
+    std::string name = withValues(text, variables);
     if (name.find('$') != std::string::npos)
     {
         throw DemEngineError(where + ": include '" + name
@@ -129,7 +161,12 @@ std::vector<ScriptCommand> readFile(
             throw DemEngineError(
                 where + ": '" + name + "' is not supported; allowed: commands that can be executed line by line");
         }
-        if (name == "run" || name == "rerun" || name == "minimize")
+        if (name == "clear" || name == "partition" || name == "quit" || name == "write_restart_on_signal")
+        {
+            throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
+                                 + "', because the coupling holds LIGGGHTS' only program and ends it itself");
+        }
+        if (name == "run" || name == "run_time" || name == "rerun" || name == "minimize")
         {
             throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
                                  + "', because the coupling runs LIGGGHTS in every coupling step");
@@ -140,7 +177,7 @@ std::vector<ScriptCommand> readFile(
         }
         if (name == "include")
         {
-            const std::string file = withValues(token(text, 1), variables, where);
+            const std::string file = nameOfIncluded(token(text, 1), variables, where);
             if (isAmong(file, open))
             {
                 throw DemEngineError(where + ": include '" + file + "'; allowed: a file that does not include "
@@ -206,11 +243,72 @@ std::string withoutFiles(const std::string& command)
     return result;
 }
 
-bool makesParticles(const std::string& command)
+OnResume onResume(const std::string& command)
 {
-    static const std::set<std::string> commands = {"create_box", "read_data", "read_restart", "create_atoms",
-        "delete_atoms", "displace_atoms", "group", "set", "velocity", "reset_timestep"};
-    return commands.count(token(command, 0)) > 0;
+    const std::string name = token(command, 0);
+    if (name.empty() || name.front() == '#' || repeated.count(name) > 0)
+    {
+        return OnResume::repeat;
+    }
+    if (held.count(name) > 0)
+    {
+        return OnResume::takeFromCheckpoint;
+    }
+    if (name == "print")
+    {
+        const bool writesFile = hasArgument(command, "file") || hasArgument(command, "append");
+        return writesFile ? OnResume::leaveOut : OnResume::repeat;
+    }
+    if (name == "shell")
+    {
+        // Others may remove or move what the run has written.
+        static const std::set<std::string> harmless = {"cd", "mkdir", "putenv"};
+        return harmless.count(token(command, 1)) > 0 ? OnResume::repeat : OnResume::leaveOut;
+    }
+    return writing.count(name) > 0 ? OnResume::leaveOut : OnResume::unknown;
+}
+
+bool hasArgument(const std::string& command, const std::string& word)
+{
+    const std::vector<std::string> tokens = tokensOf(command);
+    return tokens.size() > 1 && std::find(tokens.begin() + 1, tokens.end(), word) != tokens.end();
+}
+
+std::string argumentAfter(const std::string& command, const std::string& word)
+{
+    const std::vector<std::string> tokens = tokensOf(command);
+    const auto found = std::find(tokens.begin(), tokens.end(), word);
+    if (found == tokens.end() || found + 1 == tokens.end())
+    {
+        return {};
+    }
+    const std::string& argument = *(found + 1);
+    return isQuote(argument.front()) ? argument.substr(1, argument.size() - 2) : argument;
+}
+
+std::vector<std::filesystem::path> filesOfScript(const std::filesystem::path& script, const ScriptVariables& variables)
+{
+    std::vector<std::filesystem::path> files{script};
+    const auto add = [&](const std::string& file) {
+        if (std::find(files.begin(), files.end(), file) == files.end())
+        {
+            files.emplace_back(file);
+        }
+    };
+    for (const ScriptCommand& command : readScript(script, variables))
+    {
+        add(command.where.substr(0, command.where.rfind(" line ")));
+        constexpr int style = 3; // fix ID group style
+        if (isCommand(command.text, "fix") && token(command.text, style).rfind("mesh/", 0) == 0)
+        {
+            const std::string surface = withValues(argumentAfter(command.text, "file"), variables);
+            if (!surface.empty() && surface.find('$') == std::string::npos)
+            {
+                add(surface);
+            }
+        }
+    }
+    return files;
 }
 
 } // namespace clepsydra

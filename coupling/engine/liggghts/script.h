@@ -35,7 +35,31 @@ bool writesFiles(const std::string& command);
 /// The command without the file that a `fix` would write in addition to its effect.
 std::string withoutFiles(const std::string& command);
 
-/// Whether a checkpoint holds the result of the command: true for commands that create, read or change particles.
-bool makesParticles(const std::string& command);
+/// What a resumed run does with a command of the script.
+enum class OnResume
+{
+    /// Repeats it: materials, walls, fixes, output.
+    repeat,
+    /// Leaves it out, because the checkpoint holds its result: it has created, read or changed particles or the box.
+    takeFromCheckpoint,
+    /// Leaves it out, because its result lies in a file that it has written at the start.
+    leaveOut,
+    /// Unknown: this program has no such command in its list.
+    unknown
+};
+
+/// \param command  with the values of its variables
+OnResume onResume(const std::string& command);
+
+/// Whether the command has this word as one of its arguments.
+bool hasArgument(const std::string& command, const std::string& word);
+
+/// The argument that follows a word in the command, without quotes; empty where there is none.
+std::string argumentAfter(const std::string& command, const std::string& word);
+
+/// The files that a resumed run reads again: the script, those that it includes, and the surfaces of `fix mesh/...`.
+/// A surface whose name has a variable that the script itself sets is not among them.
+/// \throws DemEngineError as readScript()
+std::vector<std::filesystem::path> filesOfScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
 } // namespace clepsydra

@@ -72,7 +72,7 @@ void read()
     const clepsydra::CouplingSettings settings(timeOfCase());
     settings.descriptions();
     settings.writeVtk();
-    clepsydra::liggghtsSetup(settings, {});
+    clepsydra::liggghtsSetup(settings);
     settings.finalRestart();
     settings.demStepsPerCouplingStep(demStep);
 }
