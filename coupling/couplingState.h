@@ -124,7 +124,9 @@ inline double volumeInFluid(const ParticlesView& particles, Eigen::Index particl
 }
 
 /// Sphere with the volume and the centroid of the part of a particle that is in the fluid. Its volume is at least 1e-6
-/// of the particle's, because a particle that is leaving still transfers its last impulse to the fluid.
+/// of the particle's, because a particle that is leaving still transfers its last impulse to the fluid. A particle outside
+/// the mesh transfers it where it was last in the mesh, with its own radius, because its centre may have been behind a
+/// wall there.
 struct SphereInFluid
 {
     Vector3d centre;
@@ -137,8 +139,9 @@ inline SphereInFluid sphereInFluid(const ParticlesView& particles, Eigen::Index 
     const CouplingState& state = particles.state[particle];
     const double submergedFraction = state.fluid.submergedFraction;
     return {particles.position.col(particle) + state.part.shift,
-        submergedFraction < 1 ? particles.radius[particle] * std::cbrt(std::max(submergedFraction, smallest))
-                              : particles.radius[particle]};
+        submergedFraction < 1 && !isOutsideMesh(state)
+            ? particles.radius[particle] * std::cbrt(std::max(submergedFraction, smallest))
+            : particles.radius[particle]};
 }
 
 } // namespace clepsydra

@@ -372,15 +372,39 @@ TEST(Baffle, NothingLeaksThrough)
     }
 }
 
-/// Part of each cell in the volume of one particle at `centre`, without smoothing.
-Foam::scalarField partsOfParticle(
-    const BoxOnRanks& box, const Vector3d& centre, const char* model, double kernelBandwidth)
+/// A void fraction model by itself: the part of each cell in the volume of a particle.
+class PartsOfParticle
 {
-    Foam::dictionary dict = properties(model, "off");
-    dict.subDict("GaussianProps").set("bandwidth", kernelBandwidth);
-    return Foam::scalarField(ParticlesOnMesh(box.mesh(), {centre}, dict).solidFraction() * box.mesh().V().field()
-                             / sphereVolume(diameter / 2));
-}
+public:
+    PartsOfParticle(const BoxOnRanks& box, const char* model, double kernelBandwidth)
+        : cells_(box.mesh()),
+          cellCount_(box.mesh().nCells())
+    {
+        Foam::dictionary dict = properties(model, "off");
+        dict.subDict("GaussianProps").set("bandwidth", kernelBandwidth);
+        model_ = VoidFractionModel::New(dict, cells_);
+    }
+
+    Foam::scalarField at(const Vector3d& centre) const
+    {
+        GhostParticle particle{};
+        particle.position = centre;
+        particle.radius = diameter / 2;
+        std::vector<Foam::label> near;
+        cells_.cellsNear(centre, model_->reach(particle), near);
+        Foam::scalarField parts(cellCount_, 0.0);
+        for (const Foam::label cell : near)
+        {
+            parts[cell] = model_->share(cell, particle);
+        }
+        return Foam::scalarField(parts / Foam::gSum(parts));
+    }
+
+private:
+    const CellSlabs cells_;
+    const Foam::label cellCount_;
+    Foam::autoPtr<VoidFractionModel> model_;
+};
 
 // A particle beside the rim of a baffle that covers half of the box, in the plane of the baffle: what lies under the baffle
 // hardly changes where the centre goes from half a micrometre above the plane to half a micrometre below. A kernel that takes
@@ -393,9 +417,10 @@ TEST(Baffle, NothingJumpsBesideItsRim)
         const BoxOnRanks box(cellSize, true, rim);
         for (const char* model : {"divided", "Gaussian"})
         {
+            const PartsOfParticle partsOfParticle(box, model, diameter);
             const auto partUnderBaffle = [&](double above) {
-                const Foam::scalarField parts = partsOfParticle(
-                    box, {rim + 0.5 * diameter, boxWidth / 2, boxHeight / 2 + above}, model, diameter);
+                const Foam::scalarField parts =
+                    partsOfParticle.at({rim + 0.5 * diameter, boxWidth / 2, boxHeight / 2 + above});
                 double part = 0;
                 forAll (parts, cell)
                 {
@@ -423,6 +448,7 @@ TEST(Baffle, SharesAreContinuousAroundItsRim)
     const BoxOnRanks box(1e-3, true, rim);
     for (const char* model : {"divided", "Gaussian"})
     {
+        const PartsOfParticle partsOfParticle(box, model, 0.5 * diameter);
         for (const double distance : {0.5 * diameter, 0.8 * diameter})
         {
             const auto largestChange = [&](int steps) {
@@ -433,10 +459,8 @@ TEST(Baffle, SharesAreContinuousAroundItsRim)
                 for (int step = 0; step <= steps; ++step)
                 {
                     const double angle = end * (2.0 * step / steps - 1);
-                    const Foam::scalarField now = partsOfParticle(box,
-                        {rim + distance * std::cos(angle), 0.51 * boxWidth,
-                            boxHeight / 2 + distance * std::sin(angle)},
-                        model, 0.5 * diameter);
+                    const Foam::scalarField now = partsOfParticle.at({rim + distance * std::cos(angle),
+                        0.51 * boxWidth, boxHeight / 2 + distance * std::sin(angle)});
                     if (step > 0)
                     {
                         largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(now - before))));

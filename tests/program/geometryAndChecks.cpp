@@ -26,7 +26,7 @@ void upwards(TestCase& test, double waterSpeed)
     test.coupling().set("constDiffSmoothingProps/bandwidth", "3e-3");
     test.dem.diameter = 0.001;
     test.dem.density = 1000;
-    test.dem.timeStep = 2e-5;
+    test.dem.timeStep = 1e-5;
     test.dem.particles = simpleLattice(Box{{0, 0, 0.01}, {0.01, 0.01, 0.014}}, {2, 2, 1});
     test.dem.more = "velocity all set 0 0 0.1 units box";
     test.setTimes(0.02, interval, 0.02);
@@ -85,7 +85,7 @@ TEST(GeometryAndChecks, ALowBedIsWarnedOf)
         test.coupling().set("constDiffSmoothingProps/bandwidth", low ? "3e-3" : "1e-3");
         test.dem.diameter = 0.001;
         test.dem.fixed = true;
-        test.dem.timeStep = 2e-5;
+        test.dem.timeStep = 1e-5;
         test.dem.particles = simpleLattice(Box{{0, 0, 0.01}, {0.01, 0.01, 0.021}}, {9, 9, 10});
         test.setTimes(2 * interval, interval, 2 * interval);
         const Outcome outcome = test.run();
@@ -144,7 +144,7 @@ TEST(GeometryAndChecks, ParticlesOutsideTheMeshMayBeAllowed)
         TestCase test;
         upwards(test, 0.1);
         test.coupling().set("allowParticlesOutsideMesh", "yes");
-        test.dem.dumpEvery = 50;
+        test.dem.dumpEvery = 100;
         // It falls from above the mesh into it.
         test.dem.particles.emplace_back(0.005, 0.005, 0.022);
         openAbove(test);
@@ -173,8 +173,8 @@ TEST(GeometryAndChecks, AnInsertionOnTopOfAnotherParticleIsRefused)
                     "fix sphere all particletemplate/sphere 15485863 atom_type 1 density constant 2500 radius "
                     "constant 0.001\n"
                     "fix spheres all particledistribution/discrete 32452843 1 sphere 1.0\n"
-                    "fix pour all insert/pack seed 86028121 distributiontemplate spheres insert_every 200 "
-                    "overlapcheck no all_in no vel constant 0. 0. 0. region spot particles_in_region 1\n";
+                    "fix pour all insert/rate/region seed 86028121 distributiontemplate spheres nparticles INF "
+                    "particlerate 500 insert_every 200 overlapcheck no all_in no vel constant 0. 0. 0. region spot\n";
     const Outcome outcome = test.run();
     EXPECT_FALSE(outcome.succeeded());
     EXPECT_THAT(outcome.output, testing::HasSubstr("allowed at the start and at an insertion"));
