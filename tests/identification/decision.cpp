@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <random>
 
@@ -83,6 +84,8 @@ TEST(Decision, HasItsNominalRates)
         const std::size_t e = bench.effect(name);
         double held = 0;
         double detected = 0;
+        double covered = 0;
+        double coveredByTheFit = 0;
         for (int i = 0; i < draws; ++i)
         {
             const auto amplitudes = evidence.amplitudes(e);
@@ -99,6 +102,10 @@ TEST(Decision, HasItsNominalRates)
                 continue;
             }
             detected += 1;
+            const auto covers = [&](const Fit& fit) { return fit.lower <= amplitude && amplitude <= fit.upper; };
+            const Fit fit = judge.fit(e, data);
+            coveredByTheFit += covers(fit) ? 1 : 0;
+            covered += covers(calibration.widened(e, fit, bench.study.effects[e].bounds)) ? 1 : 0;
             const auto members = membersOf(calibration, odds);
             held += std::count(members.begin(), members.end(), e) > 0 ? 1 : 0;
             const Odds without = oddsOf(bench.study, evidences, e);
@@ -110,6 +117,7 @@ TEST(Decision, HasItsNominalRates)
                     : 0;
         }
         EXPECT_GT(held / detected, 0.8) << name << ": " << held << " of " << detected;
+        std::cout << name << " " << covered << " " << coveredByTheFit << " " << detected << " width " << calibration.widths(e) << std::endl;
     }
     EXPECT_LT(wrong / decoys, 0.15) << wrong << " of " << decoys;
 }
