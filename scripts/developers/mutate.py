@@ -131,7 +131,17 @@ class Workshop:
         self.environment["CLEPSYDRA_DEPENDENCIES"] = dependencies
 
     def configure(self) -> None:
-        command = ["cmake", "-G", "Ninja", "-S", self.source, "-B", self.build, "-D", "CMAKE_BUILD_TYPE=Release"]
+        command: list[str | Path] = [
+            "cmake",
+            "-G",
+            "Ninja",
+            "-S",
+            self.source,
+            "-B",
+            self.build,
+            "-D",
+            "CMAKE_BUILD_TYPE=Release",
+        ]
         done = subprocess.run(command, env=self.environment, capture_output=True, text=True)
         if done.returncode != 0:
             raise Refused("cmake fails in the clone: " + done.stderr[-2000:])
@@ -139,7 +149,7 @@ class Workshop:
     def compiles(self, targets: list[str]) -> bool:
         if not targets:  # a script; without a target ninja would build everything
             return True
-        command = ["ninja", "-C", self.build, "-j", self.processes, *targets]
+        command: list[str | Path] = ["ninja", "-C", self.build, "-j", self.processes, *targets]
         done = subprocess.run(command, env=self.environment, capture_output=True, text=True)
         if done.returncode != 0 and "unknown target" in done.stderr:
             raise Refused(done.stderr.strip())
@@ -147,13 +157,13 @@ class Workshop:
         return done.returncode == 0
 
     def has_tests(self, tests: str) -> bool:
-        command = ["ctest", "--test-dir", self.build, "--show-only", "-R", tests]
+        command: list[str | Path] = ["ctest", "--test-dir", self.build, "--show-only", "-R", tests]
         listed = subprocess.run(command, env=self.environment, capture_output=True, text=True)
         return "Total Tests: 0" not in listed.stdout
 
     def failing_tests(self, tests: str) -> list[str]:
         """Names of the tests that fail, by ctest and, where one is a whole program of GoogleTest, by that."""
-        command = ["ctest", "--test-dir", self.build, "-j", self.processes, "-R", tests]
+        command: list[str | Path] = ["ctest", "--test-dir", self.build, "-j", self.processes, "-R", tests]
         command += ["--no-tests=error", "--output-on-failure"]
         try:
             done = subprocess.run(

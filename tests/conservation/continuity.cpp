@@ -47,8 +47,8 @@ protected:
     /// Ends a step in which the pressure moves no particle.
     void close()
     {
-        rate_->close(surfaceScalarField(
-            IOobject("none", case_.time().timeName(), *mesh_), *mesh_, dimensionedScalar("none", dimVolume / dimTime, 0)));
+        rate_->close(surfaceScalarField(IOobject("none", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedScalar("none", dimVolume / dimTime, 0)));
     }
 
     static dictionary withTolerance(const word& entry, double value)

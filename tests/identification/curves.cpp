@@ -195,8 +195,8 @@ TEST(Features, OfABounce)
     EXPECT_NEAR(feature("logBounceDuration", curve, {{"bounce", 1}}), std::log(flight), 1e-2);
     EXPECT_NEAR(
         feature("logImpactSpeed", curve, {{"before", 0.02}, {"until", 0.01}}), std::log(impact - 0.015 * g), 1e-3);
-    EXPECT_NEAR(feature("logReboundSpeed", curve, {{"from", 0.01}, {"after", 0.02}}),
-        std::log(0.5 * impact - 0.015 * g), 1e-2);
+    EXPECT_NEAR(
+        feature("logReboundSpeed", curve, {{"from", 0.01}, {"after", 0.02}}), std::log(0.5 * impact - 0.015 * g), 1e-2);
     EXPECT_TRUE(std::isnan(feature("logBounceHeight", curve, {{"bounce", 3}})));
 }
 
@@ -243,7 +243,7 @@ TEST(Features, DoNotDependOnWhenTheRecordStarts)
     const Curve bouncing = sampled(2.6 * impact / 9.81, 4001, [&](double t) {
         const double since = t - impact / 9.81;
         const double again = since - impact / 9.81;
-        return since < 0 ? 0.1 - 9.81 * t * t / 2
+        return since < 0   ? 0.1 - 9.81 * t * t / 2
                : again < 0 ? 0.5 * impact * since - 9.81 * since * since / 2
                            : 0.25 * impact * again - 9.81 * again * again / 2;
     });

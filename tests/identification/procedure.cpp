@@ -437,9 +437,7 @@ TEST(HeldOut, TheGaussianProcessTakesASmoothResidualAway)
 {
     Bench bench;
     const auto residualAt = [](double h) { return 0.2 * std::exp(-(h - 2) * (h - 2) / 4); };
-    const auto place = [&](std::size_t condition, double h) {
-        bench.study.conditions[condition].coordinates["h"] = h;
-    };
+    const auto place = [&](std::size_t condition, double h) { bench.study.conditions[condition].coordinates["h"] = h; };
     // Five training conditions, of which the first three are like the first of the study, and one that is held out.
     place(0, 0);
     place(1, 4);
@@ -454,14 +452,14 @@ TEST(HeldOut, TheGaussianProcessTakesASmoothResidualAway)
     std::vector<MeasuredCondition> data(bench.study.conditions.size());
     for (std::size_t c = 0; c < data.size(); ++c)
     {
-        data[c].features = featureRows(bench.studySimulator.repeats({c}, bench.studySimulator.plainSetting(), "measured", 4),
-            c, bench.study.featureCount());
+        data[c].features =
+            featureRows(bench.studySimulator.repeats({c}, bench.studySimulator.plainSetting(), "measured", 4), c,
+                bench.study.featureCount());
         data[c].features.array() += residualAt(bench.study.conditions[c].coordinates["h"]);
         data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
     }
     const Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
-    const HeldOutResult result =
-        evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
+    const HeldOutResult result = evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
     ASSERT_TRUE(result.gaussianProcess);
     EXPECT_GT(result.before.rmsLogError.value, 0.03) << "otherwise there is nothing to take away";
     EXPECT_LT(result.gaussianProcess->rmsLogError.value, 0.5 * result.before.rmsLogError.value);

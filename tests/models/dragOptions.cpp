@@ -57,15 +57,14 @@ TEST(WallCorrection, OfTwoPlanesIsTheSumOfBoth)
     const std::string below = "((0 0 0) (0 0 1))";
     const std::string above = "((0 0 0.01) (0 0 -1))";
     const auto factorBetween = [&](const std::string& planes, const Vector3d& velocity) {
-        const Vector3d force = dragOn("forceModels (StokesDrag); StokesDragProps { wallCorrection { law Faxen; walls ( "
-                                          + planes + " ); } }",
+        const Vector3d force = dragOn(
+            "forceModels (StokesDrag); StokesDragProps { wallCorrection { law Faxen; walls ( " + planes + " ); } }",
             {0, 0, 5 * radius}, velocity);
         return force.norm() / (1.884956e-5 * velocity.norm());
     };
     const Vector3d along(0.01, 0, 0);
     const double L = 0.2;
-    const double faxen =
-        1 / (1 - 1.004 * L + 0.418 * std::pow(L, 3) + 0.21 * std::pow(L, 4) - 0.169 * std::pow(L, 5));
+    const double faxen = 1 / (1 - 1.004 * L + 0.418 * std::pow(L, 3) + 0.21 * std::pow(L, 4) - 0.169 * std::pow(L, 5));
     EXPECT_NEAR(factorBetween(below + above, along) / faxen, 1, 0.02);
     for (const Vector3d& velocity : {along, Vector3d(0, 0, 0.01)})
     {

@@ -69,8 +69,7 @@ double brinkman(double resistance)
 {
     const double b = std::sqrt(bandwidthSqr());
     const double q = std::sqrt(resistance / viscosity);
-    const double integral =
-        std::sqrt(pi) / b - 0.5 * pi * q * std::exp(0.25 * q * q * b * b) * std::erfc(0.5 * q * b);
+    const double integral = std::sqrt(pi) / b - 0.5 * pi * q * std::exp(0.25 * q * q * b * b) * std::erfc(0.5 * q * b);
     return integral / (3 * pi * pi * viscosity);
 }
 

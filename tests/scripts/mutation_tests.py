@@ -1,10 +1,11 @@
-"""The faults of scripts/mutate can be put into the program as it is, every unit has some, and the tool tells a fault that is
-noticed from one that is not.
+"""The faults of scripts/mutate can be put into the program as it is, every unit has some, and the tool tells a fault
+that is noticed from one that is not.
 
-Whoever changes a line that a fault is put into has to change the fault, too: otherwise it would be lost in silence, and the
-share of faults that are caught would be that of an old program. """
+Whoever changes a line that a fault is put into has to change the fault, too: otherwise it would be lost in silence, and
+the share of faults that are caught would be that of an old program. """
 
 import contextlib
+import dataclasses
 import io
 import json
 import re
@@ -19,8 +20,8 @@ from developers import mutate
 REPOSITORY = Path(__file__).resolve().parents[2]
 
 FAULTS = """
-- {name: noticed, file: value, text: good, replacement: bad, targets: [built], tests: looks, shows: the test looks for it}
-- {name: unnoticed, file: remark, text: nice, replacement: ugly, targets: [built], tests: looks, shows: nobody looks}
+- {name: noticed, file: value, text: good, replacement: bad, targets: [built], tests: looks, shows: a test looks}
+- {name: unnoticed, file: remark, text: nice, replacement: ugly, targets: [built], tests: looks, shows: none looks}
 - {name: broken, file: value, text: word, replacement: wrod, targets: [built], tests: looks, shows: it is not built}
 """
 PROJECT = """
@@ -64,13 +65,14 @@ class ListOfFaults(unittest.TestCase):
     def test_problems_are_found(self) -> None:
         """Without this, the first test could not fail."""
         whole = self.mutations[0]
-        for changes, expected in (
+        cases: tuple[tuple[dict[str, Any], str], ...] = (
             ({"file": "coupling/none.cpp"}, "no file"),
             ({"text": "no such text anywhere"}, "0 times"),
             ({"text": "\n"}, "times"),
             ({"replacement": whole.text}, "itself"),
-        ):
-            problem = mutate.Mutation(**(vars(whole) | changes)).problem(REPOSITORY)
+        )
+        for changes, expected in cases:
+            problem = dataclasses.replace(whole, **changes).problem(REPOSITORY)
             self.assertIn(expected, problem or "")
 
 
@@ -137,13 +139,13 @@ class SmallProject(unittest.TestCase):
     def test_refuses_what_would_count_as_caught(self) -> None:
         """Tests that fail without a fault, tests that are not there, texts that are not there once."""
         with self.assertRaisesRegex(mutate.Refused, "no test has a name like nothing"):
-            self.run_tool([mutate.Mutation(**(vars(self.mutations[0]) | {"tests": "nothing"}))])
+            self.run_tool([dataclasses.replace(self.mutations[0], tests="nothing")])
         with self.assertRaisesRegex(mutate.Refused, "'text' occurs 2 times in value"):
-            self.run_tool([mutate.Mutation(**(vars(self.mutations[0]) | {"text": "d"}))])
+            self.run_tool([dataclasses.replace(self.mutations[0], text="d")])
         (self.repository / "value").write_text("a better word, no godo one\n")
         self.commit()
         with self.assertRaisesRegex(mutate.Refused, "tests fail without a fault: looks"):
-            self.run_tool([mutate.Mutation(**(vars(self.mutations[0]) | {"text": "better"}))])
+            self.run_tool([dataclasses.replace(self.mutations[0], text="better")])
 
 
 if __name__ == "__main__":
