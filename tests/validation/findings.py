@@ -126,7 +126,8 @@ class Findings(unittest.TestCase):
         """In both versions, but for what needs another program that automated builds lack."""
         cases = SCRIPTS.parent / "cases" / "validation"
         known = {path.parent.name for path in cases.glob("*/Allrun")}
-        for name, elsewhere in (("results.json", set()), ("quickResults.json", {"besideLammps"})):
+        needs_others: dict[str, set[str]] = {"results.json": set(), "quickResults.json": {"besideLammps"}}
+        for name, elsewhere in needs_others.items():
             recorded = {found["case"] for found in json.loads((cases / name).read_text())}
             self.assertEqual(recorded - known, set(), f"{name} has rows of a case that there is not")
             self.assertEqual(known - recorded - elsewhere, set(), name)
