@@ -48,6 +48,7 @@ std::vector<Damage> damages()
         {": > checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"truncate -s 200 checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"cp checkpoints/0.01/complete checkpoints/0.02", "manifest of time 0.01"},
+        {flipBit("checkpoints/0.02/complete"), "checkpoints/0.02/complete is damaged"},
         {"rm -r 0.02/uniform/functionObjects", "0.02/uniform/functionObjects"},
         {": > 0.02/uniform/time", "0.02/uniform/time"},
     };

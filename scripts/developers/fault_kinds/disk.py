@@ -161,7 +161,7 @@ def move_folder(bench: Bench) -> str:
     made_again = case.folder.exists()
     shutil.rmtree(case.folder, ignore_errors=True)
     away.rename(case.folder)
-    if outcome.status == 0 or not outcome.explains("No such file or directory", *OF_DISK):
+    if outcome.status == 0 or not outcome.explains("was the case moved", *OF_DISK):
         raise Wrong(f"status {outcome.status}{', a folder was made again' if made_again else ''}: {outcome.last_words}")
     case.settle()
     return "stopped with a message, then the same end"
