@@ -2,7 +2,7 @@
 """Runs the validation cases and prints one table of what was expected and what came out.
 
 Exit status 0: every case ran, every row agrees with its reference or is the finding that is recorded
-(cases/validation/results.json, quickResults.json), and no recorded row is missing. 77: no case could run here, for want
+(cases/validation/results.json, quickResults.json), each case has recorded rows and none of them is missing. 77: no case could run here, for want
 of another program. """
 
 import argparse
@@ -38,6 +38,7 @@ def main() -> int:
         print(f"validate: {name} did not run to its end", file=sys.stderr)
     wrong = [validation.complaint(found) for found in rows if not found["holds"]]
     wrong += validation.missing(rows, [found for found in recorded if found["case"] in done])
+    wrong += validation.unrecorded(done, recorded)
     for complaint in wrong:
         print(f"validate: {complaint}", file=sys.stderr)
     if failed or wrong:

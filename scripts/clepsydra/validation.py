@@ -114,6 +114,12 @@ def missing(rows: list[dict[str, Any]], recorded: list[dict[str, Any]]) -> list[
     return [f"{case}, {quantity}: is recorded, but was not compared" for case, quantity in sorted(absent)]
 
 
+def unrecorded(cases: list[str], recorded: list[dict[str, Any]]) -> list[str]:
+    """What is wrong where no row of a case is recorded: one that is no longer compared would not be missed."""
+    without = sorted(set(cases) - {found["case"] for found in recorded})
+    return [f"{case}: none of its rows is recorded; scripts/validate --record takes them" for case in without]
+
+
 def table(rows: list[dict[str, Any]]) -> str:
     """The rows, judged, as lines of text."""
 

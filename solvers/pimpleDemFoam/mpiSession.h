@@ -1,6 +1,7 @@
 #pragma once
 
 #include "run/scratchFolder.h"
+#include "run/singleProcessMpi.h"
 
 #include <mpi.h>
 
@@ -24,7 +25,7 @@ public:
             // success, and a later call ends the program by a signal.
             const ScratchFolder canBeMade;
 #endif
-            MPI_Init(nullptr, nullptr);
+            initialiseMpi(nullptr, nullptr);
             startedHere_ = true;
         }
     }

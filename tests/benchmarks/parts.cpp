@@ -5,6 +5,7 @@
 #include "closures/diFeliceDrag.h"
 #include "distribution/distribution.h"
 #include "forces/dragOfMany.h"
+#include "run/singleProcessMpi.h"
 #include "support/boxMesh.h"
 #include "support/temporaryCase.h"
 #include "vectors.h"
@@ -208,7 +209,7 @@ BENCHMARK(sampleAtParticles);
 
 int main(int argc, char* argv[])
 {
-    MPI_Init(&argc, &argv);
+    clepsydra::initialiseMpi(&argc, &argv);
     benchmark::Initialize(&argc, argv);
     const bool refused = benchmark::ReportUnrecognizedArguments(argc, argv);
     if (!refused)

@@ -48,6 +48,7 @@ std::vector<Damage> damages()
         {": > checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"truncate -s 200 checkpoints/0.02/complete", "checkpoints/0.02/complete"},
         {"cp checkpoints/0.01/complete checkpoints/0.02", "manifest of time 0.01"},
+        {flipBit("checkpoints/0.02/complete"), "checkpoints/0.02/complete is damaged"},
         {"rm -r 0.02/uniform/functionObjects", "0.02/uniform/functionObjects"},
         {": > 0.02/uniform/time", "0.02/uniform/time"},
     };
@@ -175,12 +176,57 @@ TEST(DamagedCheckpoint, IsFoundOnEachRank)
     EXPECT_TRUE(dryRun.succeeded()) << dryRun.output;
     EXPECT_TRUE(dryRun.says("Resuming from the checkpoint of time 0.01")) << dryRun.output;
 
+    // The particles' files, which the ranks divide among them, in turn.
+    for (const std::string part : {"base", "0", "1"})
+    {
+        const std::string file = "checkpoints/0.02/particles." + part + ".restart";
+        const Outcome found = inCopy(test, flipBit(file)
+                                               + " && echo 'endTime 0.022;' >> system/controlDict && "
+                                                 "mpirun -np 2 $SOLVER -parallel");
+        EXPECT_TRUE(found.succeeded()) << found.output;
+        EXPECT_TRUE(found.says(file)) << found.output;
+        EXPECT_TRUE(found.says("Resuming from the checkpoint of time 0.01")) << found.output;
+    }
+
     const Outcome outcome =
         test.runCommand(": > processor1/0.02/phi && echo 'endTime 0.022;' >> system/controlDict && "
                         "mpirun -np 2 $SOLVER -parallel && ls -d processor0/damaged.0.02 processor1/damaged.0.02");
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
     EXPECT_TRUE(outcome.says("processor1/0.02/phi")) << outcome.output;
     EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << outcome.output;
+}
+
+// From two ranks to one: the fields that reconstructPar has made can be held against no checksum, but those from which it
+// made them can, and so can the particles; and all fields must be there. A program that checks nothing after a
+// redistribution goes on with whatever it finds.
+TEST(DamagedCheckpoint, IsFoundAfterRedistribution)
+{
+    TestCase test;
+    threeCheckpoints(test, 0.02);
+    test.file("system/decomposeParDict")
+        .set("numberOfSubdomains", "2")
+        .set("method", "simple")
+        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    const Outcome first = test.runCommand("blockMesh && decomposePar && mpirun -np 2 $SOLVER -parallel && "
+                                          "reconstructPar && echo 'endTime 0.022;' >> system/controlDict");
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    const Outcome undamaged = inCopy(test, "$SOLVER");
+    EXPECT_TRUE(undamaged.succeeded()) << undamaged.output;
+    EXPECT_TRUE(undamaged.says("Resuming from the checkpoint of time 0.02")) << undamaged.output;
+    const std::vector<Damage> redistributed = {
+        {flipBit("processor1/0.02/U"), "processor1/0.02/U"},
+        {": > 0.02/U", "0.02/U is missing or empty"},
+        {"rm 0.02/voidFractionInContinuity", "0.02/voidFractionInContinuity is missing or empty"},
+        {flipBit("checkpoints/0.02/particles.1.restart"), "checkpoints/0.02/particles.1.restart"},
+    };
+    for (const Damage& damage : redistributed)
+    {
+        const Outcome outcome = inCopy(test, damage.command + " && timeout 60 $SOLVER");
+        EXPECT_TRUE(outcome.succeeded()) << damage.command << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says(damage.namedFile)) << damage.command << '\n' << outcome.output;
+        EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.01")) << damage.command << '\n'
+                                                                               << outcome.output;
+    }
 }
 
 // The particles that a run leaves for others, in one file or in one for each rank, are damaged: the other run names the file.

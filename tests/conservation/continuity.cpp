@@ -6,6 +6,8 @@
 #include "couplingStep/voidFractionRate.h"
 #include "conservation/conservationCheck.h"
 
+#include <cmath>
+
 namespace clepsydra::tests
 {
 
@@ -19,13 +21,14 @@ constexpr int cellCount = 4;
 class ClosedTank : public testing::Test
 {
 protected:
-    ClosedTank()
+    explicit ClosedTank(const std::string& lowPass = "")
         : case_("deltaT " + std::to_string(interval) + ";")
     {
         case_.writeDictionary("constant/couplingProperties",
             "fluid incompressible; modelType A; couplingTimeStep " + std::to_string(interval)
                 + "; voidFractionModel divided; smoothingModel off; forceModels (Archimedes); "
-                  "momCoupleModels (implicitCouple); DEM { engine liggghts; script none; }");
+                  "momCoupleModels (implicitCouple); DEM { engine liggghts; script none; } "
+                + lowPass);
         mesh_ = boxMesh(case_.time(), point::zero, point::one, {cellCount, 1, 1});
         readFromCase<fvSchemes>(*mesh_);
         voidFraction_ = std::make_unique<volScalarField>(IOobject("eps", case_.time().timeName(), *mesh_), *mesh_,
@@ -33,7 +36,19 @@ protected:
         rate_ = std::make_unique<VoidFractionRate>(*mesh_, CouplingSettings(case_.time()));
         rate_->start(*voidFraction_);
         (*voidFraction_)[2] += 0.04;
+        update();
+    }
+
+    void update()
+    {
         rate_->update(*voidFraction_, Eigen::MatrixXd::Zero(VoidFractionRate::rowCount, cellCount), interval);
+    }
+
+    /// Ends a step in which the pressure moves no particle.
+    void close()
+    {
+        rate_->close(surfaceScalarField(IOobject("none", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedScalar("none", dimVolume / dimTime, 0)));
     }
 
     static dictionary withTolerance(const word& entry, double value)
@@ -63,6 +78,54 @@ TEST_F(ClosedTank, TakesAnImbalanceEvenlyFromAllCells)
         EXPECT_NEAR(rate_->withoutImplicit()[cell], cell == 2 ? 3 : -1, 1e-12) << "cell " << cell;
     }
     EXPECT_NEAR(rate_->spreadImbalance(0), 0, 1e-12) << "there is nothing left to spread";
+}
+
+// What was spread is settled: it does not come back in the next step as if eps had not risen. A rate that forgets what was
+// spread finds the same imbalance, one tank per second, in every later step.
+TEST_F(ClosedTank, HasNothingLeftOfAnImbalanceInTheNextStep)
+{
+    rate_->spreadImbalance(0);
+    close();
+    update();
+    EXPECT_NEAR(rate_->spreadImbalance(0), 0, 1e-12);
+    for (label cell = 0; cell < cellCount; ++cell)
+    {
+        EXPECT_NEAR(rate_->withoutImplicit()[cell], 0, 1e-12) << "cell " << cell;
+    }
+}
+
+namespace
+{
+
+constexpr double smoothingTime = 0.05;
+
+class FilteredTank : public ClosedTank
+{
+protected:
+    FilteredTank()
+        : ClosedTank("useDDTvoidfractionProps { smoothingTime " + std::to_string(smoothingTime) + "; }")
+    {}
+};
+
+} // namespace
+
+// Behind a low-pass of T the rise of eps reaches the fluid as exp(-t/T): in step n the part
+// (1 - exp(-dt/T)) exp(-n dt/T) of it, all of which is spread over the tank, and in the end .01 of the tank has been. Were
+// what is spread forgotten, a fifth of all would be added in each step, for ever.
+TEST_F(FilteredTank, SpreadsWhatPassesTheFilterOnce)
+{
+    const double passes = 1 - std::exp(-interval / smoothingTime);
+    double spread = 0;
+    for (int step = 0; step < 100; ++step)
+    {
+        const double expected = passes * std::exp(-step * interval / smoothingTime) * 1;
+        const double imbalance = rate_->spreadImbalance(0);
+        EXPECT_NEAR(imbalance, expected, 1e-12) << "step " << step;
+        spread += interval * imbalance;
+        close();
+        update();
+    }
+    EXPECT_NEAR(spread, 0.01, 1e-9);
 }
 
 // What the boundary lets out counts: a tank that takes in what the particles leave is balanced.

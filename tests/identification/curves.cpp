@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace clepsydra::identification::tests
 {
@@ -193,7 +195,75 @@ TEST(Features, OfABounce)
     EXPECT_NEAR(feature("logBounceDuration", curve, {{"bounce", 1}}), std::log(flight), 1e-2);
     EXPECT_NEAR(
         feature("logImpactSpeed", curve, {{"before", 0.02}, {"until", 0.01}}), std::log(impact - 0.015 * g), 1e-3);
+    EXPECT_NEAR(
+        feature("logReboundSpeed", curve, {{"from", 0.01}, {"after", 0.02}}), std::log(0.5 * impact - 0.015 * g), 1e-2);
     EXPECT_TRUE(std::isnan(feature("logBounceHeight", curve, {{"bounce", 3}})));
+}
+
+/// Values worked out by hand for the kinds that no other test has. The record starts at 2 s, as that of a camera that was
+/// running already: times count from its first row.
+TEST(Features, OfARecordThatStartsLate)
+{
+    Curve curve = sampled(5, 501, [](double t) { return 0.2 - 0.03 * t; });
+    for (double& time : curve.time)
+    {
+        time += 2;
+    }
+    EXPECT_NEAR(feature("logTimeToLevel", curve, {{"level", 0.11}}), std::log(3), 1e-9);
+    EXPECT_NEAR(feature("logTimeToDischarge", curve, {{"share", 0.45}}), std::log(3), 1e-9);
+    EXPECT_NEAR(feature("logMaximum", curve, {}), std::log(0.2), 1e-12);
+    EXPECT_NEAR(feature("residue", curve, {}), 0.25, 1e-12);
+}
+
+/// When a record starts changes no feature of it, except the value at a time of the record itself. This holds for each
+/// kind that there is: one without a row here fails.
+TEST(Features, DoNotDependOnWhenTheRecordStarts)
+{
+    const std::map<std::string, FeatureKind::Parameters> usual = {
+        {"logMeanRate", {{"from", 0.9}, {"to", 0.3}}},
+        {"rateSlope", {{"from", 0.9}, {"to", 0.3}}},
+        {"logTimeToDischarge", {{"share", 0.6}}},
+        {"residue", {}},
+        {"logSpeed", {{"from", 0.09}, {"to", 0.03}}},
+        {"logMeanSpeed", {{"from", 0.09}, {"to", 0.03}, {"gap", 1}}},
+        {"logSpeedRatio", {{"from", 0.09}, {"to", 0.03}}},
+        {"logTimeToLevel", {{"level", 0.03}}},
+        {"logBounceHeight", {{"bounce", 1}, {"level", 5e-4}}},
+        {"logBounceDuration", {{"bounce", 1}, {"level", 5e-4}}},
+        {"logImpactSpeed", {{"level", 5e-4}, {"before", 0.02}, {"until", 0.01}}},
+        {"logReboundSpeed", {{"level", 5e-4}, {"from", 0.01}, {"after", 0.02}}},
+        {"logValueAtTime", {{"time", 0.1}}},
+        {"logMaximum", {}},
+        {"logRiseTime", {{"from", 0.3}, {"to", 0.8}}},
+        {"logFallTime", {{"from", 0.8}, {"to", 0.3}}},
+        {"logTimeAbove", {{"share", 0.5}}},
+    };
+    // It falls from 0.1 m and bounces twice, or it rises first, for the kinds that look before the maximum.
+    const double impact = std::sqrt(2 * 0.1 * 9.81);
+    const Curve bouncing = sampled(2.6 * impact / 9.81, 4001, [&](double t) {
+        const double since = t - impact / 9.81;
+        const double again = since - impact / 9.81;
+        return since < 0   ? 0.1 - 9.81 * t * t / 2
+               : again < 0 ? 0.5 * impact * since - 9.81 * since * since / 2
+                           : 0.25 * impact * again - 9.81 * again * again / 2;
+    });
+    const Curve rising = sampled(3, 3001, [](double t) { return t * std::exp(-2 * t); });
+    for (const auto& [name, kind] : featureKinds())
+    {
+        ASSERT_EQ(usual.count(name), 1U) << "no row for " << name;
+        const bool rises = name == "logRiseTime" || name == "logTimeAbove";
+        const Curve& curve = rises ? rising : bouncing;
+        Curve late = curve;
+        std::for_each(late.time.begin(), late.time.end(), [](double& time) { time += 7; });
+        FeatureKind::Parameters parameters = usual.at(name);
+        const double there = kind.value(curve, parameters);
+        EXPECT_TRUE(std::isfinite(there)) << name << " has no value, so nothing is compared";
+        if (name == "logValueAtTime")
+        {
+            parameters["time"] += 7;
+        }
+        EXPECT_NEAR(kind.value(late, parameters), there, 1e-3) << name;
+    }
 }
 
 /// A first-order filter turns a ramp into y = s (t - tau (1 - exp(-t/tau))); the filter is exact for piecewise linear

@@ -57,8 +57,9 @@ struct Bench
 const Eigen::VectorXd atPrior = Eigen::VectorXd::Zero(1);
 
 /// Without effects, p-values are uniform; for each effect, sets contain the truth with their nominal coverage; an
-/// effect that is left out of the library is seldom given a wrong name. Thresholds without a calibration would fail in
-/// one of these.
+/// effect that is left out of the library is seldom given a wrong name; and the intervals of the amplitudes that are
+/// detected contain the truth in 95 %. The fits' own intervals contain it in 81 %, because an amplitude that is detected
+/// is likely to be one that noise has raised. Thresholds without a calibration would fail in one of these.
 TEST(Decision, HasItsNominalRates)
 {
     Bench bench;
@@ -78,11 +79,16 @@ TEST(Decision, HasItsNominalRates)
     EXPECT_NEAR(alarms / (4. * draws), 0.05, 0.035);
     double wrong = 0;
     double decoys = 0;
+    double allDetected = 0;
+    double allCovered = 0;
+    double allCoveredByFits = 0;
     for (const std::string name : {"addedMass", "cohesion", "rollingFriction", "viscosity", "scaleLag"})
     {
         const std::size_t e = bench.effect(name);
         double held = 0;
         double detected = 0;
+        double covered = 0;
+        double coveredByFits = 0;
         for (int i = 0; i < draws; ++i)
         {
             const auto amplitudes = evidence.amplitudes(e);
@@ -99,6 +105,10 @@ TEST(Decision, HasItsNominalRates)
                 continue;
             }
             detected += 1;
+            const auto covers = [&](const Fit& fit) { return fit.lower <= amplitude && amplitude <= fit.upper; };
+            const Fit fit = judge.fit(e, data);
+            coveredByFits += covers(fit) ? 1 : 0;
+            covered += covers(calibration.widened(e, fit, bench.study.effects[e].bounds)) ? 1 : 0;
             const auto members = membersOf(calibration, odds);
             held += std::count(members.begin(), members.end(), e) > 0 ? 1 : 0;
             const Odds without = oddsOf(bench.study, evidences, e);
@@ -110,7 +120,12 @@ TEST(Decision, HasItsNominalRates)
                     : 0;
         }
         EXPECT_GT(held / detected, 0.8) << name << ": " << held << " of " << detected;
+        allDetected += detected;
+        allCovered += covered;
+        allCoveredByFits += coveredByFits;
     }
+    EXPECT_NEAR(allCovered / allDetected, 0.95, 0.03) << allCovered << " of " << allDetected << " amplitudes";
+    EXPECT_LT(allCoveredByFits / allDetected, 0.9) << "otherwise there is no need to widen the fits' intervals";
     EXPECT_LT(wrong / decoys, 0.15) << wrong << " of " << decoys;
 }
 

@@ -131,6 +131,28 @@ TEST(Emulator, FindsLinearEffects)
     }
 }
 
+/// An effect of the measuring chain changes a feature by more or less as the parameters go: a drift of s adds s t to the
+/// mass, so that ln W changes by ln(1 - s/W), and W itself follows friction. At one standard deviation of friction W is
+/// 0.1 exp(0.04), and a drift of 0.02 changes ln W by -0.2134, not by -0.2231 as at the prior's mean. A slope that is left
+/// out gives the latter, one with the wrong sign -0.2328.
+TEST(Emulator, ChainEffectsFollowTheParameters)
+{
+    const TemporaryFolder folder;
+    Study study = linearStudy(folder, "none");
+    study.effects[2].chainOperation = "drift";
+    study.effects[2].chainSize = Expression("0.02*a");
+    LinearSimulator simulator;
+    StudySimulator studySimulator(study, simulator);
+    const Library library = makeLibrary(studySimulator);
+    const Emulator emulator(study, studySimulator, library.runs, allFeatures(study));
+    for (const double t : {-1., 0., 1.})
+    {
+        const Eigen::VectorXd at = Eigen::VectorXd::Constant(1, t);
+        const double expected = std::log(1 - 0.2 * std::exp(-0.04 * t));
+        EXPECT_NEAR(emulator[0]->at(at, {{2, 1.}})(0) - emulator[0]->at(at, {})(0), expected, 2e-3) << t;
+    }
+}
+
 /// A parameter of an effect has no influence without the effect, and half its influence at half the amplitude. A
 /// library that changed the parameter without the effect would learn nothing about it.
 TEST(Emulator, ParameterOfAnEffect)

@@ -4,6 +4,7 @@
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
 #include "linearSimulator.h"
+#include "nextRuns/nextExperiment.h"
 #include "procedure/trace.h"
 #include "surrogate/surrogate.h"
 #include "study/readStudy.h"
@@ -12,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <random>
 
@@ -316,9 +318,61 @@ TEST(Trace, TwoEffectsAtOnce)
     }
 }
 
+/// Two explanations are left, x and y, which change ln W by 0.06 and by 0.2. They differ by 0.14 in water; in air y does
+/// not act, and they differ by 0.06. So a measurement in water comes first, at twice the cost it still comes before one in
+/// air, at ten times after it. An order by separation alone puts both in water first, and one that prefers dear
+/// measurements puts them before all others.
+TEST(NextExperiment, IsTheOneThatSeparatesMostPerCost)
+{
+    Bench bench;
+    const auto add = [&](const std::string& name, const std::string& medium, double cost) {
+        Condition candidate = bench.study.conditions.front();
+        candidate.name = name;
+        candidate.role = Role::candidate;
+        candidate.tags["medium"] = medium;
+        candidate.cost = cost;
+        bench.study.conditions.push_back(candidate);
+        return bench.study.conditions.size() - 1;
+    };
+    const std::size_t veryDear = add("water, very dear", "water", 10);
+    const std::size_t air = add("air", "air", 1);
+    const std::size_t dear = add("water, dear", "water", 2);
+    const std::size_t water = add("water", "water", 1);
+    std::vector<MeasuredCondition> data(bench.study.conditions.size());
+    for (auto& condition : data)
+    {
+        condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+        condition.declaredError = Eigen::VectorXd::Zero(1);
+    }
+    Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
+    answer.set.clear();
+    for (const auto* name : {"x", "y"})
+    {
+        const std::size_t effect = effectOf(bench.study, name);
+        answer.set.push_back(explanationBy(effect, bench.studySimulator.plainSetting()));
+        answer.set.back().setting.amplitudes(static_cast<Eigen::Index>(effect)) = 1;
+        answer.set.back().fits.front().amplitude = 1;
+    }
+    const auto next = nextExperiments(bench.studySimulator, answer, bench.random);
+    std::vector<std::size_t> order;
+    for (const auto& experiment : next)
+    {
+        order.push_back(experiment.condition);
+        EXPECT_NEAR(
+            experiment.perCost, experiment.separation / bench.study.conditions[experiment.condition].cost, 1e-12);
+        ASSERT_EQ(experiment.outcomes.size(), 2U);
+        const double difference = experiment.outcomes[1].features(0) - experiment.outcomes[0].features(0);
+        EXPECT_NEAR(difference, experiment.condition == air ? -0.06 : 0.14, 0.02);
+        EXPECT_NEAR(experiment.separation, 0.25 * divergence(experiment.outcomes[0], experiment.outcomes[1]), 1e-9)
+            << "both explanations have the probability one half";
+    }
+    EXPECT_THAT(order, ElementsAre(water, dear, air, veryDear));
+}
+
 /// Held-out result for data with one effect at full size, which the answer names or has in its set. \param edgeFails
 /// whether there is another held-out condition, in which another effect acts too and no run with y succeeds
-HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFails = false)
+/// \param besides  what the measurements of the held-out conditions have in addition, which no effect explains
+HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFails = false, double besides = 0)
 {
     Bench bench;
     if (edgeFails)
@@ -337,6 +391,7 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
         data[c].features =
             featureRows(bench.studySimulator.repeats({c}, setting, "measured", 4), c, bench.study.featureCount());
         data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
+        data[c].features.array() += bench.study.conditions[c].role == Role::heldOut ? besides : 0;
     }
     if (edgeFails)
     {
@@ -361,6 +416,53 @@ TEST(HeldOut, AcceptsANameThatTheControlCannotImitate)
     EXPECT_LT(named.after->rmsLogError.value, named.noiseLimit);
     EXPECT_GT(named.before.rmsLogError.value, named.noiseLimit);
     EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
+}
+
+/// The held-out measurements are 0.1 above what y explains, ten times their noise: y may be the best name, its model is
+/// still wrong there, and the report says so. It says nothing of it where y explains all.
+TEST(HeldOut, TellsWhatIsMoreThanNoise)
+{
+    const HeldOutResult result = heldOutOf("y", Decision::named, false, 0.1);
+    EXPECT_NEAR(result.after->rmsLogError.value, 0.1, 0.02);
+    EXPECT_GT(result.after->rmsLogError.value, result.noiseLimit);
+    EXPECT_THAT(result.notAcceptedBecause, ElementsAre("the remaining error is larger than noise"));
+    EXPECT_FALSE(result.accepted());
+}
+
+/// Control 2 learns the residual of the null over the conditions' coordinates. Here all measurements are above the
+/// simulation by 0.2 exp(-(h - 2)^2/4), which no effect of the library does, and the condition at h = 2.5 is held out: the
+/// process must take away most of the error there. One that corrects the wrong way doubles it and makes any name look
+/// better than it is.
+TEST(HeldOut, TheGaussianProcessTakesASmoothResidualAway)
+{
+    Bench bench;
+    const auto residualAt = [](double h) { return 0.2 * std::exp(-(h - 2) * (h - 2) / 4); };
+    const auto place = [&](std::size_t condition, double h) { bench.study.conditions[condition].coordinates["h"] = h; };
+    // Five training conditions, of which the first three are like the first of the study, and one that is held out.
+    place(0, 0);
+    place(1, 4);
+    place(2, 2.5);
+    for (const double h : {1., 2., 3.})
+    {
+        bench.study.conditions.push_back(bench.study.conditions.front());
+        bench.study.conditions.back().name = "at" + std::to_string(h);
+        place(bench.study.conditions.size() - 1, h);
+    }
+    bench.library = makeLibrary(bench.studySimulator);
+    std::vector<MeasuredCondition> data(bench.study.conditions.size());
+    for (std::size_t c = 0; c < data.size(); ++c)
+    {
+        data[c].features =
+            featureRows(bench.studySimulator.repeats({c}, bench.studySimulator.plainSetting(), "measured", 4), c,
+                bench.study.featureCount());
+        data[c].features.array() += residualAt(bench.study.conditions[c].coordinates["h"]);
+        data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
+    }
+    const Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
+    const HeldOutResult result = evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
+    ASSERT_TRUE(result.gaussianProcess);
+    EXPECT_GT(result.before.rmsLogError.value, 0.03) << "otherwise there is nothing to take away";
+    EXPECT_LT(result.gaussianProcess->rmsLogError.value, 0.5 * result.before.rmsLogError.value);
 }
 
 /// In a condition where the runs with the effect fail there is no prediction; its features enter neither error.

@@ -205,6 +205,26 @@ TEST(Slurm, OptionsAreNoShell)
     EXPECT_FALSE(fs::exists("executed"));
 }
 
+/// Slurm gets the number of tasks at once after a percent sign, and the time limit in minutes, rounded up: a limit of
+/// 5401 s is 91 of them. Without these numbers neither is there, because Slurm's own defaults then hold.
+TEST(Slurm, IsGivenTheLimits)
+{
+    const TemporaryFolder folder;
+    const PlayedSlurm slurm(folder, R"(printf '%s\n' "$@" > )" + (folder.path() / "words").string() + "\ncp ${@: -1} "
+                                        + (folder.path() / "script").string());
+    const std::vector<Job> jobs = {{folder.path(), "true"}, {folder.path(), "true"}, {folder.path(), "true"}};
+    SlurmArray limited(2, {}, folder.path(), 5401);
+    limited.run(jobs, [](const JobEnd&) {});
+    EXPECT_EQ(limited.atOnce(), 2);
+    EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("\n--array=0-2%2\n"));
+    EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("--wait\n")) << "the answer needs the runs";
+    EXPECT_THAT(contentOf(folder.path() / "script"), HasSubstr("\n#SBATCH --time=91\n"));
+    SlurmArray unlimited(0, {}, folder.path(), 0);
+    unlimited.run(jobs, [](const JobEnd&) {});
+    EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("\n--array=0-2\n"));
+    EXPECT_THAT(contentOf(folder.path() / "script"), testing::Not(HasSubstr("--time")));
+}
+
 /// A finished task is reported once, while another one still runs, which ends when the first has been reported. An
 /// error during the report cancels the array.
 TEST(Slurm, ReportsFinishedTasksImmediately)

@@ -1,5 +1,6 @@
 /// The program from study file to report, with the surrogate as the program of the case.
 #include "curves/table.h"
+#include "fullDisk.h"
 #include "runner/caseSimulator.h"
 #include "runner/storedFiles.h"
 #include "surrogate/surrogate.h"
@@ -567,6 +568,34 @@ TEST(Runner, TwoAtOnceInOneStore)
     EXPECT_EQ(results[0].failure + results[1].failure, "");
     EXPECT_NE(results[0].cached, results[1].cached);
     EXPECT_EQ(results[0].curve.value, results[1].curve.value);
+}
+
+/// A run that ends on a full disk may have lost the end of its table without noticing: it does not count, the study stops
+/// with the reason, and with room again it is made once more. One that counts changes the answer.
+TEST(Runner, RunsOnAFullDiskDoNotCount)
+{
+    Workshop workshop;
+    workshop.measure({});
+    const Study study = readStudy(workshop.path() / "study.yaml");
+    std::ostringstream progress;
+    CaseSimulator simulator(study, progress);
+    const RunOrder order{"./Allrun", study.conditions[0].file, {{"seed", "10007"}}, 10007, "test"};
+    {
+        const FullDisk disk;
+        try
+        {
+            simulator.run({order});
+            ADD_FAILURE() << "the run was taken";
+        }
+        catch (const std::exception& error)
+        {
+            EXPECT_THAT(error.what(), HasSubstr("is full; the run of test does not count"));
+        }
+    }
+    EXPECT_EQ(CaseSimulator(study, progress).missing({order}), 1);
+    const auto results = simulator.run({order});
+    EXPECT_EQ(results[0].failure, "");
+    EXPECT_FALSE(results[0].cached);
 }
 
 /// A run that fails with its seed is repeated with another one, and the failure is reported. The same holds with Slurm,

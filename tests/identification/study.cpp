@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -78,11 +79,46 @@ TEST(Expression, ManyBrackets)
     }
 }
 
+/// All units, each with the factor of the SI brochure. The error for an unknown unit lists the units that there are, and
+/// one without a row here fails: a factor that nobody looks at may be wrong by ten.
 TEST(Units, AreFactorsOfSi)
 {
-    EXPECT_DOUBLE_EQ(siUnitsPer("g"), 1e-3);
-    EXPECT_DOUBLE_EQ(siUnitsPer("mm"), 1e-3);
-    EXPECT_THROW(siUnitsPer("grams"), std::invalid_argument);
+    const std::map<std::string, double> factors = {{"s", 1}, {"ms", 0.001}, {"min", 60}, {"h", 3600}, {"kg", 1},
+        {"g", 0.001}, {"mg", 0.000001}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 0.000001}, {"kg/s", 1},
+        {"g/s", 0.001}, {"g/min", 0.001 / 60}, {"m/s", 1}, {"cm/s", 0.01}, {"mm/s", 0.001}, {"Pa", 1}, {"kPa", 1000},
+        {"1", 1}, {"%", 0.01}};
+    for (const auto& [unit, factor] : factors)
+    {
+        EXPECT_DOUBLE_EQ(siUnitsPer(unit), factor) << unit;
+    }
+    try
+    {
+        siUnitsPer("grams");
+        ADD_FAILURE() << "'grams' is no unit";
+    }
+    catch (const std::invalid_argument& error)
+    {
+        const std::string known = std::string(error.what()).substr(std::string(error.what()).find("known: "));
+        // The last one follows an 'or'.
+        EXPECT_EQ(std::count(known.begin(), known.end(), ',') + 2, static_cast<long>(factors.size())) << known;
+    }
+}
+
+/// What a unit measures decides which column it may stand for, and spreadsheets write it in their own way.
+TEST(Units, AreOfQuantitiesAndHaveOtherNames)
+{
+    const std::map<std::string, std::string> quantities = {{"ms", "time"}, {"g", "mass"}, {"um", "length"},
+        {"g/min", "mass rate"}, {"cm/s", "speed"}, {"kPa", "pressure"}, {"%", "share"}, {"furlong", ""}};
+    for (const auto& [unit, quantity] : quantities)
+    {
+        EXPECT_EQ(quantityOf(unit), quantity) << unit;
+    }
+    const std::map<std::string, std::string> meant = {{"secs", "s"}, {"msec", "ms"}, {"minutes", "min"}, {"grams", "g"},
+        {"metre", "m"}, {"kg_s", "kg/s"}, {"mm_s", "mm/s"}, {"percent", "%"}, {"mm", "mm"}, {"", ""}};
+    for (const auto& [text, unit] : meant)
+    {
+        EXPECT_EQ(unitMeant(text), unit) << text;
+    }
 }
 
 /// Comments, alignment and all other lines stay; a change of an entry that the file lacks is an error.

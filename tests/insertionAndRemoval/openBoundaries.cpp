@@ -74,6 +74,7 @@ enum Column
     leftParticles = 7,
     leftMass = 8,
     leftMomentumZ = 11,
+    leftRate = 12,
 };
 
 } // namespace
@@ -98,6 +99,16 @@ TEST(OpenBoundaries, ParticlesFallThroughAFloorThatHoldsTheWater)
     const double mass = 36 * 2500 * M_PI / 6 * std::pow(test.dem.diameter, 3);
     EXPECT_NEAR(last[leftMass], mass, 1e-6 * mass);
     EXPECT_LT(last[leftMomentumZ], -0.1 * mass);
+    // The rate [kg/s] is that over the time since the row before, whatever the interval of the rows.
+    const auto rows = flux(test);
+    double left = 0;
+    for (std::size_t row = 1; row < rows.size(); ++row)
+    {
+        const double since = rows[row][time] - rows[row - 1][time];
+        EXPECT_NEAR(since * rows[row][leftRate], rows[row][leftMass] - rows[row - 1][leftMass], 1e-9 * mass);
+        left += since * rows[row][leftRate];
+    }
+    EXPECT_NEAR(left, mass, 1e-6 * mass);
     const auto balances = test.conservationSummary();
     EXPECT_EQ(balances["particlesLeft"], 36);
     EXPECT_EQ(balances["particlesEnd"], 0);

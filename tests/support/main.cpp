@@ -6,6 +6,8 @@
 #include "Pstream.H"
 #include "error.H"
 
+#include "run/singleProcessMpi.h"
+
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -24,7 +26,7 @@ int main(int argc, char* argv[])
     }
     else
     {
-        MPI_Init(&argc, &argv);
+        clepsydra::initialiseMpi(&argc, &argv);
     }
     testing::InitGoogleTest(&argc, argv);
     Foam::FatalError.throwExceptions();

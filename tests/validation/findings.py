@@ -93,6 +93,15 @@ class Findings(unittest.TestCase):
         self.ask(other={})
         self.assert_fails("other, v: is recorded, but was not compared")
 
+    def test_a_case_without_recorded_rows_fails(self) -> None:
+        """Rows of it that are no longer compared could not be missed, and a case may compare nothing at all."""
+        self.ask(one=AGREEING)
+        self.assert_fails("one: none of its rows is recorded")
+        self.record()
+        self.assertEqual(self.validate().returncode, 0)
+        self.ask(one={})
+        self.assertEqual(self.validate("--record").returncode, 1)
+
     def test_what_nothing_explains_is_not_recorded(self) -> None:
         self.ask(other=AGREEING | {"ours": 3})
         self.assertEqual(self.validate("--record").returncode, 1)
@@ -106,11 +115,24 @@ class Findings(unittest.TestCase):
         self.assertEqual(self.validate().returncode, 0)
 
     def test_a_case_that_fails_fails_and_one_left_out_does_not(self) -> None:
+        self.record()
         self.ask(one=77)
         self.assertEqual(self.validate().returncode, 0)
         self.assertEqual(self.validate("one").returncode, 77)
         self.ask(one=1)
         self.assert_fails("one did not run to its end")
+
+    def test_each_case_has_recorded_rows(self) -> None:
+        """Of its quick version, but for what needs another program that automated builds lack."""
+        cases = SCRIPTS.parent / "cases" / "validation"
+        known = {path.parent.name for path in cases.glob("*/Allrun")}
+        recorded = {
+            name: {found["case"] for found in json.loads((cases / name).read_text())}
+            for name in ("results.json", "quickResults.json")
+        }
+        for name, named in recorded.items():
+            self.assertEqual(named - known, set(), f"{name} has rows of a case that there is not")
+        self.assertEqual(known - recorded["quickResults.json"] - {"besideLammps"}, set())
 
     def test_what_is_committed_explains_each_row_that_does_not_agree(self) -> None:
         for name in ("results.json", "quickResults.json"):

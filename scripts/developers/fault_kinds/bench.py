@@ -21,6 +21,13 @@ STOPPED = "0.06"  # where stopped() has been
 BEFORE_STOPPED = "0.04"
 TOO_LONG = 300  # s: a run of half a second hangs
 MARK = "CLEPSYDRA_FAULT"
+# How an error begins, by whom it is reported: OpenFOAM and the program, a program before OpenFOAM's errors work, mpirun
+# and MPI, the loader, the C++ library.
+ERROR_BEGINS = re.compile(
+    r"FOAM FATAL|^(?:\[\d+\] )?(?:pimpleDemFoam|traceResidual|parameterStudy|prlimit|mpirun)\b.*: |^ERROR\b"
+    r"|error while loading|terminate called|^ORTE|^\*\*\* |^It looks like MPI_INIT|No space left on device",
+    re.MULTILINE,
+)
 
 
 @dataclass
@@ -43,8 +50,15 @@ class Outcome:
         return " ".join(" ".join(words).split())[:300] or f"nothing, status {self.status}"
 
     @property
-    def explained(self) -> bool:
-        return any(word in self.output for word in ("FATAL", "ERROR", "Error", "error", "Cannot", "cannot"))
+    def message(self) -> str:
+        """What is said from where an error begins; nothing where there is none."""
+        begin = ERROR_BEGINS.search(self.output)
+        return self.output[begin.start() :] if begin else ""
+
+    def explains(self, *words: str) -> bool:
+        """Whether an error tells one of these: what is wrong, or with what. That the word 'error' stands somewhere, as
+        in 'momentum error 1e-16', explains nothing to a user."""
+        return any(word in self.message for word in words)
 
 
 class Bench:

@@ -148,7 +148,7 @@ def lose_checkpoints(bench: Bench, what: str, damage: Callable[[Path], None] | N
 def refusal(case: Case, names: Any) -> str:
     before = state(case)
     outcome = case.run()
-    if outcome.status == 0 or not outcome.explained:
+    if outcome.status == 0 or not outcome.explains("checkpoint"):
         raise Wrong(f"not refused: status {outcome.status}, {outcome.last_words}")
     for name in names:
         if not outcome.says(name):

@@ -9,6 +9,20 @@ from typing import Any
 from developers.fault_kinds.bench import Bench, Case, Outcome
 from developers.fault_kinds.kinds import Skipped, Wrong, fault
 
+# What the program says of a disk that takes nothing more, or fails: the system's words, or that a file has no end.
+OF_DISK = (
+    "No space left on device",
+    "Input/output error",
+    "Read-only file system",
+    "Too many open files",
+    "is the disk full",
+    "error in IOstream",
+    "could not be",
+    "annot open",
+    "annot write",
+    "annot read",
+    "annot make",
+)
 STOPS = "stops with a message and loses nothing; with room again the same command goes on to the same end"
 
 
@@ -58,8 +72,8 @@ def judged(outcome: Outcome) -> str:
     """What a run that met a fault has done, short of a silent wrong."""
     if outcome.status == 0:
         return "went on; same end"  # that it is the same is seen when it has gone on
-    if outcome.status < 0 or not outcome.explained:
-        raise Wrong(f"status {outcome.status} without a message: {outcome.last_words}")
+    if outcome.status < 0 or not outcome.explains(*OF_DISK):
+        raise Wrong(f"status {outcome.status} without a message of the disk: {outcome.last_words}")
     return "stopped with a message, then the same end"
 
 
@@ -120,7 +134,7 @@ def read_only(bench: Bench) -> list[Any]:
         mount(bench, case.folder, "-o", "remount,bind,ro")
         outcome = case.run()
         subprocess.run(["umount", "--lazy", case.folder], check=True)
-        if outcome.status == 0 or not outcome.explained:
+        if outcome.status == 0 or not outcome.explains("Read-only file system"):
             raise Wrong(f"status {outcome.status}: {outcome.last_words}")
         case.settle()
         return "refused, then the same end"
@@ -147,7 +161,7 @@ def move_folder(bench: Bench) -> str:
     made_again = case.folder.exists()
     shutil.rmtree(case.folder, ignore_errors=True)
     away.rename(case.folder)
-    if outcome.status == 0 or not outcome.explained:
+    if outcome.status == 0 or not outcome.explains("was the case moved", *OF_DISK):
         raise Wrong(f"status {outcome.status}{', a folder was made again' if made_again else ''}: {outcome.last_words}")
     case.settle()
     return "stopped with a message, then the same end"

@@ -13,12 +13,15 @@ BEGIN, END = "<!-- table of faults: made by --page -->\n", "<!-- end of the tabl
 
 
 def row(kind: Any, seen: Any, wrong: Any, seconds: Any, skipped: Any = None) -> dict[str, Any]:
+    tries = sum(seen.values()) + len(wrong)
+    if not skipped and tries == 0:
+        wrong = ["no try was made, so nothing is shown"]
     observed = [f"{count} x {words}" for words, count in sorted(seen.items(), key=lambda entry: -entry[1])]
     observed += [f"WRONG: {words}" for words in wrong]
     return {
         "fault": kind.name,
         "done": kind.done,
-        "tries": sum(seen.values()) + len(wrong),
+        "tries": tries,
         "expected": kind.expected,
         "observed": f"skipped: {skipped}" if skipped else "; ".join(observed),
         "holds": None if skipped else not wrong,

@@ -362,6 +362,9 @@ bool meetsLimits(const Json& result, double level)
     require(
         effects["truthInSetWhenDetected"]["share"].get<double>() > 0.8, "more than 80 % of the sets contain the truth");
     require(effects["meanSetSize"].get<double>() < 2.0, "sets have fewer than 2 members on average");
+    require(effects["intervalCoversWhenDetected"]["share"].get<double>() > 0.8,
+        "more than 80 % of the intervals contain the amplitude that was put in");
+    require(effects["wrongNameWhenDetected"]["share"].get<double>() < 0.15, "fewer than 15 % of the names are wrong");
     return good;
 }
 

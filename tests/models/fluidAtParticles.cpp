@@ -1,0 +1,176 @@
+/// \file
+/// What the forces read of the fluid, held against flows whose acceleration and vorticity are known: a field that is
+/// computed with a wrong sign, or not at all, would still give every force that is tested with fluid values put in by hand.
+
+#include "couplingStep/couplingStep.h"
+#include "support/boxMesh.h"
+#include "support/fakeEngine.h"
+#include "support/temporaryCase.h"
+#include "vectors.h"
+
+#include "fvcFlux.H"
+
+#include <gtest/gtest.h>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+using namespace Foam;
+
+using Flow = std::function<vector(const vector& position)>;
+
+constexpr double density = 1000;
+constexpr int cells = 12;
+constexpr double cellSize = 1.0 / cells;
+
+/// One particle that is held in the middle of a cell of a box of one cubic metre, in a fluid whose velocity is given.
+class ParticleInFlow
+{
+public:
+    /// \param entries  of couplingProperties, beside the usual ones
+    explicit ParticleInFlow(const std::string& entries, double couplingTimeStep = 1e-3)
+        : case_("deltaT " + std::to_string(couplingTimeStep) + ";"),
+          engine_(1e-4, Vector3d::Zero()),
+          couplingTimeStep_(couplingTimeStep)
+    {
+        case_.writeDictionary("constant/couplingProperties",
+            "fluid incompressible; modelType A; couplingTimeStep " + std::to_string(couplingTimeStep)
+                + "; voidFractionModel divided; smoothingModel off; momCoupleModels (explicitCouple); "
+                  "DEM { engine liggghts; script none; } "
+                  "forceModels (StokesDrag gradPForce viscForce Archimedes virtualMassForce SaffmanLiftForce); "
+                + entries);
+        mesh_ = boxMesh(case_.time(), point::zero, point::one, {cells, cells, cells});
+        readFromCase<fvSchemes>(*mesh_);
+        readFromCase<fvSolution>(*mesh_);
+        engine_.addParticle(1, middle(), 0.02);
+        engine_.holdParticle(1);
+        U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedVector("U", dimVelocity, vector::zero), "calculated");
+        p_ = std::make_unique<volScalarField>(IOobject("p", case_.time().timeName(), *mesh_), *mesh_,
+            dimensionedScalar("p", dimPressure / dimDensity, 0), "zeroGradient");
+        settings_ = std::make_unique<CouplingSettings>(case_.time());
+        const FluidProperties fluid{density, 1e-3, Vector3d::Zero()};
+        models_ = std::make_unique<FluidModels>(*mesh_, *settings_, fluid, timers_);
+        couplingStep_ =
+            std::make_unique<CouplingStep>(*mesh_, *settings_, fluid, engine_, models_.get(), timers_, false);
+        couplingStep_->start(*U_, *p_);
+    }
+
+    /// Where the particle is: not in the middle of the box, where much is zero.
+    static Vector3d middle()
+    {
+        return cellSize * Vector3d(7.5, 4.5, 8.5);
+    }
+
+    void setFlow(const Flow& flow)
+    {
+        forAll (*U_, cell)
+        {
+            (*U_)[cell] = flow(mesh_->C()[cell]);
+        }
+        for (fvPatchVectorField& patch : U_->boundaryFieldRef())
+        {
+            const vectorField& centres = patch.patch().Cf();
+            patch == vectorField(centres.size());
+            forAll (centres, face)
+            {
+                patch[face] = flow(centres[face]);
+            }
+        }
+    }
+
+    /// One coupling step, in which the fluid comes from one flow to another.
+    void advance(const Flow& before, const Flow& after)
+    {
+        case_.time().setDeltaT(couplingStep_->lengthWithin(VGREAT), false);
+        ++case_.time();
+        setFlow(before);
+        U_->storeOldTime();
+        setFlow(after);
+        couplingStep_->advance(*U_, *p_, fvc::flux(*U_), VGREAT, [&] {
+            const fvVectorMatrix source(couplingStep_->fluid().momentumSource(*U_));
+            const volVectorField ofPressure(couplingStep_->fluid().sourceOfPressure(*p_));
+            return SolvedFluid{sum(mesh_->V().field() * ((source & *U_) + ofPressure)().primitiveField()),
+                tmp<volScalarField>::New("none", couplingStep_->fluid().ddtVoidFraction()())};
+        });
+    }
+
+    const FluidAtParticle& fluid()
+    {
+        return engine_.particles().state[0].fluid;
+    }
+
+    /// Length of the next coupling step [s].
+    double nextCouplingTimeStep()
+    {
+        return couplingStep_->lengthWithin(VGREAT);
+    }
+
+    double couplingTimeStep() const
+    {
+        return couplingTimeStep_;
+    }
+
+private:
+    TemporaryCase case_;
+    std::unique_ptr<fvMesh> mesh_;
+    PhaseTimers timers_;
+    FakeEngine engine_;
+    const double couplingTimeStep_;
+    std::unique_ptr<volVectorField> U_;
+    std::unique_ptr<volScalarField> p_;
+    std::unique_ptr<CouplingSettings> settings_;
+    std::unique_ptr<FluidModels> models_;
+    std::unique_ptr<CouplingStep> couplingStep_;
+};
+
+/// A fluid that turns as a solid body with the angular velocity W: its acceleration is W x (W x r), towards the axis, and
+/// its vorticity 2 W. The convective part with the wrong sign points away from the axis, and so does one with the
+/// transposed gradient, which is antisymmetric here; without it, there is none.
+TEST(FluidAtParticles, TurnsAsASolidBody)
+{
+    ParticleInFlow test("");
+    const Vector3d turning(1, -2, 3);
+    const Flow rotation = [&](const vector& at) { return toFoam(turning.cross(toEigen(at))); };
+    test.advance(rotation, rotation);
+    const Vector3d expected = turning.cross(turning.cross(ParticleInFlow::middle()));
+    EXPECT_GT(expected.norm(), 5);
+    EXPECT_LT((test.fluid().acceleration - expected).norm(), 1e-9) << test.fluid().acceleration.transpose();
+    EXPECT_LT((test.fluid().vorticity - 2 * turning).norm(), 1e-9) << test.fluid().vorticity.transpose();
+}
+
+/// A stream that converges along x: U = (k x, -k y, 0) has the acceleration U dU/dx = (k2 x, k2 y, 0) where it is steady and
+/// no vorticity. Where all of it gets faster by 3 m/s2 along z meanwhile, that comes in addition.
+TEST(FluidAtParticles, AccelerateInAConvergingStream)
+{
+    ParticleInFlow test("");
+    const double k = 2;
+    const Flow stream = [&](const vector& at) { return vector(k * at.x(), -k * at.y(), 0); };
+    const Flow faster = [&](const vector& at) { return stream(at) + vector(0, 0, 3 * test.couplingTimeStep()); };
+    const Vector3d at = ParticleInFlow::middle();
+    test.advance(stream, stream);
+    EXPECT_LT((test.fluid().acceleration - k * k * Vector3d(at.x(), at.y(), 0)).norm(), 1e-9);
+    EXPECT_LT(test.fluid().vorticity.norm(), 1e-9);
+    test.advance(stream, faster);
+    EXPECT_LT((test.fluid().acceleration - Vector3d(k * k * at.x(), k * k * at.y(), 3)).norm(), 1e-9);
+}
+
+/// The particle rests; the fluid goes at 0.1 m/s in most of the box and at 1 m/s along one wall. With maxCo 0.05 and cells of
+/// 1/12 m the fast cells allow 0.05/12 s, which is 41 whole DEM steps of 1e-4 s. A limit by the slowest cells, or by the
+/// particles alone, leaves the 100 steps of the start.
+TEST(CourantLimit, OfTheFluidIsThatOfTheFastestCell)
+{
+    ParticleInFlow test(
+        "adjustableCouplingTimeStep yes; maxCo 0.05; minCouplingTimeStep 1e-4; maxCouplingTimeStep 0.01;", 0.01);
+    const Flow jet = [](const vector& at) { return vector(0, 0, at.x() < cellSize ? 1 : 0.1); };
+    EXPECT_NEAR(test.nextCouplingTimeStep(), 0.01, 1e-12);
+    test.advance(jet, jet);
+    EXPECT_NEAR(test.nextCouplingTimeStep(), 41e-4, 1e-12);
+}
+
+} // namespace
+
+} // namespace clepsydra::tests
