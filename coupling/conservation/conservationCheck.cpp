@@ -139,7 +139,7 @@ void ConservationCheck::recordPressureForce(
 {
     pressureForceError_ = mag(onParticles - inFluid) / max(sumOfMagnitudes, VSMALL);
     largestPressureForceError_ = max(largestPressureForceError_, pressureForceError_);
-    if (!leftOut && pressureForceError_ > pressureForceTolerance_)
+    if (!leftOut && !isWithin(pressureForceError_, pressureForceTolerance_))
     {
         FatalErrorInFunction
             << "The pressure gradient exerted a force of " << onParticles

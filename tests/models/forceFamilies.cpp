@@ -31,7 +31,8 @@ std::string errorOfForces(const std::string& couplingProperties)
 std::string errorOfRun(const std::string& modelType, const std::string& forces)
 {
     const std::string text = "modelType " + modelType + "; forceModels (" + forces + ");";
-    const Foam::dictionary dict(Foam::IStringStream(text)());
+    Foam::IStringStream stream(text);
+    const Foam::dictionary dict(stream);
     const ForcesOnParticles all(text);
     return errorOf([&] { all.forces().requireAllTerms(dict); });
 }

@@ -233,25 +233,6 @@ TEST(Liggghts, FrozenParticlesStayWhatTheFluidDoes)
     EXPECT_NEAR((impulseGiven(engine) - before).z() / mobile, 1, 1e-6);
 }
 
-/// A resumed run has its particles from the checkpoint: what makes, moves or numbers them is not done again, each of these
-/// commands; what says how they act on each other is. A displacement that is done twice starts the run from elsewhere.
-TEST(Script, WhatMakesParticlesIsNotRepeated)
-{
-    for (const std::string once :
-        {"create_box 2 domain", "read_data file", "read_restart file", "create_atoms 1 single 0 0 0 units box",
-            "delete_atoms group all", "displace_atoms all move 0 0 0.001 units box", "group lower region low",
-            "set group all diameter 0.001", "velocity all set 0 0 -0.1", "reset_timestep 0"})
-    {
-        EXPECT_TRUE(makesParticles(once)) << once;
-        EXPECT_TRUE(makesParticles("  " + once)) << "with blanks before: " << once;
-    }
-    for (const std::string always : {"fix gravity all gravity 9.81 vector 0 0 -1", "timestep 1e-5", "pair_coeff * *",
-             "region domain block 0 1 0 1 0 1", "neighbor 0.001 bin", "compute setting all ke", ""})
-    {
-        EXPECT_FALSE(makesParticles(always)) << always;
-    }
-}
-
 /// Where LIGGGHTS alone would end the process, the error arrives with LIGGGHTS' message: `quit`, also where a variable
 /// decides it; an error of a compute; a log file that cannot be opened. The process of this test would be gone.
 TEST(Liggghts, DoesNotEndTheProcess)

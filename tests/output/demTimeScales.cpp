@@ -103,13 +103,14 @@ TEST(StartReport, PrintsModelsAndTimeScales)
     const Foam::dictionary dem;
     FakeEngine engine(4e-5);
     testing::internal::CaptureStdout();
-    printStartReport(engine, {"DiFelice: xi = 3.7"}, {4e-5, 1e-3, 3000, 1.2e-4, 1e-4, 0.0153, {}}, dem);
+    printStartReport(engine, {"DiFelice: xi = 3.7"}, {"m dv/dt = F"}, {4e-5, 1e-3, 3000, 1.2e-4, 1e-4, 0.0153, {}}, dem);
     const std::string text = testing::internal::GetCapturedStdout();
     if (Foam::Pstream::master())
     {
         EXPECT_THAT(text, testing::HasSubstr("fake engine"));
         EXPECT_THAT(text, testing::HasSubstr("commit "));
         EXPECT_THAT(text, testing::HasSubstr("DiFelice: xi = 3.7"));
+        EXPECT_THAT(text, testing::HasSubstr("m dv/dt = F"));
         EXPECT_THAT(text, testing::ContainsRegex("Rayleigh time +0.00012 s +DEM step is 0.333 of it, respected"));
         EXPECT_THAT(text, testing::ContainsRegex("Collision .Hertz. at 1 m/s .*is 0.4 of it, NOT RESPECTED"));
         EXPECT_THAT(text, testing::ContainsRegex("Courant limit at 1 m/s +not known"));
