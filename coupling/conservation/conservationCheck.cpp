@@ -54,9 +54,9 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
       imbalanceTolerance_(tolerance(tolerances_, "imbalanceTolerance", 1e-3)),
       startTime_(time.timeName())
 {
-    requireKnownEntries(tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance",
-                                         "pressureForceTolerance", "continuityTolerance", "filteredVolumeTolerance",
-                                         "imbalanceTolerance"});
+    requireKnownEntries(
+        tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance",
+                         "continuityTolerance", "filteredVolumeTolerance", "imbalanceTolerance"});
 }
 
 int ConservationCheck::countParticles(const ParticlesView& particles)
@@ -172,11 +172,11 @@ void ConservationCheck::recordFilteredVolume(double volume)
     largestFilteredVolume_ = larger(largestFilteredVolume_, filteredVolume_);
     if (!isWithin(filteredVolume_, filteredVolumeTolerance_))
     {
-        FatalErrorInFunction << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "
-                             << "fluid's continuity equation, which is " << filteredVolume_
-                             << " of the particles' largest volume so far; allowed: at most filteredVolumeTolerance, which is "
-                             << filteredVolumeTolerance_ << ". Decrease smoothingTime in useDDTvoidfractionProps"
-                             << exit(FatalError);
+        FatalErrorInFunction
+            << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "
+            << "fluid's continuity equation, which is " << filteredVolume_
+            << " of the particles' largest volume so far; allowed: at most filteredVolumeTolerance, which is "
+            << filteredVolumeTolerance_ << ". Decrease smoothingTime in useDDTvoidfractionProps" << exit(FatalError);
     }
 }
 
@@ -195,15 +195,14 @@ void ConservationCheck::recordImbalance(double imbalance)
 void ConservationCheck::report() const
 {
     Info << "conservation check: time " << time_.timeName() << " s, particles " << census_.now() << " (inserted "
-         << census_.inserted() << ", left " << census_.removed() << ", lost " << census_.lost() << ", outside the mesh " << outsideMesh_
-         << "), solid volume "
-         << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped " << clippedVolume_
-         << " m3, momentum to particles " << particlesReceived_ << " N s, from fluid " << fluidLost_
+         << census_.inserted() << ", left " << census_.removed() << ", lost " << census_.lost() << ", outside the mesh "
+         << outsideMesh_ << "), solid volume " << solidVolume_ << " m3 (error " << solidVolumeError_ << "), clipped "
+         << clippedVolume_ << " m3, momentum to particles " << particlesReceived_ << " N s, from fluid " << fluidLost_
          << " N s, of which semi-implicit " << semiImplicit_.sum << " N s (error " << momentumError_
          << "), pressure force error " << pressureForceError_ << ", continuity error local " << localContinuityError_
          << ", global " << globalContinuityError_ << ", cumulative " << cumulativeContinuityError_
-         << ", volume held back by the filter " << filteredVolume_
-         << ", imbalance of a closed tank " << imbalance_ << endl;
+         << ", volume held back by the filter " << filteredVolume_ << ", imbalance of a closed tank " << imbalance_
+         << endl;
 }
 
 void ConservationCheck::writeSummary(
@@ -221,9 +220,9 @@ void ConservationCheck::writeSummary(
         {"particlesLeft", census_.removed()}, {"particlesOutsideMesh", outsideMesh_},
         {"particlesThatLeftMesh", leftMesh_}, {"insertionError", largestInsertionError_}, {"solidVolume", solidVolume_},
         {"solidVolumeError", largestSolidVolumeError_}, {"clippedVolume", largestClippedVolume_},
-        {"clippedPart", largestClippedPart_}, {"momentumError", largestMomentumError_}, {"pressureForceError", largestPressureForceError_},
-        {"continuityError", largestContinuityError_}, {"cumulativeContinuityError", cumulativeContinuityError_},
-        {"filteredVolume", largestFilteredVolume_},
+        {"clippedPart", largestClippedPart_}, {"momentumError", largestMomentumError_},
+        {"pressureForceError", largestPressureForceError_}, {"continuityError", largestContinuityError_},
+        {"cumulativeContinuityError", cumulativeContinuityError_}, {"filteredVolume", largestFilteredVolume_},
         {"imbalance", imbalance_}, {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()},
         {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};

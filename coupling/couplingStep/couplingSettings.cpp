@@ -174,8 +174,9 @@ std::vector<std::string> CouplingSettings::descriptions() const
             ? "d(eps)/dt      in continuity, smoothingTime " + std::to_string(ddtSmoothingTime_) + " s"
             : std::string("d(eps)/dt      OFF: WARNING, dilation of the particles does not move the fluid, so a "
                           "submerged hopper has no surge"),
-        particlesOutsideMesh_ ? "particles      may be in parts of the DEM box without mesh, where no fluid acts on them"
-                              : "particles      must be in the mesh",
+        particlesOutsideMesh_
+            ? "particles      may be in parts of the DEM box without mesh, where no fluid acts on them"
+            : "particles      must be in the mesh",
         "drag in DEM    at every DEM step, from the particle's present velocity and the frozen fluid"};
 }
 

@@ -39,8 +39,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
         fluid_ = std::make_unique<FluidCoupling>(
             mesh, settings, fluid, models->forces.needs(), engine, models->distribution, conservation_, timers_);
     }
-    conservation_.setInitialSolidVolume(
-        insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
+    conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
     if (models)
     {
         fluid_->start(resumed);

@@ -82,8 +82,8 @@ private:
         const CellDiffusion::StiffestCell thinnest = diffusion_.stiffestCell();
         if (Pstream::master())
         {
-            WarningInFunction << "Smoothing over a bandwidth of " << smoothingBandwidth_ << " m takes "
-                              << label(sweeps) << " sweeps over the mesh in every coupling step because of its "
+            WarningInFunction << "Smoothing over a bandwidth of " << smoothingBandwidth_ << " m takes " << label(sweeps)
+                              << " sweeps over the mesh in every coupling step because of its "
                               << "thinnest cells, one of " << thinnest.thickness << " m at " << thinnest.centre
                               << " m; with cells of the mesh's mean size " << label(ofMeanCells)
                               << " would be enough. Thicker layers of cells at walls, or a smaller bandwidth in "

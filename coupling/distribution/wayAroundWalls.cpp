@@ -167,10 +167,9 @@ WayAroundWalls::WayAroundWalls(const Foam::fvMesh& mesh)
         const double length = (pointAt(edge[1]) - pointAt(edge[0])).norm();
         if (behind > -roundingOfPosition * length)
         {
-            rims_.push_back(
-                {pointAt(edge[0]), pointAt(edge[1]), {surfaces.of(faces[0]), surfaces.of(faces[1])}});
-            rimBoxes.emplace_back(rims_.back().first.cwiseMin(rims_.back().last),
-                rims_.back().first.cwiseMax(rims_.back().last));
+            rims_.push_back({pointAt(edge[0]), pointAt(edge[1]), {surfaces.of(faces[0]), surfaces.of(faces[1])}});
+            rimBoxes.emplace_back(
+                rims_.back().first.cwiseMin(rims_.back().last), rims_.back().first.cwiseMax(rims_.back().last));
         }
     }
     rimBoxes_ = BoxTree(std::move(rimBoxes));

@@ -192,8 +192,8 @@ void Emulator::learnScatter()
             continue;
         }
         // An F distribution, because the noise is an estimate too.
-        const double freedomOfNoise = std::max(
-            1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0));
+        const double freedomOfNoise =
+            std::max(1.0, degreesOfFreedom_ * statisticFreedom / (freedom.maxCoeff() > 0.0 ? freedom.maxCoeff() : 1.0));
         if (!study_->effects[e].raisesScatter
             && probabilityBeyondFisher(statistic / statisticFreedom, statisticFreedom, freedomOfNoise) > otherScatter)
         {

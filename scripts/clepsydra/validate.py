@@ -2,8 +2,8 @@
 """Runs the validation cases and prints one table of what was expected and what came out.
 
 Exit status 0: every case ran, every row agrees with its reference or is the finding that is recorded
-(cases/validation/results.json, quickResults.json), each case has recorded rows and none of them is missing. 77: no case could run here, for want
-of another program. """
+(cases/validation/results.json, quickResults.json), each case has recorded rows and none of them is missing. 77: no case
+could run here, for want of another program. """
 
 import argparse
 import json

@@ -33,8 +33,7 @@ void addBaffle(TestCase& box, double length)
 {
     const std::string header = "FoamFile { version 2.0; format ascii; class dictionary; object baffle; }\n";
     box.extraFiles["system/topoSetDict"] =
-        header
-        + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) ("
+        header + "actions ( { name plate; type faceSet; action new; source boxToFace; box (-1 -1 0.0159) ("
         + std::to_string(length)
         + " 1 0.0161); }"
           " { name plate; type faceZoneSet; action new; source setToFaceZone; faceSet plate; } );";
@@ -459,8 +458,8 @@ TEST(Baffle, SharesAreContinuousAroundItsRim)
                 for (int step = 0; step <= steps; ++step)
                 {
                     const double angle = end * (2.0 * step / steps - 1);
-                    const Foam::scalarField now = partsOfParticle.at({rim + distance * std::cos(angle),
-                        0.51 * boxWidth, boxHeight / 2 + distance * std::sin(angle)});
+                    const Foam::scalarField now = partsOfParticle.at({rim + distance * std::cos(angle), 0.51 * boxWidth,
+                        boxHeight / 2 + distance * std::sin(angle)});
                     if (step > 0)
                     {
                         largest = std::max(largest, Foam::gMax(Foam::mag(Foam::scalarField(now - before))));

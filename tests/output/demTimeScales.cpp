@@ -103,7 +103,8 @@ TEST(StartReport, PrintsModelsAndTimeScales)
     const Foam::dictionary dem;
     FakeEngine engine(4e-5);
     testing::internal::CaptureStdout();
-    printStartReport(engine, {"DiFelice: xi = 3.7"}, {"m dv/dt = F"}, {4e-5, 1e-3, 3000, 1.2e-4, 1e-4, 0.0153, {}}, dem);
+    printStartReport(
+        engine, {"DiFelice: xi = 3.7"}, {"m dv/dt = F"}, {4e-5, 1e-3, 3000, 1.2e-4, 1e-4, 0.0153, {}}, dem);
     const std::string text = testing::internal::GetCapturedStdout();
     if (Foam::Pstream::master())
     {

@@ -276,7 +276,7 @@ TEST(DemScripts, UnitsAndStylesOfAtoms)
     expectRefused(hybrid, {script + " line 1: ", "atom_style is 'hybrid'", "allowedInScript ( \"hybrid\" )"});
 }
 
-/// A coefficient for which the contact model has no word has no effect, and the user is told which. With the model in
+/// A coefficient for which the contact model has no word has no effect, and a warning names it. With the model in
 /// the line, or as a value of a variable, it is read. Zero has no effect either way, and cases state it on purpose.
 TEST(DemScripts, CoefficientsThatNoModelReadsAreWarnedOf)
 {

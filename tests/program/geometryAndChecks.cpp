@@ -68,9 +68,9 @@ TEST(GeometryAndChecks, ThinCellsAreWarnedOf)
     thin.dem.particles = test.dem.particles;
     thin.setTimes(2 * interval, interval, 2 * interval);
     thin.write();
-    const Outcome outcome =
-        thin.runCommand("sed -i 's/simpleGrading (1 1 1)/simpleGrading (1 1 200)/' system/blockMeshDict && blockMesh && "
-                        "$SOLVER");
+    const Outcome outcome = thin.runCommand(
+        "sed -i 's/simpleGrading (1 1 1)/simpleGrading (1 1 200)/' system/blockMeshDict && blockMesh && "
+        "$SOLVER");
     EXPECT_TRUE(outcome.says("sweeps over the mesh in every coupling step because")) << outcome.output;
 }
 

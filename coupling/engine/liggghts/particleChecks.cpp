@@ -80,8 +80,7 @@ void requireParticlesInBox(const lmp::LAMMPS& program)
     }
 }
 
-void requireNoDeepOverlap(
-    const lmp::LAMMPS& program, const ParticlePairs& pairs, const std::vector<bool>& isExamined)
+void requireNoDeepOverlap(const lmp::LAMMPS& program, const ParticlePairs& pairs, const std::vector<bool>& isExamined)
 {
     constexpr double largestPart = 0.1;
     const auto examined = [&](int particle) {

@@ -20,7 +20,7 @@ RESUMED = f"Resuming from the checkpoint of time {STOPPED}\n"
 DUMP = "dump frames all custom 50 DEM/frames.dump id x y z\n"
 PRINT = 'variable t equal step*4e-5\nfix printed all print 50 "${t}" file DEM/printed.txt screen no\n'
 AVERAGE = "compute energy all ke\nfix average all ave/time 50 1 50 c_energy file DEM/average.txt\n"
-# What the script writes at its start only. The second of them makes LIGGGHTS initialise its fixes there, in another order.
+# What the script writes at its start only. The second makes LIGGGHTS initialise its fixes there, in another order.
 NOTE = 'print "started" append DEM/starts.txt\nshell rm -f DEM/frames.dump\n'
 PACKING = "write_restart DEM/start.restart\n"
 
