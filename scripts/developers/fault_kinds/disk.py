@@ -11,6 +11,7 @@ from developers.fault_kinds.kinds import Skipped, Wrong, fault
 
 # What the program says of a disk that takes nothing more, or fails: the system's words, or that a file has no end.
 OF_DISK = (
+    "has no room for the new directory",  # OpenFOAM
     "No space left on device",
     "Input/output error",
     "Read-only file system",
