@@ -125,17 +125,20 @@ RunInputs::RunInputs(const fvMesh& mesh, const std::vector<std::filesystem::path
     const std::string part =
         Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
     meshOfThisRank_ = {part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()), digestOf(mesh)}};
-    if (!Pstream::master())
+    for (const char* name : {"constant/couplingProperties", "constant/transportProperties", "constant/g",
+             "constant/fvOptions", "system/fvOptions"})
     {
-        return;
-    }
-    for (const char* name : {"constant/couplingProperties", "constant/transportProperties", "constant/g"})
-    {
+        // On all ranks, because the file handlers collated and masterUncollated read included files collectively.
         const fileName file = mesh.time().globalPath() / name;
-        if (isFile(file))
+        if (returnReduce(isFile(file), orOp<bool>()))
         {
             files_.push_back({name, contentsOfDictionary(file)});
         }
+    }
+    if (!Pstream::master())
+    {
+        files_.clear();
+        return;
     }
     for (const std::filesystem::path& file : scriptFiles)
     {
