@@ -150,7 +150,7 @@ TEST(LeftOut, TermsActNoMore)
     test.coupling().set("forceModels", "(noDrag noPressureGradient noViscousStress noBuoyancy)");
     test.setTimes(0.01, 1e-3, 0.01);
     test.dem.timeStep = 2e-5;
-    test.dem.particles = {{0.0203, 0.0197, 0.03}};
+    test.dem.particles = {{0.0103, 0.0097, 0.03}};
     test.dem.dumpEvery = 500;
     const Outcome outcome = test.run();
     ASSERT_TRUE(outcome.succeeded()) << outcome.output;
