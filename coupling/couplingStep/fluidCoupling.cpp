@@ -521,7 +521,7 @@ string FluidCoupling::describeCell(label cell) const
            + (nearest ? ", nearest particle " + Foam::name(label(nearest->id)) : string());
 }
 
-double FluidCoupling::partNearClearFluid() const
+std::optional<double> FluidCoupling::partNearClearFluid() const
 {
     // Below this solid fraction few particles are within a bandwidth of each other, and its gradient is chance.
     constexpr double dense = 0.15;
@@ -545,7 +545,11 @@ double FluidCoupling::partNearClearFluid() const
     }
     reduce(ofBed, sumOp<label>());
     reduce(nearEdge, sumOp<label>());
-    return ofBed < fewestOfBed ? 0 : static_cast<double>(nearEdge) / ofBed;
+    if (ofBed < fewestOfBed)
+    {
+        return std::nullopt;
+    }
+    return static_cast<double>(nearEdge) / ofBed;
 }
 
 void FluidCoupling::requireWithinMesh(const Eigen::MatrixXd& shareSums) const

@@ -13,6 +13,8 @@
 #include "conservation/conservationCheck.h"
 #include "phaseTimers.h"
 
+#include <optional>
+
 namespace clepsydra
 {
 
@@ -75,9 +77,9 @@ public:
     void fluidToParticles(const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// Part of the particles in dense regions that are within a smoothing bandwidth of clear fluid, where the smoothed
-    /// void fraction is one between those of the bed and of the fluid beyond it [-]; 0 without a bed or smoothing.
+    /// void fraction is one between those of the bed and of the fluid beyond it [-]; empty without a bed.
     /// It describes the particles of the last particlesToFluid(). Collective.
-    double partNearClearFluid() const;
+    std::optional<double> partNearClearFluid() const;
 
     const Foam::volScalarField& voidFraction() const
     {

@@ -111,21 +111,16 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     }
 }
 
-void RunChecks::checkBeds(double partNearClearFluid)
+void RunChecks::checkBed(double partNearClearFluid)
 {
-    if (partNearClearFluid <= largestPartNearClearFluid || warnedOfBeds_)
-    {
-        return;
-    }
-    warnedOfBeds_ = true;
-    if (Pstream::master())
+    if (partNearClearFluid > largestPartNearClearFluid && Pstream::master())
     {
         WarningInFunction << "Of the particles in beds a part of " << partNearClearFluid
                           << " is within a smoothing bandwidth of clear fluid, " << smoothingBandwidth_
                           << " m. There the smoothed void fraction is larger than that of the bed, and drag is too "
                           << "small; a bed three bandwidths high between clear fluid has half of its drag. Decrease "
                           << "bandwidth in constDiffSmoothingProps to a sixth of the bed's height, or let the mesh end "
-                          << "at the floor on which the bed lies. This warning is printed once" << endl;
+                          << "at the floor on which the bed lies" << endl;
     }
 }
 

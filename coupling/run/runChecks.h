@@ -21,9 +21,9 @@ public:
     /// Call when the fluid has been solved. Collective.
     void afterCouplingStep(const ParticlesView& particles);
 
-    /// Warns once where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
+    /// Warns where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
     /// not that of the bed. \param partNearClearFluid  see FluidCoupling::partNearClearFluid()
-    void checkBeds(double partNearClearFluid);
+    void checkBed(double partNearClearFluid);
 
     /// Prints the number of violations, where there were any.
     void report() const;
@@ -40,7 +40,6 @@ private:
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;
-    bool warnedOfBeds_ = false;
 };
 
 } // namespace clepsydra

@@ -173,6 +173,16 @@ void RunOutput::checkDemStepOnce()
     }
 }
 
+void RunOutput::checkBedOnce()
+{
+    // A vessel that empties ends with a low bed; what counts is the bed that the user has set up.
+    if (const std::optional<double> partNearClearFluid = couplingStep_.fluid().partNearClearFluid())
+    {
+        runChecks_->checkBed(*partNearClearFluid);
+        bedChecked_ = true;
+    }
+}
+
 bool RunOutput::afterCouplingStep()
 {
     const PhaseTimers::Scope timing = couplingStep_.timers().time("output");
@@ -180,11 +190,11 @@ bool RunOutput::afterCouplingStep()
     if (runChecks_)
     {
         runChecks_->afterCouplingStep(engine_.particles());
-        if (!bedsChecked_ || time_.writeTime())
+        if (isFirstStep_ || (!bedChecked_ && time_.writeTime()))
         {
-            runChecks_->checkBeds(couplingStep_.fluid().partNearClearFluid());
-            bedsChecked_ = true;
+            checkBedOnce();
         }
+        isFirstStep_ = false;
     }
     const double wallLeft = estimate();
     if (scratch_)

@@ -56,6 +56,7 @@ public:
 
 private:
     void checkDemStepOnce();
+    void checkBedOnce();
     void requireTablesWritten() const;
     void writeCheckpoint();
     void printReport(const FluidProperties& fluid, const FluidModels* models);
@@ -86,7 +87,9 @@ private:
     double couplingStepCount_ = 0;
     /// False while there are no particles yet, as at the start of a filling.
     bool demStepChecked_ = false;
-    bool bedsChecked_ = false;
+    bool isFirstStep_ = true;
+    /// False while there is no bed yet.
+    bool bedChecked_ = false;
     bool stopped_ = false;
 };
 
