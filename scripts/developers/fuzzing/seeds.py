@@ -14,7 +14,7 @@ CASES = REPOSITORY / "cases"
 TUTORIALS = CASES / "tutorials"
 EFFECTS = REPOSITORY / "identification/effects"
 SURROGATE = REPOSITORY / "tests/identification/surrogate"
-CURVE = CASES / "validation/surge/results/runs/dry.100003.dry.csv"
+CURVE = CASES / "paper/results/runs/fill100packings-0.8.100019.dry.csv"
 
 
 def formulas(_: Path) -> list[Any]:
