@@ -504,7 +504,7 @@ bool FluidCoupling::pressureActsOnParticles() const
 
 string FluidCoupling::describeCell(label cell) const
 {
-    const vector& centre = mesh_.C()[cell];
+    const vector& centre = mesh_.cellCentres()[cell];
     const GhostParticle* nearest = nullptr;
     double nearestDistance = GREAT;
     for (const GhostParticle& particle : exchange_.ghosts())

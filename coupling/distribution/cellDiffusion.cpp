@@ -145,7 +145,7 @@ CellDiffusion::StiffestCell CellDiffusion::stiffestCell() const
         {
             largestFace = max(largestFace, mag(mesh_.faceAreas()[face]));
         }
-        found = {mesh_.C()[stiffestCell_], mesh_.V()[stiffestCell_] / largestFace};
+        found = {mesh_.cellCentres()[stiffestCell_], mesh_.V()[stiffestCell_] / largestFace};
     }
     reduce(found.centre, sumOp<vector>());
     reduce(found.thickness, sumOp<scalar>());

@@ -232,7 +232,8 @@ bool WayAroundWalls::emergesFrom(const Triangle& triangle, const Vector3d& from,
 
 double WayAroundWalls::factor(const Vector3d& centre, Foam::label cell, double bandwidth) const
 {
-    const Vector3d to = toEigen(mesh_.C()[cell]);
+    // Not mesh_.C(), whose first call is collective: this function is called for the cells of one rank.
+    const Vector3d to = toEigen(mesh_.cellCentres()[cell]);
     const double straightSqr = (to - centre).squaredNorm();
     const double longest = std::sqrt(straightSqr + longestWaySqr * bandwidth * bandwidth);
     std::vector<int> nearRims;

@@ -443,10 +443,6 @@ TEST(Baffle, NothingJumpsBesideItsRim)
 // steps are. Where a wall cuts shares off at once, the largest change does not fall with the step.
 TEST(Baffle, SharesAreContinuousAroundItsRim)
 {
-    if (Foam::Pstream::parRun())
-    {
-        GTEST_SKIP() << "did not come to its end on two ranks within minutes; NothingJumpsBesideItsRim runs there";
-    }
     const double rim = boxWidth / 2;
     const BoxOnRanks box(1e-3, true, rim);
     for (const char* model : {"divided", "Gaussian"})
