@@ -1,6 +1,7 @@
 #include "files/writeFailures.h"
 
-#include <dlfcn.h>
+#include "files/hiddenFunction.h"
+
 #include <sys/stat.h>
 #include <sys/uio.h>
 #include <unistd.h>
@@ -54,11 +55,16 @@ void note(int file, int cause)
     state = noted;
 }
 
-/// The function of this name that the replaced one hides.
-template<class Function>
-Function* hidden(const char* name)
+/// Notes a failure of the system. \return what it has written, errno as it has left it
+ssize_t noting(int file, ssize_t written)
 {
-    return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+    if (written < 0)
+    {
+        const int cause = errno;
+        note(file, cause);
+        errno = cause;
+    }
+    return written;
 }
 
 } // namespace
@@ -73,26 +79,12 @@ std::string firstWriteFailure()
 
 extern "C" ssize_t write(int file, const void* bytes, std::size_t count)
 {
-    static auto* const system = clepsydra::hidden<ssize_t(int, const void*, std::size_t)>("write");
-    const ssize_t written = system(file, bytes, count);
-    if (written < 0)
-    {
-        const int cause = errno;
-        clepsydra::note(file, cause);
-        errno = cause;
-    }
-    return written;
+    static auto* const system = clepsydra::hiddenFunction<ssize_t(int, const void*, std::size_t)>("write");
+    return clepsydra::noting(file, system(file, bytes, count));
 }
 
 extern "C" ssize_t writev(int file, const iovec* parts, int count)
 {
-    static auto* const system = clepsydra::hidden<ssize_t(int, const iovec*, int)>("writev");
-    const ssize_t written = system(file, parts, count);
-    if (written < 0)
-    {
-        const int cause = errno;
-        clepsydra::note(file, cause);
-        errno = cause;
-    }
-    return written;
+    static auto* const system = clepsydra::hiddenFunction<ssize_t(int, const iovec*, int)>("writev");
+    return clepsydra::noting(file, system(file, parts, count));
 }

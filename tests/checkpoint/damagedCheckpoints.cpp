@@ -162,10 +162,7 @@ TEST(DamagedCheckpoint, IsFoundOnEachRank)
 {
     TestCase test;
     threeCheckpoints(test, 0.02);
-    test.file("system/decomposeParDict")
-        .set("numberOfSubdomains", "2")
-        .set("method", "simple")
-        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    test.divideAmong(2);
     const Outcome first = test.runCommand("blockMesh && decomposePar && mkdir elsewhere && mv processor1 elsewhere && "
                                           "ln -s elsewhere/processor1 && mpirun -np 2 $SOLVER -parallel");
     ASSERT_TRUE(first.succeeded()) << first.output;
@@ -203,10 +200,7 @@ TEST(DamagedCheckpoint, IsFoundAfterRedistribution)
 {
     TestCase test;
     threeCheckpoints(test, 0.02);
-    test.file("system/decomposeParDict")
-        .set("numberOfSubdomains", "2")
-        .set("method", "simple")
-        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    test.divideAmong(2);
     const Outcome first = test.runCommand("blockMesh && decomposePar && mpirun -np 2 $SOLVER -parallel && "
                                           "reconstructPar && echo 'endTime 0.022;' >> system/controlDict");
     ASSERT_TRUE(first.succeeded()) << first.output;

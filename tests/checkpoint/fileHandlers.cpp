@@ -20,10 +20,7 @@ void prepare(TestCase& test, double endTime)
     test.dem.dumpEvery = 0;
     test.setTimes(endTime, interval, 0.01);
     test.control().set("functions/particleHeight/type", "particleHeight").set("functions/particleHeight/particle", "5");
-    test.file("system/decomposeParDict")
-        .set("numberOfSubdomains", "2")
-        .set("method", "simple")
-        .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+    test.divideAmong(2);
 }
 
 std::string solve(const std::string& handler)

@@ -117,10 +117,7 @@ TEST(OtherRanks, ResumesOnAnotherNumberOfRanks)
         adjustInterval(*test);
         test->setTimes(0.12, interval, 0.04);
         test->dem.dumpEvery = 125;
-        test->file("system/decomposeParDict")
-            .set("numberOfSubdomains", "2")
-            .set("method", "simple")
-            .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+        test->divideAmong(2);
         const Outcome first = test->run();
         ASSERT_TRUE(first.succeeded()) << first.output;
         ASSERT_TRUE(test->runCommand("echo \"endTime 0.125; writeInterval 0.005;\" >> system/controlDict").succeeded());

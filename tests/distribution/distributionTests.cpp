@@ -69,10 +69,7 @@ public:
             case_->cells = cells;
             case_->removeFile("0/U");
             case_->removeFile("0/p");
-            case_->file("system/decomposeParDict")
-                .set("numberOfSubdomains", "2")
-                .set("method", "simple")
-                .set("simpleCoeffs", "{ n (2 1 1); delta 0.001; }");
+            case_->divideAmong(2);
             if (baffle)
             {
                 addBaffle(*case_, baffleLength);

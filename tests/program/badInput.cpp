@@ -72,11 +72,7 @@ std::string commandOn(int ranks)
 
 void decompose(TestCase& test, int ranks)
 {
-    test.file("system/decomposeParDict")
-        .set("numberOfSubdomains", exactText(ranks))
-        .set("method", "simple")
-        .set("simpleCoeffs/n", '(' + exactText(ranks) + " 1 1)")
-        .set("simpleCoeffs/delta", "0.001");
+    test.divideAmong(ranks);
     test.write();
     ASSERT_TRUE(test.runCommand("decomposePar").succeeded());
 }

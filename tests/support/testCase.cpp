@@ -239,15 +239,20 @@ Outcome TestCase::makeMesh()
     return runCommand("blockMesh");
 }
 
+void TestCase::divideAmong(int ranks)
+{
+    file("system/decomposeParDict")
+        .set("numberOfSubdomains", exactText(ranks))
+        .set("method", "simple")
+        .set("simpleCoeffs/n", '(' + exactText(ranks) + " 1 1)")
+        .set("simpleCoeffs/delta", "0.001");
+}
+
 Outcome TestCase::run(int ranks)
 {
     if (ranks > 1 && files_.find("system/decomposeParDict") == files_.end())
     {
-        file("system/decomposeParDict")
-            .set("numberOfSubdomains", exactText(ranks))
-            .set("method", "simple")
-            .set("simpleCoeffs/n", '(' + exactText(ranks) + " 1 1)")
-            .set("simpleCoeffs/delta", "0.001");
+        divideAmong(ranks);
         written_ = false;
     }
     if (!std::filesystem::exists(path_ / "constant/polyMesh/faces"))

@@ -111,6 +111,9 @@ public:
     /// \param type  of U's inlet condition: fixedValue, uniformFixedValue
     void setThroughFlow(const std::string& velocity, const std::string& type = "fixedValue");
 
+    /// system/decomposeParDict: boxes of equal width beside each other along x, one for each rank.
+    void divideAmong(int ranks);
+
     // Running it
 
     /// Writes everything; run() and runProgram() do it by themselves, once.

@@ -1,5 +1,6 @@
 #include "engine/liggghts/outputFiles.h"
 
+#include "files/hiddenFunction.h"
 #include "files/wholeFile.h"
 
 #include <dlfcn.h>
@@ -21,13 +22,13 @@ OutputFiles* currentFiles = nullptr;
 
 std::FILE* systemOpen(const char* file, const char* mode)
 {
-    static auto* const open = reinterpret_cast<std::FILE* (*)(const char*, const char*)>(dlsym(RTLD_NEXT, "fopen"));
+    static auto* const open = hiddenFunction<std::FILE*(const char*, const char*)>("fopen");
     return open(file, mode);
 }
 
 int systemClose(std::FILE* file)
 {
-    static auto* const close = reinterpret_cast<int (*)(std::FILE*)>(dlsym(RTLD_NEXT, "fclose"));
+    static auto* const close = hiddenFunction<int(std::FILE*)>("fclose");
     return close(file);
 }
 
