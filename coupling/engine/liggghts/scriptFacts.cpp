@@ -6,6 +6,8 @@
 #include <atom.h>
 #include <domain.h>
 #include <fix.h>
+#include <fix_gravity.h>
+#include <fix_property_global.h>
 #include <force.h>
 #include <group.h>
 #include <lammps.h>
@@ -174,6 +176,44 @@ ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> c
             command ? *command : ScriptCommand{}, fix->time_integrate == 1});
     }
     return facts;
+}
+
+Vector3d gravityOf(const LiggghtsProgram& program)
+{
+    Vector3d acceleration = Vector3d::Zero();
+    const lmp::Modify& modify = *program->modify;
+    std::for_each(modify.fix, modify.fix + modify.nfix, [&](lmp::Fix* fix) {
+        if (std::string(fix->style) == "gravity")
+        {
+            // The fix computes its components in init(), which LIGGGHTS itself calls only before the first step.
+            fix->init();
+            Vector3d ofFix = Vector3d::Zero();
+            static_cast<lmp::FixGravity*>(fix)->get_gravity(ofFix.data());
+            acceleration += ofFix;
+        }
+    });
+    return acceleration;
+}
+
+std::vector<ContactMaterial> contactMaterialsOf(const LiggghtsProgram& program)
+{
+    lmp::Modify& modify = *program->modify;
+    const int materialCount = program->atom->ntypes;
+    const auto property = [&](const char* name) {
+        return static_cast<lmp::FixPropertyGlobal*>(
+            modify.find_fix_property(name, "property/global", "peratomtype", materialCount, 0, "coupling", false));
+    };
+    auto* const youngsModulus = property("youngsModulus");
+    auto* const poissonRatio = property("poissonsRatio");
+    std::vector<ContactMaterial> materials;
+    if (youngsModulus && poissonRatio)
+    {
+        for (int material = 0; material < materialCount; ++material)
+        {
+            materials.push_back({youngsModulus->compute_vector(material), poissonRatio->compute_vector(material)});
+        }
+    }
+    return materials;
 }
 
 std::vector<ScriptCommand> unreadProperties(const LiggghtsProgram& program, const std::vector<ScriptCommand>& commands)

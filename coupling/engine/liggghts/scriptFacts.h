@@ -1,5 +1,6 @@
 #pragma once
 
+#include "engine/demEngine.h"
 #include "engine/liggghts/script.h"
 
 #include <array>
@@ -52,6 +53,12 @@ struct ScriptFacts
 /// \param commands  the script's that have been executed, each with the values of its variables
 /// Collective.
 ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> commands);
+
+/// Gravity, the sum of all fixes [m/s2]. Local.
+Vector3d gravityOf(const LiggghtsProgram& program);
+
+/// Contact materials of the fixes youngsModulus and poissonsRatio; empty where there are none. Local.
+std::vector<ContactMaterial> contactMaterialsOf(const LiggghtsProgram& program);
 
 /// Commands `fix ... property/global` whose values no model, no fix and no other command has looked up, so that they
 /// have no effect. Values that are all zero are left out, because they would have none either. Complete when LIGGGHTS

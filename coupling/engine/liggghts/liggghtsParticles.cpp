@@ -1,0 +1,99 @@
+#include "engine/liggghts/liggghtsParticles.h"
+
+#include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/rows.h"
+
+#include <atom.h>
+#include <force.h>
+#include <lammps.h>
+#include <neigh_list.h>
+#include <neighbor.h>
+#include <pair.h>
+
+#include <algorithm>
+
+namespace clepsydra
+{
+
+namespace lmp = LAMMPS_NS;
+
+void LiggghtsParticles::requestPairs(double reach)
+{
+    pairsRequested_ = true;
+    // Widens the neighbour lists in addition to the skin, so that the distance which particles may move between two lists
+    // is not reduced.
+    program_->neighbor->register_contact_dist_factor(1 + reach);
+}
+
+void LiggghtsParticles::requestState(const std::vector<double>& ofNewParticle)
+{
+    stateOfNewParticle_ = ofNewParticle;
+}
+
+void LiggghtsParticles::requestMemory(int numbers)
+{
+    memorySize_ = numbers;
+}
+
+void LiggghtsParticles::addProperties()
+{
+    using InRestartFiles = ParticleProperty::InRestartFiles;
+    if (!stateOfNewParticle_.empty())
+    {
+        state_.emplace(program_, "clepsydraState", stateOfNewParticle_, InRestartFiles::no);
+    }
+    // Particles in files that do not have the ramp are in the fluid.
+    insertionRamp_.emplace(program_, "clepsydraInsertionRamp", std::vector<double>{1}, InRestartFiles::yes);
+    if (memorySize_ > 0)
+    {
+        memory_.emplace(program_, "clepsydraMemory", std::vector<double>(static_cast<std::size_t>(memorySize_), 0.0),
+            InRestartFiles::yes);
+    }
+}
+
+ParticlesView LiggghtsParticles::view(
+    const ParticlePairs& pairs, bool advancesMemory, const ConstView<bool>& fixed) const
+{
+    lmp::Atom& atom = *program_->atom;
+    const Eigen::Index count = atom.nlocal;
+    return ParticlesView{ConstView<int>(atom.tag, count), ConstVectors(firstElement(atom.x), 3, count),
+        ConstVectors(firstElement(atom.v), 3, count), ConstVectors(firstElement(atom.omega), 3, count),
+        ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
+        state_ ? reinterpret_cast<CouplingState*>(state_->values()) : nullptr,
+        ConstVectors(firstElement(atom.f), 3, count), pairs, memory_ ? memory_->values() : nullptr, memorySize_,
+        advancesMemory, fixed, insertionRamp_->values()};
+}
+
+ParticlePairs LiggghtsParticles::pairs()
+{
+    pairList_.clear();
+    lmp::NeighList* const neighbours = program_->force->pair ? program_->force->pair->list : nullptr;
+    for (int i = 0; neighbours && i < neighbours->inum; ++i)
+    {
+        const int particle = neighbours->ilist[i];
+        for (int j = 0; j < neighbours->numneigh[particle]; ++j)
+        {
+            pairList_.push_back({particle, neighbours->firstneigh[particle][j] & NEIGHMASK});
+        }
+    }
+    lmp::Atom& atom = *program_->atom;
+    const Eigen::Index count = atom.nlocal + atom.nghost;
+    return ParticlePairs{ConstVectors(firstElement(atom.x), 3, count), ConstVectors(firstElement(atom.v), 3, count),
+        ConstView<double>(atom.radius, count),
+        Eigen::Map<const Eigen::Matrix2Xi>(
+            pairList_.empty() ? nullptr : pairList_.front().data(), 2, static_cast<Eigen::Index>(pairList_.size()))};
+}
+
+std::vector<bool> LiggghtsParticles::areNew() const
+{
+    std::vector<bool> isNew;
+    const double* state = state_ ? state_->values() : nullptr;
+    for (int particle = 0; state && particle < program_->atom->nlocal; ++particle)
+    {
+        isNew.push_back(std::equal(stateOfNewParticle_.begin(), stateOfNewParticle_.end(), state));
+        state += stateOfNewParticle_.size();
+    }
+    return isNew;
+}
+
+} // namespace clepsydra

@@ -1,0 +1,54 @@
+#pragma once
+
+#include "engine/liggghts/particleProperty.h"
+#include "engine/particles.h"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace clepsydra
+{
+
+/// The particles of this rank in LIGGGHTS' arrays, and what is stored with each for others.
+class LiggghtsParticles
+{
+public:
+    explicit LiggghtsParticles(LiggghtsProgram& program)
+        : program_(program)
+    {}
+
+    /// As the members of DemEngine with these names.
+    void requestPairs(double reach);
+    void requestState(const std::vector<double>& ofNewParticle);
+    void requestMemory(int numbers);
+
+    /// Adds what was requested to LIGGGHTS, and the insertion ramp.
+    void addProperties();
+
+    ParticlesView view(const ParticlePairs& pairs = {}, bool advancesMemory = true,
+        const ConstView<bool>& fixed = ConstView<bool>(nullptr, 0)) const;
+
+    /// LIGGGHTS' own list. It is a half list; with `newton off`, pairs across ranks are on both ranks.
+    ParticlePairs pairs();
+
+    bool pairsRequested() const
+    {
+        return pairsRequested_;
+    }
+
+    /// Which particles have been inserted since their states were last changed.
+    std::vector<bool> areNew() const;
+
+private:
+    LiggghtsProgram& program_;
+    std::vector<double> stateOfNewParticle_;
+    int memorySize_ = 0;
+    bool pairsRequested_ = false;
+    std::optional<ParticleProperty> state_;
+    std::optional<ParticleProperty> memory_;
+    std::optional<ParticleProperty> insertionRamp_;
+    std::vector<std::array<int, 2>> pairList_;
+};
+
+} // namespace clepsydra

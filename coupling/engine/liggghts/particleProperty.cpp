@@ -1,0 +1,36 @@
+#include "engine/liggghts/particleProperty.h"
+
+#include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/rows.h"
+
+#include <fix_property_atom.h>
+#include <lammps.h>
+#include <modify.h>
+
+namespace clepsydra
+{
+
+ParticleProperty::ParticleProperty(LiggghtsProgram& program, const std::string& name,
+    const std::vector<double>& ofNewParticle, InRestartFiles inRestartFiles)
+    : isScalar_(ofNewParticle.size() == 1)
+{
+    const std::string style = isScalar_ ? "scalar" : "vector";
+    // property/atom <name> <style> <restart> <ghost> <reverse> <defaults ...>
+    std::string command = "fix " + name + " all property/atom " + name + ' ' + style
+                          + (inRestartFiles == InRestartFiles::yes ? " yes" : " no") + " no no";
+    for (const double value : ofNewParticle)
+    {
+        command += ' ' + std::to_string(value);
+    }
+    // LIGGGHTS warns of many values per particle.
+    program.execute(command, name, LiggghtsProgram::Warnings::dropped);
+    fix_ = program->modify->find_fix_property(name.c_str(), "property/atom", style.c_str(),
+        isScalar_ ? 0 : static_cast<int>(ofNewParticle.size()), 0, "coupling");
+}
+
+double* ParticleProperty::values() const
+{
+    return isScalar_ ? fix_->vector_atom : firstElement(fix_->array_atom);
+}
+
+} // namespace clepsydra

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace LAMMPS_NS
+{
+class Fix;
+}
+
+namespace clepsydra
+{
+
+class LiggghtsProgram;
+
+/// Numbers that LIGGGHTS stores with each particle and that travel with it from rank to rank (`fix property/atom`).
+class ParticleProperty
+{
+public:
+    enum class InRestartFiles
+    {
+        no,
+        yes
+    };
+
+    /// Adds the property to LIGGGHTS. \pre the script has run
+    /// \param ofNewParticle  the numbers of a particle that is created, inserted, or read from a file without them
+    ParticleProperty(LiggghtsProgram& program, const std::string& name, const std::vector<double>& ofNewParticle,
+        InRestartFiles inRestartFiles);
+
+    /// The numbers of this rank's particles, one particle after another.
+    double* values() const;
+
+private:
+    const bool isScalar_;
+    LAMMPS_NS::Fix* fix_;
+};
+
+} // namespace clepsydra

@@ -1,0 +1,129 @@
+#include "engine/liggghts/scriptRun.h"
+
+#include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/outputFiles.h"
+#include "engine/liggghts/particleChecks.h"
+#include "engine/liggghts/restartFiles.h"
+
+#include <atom.h>
+#include <lammps.h>
+
+#include <exception>
+#include <string>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// Whether LIGGGHTS reads the text as a number. std::stod would also take INF, NAN and 0x10, which are words of the
+/// script.
+bool isNumber(const std::string& text)
+{
+    if (text.find_first_not_of("0123456789.+-eE") != std::string::npos)
+    {
+        return false;
+    }
+    std::size_t used = 0;
+    try
+    {
+        std::stod(text, &used);
+    }
+    catch (const std::exception&)
+    {
+        return false;
+    }
+    return used == text.size();
+}
+
+/// A value of several words as one token of a command.
+std::string asToken(const std::string& value)
+{
+    return value.find_first_of(" \t") == std::string::npos ? value : '"' + value + '"';
+}
+
+/// Executes a command of the script. LIGGGHTS gives no message where create_atoms creates no particle because its
+/// positions are outside the box.
+/// \return the command with the values of its variables
+ScriptCommand execute(LiggghtsProgram& program, const ScriptCommand& command)
+{
+    const auto before = program->atom->natoms;
+    program.execute(command.text, command.where);
+    ScriptCommand executed{program.withVariables(command.text), command.where};
+    if (isCommand(command.text, "create_atoms") && program->atom->natoms == before)
+    {
+        throw DemEngineError(command.where + ": '" + command.text + "'" + program.valuesIn(command.text)
+                             + " made no particle; allowed: positions in " + boxText(*program));
+    }
+    return executed;
+}
+
+/// The values of variables are looked up only where they are needed, because that may draw random numbers.
+OnResume whatOnResume(const LiggghtsProgram& program, const std::string& command)
+{
+    return onResume(!command.empty() && command.front() == '$' ? program.withVariables(command) : command);
+}
+
+/// Particles with a radius and a mass each, which the coupling reads from LIGGGHTS' arrays.
+void requireSpheres(const LiggghtsProgram& program)
+{
+    const LAMMPS_NS::Atom& atom = *program->atom;
+    if (atom.radius_flag == 0 || atom.rmass_flag == 0)
+    {
+        throw DemEngineError(std::string("The script's particles have the atom_style '") + atom.atom_style
+                             + "', which gives them no radius or no mass of their own; allowed: atom_style granular");
+    }
+}
+
+} // namespace
+
+std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outputFiles, const LiggghtsSetup& setup)
+{
+    for (const auto& [name, value] : setup.variables)
+    {
+        const std::string style = isNumber(value) ? "equal" : "string";
+        program.execute("variable " + name + ' ' + style + ' ' + asToken(value), "DEM variables");
+    }
+    std::vector<ScriptCommand> executed;
+    const bool resumes = !setup.resumeFrom.empty();
+    bool boxMade = false;
+    for (ScriptCommand& command : readScript(setup.script, setup.variables))
+    {
+        if (setup.writesNothing && writesFiles(command.text))
+        {
+            continue;
+        }
+        if (setup.writesNothing)
+        {
+            command.text = withoutFiles(command.text);
+        }
+        if (resumes && hasArgument(command.text, "overwrite"))
+        {
+            // Such a file is replaced as a whole each time.
+            outputFiles.beginAgain(argumentAfter(program.withVariables(command.text), "file"));
+        }
+        const OnResume onResume = whatOnResume(program, command.text);
+        if (!resumes || onResume == OnResume::repeat || onResume == OnResume::unknown)
+        {
+            requireUndamagedInput(program, command);
+            executed.push_back(execute(program, command));
+        }
+        else if (onResume == OnResume::takeFromCheckpoint && !boxMade)
+        {
+            program.execute("read_restart " + setup.resumeFrom.string(), command.where + ", resumed");
+            boxMade = true;
+        }
+        if (onResume == OnResume::unknown)
+        {
+            // After LIGGGHTS, which has its own message for a command that does not exist.
+            throw DemEngineError(command.where + ": '" + command.text
+                                 + "'; allowed: commands of which this program knows whether a resumed run must "
+                                   "repeat them");
+        }
+    }
+    requireSpheres(program);
+    return executed;
+}
+
+} // namespace clepsydra
