@@ -72,7 +72,7 @@ struct CouplingState
 {
     ReceivedImpulse received;
     FluidAtParticle fluid;
-    /// Drag of the last DEM step [N]. Stored only where selfMobility is not zero, and by FluidCoupling in checkpoints.
+    /// Drag of the last DEM step [N]. Stored only where selfMobility is not zero, and by FluidSampling in checkpoints.
     Vector3d drag = Vector3d::Zero();
     /// Velocity of the particle at the start of the coupling step [m/s].
     Vector3d velocityBefore = Vector3d::Zero();

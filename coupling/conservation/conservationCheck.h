@@ -111,6 +111,12 @@ public:
     void recordPressureForce(
         const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes, bool leftOut = false);
 
+    /// What recordMomentum() received last as `semiImplicit`, or setInitialMomentum().
+    const ExchangedMomentum& semiImplicitMomentum() const
+    {
+        return semiImplicit_;
+    }
+
     /// Error of the pressure force in the last coupling step [-].
     double pressureForceError() const
     {

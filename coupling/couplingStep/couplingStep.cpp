@@ -1,5 +1,6 @@
 #include "couplingStep/couplingStep.h"
 
+#include "couplingStep/checkpointedState.h"
 #include "distribution/lengthOfChange.h"
 #include "vectors.h"
 
@@ -17,7 +18,6 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
       length_(settings, mesh.time(), engine.timeStep(), resumed),
       couplingTimeStep_(length_.seconds()),
       resumed_(resumed),
-      fluidDensity_(fluid.density),
       timers_(timers),
       conservation_(settings.dict(), mesh.time()),
       insertionAndRemoval_(settings.dict(), mesh, settings.couplingTimeStep()),
@@ -29,7 +29,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     }
     if (models)
     {
-        engine_.requestMemory(models->forces.needs().memory + FluidCoupling::memory);
+        engine_.requestMemory(models->forces.needs().memory + checkpointedState::size);
     }
     engine_.requestState(numbersOf(CouplingState::ofNewParticle()));
     engine_.initialise(models ? &models->forces : nullptr);
@@ -42,65 +42,53 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
     if (models)
     {
-        fluid_->start(resumed);
         lengthOfChange_ = lengthOfChange(models->distribution.smoothingModel().bandwidth(), smallestCellWidth(mesh));
     }
 }
 
 void CouplingStep::start(Foam::volVectorField& U, const Foam::volScalarField& p)
 {
-    if (resumed_)
+    AnticipatedParticles first = fluid_->start(resumed_);
+    takeDemResult(0);
+    fluid_->sample(first, U, p);
+    if (!resumed_)
     {
-        fluid_->fluidToParticles(U, p);
+        // The first half of the first DEM step (velocity Verlet) already uses these forces.
+        engine_.evaluateFluidForces();
+        first = fluid_->subtractFirstDrag(takeDemResult(engine_.timeStep()), U, couplingTimeStep_);
+        fluid_->fluidToParticles(first, U, p);
+        engine_.evaluateFluidForces();
+        takeDemResult(0);
     }
-    else
-    {
-        evaluateFluidForces(U, p);
-        fluid_->subtractFirstDrag(U, couplingTimeStep_);
-        evaluateFluidForces(U, p);
-        fluid_->assignSemiImplicitDrag(U, p);
-    }
-    resetReceivedImpulse();
-    conservation_.setInitialMomentum(fluid_->semiImplicitMomentum());
+    conservation_.setInitialMomentum(fluid_->semiImplicitMomentum(first));
 }
 
-void CouplingStep::evaluateFluidForces(const Foam::volVectorField& U, const Foam::volScalarField& p)
-{
-    resetReceivedImpulse();
-    fluid_->fluidToParticles(U, p);
-    engine_.evaluateFluidForces();
-}
-
-void CouplingStep::advance(const Foam::volVectorField& U, const Foam::volScalarField& p,
-    const Foam::surfaceScalarField& phi, double timeLeft, const std::function<SolvedFluid()>& solveFluid)
+ParticlesInFluid CouplingStep::advanceParticles(const Foam::surfaceScalarField& phi, double timeLeft)
 {
     couplingTimeStep_ = length_.seconds();
-    advanceParticles();
-    checkPressureForce();
+    const double demTime = length_.steps() * engine_.timeStep();
+    advanceDem();
+    const DemResult result = takeDemResult(couplingTimeStep_);
+    fluid_->checkPressureForce(result.pressureImpulse / demTime);
     if (length_.isAdjustable())
     {
         length_.choose(limits(phi), timeLeft);
     }
-    fluid_->particlesToFluid(couplingTimeStep_, length_.seconds());
-    const ExchangedMomentum received = resetReceivedImpulse();
-    const SolvedFluid solved = solveFluid();
+    return fluid_->particlesToFluid(result, length_.seconds());
+}
+
+void CouplingStep::fluidToParticles(
+    const ParticlesInFluid& particles, const Foam::volVectorField& U, const Foam::volScalarField& p)
+{
     fluid_->updateAcceleration(U, couplingTimeStep_);
-    fluid_->fluidToParticles(U, p);
-    fluid_->assignSemiImplicitDrag(U, p);
-    conservation_.recordMomentum(received,
-        -fluidDensity_ * couplingTimeStep_ * returnReduce(solved.sourceOfParticles, Foam::sumOp<Foam::vector>()),
-        fluid_->semiImplicitMomentum());
-    conservation_.recordContinuity(couplingTimeStep_ * solved.continuityError());
-    conservation_.recordFilteredVolume(fluid_->filteredVolume());
-    if (removeParticlesThatLeft())
-    {
-        resetReceivedImpulse();
-    }
+    fluid_->fluidToParticles(particles, U, p);
+    particles.checkConservation(fluid_->semiImplicitMomentum(particles));
+    removeParticlesThatLeft();
 }
 
 void CouplingStep::advance()
 {
-    advanceParticles();
+    advanceDem();
     removeParticlesThatLeft();
 }
 
@@ -115,40 +103,13 @@ void CouplingStep::restartInPlace(const Foam::volVectorField& U, const Foam::vol
     std::fill_n(particles.state, particles.size(), CouplingState());
     engine_.prepare();
     insertionAndRemoval_.start(engine_.particles(), false, findOutsideMesh());
-    fluid_->start(true);
-    fluid_->fluidToParticles(U, p);
-    resetReceivedImpulse();
+    fluid_->sample(fluid_->start(true), U, p);
+    takeDemResult(0);
 }
 
-void CouplingStep::checkPressureForce()
+DemResult CouplingStep::takeDemResult(double timeStep)
 {
-    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
-    if (settings_.modelType() == ModelType::A)
-    {
-        fluid_->checkPressureForce(
-            returnReduce(toFoam(Vector3d(forces_->takePressureImpulse() / demTime_)), Foam::sumOp<Foam::vector>()));
-    }
-}
-
-ExchangedMomentum CouplingStep::resetReceivedImpulse()
-{
-    if (forces_)
-    {
-        forces_->takePressureImpulse();
-    }
-    const ParticlesView particles = engine_.particles();
-    Vector3d sum = Vector3d::Zero();
-    double sumOfMagnitudes = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        CouplingState& state = particles.state[particle];
-        sum += state.received.impulse;
-        sumOfMagnitudes += state.received.impulse.norm();
-        state.received = ReceivedImpulse();
-        state.velocityBefore = particles.velocity.col(particle);
-    }
-    return {
-        returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>()), returnReduce(sumOfMagnitudes, Foam::sumOp<double>())};
+    return clepsydra::takeDemResult(engine_.particles(), *forces_, timeStep);
 }
 
 std::vector<CouplingStepLimit> CouplingStep::limits(const Foam::surfaceScalarField& phi) const
@@ -163,10 +124,9 @@ std::vector<CouplingStepLimit> CouplingStep::limits(const Foam::surfaceScalarFie
         {"Courant number of the particles", courant * lengthOfChange_ / std::max(fastest, Foam::VSMALL)}};
 }
 
-void CouplingStep::advanceParticles()
+void CouplingStep::advanceDem()
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
-    demTime_ = length_.steps() * engine_.timeStep();
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
     const int highestBefore = conservation_.countParticles(particles);
@@ -177,20 +137,22 @@ void CouplingStep::advanceParticles()
 
 FindOutsideMesh CouplingStep::findOutsideMesh()
 {
-    return fluid_ && settings_.particlesOutsideMesh() ? [this] { return fluid_->particlesOutsideMesh(); }
-                                                      : FindOutsideMesh();
+    if (!fluid_ || !settings_.particlesOutsideMesh())
+    {
+        return nullptr;
+    }
+    return [this] { return fluid_->mapping().areOutsideMesh(engine_.particles()); };
 }
 
-bool CouplingStep::removeParticlesThatLeft()
+void CouplingStep::removeParticlesThatLeft()
 {
     const Foam::label removed = insertionAndRemoval_.removeDeparted(engine_);
     if (removed == 0)
     {
-        return false;
+        return;
     }
     engine_.prepare();
     conservation_.countAfterRemoval(engine_.particles(), removed);
-    return true;
 }
 
 } // namespace clepsydra

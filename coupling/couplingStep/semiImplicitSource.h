@@ -59,7 +59,7 @@ public:
     Foam::tmp<Foam::fvVectorMatrix> source(Foam::volVectorField& U) const;
 
     /// Stores the semi-implicit momentum and the deferred correction. Call when U has been solved for.
-    /// \param sourceOfPressure  see FluidCoupling::sourceOfPressure() [m/s2]
+    /// \param sourceOfPressure  see PressureOnParticles::source() [m/s2]
     /// \param densities  3 x cells, per volume, not smoothed: sum of c U_b + n V dt grad p over the particles [N s/m3]
     void defer(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
         const Eigen::Ref<const Eigen::MatrixXd>& densities);

@@ -47,11 +47,10 @@ Box boxAround(const ParticlesView& particles, double commonReach)
     return around;
 }
 
-GhostParticle ghostOf(const ParticlesView& particles, const Reactions& reactions, Eigen::Index particle)
+GhostParticle ghostOf(const ParticlesView& particles, Eigen::Index particle)
 {
     const SphereInFluid sphere = sphereInFluid(particles, particle);
-    return {sphere.centre, reactions.col(particle), particles.state[particle].received.implicitCoefficientTime,
-        volumeInFluid(particles, particle), sphere.radius, static_cast<double>(particles.id[particle])};
+    return {sphere.centre, sphere.radius, static_cast<double>(particles.id[particle])};
 }
 
 } // namespace
@@ -164,10 +163,12 @@ std::vector<std::vector<double>> ParticleExchange::swap(const std::vector<int>& 
     return in;
 }
 
-void ParticleExchange::send(const ParticlesView& particles, const Reactions& reactions)
+void ParticleExchange::send(const ParticlesView& particles, const Eigen::MatrixXd& contributions)
 {
-    constexpr std::size_t size = sizeof(GhostParticle) / sizeof(double);
+    constexpr std::size_t ghostSize = sizeof(GhostParticle) / sizeof(double);
     static_assert(std::is_standard_layout_v<GhostParticle> && sizeof(GhostParticle) % sizeof(double) == 0);
+    const Eigen::Index rows = contributions.rows();
+    const std::size_t size = ghostSize + static_cast<std::size_t>(rows);
 
     particleCount_ = particles.size();
     makePlan(particles);
@@ -181,9 +182,9 @@ void ParticleExchange::send(const ParticlesView& particles, const Reactions& rea
         double* place = message.data();
         for (const Eigen::Index particle : leaving.particles)
         {
-            const GhostParticle ghost = ghostOf(particles, reactions, particle);
-            std::copy_n(reinterpret_cast<const double*>(&ghost), size, place);
-            place += size;
+            const GhostParticle ghost = ghostOf(particles, particle);
+            place = std::copy_n(reinterpret_cast<const double*>(&ghost), ghostSize, place);
+            place = std::copy_n(contributions.col(particle).data(), rows, place);
         }
     }
     std::vector<int> fromRanks;
@@ -192,16 +193,24 @@ void ParticleExchange::send(const ParticlesView& particles, const Reactions& rea
         fromRanks.push_back(arriving.rank);
     }
 
-    ghosts_.clear();
     const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    std::size_t count = 0;
     for (std::size_t i = 0; i < in.size(); ++i)
     {
-        const std::size_t count = in[i].size() / size;
-        imports_[i].first = static_cast<Eigen::Index>(ghosts_.size());
-        imports_[i].count = static_cast<Eigen::Index>(count);
-        for (std::size_t ghost = 0; ghost < count; ++ghost)
+        imports_[i].first = static_cast<Eigen::Index>(count);
+        imports_[i].count = static_cast<Eigen::Index>(in[i].size() / size);
+        count += in[i].size() / size;
+    }
+    ghosts_.resize(count);
+    contributions_.resize(rows, static_cast<Eigen::Index>(count));
+    for (std::size_t i = 0; i < in.size(); ++i)
+    {
+        const double* place = in[i].data();
+        for (Eigen::Index ghost = imports_[i].first; ghost < imports_[i].first + imports_[i].count; ++ghost)
         {
-            std::copy_n(&in[i][ghost * size], size, reinterpret_cast<double*>(&ghosts_.emplace_back()));
+            std::copy_n(place, ghostSize, reinterpret_cast<double*>(&ghosts_[static_cast<std::size_t>(ghost)]));
+            std::copy_n(place + ghostSize, rows, contributions_.col(ghost).data());
+            place += size;
         }
     }
 }

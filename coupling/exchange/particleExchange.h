@@ -9,19 +9,11 @@
 namespace clepsydra
 {
 
-/// Reaction of a particle on the fluid, which is distributed to its cells; rows as in FluidCoupling.
-constexpr int reactionSize = 9;
-using Reaction = Eigen::Matrix<double, reactionSize, 1, Eigen::DontAlign>;
-using Reactions = Eigen::Matrix<double, reactionSize, Eigen::Dynamic>;
-
 /// Copy of a particle on a rank that has cells near it, with the data that the distribution onto the mesh needs. SI
-/// units. Where the particle is only partly in the fluid, position, volume and radius are those of SphereInFluid.
+/// units. Where the particle is only partly in the fluid, position and radius are those of SphereInFluid.
 struct GhostParticle
 {
     Vector3d position;
-    Reaction reaction;
-    double implicitCoefficientTime;
-    double volume;
     double radius;
     double id;
 };
@@ -44,13 +36,19 @@ public:
 
     /// Sends every particle to each rank whose box of cells intersects the cube around the particle's sphere or reach.
     /// Collective.
-    /// \param reactions  a column per particle
-    void send(const ParticlesView& particles, const Reactions& reactions);
+    /// \param contributions  a column per particle, which its ghosts receive with it; the same rows on all ranks
+    void send(const ParticlesView& particles, const Eigen::MatrixXd& contributions);
 
     /// The ghost particles on this rank: copies of its own particles first, then by sending rank. Local.
     const std::vector<GhostParticle>& ghosts() const
     {
         return ghosts_;
+    }
+
+    /// What was sent with each of ghosts(). Local.
+    const Eigen::MatrixXd& contributions() const
+    {
+        return contributions_;
     }
 
     /// Sums results of ghost particles on their owning ranks. Collective.
@@ -105,6 +103,7 @@ private:
     std::vector<Exports> exports_;
     std::vector<Imports> imports_;
     std::vector<GhostParticle> ghosts_;
+    Eigen::MatrixXd contributions_;
     Eigen::Index particleCount_ = 0;
     mutable std::size_t bytesSent_ = 0;
 };

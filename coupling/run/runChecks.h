@@ -22,7 +22,7 @@ public:
     void afterCouplingStep(const ParticlesView& particles);
 
     /// Warns where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
-    /// not that of the bed. \param partNearClearFluid  see FluidCoupling::partNearClearFluid()
+    /// not that of the bed. \param partNearClearFluid  see bedEdge.h
     void checkBed(double partNearClearFluid);
 
     /// Prints the number of violations, where there were any.

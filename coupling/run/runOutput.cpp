@@ -300,7 +300,7 @@ void RunOutput::finish()
              << round(mebibytes) << " MiB of memory. The case would start; nothing was written" << nl << endl;
         return;
     }
-    const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().exchange().bytesSent()) : 0;
+    const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().mapping().bytesSent()) : 0;
     couplingStep_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
 }
 

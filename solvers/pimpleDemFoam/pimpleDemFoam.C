@@ -135,18 +135,20 @@ private:
 void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
     CouplingStep& couplingStep, RunOutput& output)
 {
-    VoidFractionFlow flow(mesh, fluid, modelType);
+    VoidFractionFlow flow(mesh, fluid, modelType, couplingStep.timers());
     couplingStep.start(flow.U(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
 
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        couplingStep.advance(flow.U(), flow.p(), flow.phi(), runTime.timeLeft(), [&] {
+        ParticlesInFluid particles = couplingStep.advanceParticles(flow.phi(), runTime.timeLeft());
+        {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
-            return flow.solve(couplingStep);
-        });
+            flow.solve(particles);
+        }
+        couplingStep.fluidToParticles(particles, flow.U(), flow.p());
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace(flow.U(), flow.p());

@@ -64,8 +64,9 @@ scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField
 
 } // namespace
 
-VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, ModelType modelType)
+VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, PhaseTimers& timers)
     : mesh_(mesh),
+      timers_(timers),
       pimple_(mesh),
       p_(readAndWritten("p", mesh), mesh),
       U_(readAndWritten("U", mesh), mesh),
@@ -87,37 +88,31 @@ void VoidFractionFlow::updateAlphaPhi(const volScalarField& voidFraction)
     alphaPhi_ = fvc::interpolate(voidFraction) * phi_;
 }
 
-SolvedFluid VoidFractionFlow::solve(CouplingStep& couplingStep)
+void VoidFractionFlow::solve(ParticlesInFluid& particles)
 {
-    const FluidCoupling& particles = couplingStep.fluid();
-    const surfaceScalarField voidFractionf(fvc::interpolate(particles.voidFraction()));
-    vector sourceOfParticles = vector::zero;
-    tmp<surfaceScalarField> anticipatedFlux;
+    tmp<fvVectorMatrix> particleSource;
     while (pimple_.loop())
     {
-        alphaPhi_ = voidFractionf * phi_;
-        const fvVectorMatrix particleSource(particles.momentumSource(U_));
-        const fvVectorMatrix UEqn(momentumEquation(couplingStep, particleSource));
+        alphaPhi_ = particles.voidFractionf() * phi_;
+        particleSource = particles.momentumSource(U_);
+        const fvVectorMatrix UEqn(momentumEquation(particles, particleSource()));
         while (pimple_.correct())
         {
-            anticipatedFlux = correctPressure(couplingStep, voidFractionf, UEqn);
+            correctPressure(particles, UEqn);
         }
-        sourceOfParticles =
-            sum(mesh_.V().field() * ((particleSource & U_) + particles.sourceOfPressure(p_))().primitiveField());
     }
-    alphaPhi_ = voidFractionf * phi_;
-    couplingStep.closeContinuity(anticipatedFlux);
-    return {sourceOfParticles, particles.ddtVoidFraction()() + fvc::div(alphaPhi_)};
+    alphaPhi_ = particles.voidFractionf() * phi_;
+    particles.record(particleSource(), U_, p_, alphaPhi_);
 }
 
 // The layout shows the terms of the equations.
 // clang-format off
 
 fvVectorMatrix VoidFractionFlow::momentumEquation(
-    const CouplingStep& couplingStep, const fvVectorMatrix& particleSource)
+    const ParticlesInFluid& particles, const fvVectorMatrix& particleSource)
 {
-    const PhaseTimers::Scope timing = couplingStep.timers().time("momentum");
-    const volScalarField& voidFraction = couplingStep.fluid().voidFraction();
+    const PhaseTimers::Scope timing = timers_.time("momentum");
+    const volScalarField& voidFraction = particles.voidFraction();
 
     fvVectorMatrix UEqn
     (
@@ -135,17 +130,16 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
 
     if (pimple_.momentumPredictor())
     {
-        Foam::solve(UEqn == -couplingStep.fluid().pressureFactor()*fvc::grad(p_));
+        Foam::solve(UEqn == -particles.pressureFactor()*fvc::grad(p_));
         sources_.correct(U_);
     }
     return UEqn;
 }
 
-tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
-    CouplingStep& couplingStep, const surfaceScalarField& voidFractionf, const fvVectorMatrix& UEqn)
+void VoidFractionFlow::correctPressure(ParticlesInFluid& particles, const fvVectorMatrix& UEqn)
 {
-    const PhaseTimers::Scope timing = couplingStep.timers().time("pressure");
-    const volScalarField& pressureFactor = couplingStep.fluid().pressureFactor();
+    const PhaseTimers::Scope timing = timers_.time("pressure");
+    const volScalarField& pressureFactor = particles.pressureFactor();
 
     const volScalarField rAU("rAU", 1.0/UEqn.A());
     // U = HbyA - (pressureFactor/A) grad(p)
@@ -153,27 +147,22 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
     const surfaceScalarField rAUf("rAUf", fvc::interpolate(pressureFactor)*rAf);
 
     volVectorField HbyA(constrainHbyA(rAU*UEqn.H(), U_, p_));
-    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + voidFractionf*rAf*fvc::ddtCorr(U_, phi_));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + particles.voidFractionf()*rAf*fvc::ddtCorr(U_, phi_));
 
     constrainPressure(p_, U_, phiHbyA, rAUf);
     if (p_.needReference())
     {
-        couplingStep.spreadImbalance(outflow(voidFractionf, phiHbyA, rAUf, p_));
+        particles.spreadImbalance(outflow(particles.voidFractionf(), phiHbyA, rAUf, p_));
     }
 
-    // d(eps)/dt + div(eps U) = 0 with d(eps)/dt = ... + div(velocityResponse U - pressureResponse grad(p))
-    const VoidFractionRate& rate = couplingStep.fluid().ddtVoidFraction();
-    const surfaceScalarField moving("moving", voidFractionf + rate.velocityResponse());
-    const surfaceScalarField pressureCoefficient("pressureCoefficient", moving*rAUf + rate.pressureResponse());
-    auto anticipatedFlux = tmp<surfaceScalarField>::New("anticipatedFlux", phi_);
-
+    const surfaceScalarField pressureCoefficient("pressureCoefficient", particles.pressureCoefficient(rAUf));
     while (pimple_.correctNonOrthogonal())
     {
         fvScalarMatrix pEqn
         (
             fvm::laplacian(pressureCoefficient, p_)
          ==
-            rate.withoutImplicit() + fvc::div(moving*phiHbyA)
+            particles.explicitContinuity(phiHbyA)
         );
 
         pEqn.setReference(pRefCell_, pRefValue_);
@@ -183,7 +172,7 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
         {
             const surfaceScalarField gradient("gradient", pEqn.flux()/pressureCoefficient);
             phi_ = phiHbyA - rAUf*gradient;
-            anticipatedFlux.ref() = rate.velocityResponse()*phi_ - rate.pressureResponse()*gradient;
+            particles.setFlux(phi_, gradient);
         }
     }
 
@@ -192,7 +181,6 @@ tmp<surfaceScalarField> VoidFractionFlow::correctPressure(
     U_ = HbyA - rAU*pressureFactor*fvc::grad(p_);
     U_.correctBoundaryConditions();
     sources_.correct(U_);
-    return anticipatedFlux;
 }
 
 } // namespace clepsydra

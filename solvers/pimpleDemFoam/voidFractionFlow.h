@@ -1,6 +1,6 @@
 #pragma once
 
-#include "couplingStep/couplingStep.h"
+#include "couplingStep/particlesInFluid.h"
 #include "couplingStep/viscousStress.h"
 #include "fluidSources.h"
 
@@ -11,13 +11,13 @@
 namespace clepsydra
 {
 
-/// The fluid between the particles: its fields, and one PIMPLE step of the equations in FluidCoupling.
+/// The fluid between the particles: its fields, and one PIMPLE step of the equations in ParticlesInFluid.
 class VoidFractionFlow
 {
 public:
     /// Reads p and U, where the run was stopped also phi, and the sources. FatalError that names the file where a field
     /// has wrong dimensions.
-    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType);
+    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, PhaseTimers& timers);
 
     /// Interstitial velocity [m/s].
     Foam::volVectorField& U()
@@ -42,15 +42,15 @@ public:
     void updateAlphaPhi(const Foam::volScalarField& voidFraction);
 
     /// Solves the fluid's equations over one coupling step.
-    SolvedFluid solve(CouplingStep& couplingStep);
+    void solve(ParticlesInFluid& particles);
 
 private:
-    Foam::fvVectorMatrix momentumEquation(const CouplingStep& couplingStep, const Foam::fvVectorMatrix& particleSource);
-    /// \return the implicit part of d(eps)/dt as a flux [m3/s]
-    Foam::tmp<Foam::surfaceScalarField> correctPressure(
-        CouplingStep& couplingStep, const Foam::surfaceScalarField& voidFractionf, const Foam::fvVectorMatrix& UEqn);
+    Foam::fvVectorMatrix momentumEquation(
+        const ParticlesInFluid& particles, const Foam::fvVectorMatrix& particleSource);
+    void correctPressure(ParticlesInFluid& particles, const Foam::fvVectorMatrix& UEqn);
 
     Foam::fvMesh& mesh_;
+    PhaseTimers& timers_;
     Foam::pimpleControl pimple_;
     Foam::volScalarField p_;
     Foam::volVectorField U_;

@@ -88,8 +88,6 @@ public:
         for (int particle = 0; particle < particleCount; ++particle)
         {
             GhostParticle ghost{};
-            ghost.reaction.setZero();
-            ghost.volume = sphereVolume(0.5 * diameter);
             for (int axis = 0; axis < 3; ++axis)
             {
                 ghost.position[axis] = diameter / 2 + (cells[axis] * cellSize - diameter) * part(random_);

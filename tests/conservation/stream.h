@@ -3,6 +3,7 @@
 #include "couplingStep/couplingStep.h"
 #include "support/boxMesh.h"
 #include "support/fakeEngine.h"
+#include "support/fluidWithoutContinuity.h"
 #include "support/temporaryCase.h"
 
 #include "fvcFlux.H"
@@ -14,9 +15,8 @@ namespace clepsydra::tests
 
 using namespace Foam;
 
-/// An engine that forgets the impulse of one particle when the particles are counted and mapped to cells, as a faulty
-/// exchange between ranks would. On its own rank, where it is asked for next, the particle still has its impulse.
-class ForgetfulEngine final : public FakeEngine
+/// An engine that loses something of what the particles receive.
+class FaultyEngine final : public FakeEngine
 {
 public:
     using FakeEngine::FakeEngine;
@@ -28,25 +28,6 @@ public:
             FakeEngine::particles().state[0].fluid.pressureGradient.setZero();
         }
         FakeEngine::advance(steps - missingSteps_);
-        viewsWithout_ = forgets_ ? 5 : 0;
-    }
-
-    ParticlesView particles() override
-    {
-        ParticlesView all = FakeEngine::particles();
-        if (viewsWithout_ > 0)
-        {
-            --viewsWithout_;
-            shown_.assign(all.state, all.state + all.size());
-            shown_.front().received.impulse.setZero();
-            all.state = shown_.data();
-        }
-        return all;
-    }
-
-    void forgetFromNowOn()
-    {
-        forgets_ = true;
     }
 
     /// From now on the first particle moves as if no pressure gradient had been sampled at it.
@@ -62,11 +43,8 @@ public:
     }
 
 private:
-    bool forgets_ = false;
     bool losesPressureGradient_ = false;
     int missingSteps_ = 0;
-    int viewsWithout_ = 0;
-    std::vector<CouplingState> shown_;
 };
 
 /// Water, and particles in it.
@@ -110,7 +88,7 @@ public:
                         : "")
                 + "; voidFractionModel divided; smoothingModel " + setup.smoothing + "; forceModels (" + setup.drag
                 + ' ' + setup.pressureForce + " noViscousStress Archimedes); momCoupleModels (" + setup.momentumModel
-                + "); DEM { engine liggghts; script none; }");
+                + "); useDDTvoidfraction off; DEM { engine liggghts; script none; }");
         mesh_ = boxMesh(case_.time(), point::zero, point::one, setup.cells);
         readFromCase<fvSchemes>(*mesh_);
         readFromCase<fvSolution>(*mesh_);
@@ -142,14 +120,12 @@ public:
         ++case_.time();
         U_->storeOldTime();
         const double timeLeft = nextSteps > 0 ? nextSteps * engine_.timeStep() : VGREAT;
-        couplingStep_->advance(*U_, *p_, fvc::flux(*U_), timeLeft, [&] {
-            fvVectorMatrix source(couplingStep_->fluid().momentumSource(*U_));
-            solved(source);
-            const volVectorField ofPressure(couplingStep_->fluid().sourceOfPressure(*p_));
-            solve(fvm::ddt(couplingStep_->fluid().voidFraction(), *U_) == source + ofPressure);
-            return SolvedFluid{sum(mesh_->V().field() * ((source & *U_) + ofPressure)().primitiveField()),
-                tmp<volScalarField>::New("none", couplingStep_->fluid().ddtVoidFraction()())};
-        });
+        ParticlesInFluid particles = couplingStep_->advanceParticles(fvc::flux(*U_), timeLeft);
+        fvVectorMatrix source(particles.momentumSource(*U_));
+        solved(source);
+        solve(fvm::ddt(particles.voidFraction(), *U_) == source + particles.sourceOfPressure(*p_));
+        recordWithoutContinuity(particles, source, *U_, *p_);
+        couplingStep_->fluidToParticles(particles, *U_, *p_);
     }
 
     /// Between so many particles [kg].
@@ -158,7 +134,7 @@ public:
         return density * (1 - particles * sphereVolume(radius));
     }
 
-    ForgetfulEngine& engine()
+    FaultyEngine& engine()
     {
         return engine_;
     }
@@ -194,7 +170,7 @@ public:
         const scalarField voidFraction(couplingStep_->fluid().voidFraction().primitiveField());
         return density * sum(mesh_->V().field() * voidFraction * U_->primitiveField().component(vector::Z))
                + (particles.velocity.row(2).array() * particles.mass.transpose()).sum()
-               + couplingStep_->fluid().semiImplicitMomentum().sum.z();
+               + couplingStep_->conservation().semiImplicitMomentum().sum.z();
     }
 
 private:
@@ -222,7 +198,7 @@ private:
     TemporaryCase case_;
     std::unique_ptr<fvMesh> mesh_;
     PhaseTimers timers_;
-    ForgetfulEngine engine_;
+    FaultyEngine engine_;
     std::unique_ptr<CouplingSettings> settings_;
     std::unique_ptr<FluidModels> models_;
     std::unique_ptr<CouplingStep> couplingStep_;

@@ -141,7 +141,7 @@ public:
                 engine_.addParticle(static_cast<int>(particle) + 1, positions[particle], diameter / 2);
             }
         }
-        exchange_.send(engine_.particles(), Reactions::Zero(reactionSize, engine_.particles().size()));
+        exchange_.send(engine_.particles(), Eigen::MatrixXd(0, engine_.particles().size()));
         shareSums_ = exchange_.sumAtOwners(distribution_.findCells(exchange_.ghosts()));
         distribution_.normalise(exchange_.toGhosts(shareSums_));
     }

@@ -5,6 +5,7 @@
 #include "couplingStep/couplingStep.h"
 #include "support/boxMesh.h"
 #include "support/fakeEngine.h"
+#include "support/fluidWithoutContinuity.h"
 #include "support/temporaryCase.h"
 #include "vectors.h"
 
@@ -39,6 +40,7 @@ public:
         case_.writeDictionary("constant/couplingProperties",
             "fluid incompressible; modelType A; couplingTimeStep " + std::to_string(couplingTimeStep)
                 + "; voidFractionModel divided; smoothingModel off; momCoupleModels (explicitCouple); "
+                  "useDDTvoidfraction off; "
                   "DEM { engine liggghts; script none; } "
                   "forceModels (StokesDrag gradPForce viscForce Archimedes virtualMassForce SaffmanLiftForce); "
                 + entries);
@@ -90,12 +92,9 @@ public:
         setFlow(before);
         U_->storeOldTime();
         setFlow(after);
-        couplingStep_->advance(*U_, *p_, fvc::flux(*U_), VGREAT, [&] {
-            const fvVectorMatrix source(couplingStep_->fluid().momentumSource(*U_));
-            const volVectorField ofPressure(couplingStep_->fluid().sourceOfPressure(*p_));
-            return SolvedFluid{sum(mesh_->V().field() * ((source & *U_) + ofPressure)().primitiveField()),
-                tmp<volScalarField>::New("none", couplingStep_->fluid().ddtVoidFraction()())};
-        });
+        ParticlesInFluid particles = couplingStep_->advanceParticles(fvc::flux(*U_), VGREAT);
+        recordWithoutContinuity(particles, particles.momentumSource(*U_), *U_, *p_);
+        couplingStep_->fluidToParticles(particles, *U_, *p_);
     }
 
     const FluidAtParticle& fluid()

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "conservation/conservationCheck.h"
+#include "couplingState.h"
+#include "forces/particleForces.h"
+#include "vectors.h"
+
+#include <utility>
+#include <vector>
+
+namespace clepsydra
+{
+
+/// What the DEM steps between two exchanges with the fluid have given, moved out of the particles' states. Particles are
+/// those of this rank, in the order of the engine's view.
+struct DemResult
+{
+    /// Length of the DEM steps together [s].
+    double timeStep;
+    std::vector<ReceivedImpulse> received;
+    /// Of each particle over the DEM steps [m/s].
+    Eigen::Matrix3Xd changeOfVelocity;
+    /// Impulse that the pressure gradient has given to this rank's particles [N s]; model A only.
+    Vector3d pressureImpulse;
+
+    /// What all particles of all ranks have received. Collective.
+    ExchangedMomentum receivedMomentum() const
+    {
+        Vector3d sum = Vector3d::Zero();
+        double sumOfMagnitudes = 0;
+        for (const ReceivedImpulse& ofParticle : received)
+        {
+            sum += ofParticle.impulse;
+            sumOfMagnitudes += ofParticle.impulse.norm();
+        }
+        return {returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>()),
+            returnReduce(sumOfMagnitudes, Foam::sumOp<double>())};
+    }
+};
+
+/// Takes the result out of the particles' states and of the forces, which begin the next DEM steps with nothing received.
+/// Local.
+inline DemResult takeDemResult(const ParticlesView& particles, ParticleForces& forces, double timeStep)
+{
+    DemResult result{timeStep, {}, Eigen::Matrix3Xd(3, particles.size()), forces.takePressureImpulse()};
+    result.received.reserve(static_cast<std::size_t>(particles.size()));
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        result.received.push_back(std::exchange(state.received, ReceivedImpulse()));
+        result.changeOfVelocity.col(particle) = particles.velocity.col(particle) - state.velocityBefore;
+        state.velocityBefore = particles.velocity.col(particle);
+    }
+    return result;
+}
+
+} // namespace clepsydra

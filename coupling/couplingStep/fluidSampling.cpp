@@ -1,0 +1,114 @@
+#include "couplingStep/fluidSampling.h"
+
+#include "couplingStep/checkpointedState.h"
+#include "couplingStep/couplingField.h"
+#include "vectors.h"
+
+#include "fvcCurl.H"
+#include "fvcGrad.H"
+
+#include <cmath>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+FluidSampling::FluidSampling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+    const ForceNeeds& needs, const SmoothingModel& smoothing)
+    : fluid_(fluid),
+      needs_(needs),
+      selfInducedVelocityCorrection_(settings, fluid, smoothing),
+      viscousStress_(mesh, fluid)
+{
+    if (needs_.acceleration)
+    {
+        acceleration_.reset(
+            new volVectorField(couplingField<vector>("fluidAcceleration", mesh, dimAcceleration, vector::zero)));
+    }
+    if (selfInducedVelocityCorrection_.isActive())
+    {
+        resistance_.reset(
+            new volScalarField(couplingField<scalar>("resistanceOfParticles", mesh, dimDensity / dimTime, 0)));
+    }
+}
+
+void FluidSampling::updateAcceleration(const volVectorField& U, double couplingTimeStep)
+{
+    if (needs_.acceleration)
+    {
+        const tmp<volTensorField> gradient = fvc::grad(U);
+        acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField()) / couplingTimeStep
+                                             + (U.primitiveField() & gradient().primitiveField());
+        acceleration_->correctBoundaryConditions();
+    }
+}
+
+void FluidSampling::setResistance(const ConstRow& resistanceTime, double couplingTimeStep)
+{
+    columns(resistance_->primitiveFieldRef()) = resistanceTime / couplingTimeStep;
+}
+
+FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const volVectorField& U,
+    const volScalarField& voidFraction, const Eigen::MatrixXd& pressureGradient) const
+{
+    SampledFields fields;
+    fields.add(columns(voidFraction.primitiveField()),
+        [](const ParticlesView& view, Eigen::Index particle, const double* value) {
+            FluidAtParticle& fluid = view.state[particle].fluid;
+            fluid.voidFraction = *value;
+            fluid.logVoidFraction = std::log(*value);
+        });
+    fields.add(columns(U.primitiveField()), [](const ParticlesView& view, Eigen::Index particle, const double* value) {
+        FluidAtParticle& fluid = view.state[particle].fluid;
+        fluid.velocity = Eigen::Map<const Vector3d>(value);
+        fluid.velocityInCells = fluid.velocity;
+    });
+    fields.add(pressureGradient, &FluidAtParticle::pressureGradient);
+    if (needs_.viscousStress)
+    {
+        fields.add(fluid_.density * columns(viscousStress_.divergence(U)().primitiveField()),
+            &FluidAtParticle::viscousStressDivergence);
+    }
+    if (needs_.acceleration)
+    {
+        fields.add(columns(acceleration_->primitiveField()), &FluidAtParticle::acceleration);
+    }
+    if (needs_.vorticity)
+    {
+        fields.add(columns(fvc::curl(U)().primitiveField()), &FluidAtParticle::vorticity);
+    }
+    if (resistance_)
+    {
+        Eigen::Matrix2Xd surroundings(2, U.size());
+        surroundings << columns(resistance_->primitiveField()),
+            columns(U.mesh().V().field()).array().pow(1.0 / 3.0).matrix();
+        fields.add(surroundings, [this](const ParticlesView& view, Eigen::Index particle, const double* value) {
+            view.state[particle].fluid.selfMobility = selfInducedVelocityCorrection_.selfMobility(view.state[particle],
+                view.position.col(particle), view.radius[particle], view.velocity.col(particle), value[0], value[1]);
+        });
+    }
+    return fields.sampleAt(particles);
+}
+
+void FluidSampling::store(const ParticlesView& particles) const
+{
+    auto stored = checkpointedState::of(particles);
+    for (Eigen::Index particle = 0; resistance_ && particle < particles.size(); ++particle)
+    {
+        checkpointedState::drag.of(stored).col(particle) = particles.state[particle].drag;
+        checkpointedState::selfMobility.of(stored)(0, particle) = particles.state[particle].fluid.selfMobility;
+    }
+}
+
+void FluidSampling::restore(const ParticlesView& particles) const
+{
+    const auto stored = checkpointedState::of(particles);
+    for (Eigen::Index particle = 0; resistance_ && particle < particles.size(); ++particle)
+    {
+        particles.state[particle].drag = checkpointedState::drag.of(stored).col(particle);
+        particles.state[particle].fluid.selfMobility = checkpointedState::selfMobility.of(stored)(0, particle);
+    }
+}
+
+} // namespace clepsydra

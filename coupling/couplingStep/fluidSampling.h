@@ -1,0 +1,56 @@
+#pragma once
+
+#include "couplingStep/couplingSettings.h"
+#include "couplingStep/fluidAtParticles.h"
+#include "couplingStep/rows.h"
+#include "couplingStep/selfInducedVelocityCorrection.h"
+#include "couplingStep/viscousStress.h"
+#include "forces/forceModel.h"
+
+namespace clepsydra
+{
+
+/// Samples what the forces need of the fluid at the particles. To add a quantity, give FluidAtParticle a member and
+/// sample() a line.
+class FluidSampling
+{
+public:
+    /// Reads the fields that an earlier process of this run has written.
+    FluidSampling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
+        const ForceNeeds& needs, const SmoothingModel& smoothing);
+
+    bool removesSelfInducedVelocity() const
+    {
+        return static_cast<bool>(resistance_);
+    }
+
+    /// Computes DU/Dt over the coupling step that has just been solved, where a force needs it. It is stored as a field,
+    /// so that a resumed run has it too.
+    void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
+
+    /// Sets the drag coefficient of all particles per volume.
+    /// \param resistanceTime  times the length of the coupling step [kg/m3] \pre removesSelfInducedVelocity()
+    void setResistance(const ConstRow& resistanceTime, double couplingTimeStep);
+
+    /// Collective.
+    /// \param pressureGradient  that acts on the particles [Pa/m], 3 x cells
+    FluidAtParticles sample(const LocatedParticles& particles, const Foam::volVectorField& U,
+        const Foam::volScalarField& voidFraction, const Eigen::MatrixXd& pressureGradient) const;
+
+    /// The self-induced velocity is computed from drag and mobility at the last sampling. They are stored in the part of
+    /// the state that checkpoints hold, and restored in a resumed run.
+    void store(const ParticlesView& particles) const;
+    void restore(const ParticlesView& particles) const;
+
+private:
+    const FluidProperties fluid_;
+    const ForceNeeds needs_;
+    const SelfInducedVelocityCorrection selfInducedVelocityCorrection_;
+    const ViscousStress viscousStress_;
+    /// Null where the self-induced velocity is not removed.
+    Foam::autoPtr<Foam::volScalarField> resistance_;
+    /// DU/Dt [m/s2]; null where no force needs it.
+    Foam::autoPtr<Foam::volVectorField> acceleration_;
+};
+
+} // namespace clepsydra

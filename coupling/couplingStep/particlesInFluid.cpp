@@ -1,0 +1,62 @@
+#include "couplingStep/particlesInFluid.h"
+
+#include "fvMatrices.H"
+#include "fvcDiv.H"
+#include "surfaceInterpolate.H"
+
+#include <utility>
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+ParticlesInFluid::ParticlesInFluid(AnticipatedParticles anticipated, ParticleFields& fields,
+    ConservationCheck& conservation, const ExchangedMomentum& received, double fluidDensity, double couplingTimeStep)
+    : AnticipatedParticles(std::move(anticipated)),
+      fields_(fields),
+      conservation_(conservation),
+      received_(received),
+      fluidDensity_(fluidDensity),
+      couplingTimeStep_(couplingTimeStep),
+      voidFractionf_(fvc::interpolate(voidFraction())),
+      movingf_(voidFractionf_ + fields_.rate.velocityResponse())
+{}
+
+void ParticlesInFluid::spreadImbalance(double outflow)
+{
+    conservation_.recordImbalance(couplingTimeStep_ * fields_.rate.spreadImbalance(outflow));
+}
+
+tmp<surfaceScalarField> ParticlesInFluid::pressureCoefficient(const surfaceScalarField& rAUf) const
+{
+    return movingf_ * rAUf + fields_.rate.pressureResponse();
+}
+
+tmp<volScalarField> ParticlesInFluid::explicitContinuity(const surfaceScalarField& phiHbyA) const
+{
+    return fields_.rate.withoutImplicit() + fvc::div(movingf_ * phiHbyA);
+}
+
+void ParticlesInFluid::setFlux(const surfaceScalarField& phi, const surfaceScalarField& gradient)
+{
+    anticipatedFlux_ = fields_.rate.velocityResponse() * phi - fields_.rate.pressureResponse() * gradient;
+}
+
+void ParticlesInFluid::record(
+    const fvVectorMatrix& source, const volVectorField& U, const volScalarField& p, const surfaceScalarField& alphaPhi)
+{
+    fields_.rate.close(anticipatedFlux_());
+    sourceOfParticles_ = sum(U.mesh().V().field() * ((source & U) + sourceOfPressure(p))().primitiveField());
+    continuityError_ = fields_.rate() + fvc::div(alphaPhi);
+}
+
+void ParticlesInFluid::checkConservation(const ExchangedMomentum& semiImplicit) const
+{
+    conservation_.recordMomentum(received_,
+        -fluidDensity_ * couplingTimeStep_ * returnReduce(sourceOfParticles_, sumOp<vector>()), semiImplicit);
+    conservation_.recordContinuity(couplingTimeStep_ * continuityError_());
+    conservation_.recordFilteredVolume(fields_.rate.filteredVolume());
+}
+
+} // namespace clepsydra

@@ -1,0 +1,129 @@
+#pragma once
+
+#include "couplingStep/clippedVoidFraction.h"
+#include "couplingStep/particleMapping.h"
+#include "couplingStep/pressureOnParticles.h"
+#include "couplingStep/semiImplicitSource.h"
+#include "couplingStep/voidFractionRate.h"
+#include "forces/anticipatedMotion.h"
+
+#include "surfaceFields.H"
+
+namespace clepsydra
+{
+
+/// Particles whose cells are known, and the motion that is anticipated for each over the next coupling step.
+struct AnticipatedParticles : LocatedParticles
+{
+    /// In the order of the engine's view.
+    std::vector<AnticipatedMotion> motions;
+    /// Length of the next coupling step [s].
+    double timeStep;
+};
+
+/// The fields that the particles give the fluid's equations. They last as long as the run, and some are part of
+/// checkpoints.
+struct ParticleFields
+{
+    ClippedVoidFraction voidFraction;
+    PressureOnParticles pressure;
+    VoidFractionRate rate;
+    SemiImplicitSource momentum;
+};
+
+/// The particles in the fluid's equations of one coupling step: model A of Anderson & Jackson, divided by the fluid's
+/// density,
+///
+///     d(eps)/dt + div(eps U) = 0
+///     d(eps U)/dt + div(eps U U) = -pressureFactor grad p + div(tau) + momentumSource
+///
+/// p is kinematic and without its hydrostatic part. In model B grad p has the factor 1, see ModelType.
+///
+/// With U = HbyA - pressureFactor rAU grad p, continuity becomes the equation of the pressure
+///
+///     laplacian(pressureCoefficient, p) = explicitContinuity
+///
+/// in which the particles' response to U and p is implicit, see VoidFractionRate.
+class ParticlesInFluid : public AnticipatedParticles
+{
+public:
+    /// \param received  what the particles received in the coupling step that is solved, over all ranks
+    /// \param couplingTimeStep  its length [s]
+    ParticlesInFluid(AnticipatedParticles anticipated, ParticleFields& fields, ConservationCheck& conservation,
+        const ExchangedMomentum& received, double fluidDensity, double couplingTimeStep);
+    ParticlesInFluid(const ParticlesInFluid&) = delete;
+    ParticlesInFluid& operator=(const ParticlesInFluid&) = delete;
+
+    const Foam::volScalarField& voidFraction() const
+    {
+        return fields_.voidFraction();
+    }
+
+    /// The void fraction on faces.
+    const Foam::surfaceScalarField& voidFractionf() const
+    {
+        return voidFractionf_;
+    }
+
+    /// The particles' source in the momentum equation [m/s2 times volume], see SemiImplicitSource.
+    Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const
+    {
+        return fields_.momentum.source(U);
+    }
+
+    /// Factor of grad p in the momentum equation, see PressureOnParticles.
+    const Foam::volScalarField& pressureFactor() const
+    {
+        return fields_.pressure.factor();
+    }
+
+    /// The part of the pressure term that acts on the particles [m/s2], see PressureOnParticles.
+    Foam::tmp<Foam::volVectorField> sourceOfPressure(const Foam::volScalarField& p) const
+    {
+        return fields_.pressure.source(voidFraction(), p);
+    }
+
+    /// Makes continuity solvable where p is fixed nowhere: distributes the volume imbalance of a closed tank over its
+    /// cells, see VoidFractionRate::spreadImbalance(). Collective.
+    /// \param outflow  of fluid through the boundary of this rank without a correction of p [m3/s]
+    void spreadImbalance(double outflow);
+
+    /// \param rAUf  coefficient of grad p in U, on faces [s]
+    Foam::tmp<Foam::surfaceScalarField> pressureCoefficient(const Foam::surfaceScalarField& rAUf) const;
+
+    /// \param phiHbyA  flux of U without the pressure's part [m3/s]
+    Foam::tmp<Foam::volScalarField> explicitContinuity(const Foam::surfaceScalarField& phiHbyA) const;
+
+    /// Sets the flux that the pressure equation has given. The last one counts.
+    /// \param phi  flux of U [m3/s]
+    /// \param gradient  of p across the faces, times their areas
+    void setFlux(const Foam::surfaceScalarField& phi, const Foam::surfaceScalarField& gradient);
+
+    /// Ends the solution of the equations: completes d(eps)/dt and records what the conservation check compares. The
+    /// momentum is that of the equation that was solved.
+    /// \param source  momentumSource() as it was in the last momentum equation
+    /// \param alphaPhi  flux of fluid [m3/s]
+    void record(const Foam::fvVectorMatrix& source, const Foam::volVectorField& U, const Foam::volScalarField& p,
+        const Foam::surfaceScalarField& alphaPhi);
+
+    /// Compares what the fluid lost with what the particles received. Collective. \pre record() has been called
+    /// \param semiImplicit  see ConservationCheck::recordMomentum()
+    void checkConservation(const ExchangedMomentum& semiImplicit) const;
+
+private:
+    ParticleFields& fields_;
+    ConservationCheck& conservation_;
+    const ExchangedMomentum received_;
+    const double fluidDensity_;
+    const double couplingTimeStep_;
+    const Foam::surfaceScalarField voidFractionf_;
+    /// Volume fraction whose flux follows U: the fluid, and the particles as far as they respond to it.
+    const Foam::surfaceScalarField movingf_;
+    /// Flux of the implicit part of d(eps)/dt [m3/s].
+    Foam::tmp<Foam::surfaceScalarField> anticipatedFlux_;
+    /// Integral of the particles' source over this rank's cells [m4/s2].
+    Foam::vector sourceOfParticles_ = Foam::vector::zero;
+    Foam::tmp<Foam::volScalarField> continuityError_;
+};
+
+} // namespace clepsydra

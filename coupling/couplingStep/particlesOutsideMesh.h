@@ -1,0 +1,16 @@
+#pragma once
+
+#include "engine/particles.h"
+
+#include "fvMesh.H"
+
+namespace clepsydra
+{
+
+/// FatalError where a particle has no share in any cell and is not one of those that may be outside the mesh. The
+/// message describes the particle with the lowest id. Collective.
+/// \param shareSums  1 x particles: sums of the shares over all ranks
+void requireWithinMesh(const Foam::fvMesh& mesh, const Foam::dictionary& couplingProperties,
+    const ParticlesView& particles, const Eigen::MatrixXd& shareSums);
+
+} // namespace clepsydra

@@ -1,0 +1,73 @@
+#include "couplingStep/pressureOnParticles.h"
+
+#include "couplingState.h"
+#include "couplingStep/couplingField.h"
+#include "vectors.h"
+
+#include "fvcGrad.H"
+
+namespace clepsydra
+{
+
+using namespace Foam;
+
+PressureOnParticles::PressureOnParticles(
+    const fvMesh& mesh, ModelType modelType, bool isForce, double fluidDensity, ConservationCheck& conservation)
+    : modelType_(modelType),
+      acts_(modelType == ModelType::A && isForce),
+      fluidDensity_(fluidDensity),
+      conservation_(conservation),
+      factor_(
+          temporaryField<volScalarField>("pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName))
+{}
+
+void PressureOnParticles::updateFactor(const volScalarField& voidFraction, const ConstRow& velocityResponse)
+{
+    factor_ = voidFraction;
+    if (modelType_ == ModelType::B)
+    {
+        factor_.primitiveFieldRef() = 1;
+    }
+    else if (acts_)
+    {
+        columns(factor_.primitiveFieldRef()) += velocityResponse;
+    }
+    factor_.correctBoundaryConditions();
+}
+
+tmp<volVectorField> PressureOnParticles::source(const volScalarField& voidFraction, const volScalarField& p) const
+{
+    const dimensionedScalar active("active", dimless, acts_ ? 1 : 0);
+    return active * (voidFraction - factor_) * fvc::grad(p);
+}
+
+Eigen::MatrixXd PressureOnParticles::gradient(const volScalarField& p, const scalarField& solidFraction)
+{
+    const tmp<volVectorField> gradient = fvc::grad(p);
+    const vectorField& inCells = gradient().primitiveField();
+    forceInFluid_ = -gSum(vectorField(fluidDensity_ * inCells * solidFraction * p.mesh().V().field()));
+    return modelType_ == ModelType::A ? Eigen::MatrixXd(fluidDensity_ * columns(inCells))
+                                      : Eigen::MatrixXd::Zero(3, inCells.size());
+}
+
+void PressureOnParticles::sampledAt(const ParticlesView& particles)
+{
+    scalar sum = 0;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        sum += volumeInFluid(particles, particle) * particles.state[particle].fluid.pressureGradient.norm();
+    }
+    sumOfMagnitudes_ = returnReduce(sum, sumOp<scalar>());
+}
+
+void PressureOnParticles::check(const Vector3d& onParticles) const
+{
+    // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
+    if (modelType_ == ModelType::A)
+    {
+        conservation_.recordPressureForce(
+            returnReduce(toFoam(onParticles), sumOp<vector>()), forceInFluid_, sumOfMagnitudes_, !acts_);
+    }
+}
+
+} // namespace clepsydra
