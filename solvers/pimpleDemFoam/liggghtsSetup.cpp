@@ -101,8 +101,6 @@ std::vector<GroupChange> readGroupChanges(const dictionary& changes)
 LiggghtsSetup liggghtsSetup(const CouplingSettings& settings, bool writesNothing)
 {
     const dictionary& dem = settings.demDict();
-    selectedModel(dem, "engine", {"liggghts"});
-
     LiggghtsSetup setup;
     setup.script = dem.get<fileName>("script").c_str();
     if (!isFile(fileName(setup.script.string())))

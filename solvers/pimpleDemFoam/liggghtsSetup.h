@@ -1,7 +1,7 @@
 #pragma once
 
 #include "checkpoint/checkpoints.h"
-#include "engine/liggghts/liggghtsEngine.h"
+#include "engine/liggghts/setup.h"
 #include "couplingStep/couplingSettings.h"
 
 namespace clepsydra

@@ -4,19 +4,17 @@
 #include "checkpoint/caseLock.h"
 #include "checkpoint/checkpoints.h"
 #include "checkpoint/runTime.h"
-#include "engine/liggghts/script.h"
 #include "files/standardStreams.h"
 #include "files/wholeFile.h"
 #include "couplingStep/couplingStep.h"
+#include "demProgram.h"
 #include "ignoredInputs.h"
-#include "liggghtsSetup.h"
 #include "fluidSources.h"
 #include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
 #include "runTimeSelection.h"
-#include "scriptRules.h"
 #include "vectors.h"
 #include "voidFractionFlow.h"
 
@@ -66,26 +64,6 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
 
     const Vector3d gravity = toEigen(g.value());
     return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
-}
-
-/// The DEM script gives the particles' weight and constant/g their buoyancy, so both must have the same gravity.
-void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine, const ScriptFacts& script)
-{
-    const Vector3d dem = engine.gravity();
-    if ((fluid.gravity - dem).norm() > 1e-6 * fluid.gravity.norm())
-    {
-        const std::vector<std::string> fixes = script.fixesOfStyle("gravity");
-        std::string together;
-        for (const std::string& id : fixes)
-        {
-            together += fixes.size() > 1 ? (together.empty() ? " (together: " : ", ") + id : "";
-        }
-        together += together.empty() ? "" : ")";
-        FatalErrorInFunction << "constant/g is (" << fluid.gravity.x() << ' ' << fluid.gravity.y() << ' '
-                             << fluid.gravity.z() << ") m/s2, but fix gravity of the DEM script" << together.c_str()
-                             << " gives (" << dem.x() << ' ' << dem.y() << ' ' << dem.z()
-                             << ") m/s2; allowed: the same in both" << exit(FatalError);
-    }
 }
 
 /// Writes the particles for other runs, with a checksum that these runs check.
@@ -228,22 +206,15 @@ int main(int argc, char* argv[])
     const auto models = settings.hasFluid() ? std::make_unique<FluidModels>(mesh, settings, fluid, timers) : nullptr;
     try
     {
-        LiggghtsSetup setup = liggghtsSetup(settings, dryRun);
-        const Checkpoints checkpoints(runTime, RunInputs(mesh, filesOfScript(setup.script, setup.variables)), !dryRun);
+        autoPtr<DemProgram> demProgram = DemProgram::New(settings, dryRun);
+        const Checkpoints checkpoints(runTime, RunInputs(mesh, demProgram->inputs()), !dryRun);
         if (checkpoints.resumed())
         {
             runTime.resume(checkpoints.beginning());
-            resume(setup, checkpoints);
         }
-        LiggghtsEngine engine(setup);
-        const ScriptFacts script = engine.scriptFacts();
-        requireKnownScript(settings, script);
-        if (models)
-        {
-            requireSameGravity(fluid, engine, script);
-        }
+        DemEngine& engine = demProgram->start(checkpoints, models ? &fluid : nullptr);
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
-        warnOfUnreadProperties(engine.unreadProperties());
+        demProgram->warnOfUnreadInput();
         RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
 
         if (models)

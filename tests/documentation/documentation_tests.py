@@ -37,6 +37,7 @@ MODELS = {
     "virtualMassForceProps { law }": ["models-virtualMassForceProps"],
     "historyForceProps { law }": ["models-historyForceProps"],
     "functions { type }": ["models-functions"],
+    "DEM/engine": ["models-engine"],
 }
 
 # File of each call of requireKnownEntries(), in the order of the calls -> label; None where the call allows no entry.

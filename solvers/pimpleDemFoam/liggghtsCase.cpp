@@ -1,0 +1,86 @@
+#include "demProgram.h"
+#include "engine/liggghts/liggghtsEngine.h"
+#include "engine/liggghts/script.h"
+#include "liggghtsSetup.h"
+#include "scriptRules.h"
+
+#include "addToRunTimeSelectionTable.H"
+
+#include <memory>
+
+namespace clepsydra
+{
+
+namespace
+{
+
+/// The DEM script gives the particles' weight and constant/g their buoyancy, so both must have the same gravity.
+void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine, const ScriptFacts& script)
+{
+    const Vector3d dem = engine.gravity();
+    if ((fluid.gravity - dem).norm() > 1e-6 * fluid.gravity.norm())
+    {
+        const std::vector<std::string> fixes = script.fixesOfStyle("gravity");
+        std::string together;
+        for (const std::string& id : fixes)
+        {
+            together += fixes.size() > 1 ? (together.empty() ? " (together: " : ", ") + id : "";
+        }
+        together += together.empty() ? "" : ")";
+        FatalErrorInFunction << "constant/g is (" << fluid.gravity.x() << ' ' << fluid.gravity.y() << ' '
+                             << fluid.gravity.z() << ") m/s2, but fix gravity of the DEM script" << together.c_str()
+                             << " gives (" << dem.x() << ' ' << dem.y() << ' ' << dem.z()
+                             << ") m/s2; allowed: the same in both" << exit(FatalError);
+    }
+}
+
+/// A case whose particles LIGGGHTS moves.
+class LiggghtsCase final : public DemProgram
+{
+public:
+    TypeName("liggghts");
+
+    LiggghtsCase(const CouplingSettings& settings, bool writesNothing)
+        : settings_(settings),
+          setup_(liggghtsSetup(settings, writesNothing))
+    {}
+
+    std::vector<std::filesystem::path> inputs() const override
+    {
+        return filesOfScript(setup_.script, setup_.variables);
+    }
+
+    DemEngine& start(const Checkpoints& checkpoints, const FluidProperties* fluid) override
+    {
+        if (checkpoints.resumed())
+        {
+            resume(setup_, checkpoints);
+        }
+        engine_ = std::make_unique<LiggghtsEngine>(setup_);
+        const ScriptFacts script = engine_->scriptFacts();
+        requireKnownScript(settings_, script);
+        if (fluid)
+        {
+            requireSameGravity(*fluid, *engine_, script);
+        }
+        return *engine_;
+    }
+
+    void warnOfUnreadInput() const override
+    {
+        warnOfUnreadProperties(engine_->unreadProperties());
+    }
+
+private:
+    const CouplingSettings& settings_;
+    LiggghtsSetup setup_;
+    std::unique_ptr<LiggghtsEngine> engine_;
+};
+
+defineTypeNameAndDebug(LiggghtsCase, 0);
+addToRunTimeSelectionTable(DemProgram, LiggghtsCase, settings);
+const ModelLines lines("DEM/engine", {{LiggghtsCase::typeName_(), "LIGGGHTS 3.8, driven by a script"}});
+
+} // namespace
+
+} // namespace clepsydra
