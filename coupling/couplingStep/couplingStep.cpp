@@ -78,11 +78,11 @@ ParticlesInFluid CouplingStep::advanceParticles(const Foam::surfaceScalarField& 
 }
 
 void CouplingStep::fluidToParticles(
-    const ParticlesInFluid& particles, const Foam::volVectorField& U, const Foam::volScalarField& p)
+    const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     fluid_->updateAcceleration(U, couplingTimeStep_);
-    fluid_->fluidToParticles(particles, U, p);
-    particles.checkConservation(fluid_->semiImplicitMomentum(particles));
+    fluid_->fluidToParticles(solved.particles(), U, p);
+    solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()));
     removeParticlesThatLeft();
 }
 

@@ -41,9 +41,8 @@ public:
     ParticlesInFluid advanceParticles(const Foam::surfaceScalarField& phi, double timeLeft);
 
     /// Ends the coupling step: gives the particles the fluid that has been solved, checks what was exchanged, and removes
-    /// the particles that have left. Collective. \pre ParticlesInFluid::record() has been called
-    void fluidToParticles(
-        const ParticlesInFluid& particles, const Foam::volVectorField& U, const Foam::volScalarField& p);
+    /// the particles that have left. Collective.
+    void fluidToParticles(const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// Advances a DEM-only run by one coupling step.
     void advance();
@@ -71,7 +70,7 @@ public:
 
 private:
     void advanceDem();
-    /// Takes the result of the last DEM steps out of the particles, which then begin anew.
+    /// Takes the result of the last DEM steps out of the particles, which then begin with nothing received.
     DemResult takeDemResult(double timeStep);
     /// Finds the particles outside the mesh where these are allowed; null where they are not.
     FindOutsideMesh findOutsideMesh();

@@ -12,7 +12,8 @@ namespace clepsydra
 
 /// What particles and fluid give each other in a coupling step. Each function returns what the next one takes:
 ///
-///     DemResult --particlesToFluid()--> ParticlesInFluid --the fluid's equations, fluidToParticles()--> CouplingState
+///     DemResult --particlesToFluid()--> ParticlesInFluid --the fluid's equations--> SolvedStep --fluidToParticles()-->
+///     FluidAtParticles, stored in CouplingState
 class FluidCoupling
 {
 public:

@@ -43,20 +43,22 @@ void ParticlesInFluid::setFlux(const surfaceScalarField& phi, const surfaceScala
     anticipatedFlux_ = fields_.rate.velocityResponse() * phi - fields_.rate.pressureResponse() * gradient;
 }
 
-void ParticlesInFluid::record(
+SolvedStep ParticlesInFluid::record(
     const fvVectorMatrix& source, const volVectorField& U, const volScalarField& p, const surfaceScalarField& alphaPhi)
 {
     fields_.rate.close(anticipatedFlux_());
-    sourceOfParticles_ = sum(U.mesh().V().field() * ((source & U) + sourceOfPressure(p))().primitiveField());
-    continuityError_ = fields_.rate() + fvc::div(alphaPhi);
+    return {*this, sum(U.mesh().V().field() * ((source & U) + sourceOfPressure(p))().primitiveField()),
+        fields_.rate() + fvc::div(alphaPhi)};
 }
 
-void ParticlesInFluid::checkConservation(const ExchangedMomentum& semiImplicit) const
+void SolvedStep::checkConservation(const ExchangedMomentum& semiImplicit) const
 {
-    conservation_.recordMomentum(received_,
-        -fluidDensity_ * couplingTimeStep_ * returnReduce(sourceOfParticles_, sumOp<vector>()), semiImplicit);
-    conservation_.recordContinuity(couplingTimeStep_ * continuityError_());
-    conservation_.recordFilteredVolume(fields_.rate.filteredVolume());
+    ConservationCheck& conservation = particles_.conservation_;
+    const double timeStep = particles_.couplingTimeStep_;
+    conservation.recordMomentum(particles_.received_,
+        -particles_.fluidDensity_ * timeStep * returnReduce(sourceOfParticles_, sumOp<vector>()), semiImplicit);
+    conservation.recordContinuity(timeStep * continuityError_());
+    conservation.recordFilteredVolume(particles_.fields_.rate.filteredVolume());
 }
 
 } // namespace clepsydra

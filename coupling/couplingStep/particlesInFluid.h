@@ -31,6 +31,8 @@ struct ParticleFields
     SemiImplicitSource momentum;
 };
 
+class SolvedStep;
+
 /// The particles in the fluid's equations of one coupling step: model A of Anderson & Jackson, divided by the fluid's
 /// density,
 ///
@@ -99,18 +101,16 @@ public:
     /// \param gradient  of p across the faces, times their areas
     void setFlux(const Foam::surfaceScalarField& phi, const Foam::surfaceScalarField& gradient);
 
-    /// Ends the solution of the equations: completes d(eps)/dt and records what the conservation check compares. The
-    /// momentum is that of the equation that was solved.
+    /// Ends the solution of the equations: completes d(eps)/dt. The result has what the conservation check compares, of
+    /// the equation that was solved.
     /// \param source  momentumSource() as it was in the last momentum equation
     /// \param alphaPhi  flux of fluid [m3/s]
-    void record(const Foam::fvVectorMatrix& source, const Foam::volVectorField& U, const Foam::volScalarField& p,
+    SolvedStep record(const Foam::fvVectorMatrix& source, const Foam::volVectorField& U, const Foam::volScalarField& p,
         const Foam::surfaceScalarField& alphaPhi);
 
-    /// Compares what the fluid lost with what the particles received. Collective. \pre record() has been called
-    /// \param semiImplicit  see ConservationCheck::recordMomentum()
-    void checkConservation(const ExchangedMomentum& semiImplicit) const;
-
 private:
+    friend class SolvedStep;
+
     ParticleFields& fields_;
     ConservationCheck& conservation_;
     const ExchangedMomentum received_;
@@ -121,9 +121,35 @@ private:
     const Foam::surfaceScalarField movingf_;
     /// Flux of the implicit part of d(eps)/dt [m3/s].
     Foam::tmp<Foam::surfaceScalarField> anticipatedFlux_;
+};
+
+/// A coupling step whose fluid has been solved. Only ParticlesInFluid::record() makes one, and it refers to that object.
+class SolvedStep
+{
+public:
+    const AnticipatedParticles& particles() const
+    {
+        return particles_;
+    }
+
+    /// Compares what the fluid lost with what the particles received. Collective.
+    /// \param semiImplicit  see ConservationCheck::recordMomentum()
+    void checkConservation(const ExchangedMomentum& semiImplicit) const;
+
+private:
+    friend class ParticlesInFluid;
+    SolvedStep(const ParticlesInFluid& particles, const Foam::vector& sourceOfParticles,
+        const Foam::tmp<Foam::volScalarField>& continuityError)
+        : particles_(particles),
+          sourceOfParticles_(sourceOfParticles),
+          continuityError_(continuityError)
+    {}
+
+    const ParticlesInFluid& particles_;
     /// Integral of the particles' source over this rank's cells [m4/s2].
-    Foam::vector sourceOfParticles_ = Foam::vector::zero;
-    Foam::tmp<Foam::volScalarField> continuityError_;
+    const Foam::vector sourceOfParticles_;
+    /// d(eps)/dt + div(eps U) [1/s].
+    const Foam::tmp<Foam::volScalarField> continuityError_;
 };
 
 } // namespace clepsydra

@@ -121,12 +121,12 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
         ParticlesInFluid particles = couplingStep.advanceParticles(flow.phi(), runTime.timeLeft());
-        {
+        const SolvedStep solved = [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
-            flow.solve(particles);
-        }
-        couplingStep.fluidToParticles(particles, flow.U(), flow.p());
+            return flow.solve(particles);
+        }();
+        couplingStep.fluidToParticles(solved, flow.U(), flow.p());
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace(flow.U(), flow.p());

@@ -88,7 +88,7 @@ void VoidFractionFlow::updateAlphaPhi(const volScalarField& voidFraction)
     alphaPhi_ = fvc::interpolate(voidFraction) * phi_;
 }
 
-void VoidFractionFlow::solve(ParticlesInFluid& particles)
+SolvedStep VoidFractionFlow::solve(ParticlesInFluid& particles)
 {
     tmp<fvVectorMatrix> particleSource;
     while (pimple_.loop())
@@ -102,7 +102,7 @@ void VoidFractionFlow::solve(ParticlesInFluid& particles)
         }
     }
     alphaPhi_ = particles.voidFractionf() * phi_;
-    particles.record(particleSource(), U_, p_, alphaPhi_);
+    return particles.record(particleSource(), U_, p_, alphaPhi_);
 }
 
 // The layout shows the terms of the equations.

@@ -42,7 +42,7 @@ public:
     void updateAlphaPhi(const Foam::volScalarField& voidFraction);
 
     /// Solves the fluid's equations over one coupling step.
-    void solve(ParticlesInFluid& particles);
+    SolvedStep solve(ParticlesInFluid& particles);
 
 private:
     Foam::fvVectorMatrix momentumEquation(

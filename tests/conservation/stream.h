@@ -124,8 +124,7 @@ public:
         fvVectorMatrix source(particles.momentumSource(*U_));
         solved(source);
         solve(fvm::ddt(particles.voidFraction(), *U_) == source + particles.sourceOfPressure(*p_));
-        recordWithoutContinuity(particles, source, *U_, *p_);
-        couplingStep_->fluidToParticles(particles, *U_, *p_);
+        couplingStep_->fluidToParticles(recordWithoutContinuity(particles, source, *U_, *p_), *U_, *p_);
     }
 
     /// Between so many particles [kg].

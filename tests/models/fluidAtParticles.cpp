@@ -93,8 +93,8 @@ public:
         U_->storeOldTime();
         setFlow(after);
         ParticlesInFluid particles = couplingStep_->advanceParticles(fvc::flux(*U_), VGREAT);
-        recordWithoutContinuity(particles, particles.momentumSource(*U_), *U_, *p_);
-        couplingStep_->fluidToParticles(particles, *U_, *p_);
+        couplingStep_->fluidToParticles(
+            recordWithoutContinuity(particles, particles.momentumSource(*U_), *U_, *p_), *U_, *p_);
     }
 
     const FluidAtParticle& fluid()

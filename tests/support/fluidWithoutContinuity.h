@@ -9,7 +9,7 @@ namespace clepsydra::tests
 
 /// Records the solution of a momentum equation that has no equation of continuity beside it. \pre d(eps)/dt is zero,
 /// because the case has `useDDTvoidfraction off`
-inline void recordWithoutContinuity(ParticlesInFluid& particles, const Foam::fvVectorMatrix& source,
+inline SolvedStep recordWithoutContinuity(ParticlesInFluid& particles, const Foam::fvVectorMatrix& source,
     const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
     using namespace Foam;
@@ -19,7 +19,7 @@ inline void recordWithoutContinuity(ParticlesInFluid& particles, const Foam::fvV
     };
     const surfaceScalarField noFlux(zero(dimVolume / dimTime));
     particles.setFlux(noFlux, zero(dimVolume / sqr(dimTime)));
-    particles.record(source, U, p, noFlux);
+    return particles.record(source, U, p, noFlux);
 }
 
 } // namespace clepsydra::tests
