@@ -52,6 +52,12 @@ def times(case: Path | str) -> list[str]:
     return sorted((name for name in found if float(name) > 0), key=float)
 
 
+def is_divided(case: Path | str, name: str) -> bool:
+    """Whether a run on several ranks has written this field at a time after the start."""
+    part = Path(case) / "processor0"
+    return part.is_dir() and any((part / time / name).exists() for time in times(part))
+
+
 def field(case: Path | str, time: str, name: str) -> np.ndarray:
     """Values of a field in all cells, one row per cell; of one row where the field is uniform. Written as ascii."""
     text = (Path(case) / time / name).read_text()

@@ -106,7 +106,7 @@ class Moment:
 def field_times(case: Path) -> dict[float, str]:
     """Folders with U by their times; none in a run without water. What it began with is no field of the solver's."""
     times = {float(name): name for name in case_files.times(case) if (case / name / "U").exists()}
-    if not times and (case / "processor0").exists():
+    if not times and case_files.is_divided(case, "U"):
         sys.exit(f"there is no U in {case}; after a run on several ranks: reconstructPar")
     return times
 

@@ -23,7 +23,7 @@ from types import FrameType
 
 import yaml
 
-from clepsydra import case_rules, parameter_file
+from clepsydra import case_files, case_rules, parameter_file
 
 # scripts/environment, which every Allrun sources, names the repository or the package that is used.
 CLEPSYDRA = Path(os.environ.get("CLEPSYDRA", Path(__file__).resolve().parents[2]))
@@ -549,6 +549,9 @@ class HopperCase:
         discharges = [f"steps/{name}" for name in self.steps[1:]]
         commands: list[list[str | Path]] = [[SCRIPTS / "plotFlow", "results", *discharges], ["./summarise"]]
         if self.parameter("drawParticles") != "off":
+            for discharge in discharges:
+                if case_files.is_divided(self.folder / discharge, "U"):
+                    run_logged(self.folder / discharge, "reconstructPar", "-fields", "(U)")
             picture = ["results/particles.png", *discharges]
             commands.append([SCRIPTS / "renderFlow", *picture])
         for command in commands:

@@ -145,6 +145,24 @@ class Film(Pictures):
         self.assertFalse((self.folder / "none.mp4").exists())
 
 
+class OnTwoRanks(Pictures):
+    def test_draws_particles_and_water(self) -> None:
+        """The dry run has no field of the water, and that of the other one is in parts, one for each rank."""
+        case = self.folder / "cases/tutorials/hopperQuick"
+        subprocess.run(
+            [case / "Allrun", "-np", "2", "-fresh"],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)},
+        )
+        self.assertTrue((case / "results/particles.png").is_file())
+        self.assertTrue((self.submerged / "0.5/U").is_file())
+        shutil.rmtree(self.submerged / "0.5")
+        for time in self.submerged.glob("0.[1-4]"):
+            shutil.rmtree(time)
+        self.assertIn("reconstructPar", self.runs("movie", self.submerged, "film.gif").stderr)
+
+
 class Report(Pictures):
     def page(self, case: Any) -> str:
         self.makes("runReport", case, "report.html")
