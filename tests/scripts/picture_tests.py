@@ -156,9 +156,9 @@ class OnTwoRanks(Pictures):
             env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)},
         )
         self.assertTrue((case / "results/particles.png").is_file())
-        self.assertTrue((self.submerged / "0.5/U").is_file())
-        shutil.rmtree(self.submerged / "0.5")
-        for time in self.submerged.glob("0.[1-4]"):
+        whole = [time for time in self.submerged.glob("0.[1-9]*") if (time / "U").is_file()]
+        self.assertGreater(len(whole), 1)
+        for time in whole:
             shutil.rmtree(time)
         self.assertIn("reconstructPar", self.runs("movie", self.submerged, "film.gif").stderr)
 
