@@ -21,6 +21,7 @@ class Profile:
     x: np.ndarray
     speed: np.ndarray
     error: np.ndarray
+    blocks: np.ndarray  # speeds in each block of time, a row each
 
 
 class ParticleMeans:
@@ -37,10 +38,11 @@ class ParticleMeans:
         ends = self.ends_of_blocks(block)
         sums = np.array([self.sums(time, x, height, reach) for time in ends])
         count, speed_sum = sums[-1]
+        parts = np.diff(sums, axis=0, prepend=np.zeros((1, 2, len(x))))
         with np.errstate(invalid="ignore", divide="ignore"):
             speed = speed_sum / count
-        parts = np.diff(sums, axis=0, prepend=np.zeros((1, 2, len(x))))
-        return Profile(x, speed, error_of_ratio(parts[:, 1], parts[:, 0], speed))
+            blocks = parts[:, 1] / parts[:, 0]
+        return Profile(x, speed, error_of_ratio(parts[:, 1], parts[:, 0], speed), blocks)
 
     def sums(self, time: float, x: np.ndarray, height: float, reach: float) -> np.ndarray:
         """Number of particles and sum of their speeds from the first sample to a time, at each place."""

@@ -45,6 +45,7 @@ class Profiles(unittest.TestCase):
         found = particle_means.ParticleMeans(self.case).profile(0, 1, 0, 0, 1, 1)
         self.assertAlmostEqual(found.speed[0], 2.5)
         self.assertAlmostEqual(found.error[0], np.std([1, 2, 3, 4], ddof=1) / 2)
+        np.testing.assert_allclose(found.blocks[:, 0], [1, 2, 3, 4])
 
     def test_a_later_part_wins(self) -> None:
         self.write([(1.0, 0, 0, 10, 10, 1), (2.0, 0, 0, 20, 20, 7)])

@@ -58,22 +58,21 @@ def rows_beside_measurement(bed: Bed) -> list[dict[str, Any]]:
 
 
 def of_profile(profile: particle_means.Profile, features: dict[str, Any]) -> tuple[dict[str, float], dict[str, float]]:
-    """Values and standard errors. Neighbouring places share half of their bins, so that every second one counts for
-    the error of the mean."""
-    speed = np.nan_to_num(profile.speed)
-    error = np.nan_to_num(profile.error)
-    inside = (profile.x >= features["from"]) & (profile.x <= features["to"])
-    axis = int(np.argmin(np.abs(profile.x)))
-    values = {
-        "mean": particle_means.mean_across(profile.x[inside], speed[inside]),
-        "axis": float(speed[axis]),
-        "width": particle_means.width_at_half(profile.x, speed),
-    }
-    widths = [particle_means.width_at_half(profile.x, speed + sign * error) for sign in (-1, 1)]
-    return values, {
-        "mean": float(np.sqrt(2 * np.sum(error[inside] ** 2)) / inside.sum()),
-        "axis": float(error[axis]),
-        "width": max(abs(widths[1] - widths[0]) / 2, 1e-3),
+    """Values, and the standard errors that the same values of the blocks of time give: the jet swings as a whole, so
+    that the errors of neighbouring places are not independent."""
+    values = features_of(profile.x, profile.speed, features)
+    blocks = [features_of(profile.x, block, features) for block in profile.blocks]
+    errors = {name: float(np.nanstd([block[name] for block in blocks], ddof=1) / len(blocks) ** 0.5) for name in values}
+    return values, errors
+
+
+def features_of(x: np.ndarray, speeds: np.ndarray, features: dict[str, Any]) -> dict[str, float]:
+    speed = np.nan_to_num(speeds)
+    inside = (x >= features["from"]) & (x <= features["to"])
+    return {
+        "mean": particle_means.mean_across(x[inside], speed[inside]),
+        "axis": float(speed[np.argmin(np.abs(x))]),
+        "width": particle_means.width_at_half(x, speed),
     }
 
 
