@@ -40,22 +40,27 @@ inline void pilingParticles(TestCase& test, bool fluid)
     }
 }
 
-/// All rows of m(t), the parts of a resumed run joined in the order of their start times.
-inline std::vector<std::vector<double>> massRows(const TestCase& test)
+/// All rows of the table postProcessing/<name>, the parts of a resumed run joined in the order of their start times.
+inline std::vector<std::vector<double>> rowsOfTable(const TestCase& test, const std::string& name)
 {
     std::map<double, std::filesystem::path> parts;
-    for (const auto& part : std::filesystem::directory_iterator(test.path() / "postProcessing/massInHopper"))
+    for (const auto& part : std::filesystem::directory_iterator(test.path() / "postProcessing" / name))
     {
         parts[std::stod(part.path().filename())] = part.path();
     }
     std::vector<std::vector<double>> rows;
     for (const auto& [start, folder] : parts)
     {
-        const std::string file = "postProcessing/massInHopper/" + folder.filename().string() + "/massInHopper.dat";
-        const auto part = test.table(file);
+        const auto part = test.table("postProcessing/" + name + '/' + folder.filename().string() + '/' + name + ".dat");
         rows.insert(rows.end(), part.begin(), part.end());
     }
     return rows;
+}
+
+/// All rows of m(t).
+inline std::vector<std::vector<double>> massRows(const TestCase& test)
+{
+    return rowsOfTable(test, "massInHopper");
 }
 
 } // namespace clepsydra::tests

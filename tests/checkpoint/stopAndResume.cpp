@@ -239,8 +239,8 @@ echo "endTime 0.02;" >> system/controlDict && $SOLVER)");
 }
 
 // Killed by SIGKILL at eight random moments, in the middle of steps and of checkpoints, the run goes on each time, and in
-// the end all is as in a run that was never disturbed, to the last bit, and every row of m(t) is there once. Checkpoints
-// that are not whole, or rows written again, fail.
+// the end all is as in a run that was never disturbed, to the last bit, and every row of m(t) and of the means in bins is
+// there once. Checkpoints that are not whole, sums of means that are not in them, or rows written again, fail.
 TEST(Killed, EndsAsIfNeverDisturbed)
 {
     TestCase undisturbed;
@@ -249,6 +249,11 @@ TEST(Killed, EndsAsIfNeverDisturbed)
     {
         pilingParticles(*each, true);
         each->setTimes(0.15, interval, 0.01);
+        each->control()
+            .set("functions/means/type", "particleMeans")
+            .set("functions/means/binSize", "(0.004 0.004 0.004)")
+            .set("functions/means/executeInterval", "7")
+            .set("functions/means/writePrecision", "16");
         ASSERT_TRUE(each->makeMesh().succeeded());
     }
     const Outcome whole = undisturbed.runCommand("$SOLVER");
@@ -274,6 +279,8 @@ TEST(Killed, EndsAsIfNeverDisturbed)
     EXPECT_TRUE(test.runCommand(TestCase::sameCheckpoint("0.15", undisturbed)).succeeded());
     EXPECT_EQ(massRows(test), massRows(undisturbed));
     EXPECT_EQ(massRows(test).size(), 151u);
+    EXPECT_EQ(rowsOfTable(test, "means"), rowsOfTable(undisturbed, "means"));
+    EXPECT_GT(rowsOfTable(test, "means").size(), 150u);
 }
 
 // SIGTERM, SIGINT (Ctrl-C) and the end of the wall time write a checkpoint and end cleanly, with status 0, without the

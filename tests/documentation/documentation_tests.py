@@ -64,6 +64,7 @@ ENTRIES: dict[str, list[Optional[str]]] = {
     "coupling/functionObjects/massInHopper.cpp": ["entries-massInHopper"],
     "coupling/functionObjects/particleFlux.cpp": ["entries-particleFlux"],
     "coupling/functionObjects/particleHeight.cpp": ["entries-particleHeight"],
+    "coupling/functionObjects/particleMeans.cpp": ["entries-particleMeans"],
     "solvers/pimpleDemFoam/liggghtsSetup.cpp": ["entries-groupChanges"],
     "solvers/pimpleDemFoam/pimpleDemFoam.C": ["entries-transportProperties"],
 }

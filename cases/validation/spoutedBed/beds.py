@@ -1,0 +1,28 @@
+"""What both evaluate.py and profile read: a run of the bed, and its profiles."""
+
+from pathlib import Path
+from typing import Any
+
+from clepsydra import parameter_file, particle_means
+
+REACH = 4e-3  # [m] along x and z, within which particles count for a place
+STEP = 4e-3  # [m] from place to place
+BLOCK = 1.0  # [s] of the blocks of time that give the standard errors
+EDGE = 0.136  # [m] the outermost places
+
+
+class Bed:
+    def __init__(self, run: Path) -> None:
+        self.run, self.parameters = run, parameter_file.parameters(run / "parameters")
+
+    def __getitem__(self, name: str) -> Any:
+        return self.parameters[name]
+
+    def profile(self, height_ratio: float) -> particle_means.Profile:
+        """At a height over that of the bed at rest. SystemExit where the means do not reach so far."""
+        height = height_ratio * self["restHeight"]
+        if not REACH <= height <= self["meansTop"] - REACH:
+            allowed = [end / self["restHeight"] for end in (REACH, self["meansTop"] - REACH)]
+            raise SystemExit(f"height ratio {height_ratio:g}; allowed: {allowed[0]:g} to {allowed[1]:g}")
+        means = particle_means.ParticleMeans(self.run)
+        return means.profile(height, REACH, -EDGE, EDGE, STEP, BLOCK)
