@@ -16,17 +16,17 @@
 /// M. A. van der Hoef, R. Beetstra & J. A. M. Kuipers, J. Fluid Mech. 528, 233 (2005), for creeping flow, and R.
 /// Beetstra, M. A. van der Hoef & J. A. M. Kuipers, AIChE J. 53, 489 (2007), with the erratum on p. 3020, for Re up to
 /// 1000: lattice-Boltzmann simulations of bidisperse arrays with phi from 0.1 to 0.6 and diameter ratios up to 4. The
-/// papers give the TOTAL force, with the pressure gradient, in units of 3 pi mu d U:
+/// papers give the TOTAL force, with the pressure gradient, in units of 3 pi mu d eps U_r:
 ///
-///     F_i = [eps y + (1 - eps) y^2 + 0.064 eps y^3] F(<d>, eps),     F(<d>, eps) = f/eps
+///     F_i = [eps y + (1 - eps) y^2 + 0.064 eps y^3] F(<d>, eps),     F(<d>, eps) = f/eps^2
 ///
 /// The share (1 - eps) y^2 is the force of the pressure gradient, which is proportional to the particle's volume. Model
-/// A adds it separately, so that g = (y + 0.064 y^3) f remains for the drag. The erratum leaves the cubic term out of
-/// model A's factor. Both forms are here:
+/// A adds it separately, so that g = (y + 0.064 y^3) f remains for the drag. Public codes of model A use it with the
+/// cubic term of the fit and without:
 ///
-///     Beetstra        g = y f                    1 in a bed of equal spheres, and the drag of all particles together
-///                                                is that of equal spheres of diameter <d>
-///     BeetstraCubic   g = (y + 0.064 y^3) f      closer to the simulations for large particles among small ones; in a
+///     Beetstra        g = y f                    f in a bed of equal spheres; the drag of all particles together is
+///                                                that of equal spheres of diameter <d>
+///     BeetstraCubic   g = (y + 0.064 y^3) f      as fitted, which matters for large particles among small ones; in a
 ///                                                bed of equal spheres it is 6.4 % above the drag law
 ///
 /// X. Yin & S. Sundaresan, AIChE J. 55, 1352 (2009), from simulations of creeping flow; W. Holloway, X. Yin & S.
@@ -34,9 +34,9 @@
 ///
 ///     F_i = 1/eps + (F - 1/eps) [a y + (1 - a) y^2],     a = 1 - 2.660 phi + 9.096 phi^2 - 11.338 phi^3
 ///
-/// with F = f/eps, hence g = 1 + (f - 1)[a y + (1 - a) y^2]. A particle that is small compared with the others has
-/// Stokes' drag, and a bed of equal spheres the drag law's. The papers' drag between particles of different size that
-/// move relative to each other is not included.
+/// with F = f/eps, which is without the pressure gradient, hence g = 1 + (f - 1)[a y + (1 - a) y^2]. A particle that is
+/// small compared with the others has Stokes' drag, and a bed of equal spheres the drag law's. The papers' drag between
+/// particles of different size that move relative to each other is not included.
 #pragma once
 
 #include "closures/particleInFluid.h"
@@ -52,7 +52,7 @@ struct BeetstraPolydispersity
 {
     static constexpr const char* name = "Beetstra";
     static constexpr const char* line =
-        "drag of mixtures, factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007, erratum)";
+        "drag of mixtures, factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007)";
 
     double operator()(double y, double /*voidFraction*/, double f) const noexcept
     {
