@@ -40,6 +40,9 @@ struct FluidAtParticle
     Vector3d acceleration = Vector3d::Zero();
     /// curl U [1/s]; zero unless a force needs it.
     Vector3d vorticity = Vector3d::Zero();
+    /// Sauter mean diameter sum n d^3/sum n d^2 of the particles around this one, which is one of them [m]; 0 unless a
+    /// force needs it.
+    double sauterMeanDiameter = 0;
 };
 
 /// What one particle has received from the fluid, summed over the DEM steps of one coupling step.

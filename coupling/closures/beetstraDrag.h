@@ -8,8 +8,8 @@
 ///
 /// F is the drag without the pressure gradient's share, which is the drag of model A: at Re = 0 and large phi it gives
 /// Carman's pressure drop. Range of the simulations: Re up to 1000, phi from 0.1 to 0.6. At eps = 1 and Re = 100 the
-/// drag is 16 % above Schiller & Naumann's drag of an isolated particle. This is the monodisperse form, without the
-/// paper's polydisperse correction.
+/// drag is 16 % above Schiller & Naumann's drag of an isolated particle. This is the monodisperse form; the paper's
+/// correction for mixtures of sizes is in polydisperseDrag.h.
 #pragma once
 
 #include "closures/particleInFluid.h"

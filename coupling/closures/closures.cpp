@@ -5,7 +5,10 @@
 #include "closures/beverloo.h"
 #include "closures/dragLaws.h"
 #include "closures/ergun.h"
+#include "closures/nusselt.h"
+#include "closures/polydisperseDrag.h"
 #include "closures/richardsonZaki.h"
+#include "closures/rotationTorque.h"
 #include "closures/terminalVelocity.h"
 #include "closures/wallCorrection.h"
 #include "tokens/exactText.h"
@@ -36,12 +39,15 @@ struct Input
     double gravity = defaultGravity;
     std::vector<double> voidFraction;
     std::string dragLaw;
+    std::string polydispersity;
+    double sauterMeanDiameter = 0;
     std::vector<double> speed;
     double bulkDensity = 0;
     double orificeDiameter = 0;
     double ratio = 0;
     double gap = 0;
     double reynolds = 0;
+    double prandtl = 0;
 
     double dynamicViscosity() const
     {
@@ -53,10 +59,14 @@ struct Input
         return {particleDiameter, particleDensity, fluidDensity, dynamicViscosity(), gravity, eps};
     }
 
+    double oneVoidFraction() const
+    {
+        return voidFraction.empty() ? 1 : voidFraction.front();
+    }
+
     ParticleInFluid particleInFluid(double slipSpeed) const
     {
-        return makeParticleInFluid(particleDiameter, voidFraction.empty() ? 1 : voidFraction.front(), slipSpeed,
-            fluidDensity, dynamicViscosity());
+        return makeParticleInFluid(particleDiameter, oneVoidFraction(), slipSpeed, fluidDensity, dynamicViscosity());
     }
 
     PackedBed bed(double eps) const
@@ -108,6 +118,14 @@ public:
         return *this;
     }
 
+    Formula& polydispersity()
+    {
+        command_->add_option("--polydispersity", input_->polydispersity, "name of a law for mixtures")
+            ->required()
+            ->check(CLI::IsMember(polydispersityLawNames()));
+        return positive("--sauterMeanDiameter", input_->sauterMeanDiameter, "of the mixture [m]");
+    }
+
     Formula& voidFractions()
     {
         command_->add_option("--voidFraction", input_->voidFraction, "[-], one or more")
@@ -127,6 +145,14 @@ public:
     Formula& speeds(const std::string& name)
     {
         command_->add_option(name, input_->speed, "[m/s], one or more")->required()->check(CLI::NonNegativeNumber);
+        return *this;
+    }
+
+    Formula& rotations()
+    {
+        command_->add_option("--rotation", input_->speed, "[rad/s], one or more")
+            ->required()
+            ->check(CLI::NonNegativeNumber);
         return *this;
     }
 
@@ -197,6 +223,61 @@ void addDrag(CLI::App& program)
             const double scale = pi / 8 * in.fluidDensity * in.particleDiameter * in.particleDiameter;
             return forEach(
                 in.speed, [&](double slip) { return dragLaw(in.dragLaw)(in.particleInFluid(slip)) / (scale * slip); });
+        });
+}
+
+/// Sp in a mixture, with the law that the input names.
+double namedPolydisperseDrag(const Input& in, double slipSpeed)
+{
+    double coefficient = 0;
+    const auto compute = [&](const auto& law) {
+        if (in.polydispersity == law.name)
+        {
+            coefficient =
+                polydisperseDrag(law, dragLaw(in.dragLaw), in.particleInFluid(slipSpeed), in.sauterMeanDiameter);
+        }
+    };
+    std::apply([&](const auto&... law) { (compute(law), ...); }, PolydispersityLaws{});
+    return coefficient;
+}
+
+void addMixtures(CLI::App& program)
+{
+    Formula(program, "polydisperseDrag", "Sp [kg/s] of one particle of a mixture at each interstitial slip speed")
+        .dragLaw()
+        .polydispersity()
+        .particle()
+        .fluid()
+        .oneVoidFraction()
+        .speeds("--slipSpeed")
+        .prints([](const Input& in) {
+            return forEach(in.speed, [&](double slip) { return namedPolydisperseDrag(in, slip); });
+        });
+}
+
+void addHeatAndRotation(CLI::App& program)
+{
+    Formula isolated(program, "ranzMarshallNusselt", "Nu [-] of an isolated particle, Ranz & Marshall 1952");
+    isolated.positive("--reynolds", isolated.input().reynolds, "with the interstitial slip")
+        .positive("--prandtl", isolated.input().prandtl, "[-]")
+        .prints([](const Input& in) { return std::vector<double>{ranzMarshallNusselt(in.reynolds, in.prandtl)}; });
+    Formula bed(program, "gunnNusselt", "Nu [-] of a particle in a bed or suspension, Gunn 1978");
+    bed.positive("--reynolds", bed.input().reynolds, "with the superficial slip")
+        .positive("--prandtl", bed.input().prandtl, "[-]")
+        .oneVoidFraction()
+        .prints([](const Input& in) {
+            return std::vector<double>{gunnNusselt(in.reynolds, in.prandtl, in.oneVoidFraction())};
+        });
+    Formula(program, "rotationTorque", "Torque [N m] on a sphere at each speed of rotation, Dennis et al. 1980")
+        .particle()
+        .fluid()
+        .rotations()
+        .prints([](const Input& in) {
+            return forEach(in.speed, [&](double rotation) {
+                return rotation
+                       * rotationTorqueCoefficient(
+                           {in.particleDiameter, 0, rotation, in.fluidDensity, in.dynamicViscosity()});
+            });
         });
 }
 
@@ -305,10 +386,12 @@ int main(int argc, char* argv[])
             "Prints values of closure formulas, one number per line. All options have SI units.", "closures");
         program.require_subcommand(1);
         addDrag(program);
+        addMixtures(program);
         addSettling(program);
         addWalls(program);
         addBeds(program);
         addHoppers(program);
+        addHeatAndRotation(program);
         CLI11_PARSE(program, argc, argv);
     }
     catch (const std::exception& error)

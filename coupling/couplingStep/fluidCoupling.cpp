@@ -40,10 +40,12 @@ AnticipatedParticles FluidCoupling::start(bool resumed)
     if (resumed)
     {
         fields_.voidFraction.restore(solidFraction.row(0));
+        updateSizes(located);
         sampling_.restore(particles);
         return located;
     }
     fields_.voidFraction.update(solidFraction.row(0), particles, located);
+    updateSizes(located);
     // No equation has been solved yet in which drag transferred part of the pressure's impulse from the particles.
     fields_.pressure.updateFactor(voidFraction(), Eigen::RowVectorXd::Zero(mesh_.nCells()));
     fields_.rate.start(voidFraction());
@@ -71,6 +73,7 @@ ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double
     // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
     ContributionRows::motion.of(density) *= next / result.timeStep;
     fields_.voidFraction.update(ContributionRows::solidVolume.of(density), engine_.particles(), located);
+    updateSizes(located);
     fields_.pressure.updateFactor(voidFraction(), ContributionRows::velocityResponse.of(density));
     fields_.rate.update(voidFraction(), ContributionRows::motion.of(density), result.timeStep);
     fields_.momentum.update(ContributionRows::momentum.of(density), result.timeStep);
@@ -147,6 +150,23 @@ Eigen::MatrixXd FluidCoupling::densities(const LocatedParticles& particles, Eige
     }
     particles.smooth(densities);
     return densities;
+}
+
+void FluidCoupling::updateSizes(const LocatedParticles& located)
+{
+    if (!sampling_.needsSauterMeanDiameter())
+    {
+        return;
+    }
+    const ParticlesView particles = engine_.particles();
+    Eigen::MatrixXd amounts(1, particles.size());
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        amounts(0, particle) = volumeInFluid(particles, particle) / (2 * particles.radius[particle]);
+    }
+    Eigen::MatrixXd volumePerDiameter = located.densitiesOf(amounts);
+    located.smooth(volumePerDiameter);
+    sampling_.setSizes(columns(fields_.voidFraction.solidFraction()), volumePerDiameter.row(0));
 }
 
 void FluidCoupling::sample(const LocatedParticles& particles, const volVectorField& U, const volScalarField& p)

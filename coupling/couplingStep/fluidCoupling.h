@@ -88,6 +88,9 @@ private:
     /// Smoothed densities of what the particles add to the cells.
     /// \param rowCount  number of rows to compute, from the first one on
     Eigen::MatrixXd densities(const LocatedParticles& particles, Eigen::Index rowCount) const;
+    /// Computes the densities for the Sauter mean diameter, where a force needs it. Collective.
+    /// \pre the void fraction is that of these particles
+    void updateSizes(const LocatedParticles& located);
     void assignSemiImplicitDrag(
         const AnticipatedParticles& anticipated, const Foam::volVectorField& U, const Foam::volScalarField& p);
 

@@ -49,6 +49,12 @@ void FluidSampling::setResistance(const ConstRow& resistanceTime, double couplin
     columns(resistance_->primitiveFieldRef()) = resistanceTime / couplingTimeStep;
 }
 
+void FluidSampling::setSizes(const ConstRow& solidFraction, const ConstRow& volumePerDiameter)
+{
+    sizes_.resize(Eigen::NoChange, solidFraction.size());
+    sizes_ << solidFraction, volumePerDiameter;
+}
+
 FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const volVectorField& U,
     const volScalarField& voidFraction, const Eigen::MatrixXd& pressureGradient) const
 {
@@ -77,6 +83,14 @@ FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const 
     if (needs_.vorticity)
     {
         fields.add(columns(fvc::curl(U)().primitiveField()), &FluidAtParticle::vorticity);
+    }
+    if (needs_.sauterMeanDiameter)
+    {
+        fields.add(sizes_, [](const ParticlesView& view, Eigen::Index particle, const double* value) {
+            // A particle that has no volume in the fluid yet, and no others around it, has only its own diameter.
+            view.state[particle].fluid.sauterMeanDiameter =
+                value[1] > 0 ? value[0] / value[1] : 2 * view.radius[particle];
+        });
     }
     if (resistance_)
     {

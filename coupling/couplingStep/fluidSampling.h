@@ -32,6 +32,16 @@ public:
     /// \param resistanceTime  times the length of the coupling step [kg/m3] \pre removesSelfInducedVelocity()
     void setResistance(const ConstRow& resistanceTime, double couplingTimeStep);
 
+    bool needsSauterMeanDiameter() const
+    {
+        return needs_.sauterMeanDiameter;
+    }
+
+    /// Sets the two densities whose quotient is the Sauter mean diameter. \pre needsSauterMeanDiameter()
+    /// \param volumePerDiameter  sum over the particles of their volume divided by their diameter, per volume of the
+    /// cell [1/m]
+    void setSizes(const ConstRow& solidFraction, const ConstRow& volumePerDiameter);
+
     /// Collective.
     /// \param pressureGradient  that acts on the particles [Pa/m], 3 x cells
     FluidAtParticles sample(const LocatedParticles& particles, const Foam::volVectorField& U,
@@ -51,6 +61,8 @@ private:
     Foam::autoPtr<Foam::volScalarField> resistance_;
     /// DU/Dt [m/s2]; null where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
+    /// See setSizes(); without columns where no force needs the Sauter mean diameter.
+    Eigen::Matrix2Xd sizes_;
 };
 
 } // namespace clepsydra

@@ -1,6 +1,7 @@
 #include "closures/dragLaws.h"
 #include "forces/dragOfMany.h"
 #include "forces/forceModel.h"
+#include "forces/polydispersity.h"
 #include "forces/wallCorrection.h"
 
 namespace clepsydra
@@ -9,8 +10,18 @@ namespace clepsydra
 namespace
 {
 
-/// A drag law of closures/ as a force model, `<law>Props { factor 1; wallCorrection {...} }`: multiplied by a factor
-/// and corrected for walls.
+/// Whether a drag law depends on the void fraction. A law of isolated particles does not.
+template<class Law>
+bool isOfBeds()
+{
+    const auto dragAt = [](double voidFraction) {
+        return Law{}(closures::makeParticleInFluid(1e-3, voidFraction, 0.1, 1000, 1e-3));
+    };
+    return dragAt(0.5) != dragAt(1);
+}
+
+/// A drag law of closures/ as a force model, `<law>Props { factor 1; polydispersity none; wallCorrection {...} }`:
+/// multiplied by a factor, and corrected for the sizes of the other particles and for walls.
 template<class Law>
 class Drag : public ForceOf<ForceFamily::drag>
 {
@@ -18,10 +29,18 @@ public:
     Drag(const Foam::dictionary& coefficients, const FluidProperties& fluid)
         : fluid_(fluid),
           factor_(coefficients.found("factor") ? positiveEntry(coefficients, "factor") : 1),
+          polydispersity_(coefficients),
           walls_(coefficients.subOrEmptyDict("wallCorrection")),
           law_(dragOfMany(Law::name))
     {
-        requireKnownEntries(coefficients, {"factor"}, {"wallCorrection"});
+        requireKnownEntries(coefficients, {"factor", "polydispersity"}, {"wallCorrection"});
+        if (polydispersity_.isOn() && !isOfBeds<Law>())
+        {
+            FatalIOErrorInFunction(coefficients)
+                << "Entry 'polydispersity' is " << polydispersity_.name() << ", but " << Law::name
+                << " is a law of isolated particles, which does not depend on the particles around; allowed: none"
+                << Foam::exit(Foam::FatalIOError);
+        }
     }
 
     void add(const ParticlesView& particles, ForceSum& sum) const override
@@ -35,6 +54,13 @@ public:
             many.dynamicViscosity = fluid_.viscosityAt(particles.position.col(first), 2 * particles.radius[first]);
             addTo(particles, first, std::min(atATime, particles.size() - first), many, sum);
         }
+    }
+
+    ForceNeeds needs() const override
+    {
+        ForceNeeds needs;
+        needs.sauterMeanDiameter = polydispersity_.isOn();
+        return needs;
     }
 
     std::vector<WallPlane> resistingWalls() const override
@@ -51,7 +77,8 @@ public:
     {
         return Foam::string(Law::name) + ": fluid density " + Foam::name(fluid_.density) + " kg/m3, viscosity "
                + Foam::name(fluid_.dynamicViscosity) + " Pa s"
-               + (factor_ == 1 ? "" : ", multiplied by " + Foam::name(factor_)) + walls_.description();
+               + (factor_ == 1 ? "" : ", multiplied by " + Foam::name(factor_))
+               + (polydispersity_.isOn() ? ", for mixtures by " + polydispersity_.name() : "") + walls_.description();
     }
 
 private:
@@ -61,6 +88,7 @@ private:
         ForceSum& sum) const
     {
         std::array<double, most> velocityRatio;
+        std::array<double, most> ownDiameter;
         many.count = static_cast<std::size_t>(count);
         for (Eigen::Index i = 0; i < count; ++i)
         {
@@ -68,7 +96,8 @@ private:
             closures::ParticleInFluid inFluid{2 * particles.radius[first + i], at.voidFraction, at.logVoidFraction,
                 slip(particles, first + i).norm(), many.density, many.dynamicViscosity};
             velocityRatio[i] = walls_.tubeVelocityRatio(inFluid);
-            many.diameter[i] = inFluid.diameter;
+            ownDiameter[i] = inFluid.diameter;
+            many.diameter[i] = polydispersity_.diameterForLaw(inFluid.diameter, at.sauterMeanDiameter);
             many.voidFraction[i] = inFluid.voidFraction;
             many.logVoidFraction[i] = inFluid.logVoidFraction;
             many.slipSpeed[i] = inFluid.slipSpeed / velocityRatio[i];
@@ -78,7 +107,10 @@ private:
         for (Eigen::Index i = 0; i < count; ++i)
         {
             const Eigen::Index particle = first + i;
-            const double coefficient = factor_ * coefficients[i] / velocityRatio[i];
+            const double ofParticle = polydispersity_.coefficient(coefficients[i], many.diameter[i],
+                {ownDiameter[i], many.voidFraction[i], many.logVoidFraction[i], many.slipSpeed[i], many.density,
+                    many.dynamicViscosity});
+            const double coefficient = factor_ * ofParticle / velocityRatio[i];
             sum.implicitCoefficient[particle] += coefficient;
             if (walls_.hasPlanes())
             {
@@ -96,6 +128,7 @@ private:
 
     const FluidProperties fluid_;
     const double factor_;
+    const Polydispersity polydispersity_;
     const WallCorrection walls_;
     const DragOfMany law_;
 };

@@ -20,6 +20,8 @@ struct ForceNeeds
     bool vorticity = false;
     /// div(tau).
     bool viscousStress = false;
+    /// Sauter mean diameter of the particles around each particle.
+    bool sauterMeanDiameter = false;
     /// Gap up to which ParticlesView::pairs is needed, divided by the sum of the two radii; 0 for none.
     double pairReach = 0;
     /// Number of values per particle in ParticlesView::memory, stored from step to step; 0 for none. Only one force of

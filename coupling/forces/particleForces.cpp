@@ -172,6 +172,7 @@ ForceNeeds ParticleForces::needs() const
         needs.acceleration = needs.acceleration || model.needs().acceleration;
         needs.vorticity = needs.vorticity || model.needs().vorticity;
         needs.viscousStress = needs.viscousStress || model.needs().viscousStress;
+        needs.sauterMeanDiameter = needs.sauterMeanDiameter || model.needs().sauterMeanDiameter;
         needs.pairReach = std::max(needs.pairReach, model.needs().pairReach);
         needs.memory = std::max(needs.memory, model.needs().memory);
     }

@@ -9,7 +9,8 @@ namespace clepsydra::tests
 inline constexpr double interval = 1e-3;
 
 /// 72 particles that fall and pile up on a floor: contacts with particles and walls, friction and its history. The
-/// lowest come to rest for good. With fluid each has the history of its motion.
+/// lowest come to rest for good. With fluid each has the history of its motion, and its drag depends on the sizes
+/// around it.
 inline void pilingParticles(TestCase& test, bool fluid)
 {
     test.box.upper = {0.012, 0.012, 0.024};
@@ -29,6 +30,7 @@ inline void pilingParticles(TestCase& test, bool fluid)
         .set("DEM/groupChanges/atRest/during", "0.01");
     test.setFluid(1000, 1e-6);
     test.coupling().set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce historyForce)");
+    test.coupling().set("DiFeliceDragProps/polydispersity", "Beetstra");
     test.control()
         .set("startFrom", "latestTime")
         .set("writeFormat", "binary")

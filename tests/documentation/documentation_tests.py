@@ -33,6 +33,7 @@ MODELS = {
     "smoothingModel": ["models-smoothingModel"],
     "selfInducedVelocityCorrection": ["models-selfInducedVelocityCorrection"],
     "forceModels": ["models-forceModels-drag", "models-forceModels-other", "models-forceModels-leftOut"],
+    "<drag law>Props { polydispersity }": ["models-polydispersity"],
     "<drag law>Props { wallCorrection { law } }": ["models-wallCorrection"],
     "virtualMassForceProps { law }": ["models-virtualMassForceProps"],
     "historyForceProps { law }": ["models-historyForceProps"],

@@ -38,6 +38,62 @@ TEST(DragFactor, MultipliesTheDrag)
     EXPECT_THROW(ForcesOnParticles("forceModels (StokesDrag); StokesDragProps { factor -1; }"), Foam::IOerror);
 }
 
+/// Sp of a particle of 3 mm at 0.1 m/s in water with a void fraction of .5, among others of a mean diameter of 2 mm.
+double coefficientAmongOthers(const std::string& properties, double sauterMeanDiameter = 0.002)
+{
+    ForcesOnParticles test(properties, {1000, 1e-3, Vector3d::Zero()});
+    test.engine().addParticle(1, Vector3d::Zero(), 0.0015, 2500, {0.1, 0, 0});
+    test.fluidAt(0).voidFraction = 0.5;
+    test.fluidAt(0).logVoidFraction = std::log(0.5);
+    test.fluidAt(0).sauterMeanDiameter = sauterMeanDiameter;
+    test.accelerationOf(0);
+    return test.received(0).implicitCoefficientTime / test.engine().timeStep();
+}
+
+/// The values worked out by hand in polydisperseDrag.cpp of the closures' tests, through the dictionary; `factor`
+/// multiplies them. An entry that is not read gives 9.0077e-4, the law with the particle's own diameter.
+TEST(Polydispersity, IsReadFromTheDragLawsProperties)
+{
+    const std::string law = "forceModels (BeetstraDrag); BeetstraDragProps { polydispersity ";
+    EXPECT_NEAR(coefficientAmongOthers(law + "Beetstra; }"), 1.069054567e-3, 1e-11);
+    EXPECT_NEAR(coefficientAmongOthers(law + "BeetstraCubic; }"), 1.222998425e-3, 1e-11);
+    EXPECT_NEAR(coefficientAmongOthers(law + "YinSundaresan; }"), 1.297846816e-3, 1e-11);
+    EXPECT_NEAR(coefficientAmongOthers(law + "Beetstra; factor 2; }"), 2.138109134e-3, 1e-11);
+}
+
+/// Without the entry, and with `none`, the diameter of the others does not matter at all; among particles of its own
+/// size, and where nothing has been sampled, the particle has the same drag with any law but the cubic one.
+TEST(Polydispersity, LeavesEqualSpheresAsTheyAre)
+{
+    const std::string law = "forceModels (BeetstraDrag); ";
+    const double plain = coefficientAmongOthers(law);
+    EXPECT_EQ(coefficientAmongOthers(law, 0.003), plain);
+    EXPECT_EQ(coefficientAmongOthers(law + "BeetstraDragProps { polydispersity none; }"), plain);
+    for (const std::string name : {"Beetstra", "YinSundaresan"})
+    {
+        const std::string withOption = law + "BeetstraDragProps { polydispersity " + name + "; }";
+        EXPECT_NEAR(coefficientAmongOthers(withOption, 0.003) / plain, 1, 1e-14) << name;
+        EXPECT_NEAR(coefficientAmongOthers(withOption, 0) / plain, 1, 1e-14) << name;
+        EXPECT_GT(std::abs(coefficientAmongOthers(withOption, 0.002) / plain - 1), 0.1) << name;
+    }
+}
+
+/// A name that is not known is refused with those that are; a law of isolated particles takes no mixture.
+TEST(Polydispersity, RefusesWhatItCannotUse)
+{
+    const auto error = [](const std::string& properties) {
+        return errorOf([&] { ForcesOnParticles test(properties); });
+    };
+    EXPECT_NE(error("forceModels (RongDrag); RongDragProps { polydispersity Bestra; }").find("BeetstraCubic"),
+        std::string::npos);
+    for (const std::string law : {"StokesDrag", "SchillerNaumannDrag", "BrownLawlerDrag", "MorrisonDrag"})
+    {
+        EXPECT_NE(error("forceModels (" + law + "); " + law + "Props { polydispersity Beetstra; }").find("isolated"),
+            std::string::npos)
+            << law;
+    }
+}
+
 /// Half a diameter above a plane's surface (lambda = .5) Stokes' drag of 1.884956e-5 * .01 N grows 1.386 times along the
 /// plane and 2.125 times towards it. One factor for both directions fails.
 TEST(WallCorrection, OfAPlaneDependsOnTheDirection)

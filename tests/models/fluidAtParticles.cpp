@@ -31,8 +31,16 @@ constexpr double cellSize = 1.0 / cells;
 class ParticleInFlow
 {
 public:
+    /// Another particle, which is held as well.
+    struct Neighbour
+    {
+        Vector3d fromMiddle;
+        double radius;
+    };
+
     /// \param entries  of couplingProperties, beside the usual ones
-    explicit ParticleInFlow(const std::string& entries, double couplingTimeStep = 1e-3)
+    explicit ParticleInFlow(
+        const std::string& entries, double couplingTimeStep = 1e-3, const std::vector<Neighbour>& neighbours = {})
         : case_("deltaT " + std::to_string(couplingTimeStep) + ";"),
           engine_(1e-4, Vector3d::Zero()),
           couplingTimeStep_(couplingTimeStep)
@@ -49,6 +57,12 @@ public:
         readFromCase<fvSolution>(*mesh_);
         engine_.addParticle(1, middle(), 0.02);
         engine_.holdParticle(1);
+        for (const Neighbour& neighbour : neighbours)
+        {
+            const int id = 2 + static_cast<int>(&neighbour - neighbours.data());
+            engine_.addParticle(id, middle() + neighbour.fromMiddle, neighbour.radius);
+            engine_.holdParticle(id);
+        }
         U_ = std::make_unique<volVectorField>(IOobject("U", case_.time().timeName(), *mesh_), *mesh_,
             dimensionedVector("U", dimVelocity, vector::zero), "calculated");
         p_ = std::make_unique<volScalarField>(IOobject("p", case_.time().timeName(), *mesh_), *mesh_,
@@ -97,9 +111,9 @@ public:
             recordWithoutContinuity(particles, particles.momentumSource(*U_), *U_, *p_), *U_, *p_);
     }
 
-    const FluidAtParticle& fluid()
+    const FluidAtParticle& fluid(Eigen::Index particle = 0)
     {
-        return engine_.particles().state[0].fluid;
+        return engine_.particles().state[particle].fluid;
     }
 
     /// Length of the next coupling step [s].
@@ -155,6 +169,55 @@ TEST(FluidAtParticles, AccelerateInAConvergingStream)
     EXPECT_LT(test.fluid().vorticity.norm(), 1e-9);
     test.advance(stream, faster);
     EXPECT_LT((test.fluid().acceleration - Vector3d(k * k * at.x(), k * k * at.y(), 3)).norm(), 1e-9);
+}
+
+const std::string withPolydispersity =
+    "forceModels (DiFeliceDrag gradPForce viscForce Archimedes); DiFeliceDragProps { polydispersity Beetstra; } ";
+
+/// Three particles in one cell, of 4 cm, 2 cm and 2 cm: <d> = (64 + 8 + 8)/(16 + 4 + 4) = 3.333 cm for each of them,
+/// and 2 cm for one that is alone in a cell far away. A mean by number (2.667) or by volume ((80/3)^(1/3) = 2.99), or
+/// that of all particles of the run, fails.
+TEST(FluidAtParticles, HaveTheSauterMeanDiameterOfTheirSurroundings)
+{
+    ParticleInFlow test(
+        withPolydispersity, 1e-3, {{{0.03, 0, 0}, 0.01}, {{0, -0.03, 0}, 0.01}, {{-3 * cellSize, 0, 0}, 0.01}});
+    test.advance([](const vector&) { return vector(0.1, 0, 0); }, [](const vector&) { return vector(0.1, 0, 0); });
+    for (const Eigen::Index particle : {0, 1, 2})
+    {
+        EXPECT_NEAR(test.fluid(particle).sauterMeanDiameter, 0.1 / 3, 1e-15);
+    }
+    EXPECT_NEAR(test.fluid(3).sauterMeanDiameter, 0.02, 1e-16);
+}
+
+/// With smoothing a large particle and a small one that are one cell apart each see more of themselves than of the
+/// other, and particles of one size see that size to rounding, wherever they are.
+TEST(FluidAtParticles, HaveTheSauterMeanDiameterAsTheVoidFractionIsSmoothed)
+{
+    const std::string smoothed =
+        withPolydispersity + "smoothingModel constDiffSmoothing; constDiffSmoothingProps { bandwidth 0.1; }";
+    const Flow flow = [](const vector&) { return vector(0.1, 0, 0); };
+    ParticleInFlow mixture(smoothed, 1e-3, {{{cellSize, 0, 0}, 0.01}});
+    mixture.advance(flow, flow);
+    const double ofBoth = 0.072 / 2; // (4^3 + 2^3)/(4^2 + 2^2) = 3.6 cm
+    EXPECT_GT(mixture.fluid(0).sauterMeanDiameter, ofBoth);
+    EXPECT_LT(mixture.fluid(0).sauterMeanDiameter, 0.0399);
+    EXPECT_LT(mixture.fluid(1).sauterMeanDiameter, ofBoth);
+    EXPECT_GT(mixture.fluid(1).sauterMeanDiameter, 0.0201);
+
+    ParticleInFlow equal(smoothed, 1e-3, {{{cellSize, 0.01, 0}, 0.02}, {{-2.4 * cellSize, 0, 0.02}, 0.02}});
+    equal.advance(flow, flow);
+    for (const Eigen::Index particle : {0, 1, 2})
+    {
+        EXPECT_NEAR(equal.fluid(particle).sauterMeanDiameter, 0.04, 1e-16);
+    }
+}
+
+/// Without a force that needs it nothing is computed.
+TEST(FluidAtParticles, HaveNoSauterMeanDiameterUnlessAForceNeedsIt)
+{
+    ParticleInFlow test("");
+    test.advance([](const vector&) { return vector::zero; }, [](const vector&) { return vector::zero; });
+    EXPECT_EQ(test.fluid().sauterMeanDiameter, 0);
 }
 
 /// The particle rests; the fluid goes at 0.1 m/s in most of the box and at 1 m/s along one wall. With maxCo 0.05 and cells of

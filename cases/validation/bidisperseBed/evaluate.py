@@ -1,0 +1,330 @@
+#!/usr/bin/python3
+"""Compares two sizes in one bed with the drag laws in a uniform suspension and with formulas of measurements."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from clepsydra import closures, validation
+from clepsydra.column import GRAVITY, Column
+from clepsydra.picture_style import pyplot
+
+SINGLE_PARTICLE = "BrownLawlerDrag"
+ZONE = (0.25, 0.5)  # of the height: what neither the sediment nor the clear water reaches
+SETTLING = (0.12, 0.32)  # [s]: after the start, before the large particles have left the zone
+SETTLING_QUICK = (0.12, 0.16)
+STEADY = 0.5  # of the run: after the layers have formed
+SLIPS = np.geomspace(1e-3, 1, 400)
+
+
+class Mixture:
+    """Two sizes of particles in a column; index 0 is the larger."""
+
+    def __init__(self, run: Path) -> None:
+        self.column = column = Column(run)
+        self.law = column["polydispersity"]
+        self.diameter = np.array([column["particleDiameter"], column["smallDiameter"]])
+        self.count = np.array([column["particleCount"], column["smallCount"]])
+        self.volume = np.pi / 6 * self.diameter**3
+
+    def sauter(self, volumes: np.ndarray) -> float:
+        """Mean diameter of particles that have these volumes, or shares of it, in sum."""
+        return volumes.sum() / (volumes / self.diameter).sum()
+
+    def fluid(self) -> dict[str, Any]:
+        return {name: self.column[name] for name in ("fluidDensity", "fluidViscosity")}
+
+    def drag(self, size: int, void_fraction: float, sauter: float, slips: np.ndarray) -> np.ndarray:
+        """Drag [N] at each interstitial slip speed by the run's laws."""
+        options = self.fluid() | {
+            "dragLaw": self.column["dragLaw"],
+            "particleDiameter": self.diameter[size],
+            "voidFraction": void_fraction,
+            "slipSpeed": slips,
+        }
+        if self.law == "none":
+            return slips * closures.values("drag", **options)
+        options |= {"polydispersity": self.law, "sauterMeanDiameter": sauter}
+        return slips * closures.values("polydisperseDrag", **options)
+
+    def of_one_size(self, size: int, law: str) -> dict[str, Any]:
+        return self.fluid() | {
+            "dragLaw": law,
+            "particleDiameter": self.diameter[size],
+            "particleDensity": self.column["particleDensity"],
+        }
+
+    def terminal(self, size: int) -> float:
+        return closures.value("terminalVelocity", **self.of_one_size(size, SINGLE_PARTICLE))
+
+    def exponent(self, size: int) -> float:
+        reynolds = self.terminal(size) * self.diameter[size] / self.column["fluidViscosity"]
+        return closures.value("richardsonZakiExponent", reynolds=reynolds, diameterRatio=0)
+
+    def sizes(self, values: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """(time, particle) of the large and of the small: DEM/in.fill gives the large particles the first ids."""
+        large = int(self.count[0])
+        return values[:, :large], values[:, large:]
+
+
+# --- fixed ---------------------------------------------------------------------------------------
+
+
+def fixed_rows(mixture: Mixture) -> list[dict[str, Any]]:
+    column = mixture.column
+    p = column["fluidDensity"] * column.layers(column.times()[-1], "p")
+    gradient = (p[0] - p[-1]) / column["height"] * len(p) / (len(p) - 1)
+    speed = float(column["inletVelocity"].strip("()").split()[2])
+    volumes = mixture.count * mixture.volume
+    sauter = mixture.sauter(volumes)
+    void_fraction = 1 - volumes.sum() / column.area / column["height"]
+    slip = np.array([speed / void_fraction])
+    drags = [mixture.drag(size, void_fraction, sauter, slip)[0] for size in (0, 1)]
+    uniform = (mixture.count * drags).sum() / column.area / column["height"] / void_fraction
+    ergun = closures.value(
+        "ergunPressureGradient",
+        **mixture.fluid(),
+        particleDiameter=sauter,
+        voidFraction=void_fraction,
+        superficialVelocity=speed,
+    )
+    title = f"dp/dz, fixed, U {speed:g} m/s, {mixture.law}"
+    apart = None
+    if abs(uniform / ergun - 1) > 0.03:
+        apart = (
+            f"the drag law with polydispersity {mixture.law} gives {100 * (uniform / ergun - 1):+.1f} % in a uniform"
+            " bed of this composition"
+        )
+    error = 1e-5 * abs(gradient)  # steady and laminar: what the solvers' tolerance leaves
+    return [
+        validation.row(title, "Pa/m", uniform, "the law in a uniform bed", "computed", gradient, error, 1),
+        validation.row(
+            title + " ",
+            "Pa/m",
+            ergun,
+            "Ergun 1952 with the Sauter mean diameter, formula",
+            "measured",
+            gradient,
+            error,
+            3,
+            apart,
+        ),
+    ]
+
+
+# --- settling ------------------------------------------------------------------------------------
+
+
+def net_velocities(slips: np.ndarray, solid: np.ndarray) -> np.ndarray:
+    """Against the vessel, downwards, of sizes with these slip velocities where no volume flows in sum."""
+    return slips - (solid * slips).sum()
+
+
+class Settling:
+    def __init__(self, mixture: Mixture) -> None:
+        self.mixture = mixture
+        column = mixture.column
+        time, position, velocity = column.particles()
+        quick = column["endTime"] < SETTLING[1]
+        first, last = SETTLING_QUICK if quick else SETTLING
+        during = (time > first) & (time <= last + 1e-9)
+        inside = (position[during, :, 2] > ZONE[0] * column["height"]) & (
+            position[during, :, 2] < ZONE[1] * column["height"]
+        )
+        of_sizes = zip(mixture.sizes(-velocity[during, :, 2]), mixture.sizes(inside), mixture.volume)
+        zone = (ZONE[1] - ZONE[0]) * column["height"] * column.area
+        means, errors, solid = [], [], []
+        for speeds, within, volume in of_sizes:
+            histories = np.array([speed[here].mean() for speed, here in zip(speeds, within)])
+            means.append(histories.mean())
+            # particles of a zone, not times of it, are independent of each other
+            errors.append(speeds[within].std() / np.sqrt(within.sum(axis=1).mean()))
+            solid.append(within.sum(axis=1).mean() * volume / zone)
+        self.velocity, self.error = np.array(means), np.array(errors)
+        self.solid = np.array(solid)
+
+    def by_laws(self) -> np.ndarray:
+        mixture = self.mixture
+        void_fraction = 1 - self.solid.sum()
+        sauter = mixture.sauter(self.solid)
+        excess = mixture.column["particleDensity"] - mixture.column["fluidDensity"]
+        weights = mixture.volume * excess * GRAVITY * void_fraction
+        slips = [np.interp(weights[size], mixture.drag(size, void_fraction, sauter, SLIPS), SLIPS) for size in (0, 1)]
+        return net_velocities(np.array(slips), self.solid)
+
+    def by_measurements(self) -> np.ndarray:
+        """Slip v_t eps^(n - 1) of each size, with the void fraction of the whole mixture."""
+        void_fraction = 1 - self.solid.sum()
+        slips = [self.mixture.terminal(size) * void_fraction ** (self.mixture.exponent(size) - 1) for size in (0, 1)]
+        return net_velocities(np.array(slips), self.solid)
+
+    def rows(self) -> list[dict[str, Any]]:
+        law = self.mixture.law
+        laws, measured = self.by_laws(), self.by_measurements()
+        print(
+            f"settling, {law}: solid fractions {self.solid[0]:.3f} and {self.solid[1]:.3f}; velocities large and small"
+            f" {self.velocity.round(4)} +- {self.error.round(4)}, by the laws {laws.round(4)}, Lockett & Al-Habbooby"
+            f" {measured.round(4)} m/s"
+        )
+        rows = []
+        for size, name in enumerate(("large", "small")):
+            ours, error = self.velocity[size], self.error[size]
+            rows.append(
+                validation.row(
+                    f"v of the {name}, settling, {law}",
+                    "m/s",
+                    laws[size],
+                    "the laws in a uniform suspension",
+                    "computed",
+                    ours,
+                    error,
+                    3,
+                    COLLISIONS,
+                )
+            )
+            rows.append(
+                validation.row(
+                    f"v of the {name}, settling, {law} ",
+                    "m/s",
+                    measured[size],
+                    f"Lockett & Al-Habbooby 1973, formula, v_t by {SINGLE_PARTICLE}",
+                    "measured",
+                    ours,
+                    error,
+                    10,
+                    f"the laws in a uniform suspension have {100 * (laws[size] / measured[size] - 1):+.1f} %",
+                )
+            )
+        return rows
+
+
+COLLISIONS = (
+    "in a uniform suspension of the laws no size feels the other, whereas here large particles run into small ones: the"
+    " contacts slow the large and carry the small along"
+)
+
+
+# --- fluidised -----------------------------------------------------------------------------------
+
+
+class Fluidised:
+    def __init__(self, mixture: Mixture) -> None:
+        self.mixture = mixture
+        column = mixture.column
+        self.time, position, _ = column.particles()
+        self.heights = [of_size[:, :, 2] for of_size in mixture.sizes(position)]
+        late = self.time > STEADY * column["endTime"]
+        self.means = np.array([heights[late].mean() for heights in self.heights])
+        parts = [[part.mean() for part in np.array_split(heights[late].mean(axis=1), 5)] for heights in self.heights]
+        self.errors = np.std(parts, axis=1, ddof=1) / np.sqrt(5)
+        time, velocity = column.top_velocity()
+        self.velocity = velocity[time > STEADY * column["endTime"]].mean()
+
+    def stacked(self, void_fractions: np.ndarray) -> np.ndarray:
+        """Mean heights of two layers, the large particles below: Epstein's serial model."""
+        mixture = self.mixture
+        layers = mixture.count * mixture.volume / mixture.column.area / (1 - void_fractions)
+        return np.array([layers[0] / 2, layers[0] + layers[1] / 2])
+
+    def by_law(self) -> np.ndarray:
+        grid = np.linspace(0.36, 0.98, 125)
+        found = []
+        for size in (0, 1):
+            options = self.mixture.of_one_size(size, self.mixture.column["dragLaw"])
+            speeds = closures.values("hinderedSettlingVelocity", voidFraction=grid, **options)
+            found.append(np.interp(self.velocity, speeds, grid))
+        return np.array(found)
+
+    def by_measurements(self) -> np.ndarray:
+        return np.array(
+            [(self.velocity / self.mixture.terminal(size)) ** (1 / self.mixture.exponent(size)) for size in (0, 1)]
+        )
+
+    def rows(self) -> list[dict[str, Any]]:
+        law = self.mixture.law
+        own, measured = self.by_law(), self.by_measurements()
+        print(
+            f"fluidised, {law}: U {self.velocity:.4f} m/s; mean heights large and small"
+            f" {(1000 * self.means).round(2)} +- {(1000 * self.errors).round(2)} mm; void fractions of the layers by"
+            f" the law {own.round(3)}, by Richardson & Zaki {measured.round(3)}"
+        )
+        rows = []
+        for size, name in enumerate(("large", "small")):
+            ours, error = 1000 * self.means[size], 1000 * self.errors[size]
+            for void_fractions, source, kind, mark, tolerance in (
+                (own, f"{self.mixture.column['dragLaw']}, layers one above the other", "computed", "", 5),
+                (
+                    measured,
+                    f"Richardson & Zaki 1954 for each layer, formula, v_t by {SINGLE_PARTICLE}",
+                    "measured",
+                    " ",
+                    10,
+                ),
+            ):
+                rows.append(
+                    validation.row(
+                        f"mean height of the {name}, {law}{mark}",
+                        "mm",
+                        1000 * self.stacked(void_fractions)[size],
+                        source,
+                        kind,
+                        ours,
+                        error,
+                        tolerance,
+                        MIXED,
+                    )
+                )
+        apart = self.stacked(own)
+        rows.append(
+            validation.row(
+                f"segregation, {law}",
+                "1",
+                1,
+                "distance of the mean heights over that of two pure layers",
+                "computed",
+                (self.means[1] - self.means[0]) / (apart[1] - apart[0]),
+                np.hypot(*self.errors) / (apart[1] - apart[0]),
+                5,
+                MIXED,
+            )
+        )
+        return rows
+
+
+MIXED = (
+    "the layers are not pure and not uniform: waves of the lower layer carry particles across the interface, and the"
+    " smoothed void fraction changes over a bandwidth of 6 mm there"
+)
+
+
+def plot(settled: list[Settling], beds: list[Fluidised]) -> None:
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4.5))
+    for index, one in enumerate(settled):
+        left.errorbar(one.by_laws(), one.velocity, one.error, fmt=f"C{index}o", label=one.mixture.law)
+        left.plot(one.by_laws(), one.by_measurements(), f"C{index}x")
+    limits = [0, left.get_xlim()[1]]
+    left.plot(limits, limits, "k-", linewidth=0.5)
+    left.set_xlabel("settling velocity by the laws in a uniform suspension [m/s]")
+    left.set_ylabel("here (o), by Lockett & Al-Habbooby (x) [m/s]")
+    left.legend()
+    for index, bed in enumerate(beds):
+        for heights, style in zip(bed.heights, ("-", "--")):
+            right.plot(bed.time, 1000 * heights.mean(axis=1), f"C{index}{style}", label=bed.mixture.law)
+        for height in bed.stacked(bed.by_measurements()):
+            right.axhline(1000 * height, color="k", linestyle=":", linewidth=0.8)
+    right.set_xlabel("t [s]")
+    right.set_ylabel("mean height [mm]: large (-), small (--)")
+    right.set_title("dotted: pure layers by Richardson & Zaki", fontsize=9)
+    right.legend(fontsize=7)
+    figure.tight_layout()
+    figure.savefig("results/bidisperseBed.png", dpi=120)
+
+
+runs = {run.name: Mixture(run) for run in sorted(Path("runs").iterdir())}
+settled = [Settling(mixture) for name, mixture in runs.items() if name.startswith("settling")]
+beds = [Fluidised(mixture) for name, mixture in runs.items() if name.startswith("fluidised")]
+rows = [row for name, mixture in runs.items() if name.startswith("fixed") for row in fixed_rows(mixture)]
+rows += [row for one in settled for row in one.rows()] + [row for bed in beds for row in bed.rows()]
+validation.write(rows)
+plot(settled, beds)
