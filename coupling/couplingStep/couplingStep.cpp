@@ -145,6 +145,7 @@ ExchangedMomentum CouplingStep::resetReceivedImpulse()
         sum += state.received.impulse;
         sumOfMagnitudes += state.received.impulse.norm();
         state.received = ReceivedImpulse();
+        state.angularImpulse.setZero();
         state.velocityBefore = particles.velocity.col(particle);
     }
     return {

@@ -98,6 +98,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
           temporaryField<volScalarField>("pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName)),
       voidFractionRate_(mesh, settings),
       semiImplicitSource_(mesh, fluid.density),
+      torqueReaction_(needs.torque ? std::make_unique<TorqueReaction>(mesh, fluid.density) : nullptr),
       viscousStress_(mesh, fluid),
       solidFraction_(1 - voidFraction_.primitiveField())
 {
@@ -203,6 +204,10 @@ void FluidCoupling::particlesToFluid(double couplingTimeStep, double next)
     updatePressureFactor(densities.row(motion));
     voidFractionRate_.update(voidFraction_, densities.middleRows<VoidFractionRate::rowCount>(motion), couplingTimeStep);
     semiImplicitSource_.update(densities.middleRows<SemiImplicitSource::rowCount>(momentum), couplingTimeStep);
+    if (torqueReaction_)
+    {
+        torqueReaction_->update(engine_.particles(), exchange_, distribution_, couplingTimeStep);
+    }
     if (resistance_)
     {
         columns(resistance_->primitiveFieldRef()) = densities.row(resistanceTime) / couplingTimeStep;

@@ -8,11 +8,13 @@
 #include "couplingStep/semiImplicitSource.h"
 #include "couplingStep/couplingSettings.h"
 #include "couplingStep/selfInducedVelocityCorrection.h"
+#include "couplingStep/torqueReaction.h"
 #include "couplingStep/viscousStress.h"
 #include "couplingStep/voidFractionRate.h"
 #include "conservation/conservationCheck.h"
 #include "phaseTimers.h"
 
+#include <memory>
 #include <optional>
 
 namespace clepsydra
@@ -101,10 +103,11 @@ public:
         return voidFractionRate_;
     }
 
-    /// See SemiImplicitSource::source().
+    /// See SemiImplicitSource::source(); with the reaction of the particles' torques, where there are any.
     Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const
     {
-        return semiImplicitSource_.source(U);
+        return torqueReaction_ ? semiImplicitSource_.source(U) + torqueReaction_->source()
+                               : semiImplicitSource_.source(U);
     }
 
     /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet. Its magnitudes
@@ -179,6 +182,8 @@ private:
     Foam::volScalarField pressureFactor_;
     VoidFractionRate voidFractionRate_;
     SemiImplicitSource semiImplicitSource_;
+    /// Null where no force has a torque.
+    std::unique_ptr<TorqueReaction> torqueReaction_;
     const ViscousStress viscousStress_;
     /// Anticipated motion of this rank's particles over the next coupling step.
     std::vector<AnticipatedMotion> anticipated_;

@@ -12,6 +12,7 @@
 #include "liggghtsSetup.h"
 #include "fluidSources.h"
 #include "modelLines.h"
+#include "movingWalls.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
@@ -133,9 +134,10 @@ private:
 };
 
 void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
-    CouplingStep& couplingStep, RunOutput& output)
+    const std::vector<WallMotion>& walls, CouplingStep& couplingStep, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid, modelType);
+    warnOfPatchesWithoutWall(flow.U(), walls);
     couplingStep.start(flow.U(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
@@ -235,7 +237,7 @@ int main(int argc, char* argv[])
         }
         LiggghtsEngine engine(setup);
         const ScriptFacts script = engine.scriptFacts();
-        requireKnownScript(settings, script);
+        requireKnownScript(settings, script, mesh);
         if (models)
         {
             requireSameGravity(fluid, engine, script);
@@ -246,7 +248,7 @@ int main(int argc, char* argv[])
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, settings.modelType(), couplingStep, output);
+            runWithFluid(runTime, mesh, fluid, settings.modelType(), wallMotions(script), couplingStep, output);
         }
         else
         {

@@ -543,7 +543,8 @@ private:
         const ParticlesView particles{own.id, own.position, own.velocity, own.angularVelocity, own.radius, own.mass,
             own.state, own.otherForce, engine.needsPairs_ ? engine.pairs() : ParticlePairs{},
             engine.memoryFix_ ? firstElement(engine.memoryFix_->array_atom) : nullptr, engine.memorySize_, !preparing,
-            ConstView<bool>(engine.fixed_.data(), own.size())};
+            ConstView<bool>(engine.fixed_.data(), own.size()), nullptr,
+            Vectors(firstElement(engine.program_->atom->torque), 3, own.size())};
         engine.forces_->evaluate(particles, engine.program_->update->dt, ofFluid);
         engine.clearForceOnFixedParticles(ofFluid);
     }
