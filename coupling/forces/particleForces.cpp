@@ -256,14 +256,14 @@ void ParticleForces::addTorques(const ParticlesView& particles, double timeStep)
     {
         CouplingState& state = particles.state[particle];
         const double coefficient = state.fluid.submergedFraction * sum_.torqueCoefficient[particle];
-        Vector3d torque =
-            coefficient * (0.5 * state.fluid.vorticity - particles.angularVelocity.col(particle));
+        Vector3d torque = coefficient * (0.5 * state.fluid.vorticity - particles.angularVelocity.col(particle));
         if (!particles.fixed[particle])
         {
             // The mean over the step of the solution of I domega/dt = others + C_t (curl(U)/2 - omega) with constant
             // coefficients. It is stable for any DEM step, and exact without other torques and in equilibrium with
             // them.
-            const double inertia = 0.4 * particles.mass[particle] * particles.radius[particle] * particles.radius[particle];
+            const double inertia =
+                0.4 * particles.mass[particle] * particles.radius[particle] * particles.radius[particle];
             const double exponent = timeStep * coefficient / inertia;
             const double mean = exponent > 0 ? -std::expm1(-exponent) / exponent : 1;
             torque = mean * torque + (mean - 1) * Vector3d(all.col(particle));

@@ -86,8 +86,8 @@ std::string reactionOf(const ForceModel& force)
 std::string lineOfTerm(const ForceModel& force, const std::string& name, ModelType modelType)
 {
     std::ostringstream line;
-    line << "    " << std::left << std::setw(36) << termIn(modelType, force) << ' ' << textOf(force.family()).name << ": "
-         << name << ", " << reactionOf(force);
+    line << "    " << std::left << std::setw(36) << termIn(modelType, force) << ' ' << textOf(force.family()).name
+         << ": " << name << ", " << reactionOf(force);
     return lineOf("", line.str());
 }
 

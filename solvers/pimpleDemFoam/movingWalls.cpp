@@ -60,6 +60,18 @@ bool isWall(const fvPatchVectorField& onPatch)
     return isA<wallFvPatch>(onPatch.patch()) && onPatch.fixesValue();
 }
 
+/// Sets the velocities of the walls to those of their conditions, whatever value the file states.
+void evaluateWalls(volVectorField& U)
+{
+    for (fvPatchVectorField& onPatch : U.boundaryFieldRef())
+    {
+        if (isWall(onPatch))
+        {
+            onPatch.evaluate();
+        }
+    }
+}
+
 /// Why the velocity of a patch is not constant over the run; empty where it is.
 std::string changeInTime(const fvPatchVectorField& onPatch)
 {
@@ -76,8 +88,8 @@ std::string changeInTime(const fvPatchVectorField& onPatch)
     constexpr label samples = 100;
     for (label sample = 1; sample <= samples; ++sample)
     {
-        const scalar now = time.timeOutputValue()
-                           + (time.endTime().value() - time.timeOutputValue()) * sample / scalar(samples);
+        const scalar now =
+            time.timeOutputValue() + (time.endTime().value() - time.timeOutputValue()) * sample / scalar(samples);
         if (mag(omega->value(now) - atStart) > velocityTolerance * mag(atStart))
         {
             return "its omega changes in time, that of the DEM wall does not";
@@ -157,15 +169,8 @@ std::vector<UnmatchedWall> wallsWithoutPatch(const std::vector<WallMotion>& wall
     {
         return {};
     }
-    volVectorField U(
-        IOobject("U", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false), mesh);
-    for (fvPatchVectorField& onPatch : U.boundaryFieldRef())
-    {
-        if (isWall(onPatch))
-        {
-            onPatch.evaluate();
-        }
-    }
+    volVectorField U(IOobject("U", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false), mesh);
+    evaluateWalls(U);
     std::vector<UnmatchedWall> unmatched;
     for (const WallMotion& wall : walls)
     {
@@ -177,8 +182,10 @@ std::vector<UnmatchedWall> wallsWithoutPatch(const std::vector<WallMotion>& wall
     return unmatched;
 }
 
-void warnOfPatchesWithoutWall(const volVectorField& U, const std::vector<WallMotion>& walls)
+void warnOfPatchesWithoutWall(const volVectorField& ofFluid, const std::vector<WallMotion>& walls)
 {
+    volVectorField U("UOfWalls", ofFluid);
+    evaluateWalls(U);
     for (const fvPatchVectorField& onPatch : U.boundaryField())
     {
         if (!isWall(onPatch) || !(gMax(mag(onPatch)()) > 0))
@@ -192,7 +199,8 @@ void warnOfPatchesWithoutWall(const volVectorField& U, const std::vector<WallMot
         }
         if (!found)
         {
-            WarningInFunction << "Patch '" << onPatch.patch().name() << "' moves, and no wall of the DEM script moves alike, "
+            WarningInFunction << "Patch '" << onPatch.patch().name()
+                              << "' moves, and no wall of the DEM script moves alike, "
                               << "so that particles slide along a wall at rest; allowed for the same velocity: "
                               << "'surface_vel', 'surface_ang_vel', 'shear' or fix 'move/mesh'" << endl;
         }

@@ -24,6 +24,6 @@ struct UnmatchedWall
 std::vector<UnmatchedWall> wallsWithoutPatch(const std::vector<WallMotion>& walls, const Foam::fvMesh& mesh);
 
 /// Warns of wall patches that move while no wall of the DEM script moves alike. Collective.
-void warnOfPatchesWithoutWall(const Foam::volVectorField& U, const std::vector<WallMotion>& walls);
+void warnOfPatchesWithoutWall(const Foam::volVectorField& ofFluid, const std::vector<WallMotion>& walls);
 
 } // namespace clepsydra

@@ -115,8 +115,9 @@ public:
                 {
                     velocity_[particle] += timeStep_ * (gravity_ + force.col(column) / mass_[particle]);
                     position_[particle] += timeStep_ * velocity_[particle];
-                    angularVelocity_[particle] +=
-                        timeStep_ / (0.4 * mass_[particle] * radius_[particle] * radius_[particle]) * torque_.col(column);
+                    angularVelocity_[particle] += timeStep_
+                                                  / (0.4 * mass_[particle] * radius_[particle] * radius_[particle])
+                                                  * torque_.col(column);
                 }
             }
         }

@@ -30,9 +30,11 @@ Tokens tokensOf(const std::string& command)
 /// The numbers that follow a word in the command; none where there are fewer.
 /// \param first  index from which on the word is looked for
 template<std::size_t Count>
-std::optional<std::array<double, Count>> numbersAfter(const Tokens& tokens, const std::string& word, std::size_t first = 0)
+std::optional<std::array<double, Count>> numbersAfter(
+    const Tokens& tokens, const std::string& word, std::size_t first = 0)
 {
-    const auto found = std::find(tokens.begin() + static_cast<std::ptrdiff_t>(std::min(first, tokens.size())), tokens.end(), word);
+    const auto found =
+        std::find(tokens.begin() + static_cast<std::ptrdiff_t>(std::min(first, tokens.size())), tokens.end(), word);
     if (std::distance(found, tokens.end()) <= static_cast<std::ptrdiff_t>(Count))
     {
         return std::nullopt;
@@ -97,7 +99,8 @@ WallMotion ofMovedMesh(const ScriptFacts::Fix& fix)
     else if (has(tokens, "linear"))
     {
         const std::optional<Vector3d> velocity = vectorAfter(tokens, "linear");
-        set(wall, velocity ? std::optional<RigidMotion>(RigidMotion{*velocity, Vector3d::Zero(), Vector3d::Zero()}) : std::nullopt);
+        set(wall, velocity ? std::optional<RigidMotion>(RigidMotion{*velocity, Vector3d::Zero(), Vector3d::Zero()})
+                           : std::nullopt);
     }
     else
     {
@@ -114,7 +117,8 @@ std::optional<WallMotion> ofSurface(const ScriptFacts::Fix& fix)
     if (has(tokens, wall.kind))
     {
         const std::optional<Vector3d> velocity = vectorAfter(tokens, wall.kind);
-        set(wall, velocity ? std::optional<RigidMotion>(RigidMotion{*velocity, Vector3d::Zero(), Vector3d::Zero()}) : std::nullopt);
+        set(wall, velocity ? std::optional<RigidMotion>(RigidMotion{*velocity, Vector3d::Zero(), Vector3d::Zero()})
+                           : std::nullopt);
         return wall;
     }
     wall.kind = "surface_ang_vel";
@@ -156,7 +160,8 @@ std::optional<WallMotion> ofShearedWall(const ScriptFacts::Fix& fix)
         }
         if (style == "ycylinder")
         {
-            wall.unknownBecause = "LIGGGHTS exchanges x and z of a ycylinder that rotates, so that its surface moves wrongly";
+            wall.unknownBecause =
+                "LIGGGHTS exchanges x and z of a ycylinder that rotates, so that its surface moves wrongly";
             return wall;
         }
         const auto cylinder = numbersAfter<3>(tokens, style);
@@ -215,8 +220,9 @@ std::vector<WallMotion> wallMotions(const ScriptFacts& facts)
             return of.kind == "move/mesh" && std::distance(word, tokens.end()) > 1 ? *(word + 1) : std::string();
         };
         const std::string mesh = meshOf(wall);
-        if (!mesh.empty()
-            && std::count_if(walls.begin(), walls.end(), [&](const WallMotion& other) { return meshOf(other) == mesh; }) > 1)
+        if (!mesh.empty() && std::count_if(walls.begin(), walls.end(), [&](const WallMotion& other) {
+                return meshOf(other) == mesh;
+            }) > 1)
         {
             wall.unknownBecause = "several fixes move the mesh '" + mesh + '\'';
         }
