@@ -1,9 +1,10 @@
 #!/usr/bin/python3
-"""How the spin of a sphere dies away in liquid, what the liquid receives of it, and how far the lift carries the sphere,
-against exact solutions and against the equations of motion of one sphere, integrated here."""
+"""How the spin of a sphere dies away in liquid, what the liquid receives of it, and how far the lift carries the
+sphere, against exact solutions and against the equations of motion of one sphere, integrated here."""
 
 from math import exp, pi, sqrt
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -84,7 +85,7 @@ def track(run: str) -> np.ndarray:
     return np.array([entry[0] for _, entry in case_files.dumped_particles(Path("runs") / run, "DEM/spin.dump")])
 
 
-def spin_row(run: str, name: str, reference: float, source: str) -> dict:
+def spin_row(run: str, name: str, reference: float, source: str) -> dict[str, Any]:
     ours = float(track(run)[-1, 8])
     return validation.row(name, "rad/s", reference, source, "computed", ours, 1e-3, TOLERANCE)
 
@@ -115,8 +116,14 @@ def main() -> None:
     received = angular_momentum_of_fluid("neutral", neutral_track[-1, 1:4])
     rows.append(
         validation.row(
-            "angular momentum of the water, density of water", "kg m2/s", lost, BALANCE, "computed", received,
-            1e-4 * lost, TOLERANCE,
+            "angular momentum of the water, density of water",
+            "kg m2/s",
+            lost,
+            BALANCE,
+            "computed",
+            received,
+            1e-4 * lost,
+            TOLERANCE,
         )
     )
     for name, run, torque in (("", "flight", True), (", without torque", "flightWithoutTorque", False)):
@@ -124,8 +131,14 @@ def main() -> None:
         positions = track(run)[:, 1]
         rows.append(
             validation.row(
-                f"sideways way in flight{name}", "m", reference, FLIGHT, "computed",
-                float(positions[-1] - positions[0]), 1e-3 * abs(reference), FLIGHT_TOLERANCE,
+                f"sideways way in flight{name}",
+                "m",
+                reference,
+                FLIGHT,
+                "computed",
+                float(positions[-1] - positions[0]),
+                1e-3 * abs(reference),
+                FLIGHT_TOLERANCE,
             )
         )
     validation.write(rows)

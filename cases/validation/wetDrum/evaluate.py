@@ -54,8 +54,14 @@ def standard_error(values: np.ndarray, parts: int = 5) -> float:
 
 def balance(drum: Drum, name: str, source: str) -> dict[str, Any]:
     return validation.row(
-        f"torque of the drum, {name}", "N m", float(drum.weights.mean()), source, "computed",
-        float(drum.torques.mean()), standard_error(drum.torques - drum.weights), TOLERANCE,
+        f"torque of the drum, {name}",
+        "N m",
+        float(drum.weights.mean()),
+        source,
+        "computed",
+        float(drum.torques.mean()),
+        standard_error(drum.torques - drum.weights),
+        TOLERANCE,
     )
 
 
