@@ -56,7 +56,7 @@ TEST(Torque, OfDennisIsTheSolutionInClosedForm)
     const double ratio = 2 * 12.9 / 128.4;
     const double exact = 1 / std::pow((0.1 + ratio) * std::exp(0.3 * b) - ratio, 2);
     EXPECT_NEAR(exact, 37.387, 1e-2);
-    EXPECT_NEAR(after("DennisTorque"), exact, 1e-3);
+    EXPECT_NEAR(after("DennisTorque"), exact, 5e-3);
 }
 
 /// At small Re_r Dennis' law is Stokes': 2 mm, from 100 rad/s in a liquid that is a thousand times as viscous.
@@ -117,7 +117,7 @@ TEST(Torque, ChargesTheFluidWithWhatTheParticleReceives)
     test.engine().spinParticle(1, {0, 30, 0});
     test.engine().advance(50);
     const Vector3d lost = inertia() * (rotation(test) - Vector3d(0, 30, 0));
-    EXPECT_LT((test.engine().particles().state[0].angularImpulse - lost).norm(), 1e-12 * lost.norm());
+    EXPECT_LT((test.engine().particles().state[0].angularImpulse - lost).norm(), 1e-10 * lost.norm());
     EXPECT_GT(lost.norm(), 1e-6 * inertia() * 30);
 
     ForcesOnParticles held("forceModels (StokesTorque);", restingWater);
