@@ -140,7 +140,7 @@ TEST(Torque, IsApartFromTheForces)
     torque.fluidAt(0).velocity = {0.1, 0, 0};
     EXPECT_EQ(torque.accelerationOf(0), Vector3d::Zero());
 
-    ForcesOnParticles forces("forceModels (StokesDrag MagnusLiftForce);", restingWater);
+    ForcesOnParticles forces("forceModels (MagnusLiftForce);", restingWater);
     forces.engine().addParticle(1, Vector3d::Zero(), radius, density);
     forces.engine().spinParticle(1, {0, 0, 50}, {0, 0, 1e-9});
     forces.fluidAt(0).velocity = {0.1, 0, 0};
