@@ -2,7 +2,7 @@
 
 #include "engine/liggghts/scriptFacts.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <string>
 #include <vector>
