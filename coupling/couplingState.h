@@ -77,6 +77,8 @@ struct CouplingState
     FluidAtParticle fluid;
     /// Drag of the last DEM step [N]. Stored only where selfMobility is not zero, and by FluidSampling in checkpoints.
     Vector3d drag = Vector3d::Zero();
+    /// Time integral over the coupling step of the fluid's torque on the particle [N m s]; zero without a torque model.
+    Vector3d angularImpulse = Vector3d::Zero();
     /// Velocity of the particle at the start of the coupling step [m/s].
     Vector3d velocityBefore = Vector3d::Zero();
     PartWithin part;

@@ -275,8 +275,7 @@ void addHeatAndRotation(CLI::App& program)
         .prints([](const Input& in) {
             return forEach(in.speed, [&](double rotation) {
                 return rotation
-                       * rotationTorqueCoefficient(
-                           {in.particleDiameter, 0, rotation, in.fluidDensity, in.dynamicViscosity()});
+                       * DennisTorque{}({in.particleDiameter, 0, rotation, in.fluidDensity, in.dynamicViscosity()});
             });
         });
 }

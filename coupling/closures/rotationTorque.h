@@ -1,21 +1,34 @@
 /// \file
-/// Torque of a fluid at rest on a rotating sphere, T = -K w with w = omega_p - curl U/2, the rotation relative to the
-/// fluid that the Magnus lift refers to as well, and Re_r = rho |w| d^2/mu.
+/// Torque of a fluid on a sphere that rotates relative to it. w = curl U/2 - omega_p is the rotation of the fluid
+/// relative to the particle; Re_r = rho |w| d^2/mu.
 ///
-/// S. C. R. Dennis, S. N. Singh & D. B. Ingham, J. Fluid Mech. 101, 257 (1980), write the torque with the radius a:
+/// Creeping flow, exact for Re_r -> 0 (G. Kirchhoff 1876, in H. Lamb, Hydrodynamics, 6th ed. 1932, art. 334):
 ///
-///     T = C_M/2 rho a^5 w^2,     Re_a = rho |w| a^2/mu = Re_r/4
-///     C_M = 16 pi/Re_a in creeping flow,     C_M = 6.45/sqrt(Re_a) + 32.1/Re_a for 20 < Re_a < 1000
+///     T = pi mu d^3 w = 8 pi mu R^3 w
 ///
-/// Written with the diameter, which is how handbooks print it (e.g. C. Crowe, M. Sommerfeld & Y. Tsuji, Multiphase
-/// Flows with Droplets and Particles, 1998), the same formula is C_M = 64 pi/Re_r below Re_r = 32 and 12.9/sqrt(Re_r) +
-/// 128.4/Re_r above. The fit to the simulations is thereby extended to the crossing of the two parts, which is at Re_r
-/// = 31.73; the larger one is taken here, so that the torque is continuous. Range: Re_r up to 4000, an isolated sphere
-/// without slip.
+/// S. C. R. Dennis, S. N. Singh & D. B. Ingham, J. Fluid Mech. 101, 257 (1980), a fit to their computed steady flows
+/// around a sphere that rotates alone in fluid at rest:
 ///
-/// In units of the torque in creeping flow, pi mu d^3 |w|:
+///     T = 1/2 rho R^5 C |w| w,     C = 12.9 Re_r^-1/2 + 128.4 Re_r^-1     80 < Re_r < 4000
+///                                  C = 64 pi Re_r^-1                       creeping flow
 ///
-///     K = pi mu d^3 max(1, (6.45 sqrt(Re_a) + 32.1)/(16 pi))
+/// In terms of rho |w| R^2/mu, the Reynolds number of the paper, C is 6.45 Re^-1/2 + 32.1 Re^-1 from 20 to 1000, and
+/// 16 pi/Re. The larger of the two is taken; they meet at Re_r = 31.7, so that the torque has no jump. There it is 5 %
+/// too small: the next term of the expansion in creeping flow is a factor 1 + Re_r^2/19200 (Bickley 1938).
+///
+/// Range: isolated sphere without slip, steady. A torque that changes within R^2/nu (1 s for 2 mm in water) is larger,
+/// because the rotating layer around the sphere is still thin.
+///
+/// A torque law is a stateless functor:
+///
+///     struct MyTorque
+///     {
+///         static constexpr const char* name = "MyTorque";
+///         static constexpr const char* line = "torque in which range (source)";
+///         double operator()(const ParticleInRotation&) const noexcept;   // C_t >= 0 [N m s]
+///     };
+///
+/// The torque on the particle is T = C_t w. C_t is finite without rotation.
 #pragma once
 
 #include "closures/liftOnParticle.h"
@@ -23,13 +36,27 @@
 namespace clepsydra::closures
 {
 
-/// K [N m s]; finite without rotation. The slip is not used.
-inline double rotationTorqueCoefficient(const ParticleInRotation& particle) noexcept
+struct StokesTorque
 {
-    const double reynoldsOfRadius = 0.25 * rotationReynolds(particle);
-    const double fitted = (6.45 * std::sqrt(reynoldsOfRadius) + 32.1) / (16.0 * pi);
-    const double creeping = pi * particle.dynamicViscosity * particle.diameter * particle.diameter * particle.diameter;
-    return creeping * std::max(1.0, fitted);
-}
+    static constexpr const char* name = "StokesTorque";
+    static constexpr const char* line = "torque on rotating particles, Re_r -> 0 (Kirchhoff 1876)";
+
+    double operator()(const ParticleInRotation& particle) const noexcept
+    {
+        return pi * particle.dynamicViscosity * particle.diameter * particle.diameter * particle.diameter;
+    }
+};
+
+struct DennisTorque
+{
+    static constexpr const char* name = "DennisTorque";
+    static constexpr const char* line = "torque on rotating particles, Re_r to 4000 (Dennis, Singh & Ingham 1980)";
+
+    double operator()(const ParticleInRotation& particle) const noexcept
+    {
+        const double ofFit = (12.9 * std::sqrt(rotationReynolds(particle)) + 128.4) / (64.0 * pi);
+        return StokesTorque{}(particle)*std::max(1.0, ofFit);
+    }
+};
 
 } // namespace clepsydra::closures

@@ -20,6 +20,8 @@ struct DemResult
     std::vector<ReceivedImpulse> received;
     /// Of each particle over the DEM steps [m/s].
     Eigen::Matrix3Xd changeOfVelocity;
+    /// Of the fluid's torque on each particle [N m s]; without columns where no model has a torque.
+    Eigen::Matrix3Xd angularImpulses;
     /// Impulse that the pressure gradient has given to this rank's particles [N s]; model A only.
     Vector3d pressureImpulse;
 
@@ -42,7 +44,8 @@ struct DemResult
 /// Local.
 inline DemResult takeDemResult(const ParticlesView& particles, ParticleForces& forces, double timeStep)
 {
-    DemResult result{timeStep, {}, Eigen::Matrix3Xd(3, particles.size()), forces.takePressureImpulse()};
+    DemResult result{timeStep, {}, Eigen::Matrix3Xd(3, particles.size()),
+        Eigen::Matrix3Xd(3, forces.haveTorque() ? particles.size() : 0), forces.takePressureImpulse()};
     result.received.reserve(static_cast<std::size_t>(particles.size()));
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -50,6 +53,10 @@ inline DemResult takeDemResult(const ParticlesView& particles, ParticleForces& f
         result.received.push_back(std::exchange(state.received, ReceivedImpulse()));
         result.changeOfVelocity.col(particle) = particles.velocity.col(particle) - state.velocityBefore;
         state.velocityBefore = particles.velocity.col(particle);
+    }
+    for (Eigen::Index particle = 0; particle < result.angularImpulses.cols(); ++particle)
+    {
+        result.angularImpulses.col(particle) = std::exchange(particles.state[particle].angularImpulse, Vector3d::Zero());
     }
     return result;
 }

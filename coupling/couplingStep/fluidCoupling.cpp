@@ -23,7 +23,8 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       rows_(sampling_.removesSelfInducedVelocity()),
       fields_{ClippedVoidFraction(mesh, settings.minimumVoidFraction(), conservation),
           PressureOnParticles(mesh, settings.modelType(), needs.pressureGradient, fluid.density, conservation),
-          VoidFractionRate(mesh, settings), SemiImplicitSource(mesh, fluid.density)}
+          VoidFractionRate(mesh, settings), SemiImplicitSource(mesh, fluid.density),
+          needs.torque ? std::make_unique<TorqueReaction>(mesh, fluid.density) : nullptr}
 {}
 
 AnticipatedParticles FluidCoupling::start(bool resumed)
@@ -77,6 +78,10 @@ ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double
     fields_.pressure.updateFactor(voidFraction(), ContributionRows::velocityResponse.of(density));
     fields_.rate.update(voidFraction(), ContributionRows::motion.of(density), result.timeStep);
     fields_.momentum.update(ContributionRows::momentum.of(density), result.timeStep);
+    if (fields_.torque)
+    {
+        fields_.torque->update(located, result.angularImpulses, result.timeStep);
+    }
     if (rows_.resistance)
     {
         sampling_.setResistance(rows_.resistance->of(density), result.timeStep);

@@ -4,10 +4,13 @@
 #include "couplingStep/particleMapping.h"
 #include "couplingStep/pressureOnParticles.h"
 #include "couplingStep/semiImplicitSource.h"
+#include "couplingStep/torqueReaction.h"
 #include "couplingStep/voidFractionRate.h"
 #include "forces/anticipatedMotion.h"
 
 #include "surfaceFields.H"
+
+#include <memory>
 
 namespace clepsydra
 {
@@ -29,6 +32,8 @@ struct ParticleFields
     PressureOnParticles pressure;
     VoidFractionRate rate;
     SemiImplicitSource momentum;
+    /// Null where no force has a torque.
+    std::unique_ptr<TorqueReaction> torque;
 };
 
 class SolvedStep;
@@ -67,10 +72,10 @@ public:
         return voidFractionf_;
     }
 
-    /// The particles' source in the momentum equation [m/s2 times volume], see SemiImplicitSource.
+    /// The particles' source in the momentum equation [m/s2 times volume], see SemiImplicitSource and TorqueReaction.
     Foam::tmp<Foam::fvVectorMatrix> momentumSource(Foam::volVectorField& U) const
     {
-        return fields_.momentum.source(U);
+        return fields_.torque ? fields_.momentum.source(U) + fields_.torque->source() : fields_.momentum.source(U);
     }
 
     /// Factor of grad p in the momentum equation, see PressureOnParticles.

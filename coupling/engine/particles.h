@@ -74,6 +74,9 @@ struct ParticlesView
     /// Fraction of the insertion time that has passed for a particle inserted during the run, from 0 to 1; 1 for all
     /// others. Writable; part of checkpoints.
     double* insertionRamp = nullptr;
+    /// Torques of this step, writable [N m]: on entry of FluidForces::evaluate() the sum of all others (contacts, walls),
+    /// to which it adds the fluid's. Valid only during FluidForces::evaluate().
+    Vectors torque{nullptr, 3, 0};
 
     Eigen::Index size() const
     {

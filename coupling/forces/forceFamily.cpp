@@ -31,6 +31,7 @@ const ForceFamilyText& textOf(ForceFamily family)
         {ForceFamily::rotationLift,
             {"lift by rotation", "+ C_r (U - v) x (omega - curl(U)/2)", ReactionPlace::source, ""}},
         {ForceFamily::lubrication, {"lubrication", "- c v_n", ReactionPlace::mutual, ""}},
+        {ForceFamily::torque, {"torque", "+ C_t (curl(U)/2 - omega)", ReactionPlace::couple, ""}},
         {ForceFamily::other, {"other force", "+ F", ReactionPlace::ofOwnKind, ""}}};
     return texts.at(family);
 }

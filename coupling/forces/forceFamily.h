@@ -20,6 +20,8 @@ enum class ForceFamily
     /// Lift of a rotating particle (Magnus).
     rotationLift,
     lubrication,
+    /// Torque on a rotating particle, in the equation of its rotation.
+    torque,
     /// Forces that the program does not know, such as that of a magnet.
     other
 };
@@ -30,6 +32,7 @@ enum class ReactionPlace
     source,   ///< a source of the fluid
     inFluid,  ///< already in the fluid's equation, or on the walls of the tank
     mutual,   ///< another particle or a wall
+    couple,   ///< a couple in the fluid's momentum equation, see TorqueReaction
     ofOwnKind ///< as the model itself states
 };
 

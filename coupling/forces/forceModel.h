@@ -22,6 +22,8 @@ struct ForceNeeds
     bool viscousStress = false;
     /// Sauter mean diameter of the particles around each particle.
     bool sauterMeanDiameter = false;
+    /// ParticlesView::torque and ForceSum::torqueCoefficient.
+    bool torque = false;
     /// Gap up to which ParticlesView::pairs is needed, divided by the sum of the two radii; 0 for none.
     double pairReach = 0;
     /// Number of values per particle in ParticlesView::memory, stored from step to step; 0 for none. Only one force of
@@ -37,6 +39,8 @@ struct ForceNeeds
 ///     + pressure.col(i)                   reaction: already in the fluid's equation
 ///     + shared.col(i)                     reaction: on the tank
 ///     + mutual.col(i)                     reaction: on another particle or a wall
+///
+/// The torque on it is torqueCoefficient[i] (curl(U)/2 - omega_i); its reaction is a couple in the fluid.
 ///
 /// In model B the first two lines are divided by the void fraction; ParticleForces does this, the force models do not.
 struct ForceSum
@@ -54,6 +58,8 @@ struct ForceSum
     Eigen::Matrix3Xd mutual;
     /// m_a [kg], implicit in the particle's inertia. Its reaction is a source of the fluid.
     Eigen::ArrayXd addedMass;
+    /// C_t [N m s]; empty unless a force has ForceNeeds::torque. Its reaction is a couple in the fluid.
+    Eigen::ArrayXd torqueCoefficient;
     /// DEM step over which the forces act [s].
     double timeStep = 0;
 

@@ -5,6 +5,7 @@
 #include "wordList.H"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <sstream>
 #include <string>
@@ -43,7 +44,8 @@ ParticlesView segmentOf(const ParticlesView& particles, Eigen::Index first, Eige
     return {values(particles.id), vectors(particles.position), vectors(particles.velocity),
         vectors(particles.angularVelocity), values(particles.radius), values(particles.mass), particles.state + first,
         vectors(particles.otherForce), particles.pairs, particles.memory + first * particles.memorySize,
-        particles.memorySize, particles.advancesMemory, values(particles.fixed)};
+        particles.memorySize, particles.advancesMemory, values(particles.fixed), nullptr,
+        Vectors(const_cast<double*>(particles.torque.data()) + 3 * first, 3, count)};
 }
 
 /// "(WenYuDrag StokesDrag noDrag)": the models of a family, and the word that leaves it out.
@@ -83,6 +85,7 @@ ParticleForces::ParticleForces(
     }
     checkWalls(couplingProperties);
     pairs_ = needs().pairReach > 0;
+    torque_ = needs().torque;
 }
 
 void ParticleForces::checkWalls(const Foam::dictionary& couplingProperties) const
@@ -173,6 +176,7 @@ ForceNeeds ParticleForces::needs() const
         needs.vorticity = needs.vorticity || model.needs().vorticity;
         needs.viscousStress = needs.viscousStress || model.needs().viscousStress;
         needs.sauterMeanDiameter = needs.sauterMeanDiameter || model.needs().sauterMeanDiameter;
+        needs.torque = needs.torque || model.needs().torque;
         needs.pairReach = std::max(needs.pairReach, model.needs().pairReach);
         needs.memory = std::max(needs.memory, model.needs().memory);
     }
@@ -197,6 +201,10 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
 {
     sum_.setZero(particles.size());
     sum_.timeStep = timeStep;
+    if (torque_)
+    {
+        sum_.torqueCoefficient.setZero(particles.size());
+    }
     removeSelfInducedVelocity(particles);
     for (const ForceModel& model : models_)
     {
@@ -236,6 +244,34 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
         state.received.implicitCoefficientTime += timeStep * coefficient;
     }
     pressureImpulse_ += timeStep * pressureForce;
+    if (torque_)
+    {
+        addTorques(particles, timeStep);
+    }
+}
+
+void ParticleForces::addTorques(const ParticlesView& particles, double timeStep) const
+{
+    Vectors all = particles.torque;
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        CouplingState& state = particles.state[particle];
+        const double coefficient = state.fluid.submergedFraction * sum_.torqueCoefficient[particle];
+        Vector3d torque = coefficient * (0.5 * state.fluid.vorticity - particles.angularVelocity.col(particle));
+        if (!particles.fixed[particle])
+        {
+            // The mean over the step of the solution of I domega/dt = others + C_t (curl(U)/2 - omega) with constant
+            // coefficients. It is stable for any DEM step, and exact without other torques and in equilibrium with
+            // them.
+            const double inertia =
+                0.4 * particles.mass[particle] * particles.radius[particle] * particles.radius[particle];
+            const double exponent = timeStep * coefficient / inertia;
+            const double mean = exponent > 0 ? -std::expm1(-exponent) / exponent : 1;
+            torque = mean * torque + (mean - 1) * Vector3d(all.col(particle));
+            all.col(particle) += torque;
+        }
+        state.angularImpulse += timeStep * torque;
+    }
 }
 
 Vector3d ParticleForces::takePressureImpulse()

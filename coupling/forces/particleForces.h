@@ -30,6 +30,12 @@ public:
     /// Quantities that at least one of the forces needs.
     ForceNeeds needs() const;
 
+    /// Whether one of the forces is a torque, whose impulse is summed in CouplingState::angularImpulse.
+    bool haveTorque() const
+    {
+        return torque_;
+    }
+
     /// Sum over this rank's particles of the impulse that the pressure gradient has given them since the last call
     /// [N s]; model A only.
     Vector3d takePressureImpulse();
@@ -50,6 +56,8 @@ private:
     void checkWalls(const Foam::dictionary& couplingProperties) const;
     /// FatalIOError where the last model must not stand beside those before it, or in this `modelType`.
     void checkLastModel(const Foam::dictionary& couplingProperties) const;
+    /// Adds the fluid's torques of sum_ to those of the other forces, and to CouplingState::angularImpulse.
+    void addTorques(const ParticlesView& particles, double timeStep) const;
     void evaluatePart(const ParticlesView& particles, double timeStep, Vectors force);
     /// Sets the velocity that the forces use to the sampled one less the particle's self-induced velocity.
     static void removeSelfInducedVelocity(const ParticlesView& particles);
@@ -57,6 +65,7 @@ private:
     PhaseTimers& timers_;
     const ModelType modelType_;
     bool pairs_ = false;
+    bool torque_ = false;
     Foam::wordList names_;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;

@@ -58,6 +58,7 @@ std::string termIn(ModelType modelType, const ForceModel& force)
             return term + ", divided by eps where its reaction is a source of the fluid";
         case ReactionPlace::inFluid:
         case ReactionPlace::mutual:
+        case ReactionPlace::couple:
             break;
     }
     return term;
@@ -73,15 +74,27 @@ std::string reactionOf(const ForceModel& force)
             return force.family() == ForceFamily::buoyancy ? "reaction on the tank" : "reaction in - eps grad(p)";
         case ReactionPlace::mutual:
             return "reaction on the other particle or the wall";
+        case ReactionPlace::couple:
+            return "reaction in S, as 1/2 curl of the torque per volume";
         case ReactionPlace::ofOwnKind:
             break;
     }
     return "reaction as the model states";
 }
 
+/// A line on a force or a torque of the fluid.
+std::string lineOfTerm(const ForceModel& force, const std::string& name, ModelType modelType)
+{
+    std::ostringstream line;
+    line << "    " << std::left << std::setw(36) << termIn(modelType, force) << ' ' << textOf(force.family()).name
+         << ": " << name << ", " << reactionOf(force);
+    return lineOf("", line.str());
+}
+
 void addForces(const ParticleForces& forces, ModelType modelType, std::vector<std::string>& lines)
 {
     std::vector<std::string> leftOut;
+    std::vector<std::string> torques;
     for (label i = 0; i < forces.models().size(); ++i)
     {
         const ForceModel& force = forces.models()[i];
@@ -96,10 +109,12 @@ void addForces(const ParticleForces& forces, ModelType modelType, std::vector<st
                                                              : "")));
             continue;
         }
-        std::ostringstream line;
-        line << "    " << std::left << std::setw(36) << termIn(modelType, force) << ' ' << text.name << ": " << name
-             << ", " << reactionOf(force);
-        lines.push_back(lineOf("", line.str()));
+        (force.family() == ForceFamily::torque ? torques : lines).push_back(lineOfTerm(force, name, modelType));
+    }
+    if (!torques.empty())
+    {
+        lines.push_back(lineOf("", "I domega/dt = torques of the DEM script (contacts)"));
+        lines.insert(lines.end(), torques.begin(), torques.end());
     }
     lines.insert(lines.end(), leftOut.begin(), leftOut.end());
 }

@@ -34,7 +34,8 @@ public:
     /// Starts the engine, from the checkpoint where the run is resumed. FatalError or FatalIOError where its input does not
     /// fit to the case. Collective.
     /// \param fluid  null for DEM only
-    virtual DemEngine& start(const Checkpoints& checkpoints, const FluidProperties* fluid) = 0;
+    virtual DemEngine& start(
+        const Checkpoints& checkpoints, const Foam::fvMesh& mesh, const FluidProperties* fluid) = 0;
 
     /// Warns of input that has no effect. Collective. \pre the engine is initialised
     virtual void warnOfUnreadInput() const = 0;

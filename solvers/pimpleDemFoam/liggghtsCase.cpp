@@ -2,6 +2,7 @@
 #include "engine/liggghts/liggghtsEngine.h"
 #include "engine/liggghts/script.h"
 #include "liggghtsSetup.h"
+#include "movingWalls.h"
 #include "scriptRules.h"
 
 #include "addToRunTimeSelectionTable.H"
@@ -50,7 +51,7 @@ public:
         return filesOfScript(setup_.script, setup_.variables);
     }
 
-    DemEngine& start(const Checkpoints& checkpoints, const FluidProperties* fluid) override
+    DemEngine& start(const Checkpoints& checkpoints, const fvMesh& mesh, const FluidProperties* fluid) override
     {
         if (checkpoints.resumed())
         {
@@ -58,10 +59,11 @@ public:
         }
         engine_ = std::make_unique<LiggghtsEngine>(setup_);
         const ScriptFacts script = engine_->scriptFacts();
-        requireKnownScript(settings_, script);
+        requireKnownScript(settings_, script, mesh);
         if (fluid)
         {
             requireSameGravity(*fluid, *engine_, script);
+            warnOfPatchesWithoutWall(mesh, wallMotions(script));
         }
         return *engine_;
     }

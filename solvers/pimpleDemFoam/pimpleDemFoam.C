@@ -212,7 +212,7 @@ int main(int argc, char* argv[])
         {
             runTime.resume(checkpoints.beginning());
         }
-        DemEngine& engine = demProgram->start(checkpoints, models ? &fluid : nullptr);
+        DemEngine& engine = demProgram->start(checkpoints, mesh, models ? &fluid : nullptr);
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         demProgram->warnOfUnreadInput();
         RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);

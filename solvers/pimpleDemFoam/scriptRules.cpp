@@ -1,5 +1,6 @@
 #include "scriptRules.h"
 
+#include "movingWalls.h"
 #include "runTimeSelection.h"
 #include "wordRes.H"
 
@@ -43,7 +44,6 @@ const std::map<std::string, std::string> reasons = {
     {"drag", "the fluid's forces are those of forceModels, and this force would be added to them"},
     {"external", "the coupling adds its own fix of this style, which must be the only one"},
     {"heat/", "the fluid neither heats nor cools the particles"},
-    {"move/mesh", "the wall moves in the DEM only, and the fluid's wall remains where it is"},
     {"multisphere", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
     {"particletemplate/multi",
         "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
@@ -109,7 +109,7 @@ void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
     for (const ScriptFacts::Fix& fix : facts.fixes)
     {
         // A fix without a command belongs to one that has a command, unless an `if` has made it.
-        if (fix.command.text.empty() && !hasIf)
+        if ((fix.command.text.empty() && !hasIf) || fix.style == "move/mesh")
         {
             continue;
         }
@@ -127,7 +127,18 @@ void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
     }
 }
 
-std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts)
+void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, std::vector<Unknown>& unknown)
+{
+    for (const auto& [wall, reason] : wallsWithoutPatch(wallMotions(facts), mesh))
+    {
+        unknown.push_back({placeOf(wall.command),
+            "fix " + wall.fix + (wall.kind == "move/mesh" ? " has the style '" : " has the word '") + wall.kind
+                + "': " + reason,
+            wall.kind});
+    }
+}
+
+std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh)
 {
     std::vector<Unknown> unknown;
     const std::string axes = "xyz";
@@ -153,6 +164,7 @@ std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts)
     requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
     requireOneOf("run_style", facts.runStyle, {"verlet"});
     addFixes(facts, unknown);
+    addMovingWalls(facts, mesh, unknown);
     return unknown;
 }
 
@@ -191,7 +203,7 @@ void requireConstantDemStep(const dictionary& demDict, const ScriptFacts& facts)
 
 } // namespace
 
-void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts)
+void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh)
 {
     const dictionary& demDict = settings.demDict();
     requireConstantDemStep(demDict, facts);
@@ -203,7 +215,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     requireRightWithFluid(demDict, facts);
     std::string text;
     std::set<std::string> names;
-    for (const auto& [place, what, name] : unknownWithFluid(facts))
+    for (const auto& [place, what, name] : unknownWithFluid(facts, mesh))
     {
         if (!allowed.match(name))
         {

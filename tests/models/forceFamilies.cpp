@@ -61,6 +61,7 @@ TEST(ForceFamilies, TwoModelsOfOneFamilyAreRefused)
     EXPECT_THAT(errorOfForces("forceModels (DiFeliceDrag Archimedes GidaspowDrag);"),
         AllOf(HasSubstr("'DiFeliceDrag' and 'GidaspowDrag'"), HasSubstr("add up"), HasSubstr("RongDrag")));
     EXPECT_THAT(errorOfForces("forceModels (MagnusLiftForce MagnusLiftForceOesterle);"), HasSubstr("lift by rotation"));
+    EXPECT_THAT(errorOfForces("forceModels (DennisTorque StokesTorque);"), HasSubstr("torque"));
     EXPECT_THAT(errorOfForces("forceModels (noBuoyancy Archimedes);"), HasSubstr("leaves it out"));
 }
 

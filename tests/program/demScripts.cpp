@@ -135,9 +135,9 @@ TEST(DemScripts, AWordInTheDictionaryAllowsAFix)
     expectRefused(other, {"has the style 'heat/gran/conduction'"});
 }
 
-/// A wall that moves in the DEM alone is refused, and allowed by its word. A conveyor's surface that moves along itself,
-/// and a plane that does, move no geometry: they are right beside a fluid, whose wall remains.
-TEST(DemScripts, WallsThatMoveAreRefusedAndMovingSurfacesAreNot)
+/// A wall that moves in the DEM alone is refused, and allowed by its word: a mesh that moves, a conveyor's surface and a
+/// plane that move along themselves. The fluid would stick to a wall at rest.
+TEST(DemScripts, WallsThatMoveWithoutTheFluidAreRefused)
 {
     const std::string moving = plateWall + "\nfix lift all move/mesh mesh plate linear 0. 0. 0.01";
     TestCase refused;
@@ -159,7 +159,100 @@ TEST(DemScripts, WallsThatMoveAreRefusedAndMovingSurfacesAreNot)
                     + " surface_vel 0.1 0. 0.\n"
                       "fix plates all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
                       "fix belt all wall/gran model hertz tangential history primitive type 2 zplane 0.001 shear x 0.2";
-    expectRuns(belt);
+    expectRefused(belt,
+        {"fix plate has the word 'surface_vel': the wall moves in the DEM only",
+            "fix belt has the word 'shear': the wall moves in the DEM only",
+            "patch 'walls': velocity differs by 0.2 m/s of 0.2 m/s", "allowedInScript ( \"shear\" \"surface_vel\" )"});
+    TestCase allowedBelt;
+    fillIn(allowedBelt);
+    allowedBelt.extraFiles["DEM/plate.stl"] = plate;
+    allowedBelt.dem.more = belt.dem.more;
+    allowedBelt.coupling().set(allowing, "( \"s.*\" )");
+    expectRuns(allowedBelt);
+}
+
+/// A plane that slides in the DEM, and a patch that does in the fluid: alike they run, also without a word in the dictionary.
+/// Another speed or direction, a patch that is met head on, and a patch that moves alone are refused or warned of.
+TEST(DemScripts, AWallMayMoveWithItsPatch)
+{
+    const auto slidingSides = [](TestCase& test, const std::string& plane, const std::string& velocity) {
+        fillIn(test);
+        test.setThroughFlow("uniform (0 0 0)");
+        test.dem.more = plane;
+        test.file("0/U").set("boundaryField/walls/type", "fixedValue").set("boundaryField/walls/value", velocity);
+    };
+    const std::string plane =
+        "fix belt all wall/gran model hertz tangential history primitive type 2 xplane 0 shear z ";
+    TestCase alike;
+    slidingSides(alike, plane + "0.01", "uniform (0 0 0.01)");
+    expectRuns(alike);
+    TestCase slower;
+    slidingSides(slower, plane + "0.01", "uniform (0 0 0.009)");
+    expectRefused(
+        slower, {"fix belt has the word 'shear'", "patch 'walls': velocity differs by 0.001 m/s of 0.01 m/s"});
+    TestCase across;
+    slidingSides(across, "fix belt all wall/gran model hertz tangential history primitive type 2 xplane 0 shear y 0.01",
+        "uniform (0 0.01 0)");
+    expectRefused(across, {"patch 'walls': the wall would move through it"});
+    TestCase alone;
+    slidingSides(alone, "", "uniform (0 0 0.01)");
+    expectRuns(alone, {"Patch 'walls' moves, and no wall of the DEM script moves alike"});
+}
+
+/// A drum about an oblique place of the origin, 4 cm wide: one that turns as its patch does is allowed, by `shear` and by a mesh
+/// that moves. The other sense, speed, axis or origin is refused with what differs, and so is a box that would turn.
+TEST(DemScripts, ADrumMayTurnWithItsPatch)
+{
+    const auto outcomeOf = [](const std::string& wall, const std::string& origin, double omega, bool isRound = true) {
+        TestCase test;
+        fillIn(test);
+        // Around (0.01, 0.01), where the particle is.
+        test.file("0/U")
+            .set("boundaryField/walls/type", "rotatingWallVelocity")
+            .set("boundaryField/walls/origin", origin)
+            .set("boundaryField/walls/axis", "(0 0 1)")
+            .set("boundaryField/walls/omega", omega)
+            .set("boundaryField/walls/value", "uniform (0 0 0)");
+        if (isRound)
+        {
+            test.file("0/U").set("boundaryField/ends/type", "slip");
+            test.file("0/p").set("boundaryField/ends/type", "zeroGradient");
+            test.extraFiles["system/blockMeshDict"] =
+                "FoamFile { version 2.0; format ascii; class dictionary; object blockMeshDict; }\nscale 0.01;\n"
+                "vertices ((0 0 0) (2 0 0) (2 2 0) (0 2 0) (0 0 4) (2 0 4) (2 2 4) (0 2 4));\n"
+                "blocks (hex (0 1 2 3 4 5 6 7) (6 6 8) simpleGrading (1 1 1));\n"
+                "edges (arc 0 1 (1 -0.4142135623730951 0) arc 1 2 (2.414213562373095 1 0)\n"
+                "arc 2 3 (1 2.414213562373095 0) arc 3 0 (-0.4142135623730951 1 0)\n"
+                "arc 4 5 (1 -0.4142135623730951 4) arc 5 6 (2.414213562373095 1 4)\n"
+                "arc 6 7 (1 2.414213562373095 4) arc 7 4 (-0.4142135623730951 1 4));\n"
+                "boundary (walls { type wall; faces ((0 4 7 3)(1 2 6 5)(0 1 5 4)(3 7 6 2)); }\n"
+                "ends { type wall; faces ((0 3 2 1)(4 5 6 7)); });\n";
+        }
+        test.extraFiles["DEM/plate.stl"] = plate;
+        test.dem.more = wall;
+        return test.runCommand("blockMesh > log.blockMesh && $SOLVER -dryRun");
+    };
+    const std::string shear =
+        "fix drum all wall/gran model hertz tangential history primitive type 2 zcylinder 0.0141421 0.01 0.01 shear x ";
+    const std::string mesh =
+        plateWall + "\nfix turn all move/mesh mesh plate rotate origin 0.01 0.01 0. axis 0. 0. 1. period ";
+    const std::string origin = "(0.01 0.01 0.005)";
+
+    EXPECT_TRUE(outcomeOf(shear + "2.", origin, 2).succeeded()) << outcomeOf(shear + "2.", origin, 2).output;
+    EXPECT_TRUE(outcomeOf(mesh + "3.14159265", origin, 2).succeeded());
+    const auto expectRefusedWith = [](const Outcome& outcome, const Words& words) {
+        EXPECT_NE(outcome.status, 0) << outcome.output;
+        EXPECT_LT(outcome.status, 128) << outcome.output;
+        expectSays(outcome, words);
+    };
+    // The wall's speed is 2 rad/s times 1.41 cm.
+    expectRefusedWith(outcomeOf(shear + "-2.", origin, 2),
+        {"fix drum has the word 'shear'", "patch 'walls': velocity differs by 0.0565 m/s of 0.0283 m/s"});
+    expectRefusedWith(outcomeOf(mesh + "3.", origin, 2),
+        {"fix turn has the style 'move/mesh'", "about (origin (0.01 0.01 0)) with the angular velocity (0 0 2.09"});
+    expectRefusedWith(outcomeOf(shear + "2.", "(0.011 0.01 0)", 2), {"patch 'walls': velocity differs by 0.00"});
+    expectRefusedWith(outcomeOf(shear + "2.", origin, 2, false),
+        {"patch 'walls': the wall would move through it", "no surface of revolution"});
 }
 
 /// Spheres that are joined overlap, and buoyancy and solid volume were 18.5 % too large for two of them.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -40,6 +41,14 @@ public:
     {
         addParticle(id, position, radius);
         state_.back() = CouplingState::ofNewParticle();
+    }
+
+    /// \param torque  of the engine's own, as of a contact, at every step [N m]. \pre this rank has the particle.
+    void spinParticle(int id, const Vector3d& angularVelocity, const Vector3d& torque = Vector3d::Zero())
+    {
+        const auto at = static_cast<std::size_t>(std::find(id_.begin(), id_.end(), id) - id_.begin());
+        angularVelocity_[at] = angularVelocity;
+        ownTorque_[id] = torque;
     }
 
     /// From now on no force moves it.
@@ -106,6 +115,9 @@ public:
                 {
                     velocity_[particle] += timeStep_ * (gravity_ + force.col(column) / mass_[particle]);
                     position_[particle] += timeStep_ * velocity_[particle];
+                    angularVelocity_[particle] += timeStep_
+                                                  / (0.4 * mass_[particle] * radius_[particle] * radius_[particle])
+                                                  * torque_.col(column);
                 }
             }
         }
@@ -132,7 +144,8 @@ public:
             ConstVectors(weight_.data(), 3, weight_.cols()),
             ParticlePairs{vectors(position_), vectors(velocity_), ConstView<double>(radius_.data(), count),
                 Eigen::Map<const Eigen::Matrix2Xi>(pairs_.data(), 2, pairs_.cols())},
-            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), insertionRamp_.data()};
+            memory_.data(), memory_.rows(), true, ConstView<bool>(held_.data(), held_.size()), insertionRamp_.data(),
+            Vectors(torque_.data(), 3, torque_.cols())};
     }
 
     double timeStep() const override
@@ -177,6 +190,11 @@ private:
         {
             weight_.col(particle) = mass_[static_cast<std::size_t>(particle)] * gravity_;
         }
+        torque_.setZero(3, force.cols());
+        for (Eigen::Index particle = 0; particle < force.cols() && !ownTorque_.empty(); ++particle)
+        {
+            torque_.col(particle) = ownTorque_[id_[static_cast<std::size_t>(particle)]];
+        }
         held_.resize(force.cols());
         std::transform(id_.begin(), id_.end(), held_.begin(), [&](int id) { return fixedIds_.count(id) > 0; });
         listPairs();
@@ -216,6 +234,9 @@ private:
     std::vector<double> insertionRamp_;
     /// Of the step that advance() is in.
     Eigen::Matrix3Xd weight_;
+    /// Of that step too: the engine's own by id, and with the fluid's.
+    std::map<int, Vector3d> ownTorque_;
+    Eigen::Matrix3Xd torque_;
     std::set<int> fixedIds_;
     Eigen::Array<bool, Eigen::Dynamic, 1> held_;
     bool needsPairs_ = false;

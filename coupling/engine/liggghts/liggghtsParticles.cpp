@@ -61,7 +61,7 @@ ParticlesView LiggghtsParticles::view(
         ConstView<double>(atom.radius, count), ConstView<double>(atom.rmass, count),
         state_ ? reinterpret_cast<CouplingState*>(state_->values()) : nullptr,
         ConstVectors(firstElement(atom.f), 3, count), pairs, memory_ ? memory_->values() : nullptr, memorySize_,
-        advancesMemory, fixed, insertionRamp_->values()};
+        advancesMemory, fixed, insertionRamp_->values(), Vectors(firstElement(atom.torque), 3, count)};
 }
 
 ParticlePairs LiggghtsParticles::pairs()
