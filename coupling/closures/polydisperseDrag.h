@@ -52,7 +52,7 @@ struct BeetstraPolydispersity
 {
     static constexpr const char* name = "Beetstra";
     static constexpr const char* line =
-        "drag of mixtures, factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007)";
+        "mixtures: factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007)";
 
     double operator()(double y, double /*voidFraction*/, double f) const noexcept
     {
@@ -64,7 +64,7 @@ struct BeetstraCubicPolydispersity
 {
     static constexpr const char* name = "BeetstraCubic";
     static constexpr const char* line =
-        "drag of mixtures, factor y + 0.064 y^3, 1.064 for equal spheres (Beetstra et al. 2007)";
+        "mixtures: factor y + 0.064 y^3, 1.064 at y = 1 (Beetstra et al. 2007)";
 
     double operator()(double y, double /*voidFraction*/, double f) const noexcept
     {
@@ -76,7 +76,7 @@ struct YinSundaresanPolydispersity
 {
     static constexpr const char* name = "YinSundaresan";
     static constexpr const char* line =
-        "drag of mixtures, Stokes' drag of small particles among large ones (Yin & Sundaresan 2009)";
+        "mixtures: Stokes drag, small among large ones (Yin & Sundaresan 2009)";
 
     double operator()(double y, double voidFraction, double f) const noexcept
     {

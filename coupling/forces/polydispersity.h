@@ -12,7 +12,7 @@ namespace clepsydra
 inline const ModelLines polydispersities = std::apply(
     [](const auto&... law) {
         return ModelLines("<drag law>Props { polydispersity }",
-            {{"none", "the law with the particle's own diameter, whatever the size of the others (the default)"},
+            {{"none", "the particle's own diameter, whatever the size of the others (the default)"},
                 {law.name, law.line}...});
     },
     closures::PolydispersityLaws{});

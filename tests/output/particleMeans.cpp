@@ -302,7 +302,6 @@ TEST(ParticleMeans, RefuseWhatTheyCannotUse)
     EXPECT_THAT(errorWith("binSize (0.1 0.1 0.1); executeControl runTime;"),
         testing::AllOf(testing::HasSubstr("'executeControl' is runTime"), testing::HasSubstr("allowed: timeStep")));
     EXPECT_THAT(errorWith("binSize (0.1 0.1 0.1); executeInterval 0;"), testing::HasSubstr("'executeInterval' is 0"));
-    EXPECT_THAT(errorWith("binSizes (0.1 0.1 0.1);"), testing::HasSubstr("did you mean 'binSize'"));
 }
 
 } // namespace
