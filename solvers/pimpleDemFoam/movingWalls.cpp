@@ -125,16 +125,16 @@ std::string differenceOf(const fvPatchVectorField& onPatch, const RigidMotion& m
 
 std::string textOf(const RigidMotion& motion)
 {
-    const Eigen::IOFormat vectorFormat(Eigen::StreamPrecision, 0, " ", " ", "", "", "(", ")");
+    const Eigen::IOFormat vectorFormat(Eigen::StreamPrecision, Eigen::DontAlignCols, " ", " ", "", "", "(", ")");
     std::ostringstream text;
     if (!motion.velocity.isZero())
     {
-        text << "with the velocity " << motion.velocity.transpose().format(vectorFormat) << " m/s";
+        text << "with the velocity " << (motion.velocity.array() + 0.0).matrix().transpose().format(vectorFormat) << " m/s";
     }
     else
     {
-        text << "about (origin " << motion.origin.transpose().format(vectorFormat) << ") with the angular velocity "
-             << motion.angularVelocity.transpose().format(vectorFormat) << " rad/s";
+        text << "about (origin " << (motion.origin.array() + 0.0).matrix().transpose().format(vectorFormat) << ") with the angular velocity "
+             << (motion.angularVelocity.array() + 0.0).matrix().transpose().format(vectorFormat) << " rad/s";
     }
     return text.str();
 }
