@@ -51,8 +51,7 @@ namespace clepsydra::closures
 struct BeetstraPolydispersity
 {
     static constexpr const char* name = "Beetstra";
-    static constexpr const char* line =
-        "mixtures: factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007)";
+    static constexpr const char* line = "mixtures: factor y = d/<d>, 1 for equal spheres (Beetstra et al. 2007)";
 
     double operator()(double y, double /*voidFraction*/, double f) const noexcept
     {
@@ -63,8 +62,7 @@ struct BeetstraPolydispersity
 struct BeetstraCubicPolydispersity
 {
     static constexpr const char* name = "BeetstraCubic";
-    static constexpr const char* line =
-        "mixtures: factor y + 0.064 y^3, 1.064 at y = 1 (Beetstra et al. 2007)";
+    static constexpr const char* line = "mixtures: factor y + 0.064 y^3, 1.064 at y = 1 (Beetstra et al. 2007)";
 
     double operator()(double y, double /*voidFraction*/, double f) const noexcept
     {
@@ -75,8 +73,7 @@ struct BeetstraCubicPolydispersity
 struct YinSundaresanPolydispersity
 {
     static constexpr const char* name = "YinSundaresan";
-    static constexpr const char* line =
-        "mixtures: Stokes drag, small among large ones (Yin & Sundaresan 2009)";
+    static constexpr const char* line = "mixtures: Stokes drag, small among large ones (Yin & Sundaresan 2009)";
 
     double operator()(double y, double voidFraction, double f) const noexcept
     {

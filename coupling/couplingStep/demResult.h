@@ -56,7 +56,8 @@ inline DemResult takeDemResult(const ParticlesView& particles, ParticleForces& f
     }
     for (Eigen::Index particle = 0; particle < result.angularImpulses.cols(); ++particle)
     {
-        result.angularImpulses.col(particle) = std::exchange(particles.state[particle].angularImpulse, Vector3d::Zero());
+        result.angularImpulses.col(particle) =
+            std::exchange(particles.state[particle].angularImpulse, Vector3d::Zero());
     }
     return result;
 }

@@ -25,3 +25,12 @@ def values(formula: str, **options: Any) -> np.ndarray:
     if found.returncode != 0:
         raise SystemExit(f"{' '.join(command)} failed")
     return np.array([float(line) for line in found.stdout.split()])
+
+
+def bed_pressure_gradient(superficial_velocity: float, void_fraction: float, **options: Any) -> float:
+    """Pressure gradient [Pa/m] of flow through a bed at rest in model A, where the void fraction times the gradient is
+    the drag per volume. The options are those of the formula `drag` without voidFraction and slipSpeed."""
+    slip = superficial_velocity / void_fraction
+    coefficient = value("drag", **options, voidFraction=void_fraction, slipSpeed=slip)
+    particle_volume = np.pi / 6 * options["particleDiameter"] ** 3
+    return float((1 - void_fraction) / particle_volume * coefficient * slip / void_fraction)

@@ -129,11 +129,13 @@ std::string textOf(const RigidMotion& motion)
     std::ostringstream text;
     if (!motion.velocity.isZero())
     {
-        text << "with the velocity " << (motion.velocity.array() + 0.0).matrix().transpose().format(vectorFormat) << " m/s";
+        text << "with the velocity " << (motion.velocity.array() + 0.0).matrix().transpose().format(vectorFormat)
+             << " m/s";
     }
     else
     {
-        text << "about (origin " << (motion.origin.array() + 0.0).matrix().transpose().format(vectorFormat) << ") with the angular velocity "
+        text << "about (origin " << (motion.origin.array() + 0.0).matrix().transpose().format(vectorFormat)
+             << ") with the angular velocity "
              << (motion.angularVelocity.array() + 0.0).matrix().transpose().format(vectorFormat) << " rad/s";
     }
     return text.str();

@@ -160,10 +160,10 @@ TEST(DemScripts, WallsThatMoveWithoutTheFluidAreRefused)
                       "fix plates all wall/gran model hertz tangential history mesh n_meshes 1 meshes plate\n"
                       "fix belt all wall/gran model hertz tangential history primitive type 2 zplane 0.001 shear x 0.2";
     // Root mean square over the patch, whose faces across the belt, two fifths of it, have no velocity along themselves.
-    expectRefused(belt,
-        {"fix plate has the word 'surface_vel': the wall moves in the DEM only",
-            "fix belt has the word 'shear': the wall moves in the DEM only",
-            "patch 'walls': velocity differs by 0.155 m/s of 0.2 m/s", "allowedInScript ( \"shear\" \"surface_vel\" )"});
+    expectRefused(belt, {"fix plate has the word 'surface_vel': the wall moves in the DEM only",
+                            "fix belt has the word 'shear': the wall moves in the DEM only",
+                            "patch 'walls': velocity differs by 0.155 m/s of 0.2 m/s",
+                            "allowedInScript ( \"shear\" \"surface_vel\" )"});
     TestCase allowedBelt;
     fillIn(allowedBelt);
     allowedBelt.extraFiles["DEM/plate.stl"] = plate;

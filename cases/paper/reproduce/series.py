@@ -176,7 +176,7 @@ def all_runs() -> tuple[HopperRun, ...]:
 
 def check(run: HopperRun) -> None:
     """A curve that is not that of its inputs must not be drawn."""
-    record = json.loads((RESULTS / "runs" / f"{run.name}.json").read_text())
+    record = json.loads(parameter_study_results.files(RESULTS / "runs")[run.name].read_text())
     problems = []
     if abs(run.mass[0] - run.fill) > 0.01 * run.fill:
         problems.append(f"m(t) begins with {run.mass[0]:.4g} g, the inputs say {run.fill:.4g} g")
@@ -192,7 +192,7 @@ def check(run: HopperRun) -> None:
     if any("dirty" in version for version in record["code"]):
         problems.append("it was made by a program that no commit holds")
     if problems:
-        raise SystemExit(f"cases/paper/results/runs/{run.name}: {'; '.join(problems)}")
+        raise SystemExit(f"cases/paper/results/runs.zip: {run.name}: {'; '.join(problems)}")
 
 
 def of_entries(begin: str, step: str, **wanted: Any) -> list[HopperRun]:

@@ -34,18 +34,14 @@ class Bed:
     # --- the law ---
 
     def gradient(self, void_fraction: float) -> float:
-        """Koch & Hill's, of model A: void fraction times gradient is the drag per volume [Pa/m]."""
-        slip = self.velocity / void_fraction
-        coefficient = closures.value(
-            "drag",
+        return closures.bed_pressure_gradient(
+            self.velocity,
+            void_fraction,
             dragLaw="KochHillDrag",
             particleDiameter=self.diameter,
             fluidDensity=self["fluidDensity"],
             fluidViscosity=self["fluidViscosity"],
-            voidFraction=void_fraction,
-            slipSpeed=slip,
         )
-        return (1 - void_fraction) / self.particle_volume * coefficient * slip / void_fraction
 
     @property
     def particle_volume(self) -> float:

@@ -3,6 +3,7 @@ texts."""
 
 import re
 import shutil
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ CASES = REPOSITORY / "cases"
 TUTORIALS = CASES / "tutorials"
 EFFECTS = REPOSITORY / "identification/effects"
 SURROGATE = REPOSITORY / "tests/identification/surrogate"
-CURVE = CASES / "paper/results/runs/fill100packings-0.8.100019.dry.csv"
+CURVE = zipfile.Path(CASES / "paper/results/runs.zip", "fill100packings-0.8.100019.dry.csv")
 
 
 def formulas(_: Path) -> list[Any]:
