@@ -148,19 +148,21 @@ class Film(Pictures):
 class OnTwoRanks(Pictures):
     def test_draws_particles_and_water(self) -> None:
         """The dry run has no field of the water, and that of the other one is in parts, one for each rank."""
-        case = self.folder / "cases/tutorials/hopperQuick"
+        case = self.folder / "cases/tutorials/hopperOnTwoRanks"
+        shutil.copytree(self.submerged.parents[1], case, ignore=shutil.ignore_patterns("steps", "results"))
         subprocess.run(
-            [case / "Allrun", "-np", "2", "-fresh"],
+            [case / "Allrun", "-np", "2"],
             check=True,
             stdout=subprocess.DEVNULL,
             env={**os.environ, "CLEPSYDRA_BUILD": str(BUILD)},
         )
         self.assertTrue((case / "results/particles.png").is_file())
-        whole = [time for time in self.submerged.glob("0.[1-9]*") if (time / "U").is_file()]
+        submerged = case / "steps/submerged"
+        whole = [time for time in submerged.glob("0.[1-9]*") if (time / "U").is_file()]
         self.assertGreater(len(whole), 1)
         for time in whole:
             shutil.rmtree(time)
-        self.assertIn("reconstructPar", self.runs("movie", self.submerged, "film.gif").stderr)
+        self.assertIn("reconstructPar", self.runs("movie", submerged, "film.gif").stderr)
 
 
 class Report(Pictures):
