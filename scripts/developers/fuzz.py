@@ -4,8 +4,8 @@ reports.
 
 Usage: fuzz [--seconds N] [--json FILE] [--build FOLDER] [--build-only] [TARGET ...]
 
-Each TARGET (default: all) first reads every file of TARGET in tests/fuzz/found.zip, where the findings of earlier runs are
-kept, and then mutations of the repository's own files for N seconds (default 60; with 0, the earlier findings
+Each TARGET (default: all) first reads every file of TARGET in tests/fuzz/found.zip, where the findings of earlier runs
+are kept, and then mutations of the repository's own files for N seconds (default 60; with 0, the earlier findings
 only). Inputs that reached new code are kept in FOLDER/corpus (default FOLDER: build-fuzz), from which the next run
 continues. --json adds the numbers to FILE. Findings are in FOLDER/found. Exit status 1 if anything was found, 77 if
 clang cannot build fuzzers. """
