@@ -16,11 +16,13 @@ def start_directories(case: Path | str, name: str) -> list[Path]:
     return sorted(found, key=lambda directory: float(directory.name))
 
 
-def columns(case: Path | str, name: str) -> np.ndarray:
-    """The columns of an observable. Where a run was resumed, the later part wins."""
+def columns(case: Path | str, name: str, table: str | None = None) -> np.ndarray:
+    """The columns of a function object's table, <name>.dat unless given; brackets around vectors do not count. Where a run
+    was resumed, the later part wins."""
     rows = np.empty((0, 0))
     for directory in start_directories(case, name):
-        part = np.loadtxt(directory / f"{name}.dat", ndmin=2)
+        text = (directory / (table or f"{name}.dat")).read_text().replace("(", " ").replace(")", " ")
+        part = np.loadtxt(text.splitlines(), ndmin=2)
         if len(part) == 0:
             continue
         rows = np.vstack([rows[rows[:, 0] < part[0, 0]], part]) if len(rows) else part
@@ -74,9 +76,7 @@ def field(case: Path | str, time: str, name: str) -> np.ndarray:
 
 def surface_values(case: Path | str, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Times and values, one row per time, of a function object surfaceFieldValue."""
-    directory = start_directories(case, name)[0]
-    lines = (directory / "surfaceFieldValue.dat").read_text().replace("(", " ").replace(")", " ").splitlines()
-    rows = np.array([[float(part) for part in line.split()] for line in lines if not line.startswith("#")])
+    rows = columns(case, name, "surfaceFieldValue.dat").T
     return rows[:, 0], rows[:, 1:]
 
 

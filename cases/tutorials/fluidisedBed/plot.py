@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Pressure drop and height of the bed against time: printed, and drawn into bed.png."""
 
-import json
-import re
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import numpy as np
+
+from clepsydra import case_files, parameter_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -16,25 +17,12 @@ GRAVITY = 9.81
 SETTLED = 0.5  # of the run: what comes before is the start
 
 
-def parameters() -> dict[str, float]:
-    entries = re.findall(r"(?m)^(\w+)\s+([-+.\deE]+);", (CASE / "parameters").read_text())
-    return {name: float(value) for name, value in entries}
-
-
-def solid_volume(p: dict[str, float]) -> float:
+def solid_volume(p: dict[str, Any]) -> float:
     """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = sorted((CASE / "postProcessing/conservation").glob("*/summary.json"))
+    balances = case_files.balances(CASE)
     if not balances:
         raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return json.loads(balances[0].read_text())["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
-
-
-def pressure_drop(p: dict[str, float]) -> tuple[np.ndarray, np.ndarray]:
-    tables = sorted(
-        (CASE / "postProcessing/pressureDrop").glob("*/surfaceFieldValue.dat"), key=lambda path: float(path.parent.name)
-    )
-    rows = np.vstack([np.loadtxt(table, ndmin=2) for table in tables])
-    return rows[:, 0], p["fluidDensity"] * rows[:, 1]
+    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
 
 
 def bed_height() -> tuple[np.ndarray, np.ndarray]:
@@ -50,11 +38,12 @@ def bed_height() -> tuple[np.ndarray, np.ndarray]:
 
 
 def main() -> None:
-    p = parameters()
+    p = parameter_file.parameters(CASE / "parameters")
     solid = solid_volume(p)
     area = p["width"] ** 2
     load = solid * (p["particleDensity"] - p["fluidDensity"]) * GRAVITY / area
-    time, drop = pressure_drop(p)
+    time, drop = case_files.columns(CASE, "pressureDrop", "surfaceFieldValue.dat")
+    drop = p["fluidDensity"] * drop
     late = time > SETTLED * time[-1]
     height_time, height = bed_height()
     mean_height = height[height_time > SETTLED * time[-1]].mean()

@@ -1,13 +1,13 @@
 #!/usr/bin/python3
 """Pressure drop against time and the mean solid fraction in the bed: printed, and drawn into bed.png."""
 
-import json
-import re
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 import numpy as np
+
+from clepsydra import case_files, parameter_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -16,36 +16,24 @@ CASE = Path(__file__).parent
 GRAVITY = 9.81
 
 
-def parameters() -> dict[str, float]:
-    entries = re.findall(r"(?m)^(\w+)\s+([-+.\deE]+);", (CASE / "parameters").read_text())
-    return {name: float(value) for name, value in entries}
-
-
-def solid_volume(p: dict[str, float]) -> float:
+def solid_volume(p: dict[str, Any]) -> float:
     """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = sorted((CASE / "postProcessing/conservation").glob("*/summary.json"))
+    balances = case_files.balances(CASE)
     if not balances:
         raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return json.loads(balances[0].read_text())["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
-
-
-def rows(name: str, table: str) -> np.ndarray:
-    """All of a function object's rows, those of a resumed run behind the ones before."""
-    parts = sorted((CASE / "postProcessing" / name).glob(f"*/{table}"), key=lambda path: float(path.parent.name))
-    lines = [line for path in parts for line in path.read_text().splitlines() if not line.startswith("#")]
-    return np.loadtxt(lines, ndmin=2)
+    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
 
 
 def main() -> None:
-    p = parameters()
+    p = parameter_file.parameters(CASE / "parameters")
     solid = solid_volume(p)
     area = p["width"] * p["depth"]
     load = solid * (p["particleDensity"] - p["fluidDensity"]) * GRAVITY / area
-    time, drop = rows("pressureDrop", "surfaceFieldValue.dat").T
+    time, drop = case_files.columns(CASE, "pressureDrop", "surfaceFieldValue.dat")
     drop = p["fluidDensity"] * drop
     late = time >= p["meansFrom"]
 
-    means = rows("particleMeans", "particleMeans.dat")
+    means = case_files.columns(CASE, "particleMeans").T
     means = means[means[:, 0] == means[-1, 0]]
     x, z, particles, fraction = means[:, 1], means[:, 3], means[:, 5], means[:, 11]
     height = np.average(z, weights=particles)

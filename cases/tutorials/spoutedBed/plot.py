@@ -2,13 +2,13 @@
 """Mean velocity of the particles in the bed, and their mean speed across it at three heights: printed, and drawn into
 spout.png."""
 
-import json
-import re
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 import numpy as np
+
+from clepsydra import case_files, parameter_file
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -18,29 +18,17 @@ PACKED = 0.58  # solid fraction of a bed at rest
 REACH = 4e-3  # [m] within which particles count for a height
 
 
-def parameters() -> dict[str, float]:
-    entries = re.findall(r"(?m)^(\w+)\s+([-+.\deE]+);", (CASE / "parameters").read_text())
-    return {name: float(value) for name, value in entries}
-
-
-def solid_volume(p: dict[str, float]) -> float:
+def solid_volume(p: dict[str, Any]) -> float:
     """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = sorted((CASE / "postProcessing/conservation").glob("*/summary.json"))
+    balances = case_files.balances(CASE)
     if not balances:
         raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return json.loads(balances[0].read_text())["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
-
-
-def rows(name: str, table: str) -> np.ndarray:
-    """All of a function object's rows, those of a resumed run behind the ones before."""
-    parts = sorted((CASE / "postProcessing" / name).glob(f"*/{table}"), key=lambda path: float(path.parent.name))
-    lines = [line for path in parts for line in path.read_text().splitlines() if not line.startswith("#")]
-    return np.loadtxt(lines, ndmin=2)
+    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
 
 
 def main() -> None:
-    p = parameters()
-    means = rows("particleMeans", "particleMeans.dat")
+    p = parameter_file.parameters(CASE / "parameters")
+    means = case_files.columns(CASE, "particleMeans").T
     means = means[means[:, 0] == means[-1, 0]]
     x, z, particles, speed, upwards = means[:, 1], means[:, 3], means[:, 5], means[:, 6], means[:, 10]
     solid = solid_volume(p)
