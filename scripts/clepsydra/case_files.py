@@ -17,8 +17,8 @@ def start_directories(case: Path | str, name: str) -> list[Path]:
 
 
 def columns(case: Path | str, name: str, table: str | None = None) -> np.ndarray:
-    """The columns of a function object's table, <name>.dat unless given; brackets around vectors do not count. Where a run
-    was resumed, the later part wins."""
+    """The columns of a function object's table, <name>.dat unless given. Brackets around vectors do not count. Where a
+    run was resumed, the later part wins."""
     rows = np.empty((0, 0))
     for directory in start_directories(case, name):
         text = (directory / (table or f"{name}.dat")).read_text().replace("(", " ").replace(")", " ")

@@ -28,9 +28,14 @@ def values(formula: str, **options: Any) -> np.ndarray:
 
 
 def bed_pressure_gradient(superficial_velocity: float, void_fraction: float, **options: Any) -> float:
-    """Pressure gradient [Pa/m] of flow through a bed at rest in model A, where the void fraction times the gradient is
+    """One of bed_pressure_gradients()."""
+    return float(bed_pressure_gradients(np.array([superficial_velocity]), void_fraction, **options)[0])
+
+
+def bed_pressure_gradients(superficial_velocities: np.ndarray, void_fraction: float, **options: Any) -> np.ndarray:
+    """Pressure gradients [Pa/m] of flow through a bed at rest in model A, where the void fraction times the gradient is
     the drag per volume. The options are those of the formula `drag` without voidFraction and slipSpeed."""
-    slip = superficial_velocity / void_fraction
-    coefficient = value("drag", **options, voidFraction=void_fraction, slipSpeed=slip)
+    slips = superficial_velocities / void_fraction
+    coefficients = values("drag", **options, voidFraction=void_fraction, slipSpeed=slips)
     particle_volume = np.pi / 6 * options["particleDiameter"] ** 3
-    return float((1 - void_fraction) / particle_volume * coefficient * slip / void_fraction)
+    return (1 - void_fraction) / particle_volume * coefficients * slips / void_fraction

@@ -166,18 +166,15 @@ def layer_gradient(bed: Bed, void_fractions: np.ndarray, areas: np.ndarray) -> f
 
 
 def gradients(bed: Bed, void_fraction: float, velocities: np.ndarray) -> np.ndarray:
-    """[Pa/m] at superficial velocities, of model A: the void fraction times the gradient is the drag per volume."""
-    slip = velocities / void_fraction
-    coefficients = closures.values(
-        "drag",
+    """[Pa/m] at superficial velocities, by the drag law."""
+    return closures.bed_pressure_gradients(
+        velocities,
+        void_fraction,
         dragLaw=bed["dragLaw"],
         particleDiameter=bed["particleDiameter"],
         fluidDensity=bed["fluidDensity"],
         fluidViscosity=bed["fluidViscosity"],
-        voidFraction=void_fraction,
-        slipSpeed=slip,
     )
-    return (1 - void_fraction) / particle_volume(bed) * coefficients * slip / void_fraction
 
 
 main()
