@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """scripts/importCfdem on two cases with the structure and the parameters of CFDEMcoupling-PUBLIC's tutorials
 ErgunTestMPI and settlingTestMPI. What it writes is run, and held against the law that the old case states; what it
-cannot carry over is an error. """
+cannot carry over is an error. The old cases are in cases.zip. """
 
 import re
 import shutil
 import subprocess
 import tempfile
 import unittest
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -25,11 +26,14 @@ class Folder(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
         self.target = self.folder / "new"
+        self.old = self.folder / "old"
+        with zipfile.ZipFile(HERE / "cases.zip") as cases:
+            cases.extractall(self.old)
 
     def case(self, name: str, file: str | None = None, old: Any = "", new: Any = "") -> Any:
         """A copy of an old case, with a text in one of its files replaced."""
         copy = self.folder / name
-        shutil.copytree(HERE / name, copy)
+        shutil.copytree(self.old / name, copy)
         if file:
             text = (copy / file).read_text() if (copy / file).exists() else ""
             self.assertIn(old, text)
@@ -55,7 +59,7 @@ class Runs(Folder):
     """Of the new cases: within 5 % of the law."""
 
     def test_settling_particle(self) -> None:
-        self.imported(HERE / "settlingParticle")
+        self.imported(self.old / "settlingParticle")
         self.run_()
         speed = -np.loadtxt(self.target / "DEM/post/velocity.txt")[-1, 2]
         law = closures.value(
@@ -72,7 +76,7 @@ class Runs(Folder):
     def test_packed_column(self) -> None:
         """Taken for a velocity between the particles, the inlet's .006 and .01 m/s would give less than half of the
         pressure drop."""
-        self.imported(HERE / "packedColumn")
+        self.imported(self.old / "packedColumn")
         self.run_()
         probes = np.loadtxt(self.target / "postProcessing/probes/0/p")
         for time, velocity in (("0.05", 0.006), ("0.1", 0.01)):
@@ -102,20 +106,20 @@ class Meanings(Folder):
     """What is written, where a word means something else."""
 
     def test_interval_is_in_seconds(self) -> None:
-        said = self.imported(HERE / "settlingParticle")
+        said = self.imported(self.old / "settlingParticle")
         self.assertIn("couplingTimeStep        0.001;", (self.target / "constant/couplingProperties").read_text())
         self.assertIn("deltaT                  0.001;", (self.target / "system/controlDict").read_text())
         self.assertIn("couplingInterval 100: is in seconds here", said)
 
     def test_terms_that_were_not_there_are_left_out(self) -> None:
         """Without the words the program refuses the case."""
-        said = self.imported(HERE / "packedColumn")
+        said = self.imported(self.old / "packedColumn")
         text = (self.target / "constant/couplingProperties").read_text()
         self.assertIn("( gradPForce viscForce GidaspowDrag noBuoyancy );", text)
         self.assertIn("has no Archimedes, so noBuoyancy is added", said)
 
     def test_model_b_lacks_no_pressure_gradient(self) -> None:
-        self.imported(HERE / "settlingParticle")
+        self.imported(self.old / "settlingParticle")
         text = (self.target / "constant/couplingProperties").read_text()
         self.assertIn("( DiFeliceDrag Archimedes );", text)
 
@@ -129,11 +133,11 @@ class Meanings(Folder):
         self.assertIn("( Archimedes noDrag );", text)
 
     def test_smoothing_length_spreads_alike(self) -> None:
-        self.imported(HERE / "settlingParticle")
+        self.imported(self.old / "settlingParticle")
         self.assertIn("bandwidth               0.0006;", (self.target / "constant/couplingProperties").read_text())
 
     def test_constant_inlet_is_superficial(self) -> None:
-        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        text = (self.old / "packedColumn/CFD/0/U").read_text()
         (table,) = re.findall(r"type            uniformFixedValue;.*?\);\n", text, re.DOTALL)[:1]
         self.imported(self.case("packedColumn", "CFD/0/U", table, "type fixedValue; value uniform (0 0 0.01);\n"))
         self.assertIn("interstitialInletVelocity", (self.target / "0/U").read_text())
@@ -141,7 +145,7 @@ class Meanings(Folder):
     def test_long_table_of_an_inlet(self) -> None:
         """OpenFOAM reads the expression, and it has the table's values at and between its times."""
         rows = [(0.001 * step, 0.002 + 0.001 * (step % 3)) for step in range(60)]
-        text = (HERE / "packedColumn/CFD/0/U").read_text()
+        text = (self.old / "packedColumn/CFD/0/U").read_text()
         (table,) = re.findall(r"table\n        \(.*?\n        \);", text, re.DOTALL)[:1]
         self.imported(
             self.case(
@@ -172,7 +176,7 @@ class Meanings(Folder):
         self.assertIn("uniformFixedValue", (self.target / "0/U").read_text())
 
     def test_probes_look_for_our_field(self) -> None:
-        said = self.imported(HERE / "packedColumn")
+        said = self.imported(self.old / "packedColumn")
         self.assertIn("fields                  ( p U voidFraction );", (self.target / "system/controlDict").read_text())
         self.assertIn("volAverage_voidfraction: no such field here", said)
 
@@ -190,7 +194,7 @@ class Meanings(Folder):
         self.assertIn("writeCompression: is off here", said)
 
     def test_script_loses_the_coupling(self) -> None:
-        said = self.imported(HERE / "packedColumn")
+        said = self.imported(self.old / "packedColumn")
         script = (self.target / "DEM/in.liggghts_run").read_text()
         for word in ("processors", "couple/cfd", "dragforce", "dragtotal", "../DEM", "thermo_log"):
             self.assertNotIn(word, script)
@@ -213,13 +217,13 @@ class Meanings(Folder):
                 self.assertIn(f"seed {new.split()[1]}: is 100", said)
 
     def test_solvers_keep_their_words(self) -> None:
-        self.imported(HERE / "packedColumn")
+        self.imported(self.old / "packedColumn")
         solution = (self.target / "system/fvSolution").read_text()
         self.assertIn("        $p;", solution)
         self.assertIn("    nNonOrthogonalCorrectors 0;", solution)
 
     def test_report_stays_with_the_case(self) -> None:
-        said = self.imported(HERE / "packedColumn")
+        said = self.imported(self.old / "packedColumn")
         self.assertTrue(said.startswith((self.target / "IMPORTED").read_text().rstrip()))
 
     def test_what_todays_tutorials_write(self) -> None:
@@ -333,13 +337,13 @@ class Errors(Folder):
         self.assertIn("( DiFeliceDrag Archimedes );", (self.target / "constant/couplingProperties").read_text())
 
     def test_without_that_names_nothing(self) -> None:
-        done = self.importing(HERE / "settlingParticle", "--without", "misspelt")
+        done = self.importing(self.old / "settlingParticle", "--without", "misspelt")
         self.assertEqual(done.returncode, 1)
         self.assertIn("misspelt: names no error", done.stderr)
 
     def test_target_that_is_there(self) -> None:
         self.target.mkdir()
-        done = self.importing(HERE / "settlingParticle")
+        done = self.importing(self.old / "settlingParticle")
         self.assertIn("is there already", done.stderr)
 
     def test_broken_file(self) -> None:
