@@ -21,6 +21,7 @@ BY_HAND = {
     "fluidisedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "gasFluidisedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "spoutedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
+    "wetDrum": (["blockMesh"], "conservation/0/summary.json", "0.01"),
     "hopperDry": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
     "hopperSubmerged": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
     "hopperFromSTL": (
