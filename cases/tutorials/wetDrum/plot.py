@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Torque of the drum and slope of the bed, printed and drawn against time into drum.png, with the particles at the end."""
+"""Torque of the drum and slope of the bed, printed and drawn against time into drum.png beside the last particles."""
 
 from pathlib import Path
 
