@@ -57,6 +57,7 @@ class Ramp:
 
     def __init__(self, run: Any) -> None:
         self.column = Column(run)
+        self.is_ergun = self.column["dragLaw"] == "GidaspowDrag"
         self.time, self.drop = self.column.pressure_drop()
         self.velocity = self.column.top_velocity()[1]
         # the corners of the inlet's table, see Allrun
@@ -77,20 +78,31 @@ class Ramp:
         noise = np.sqrt(residual[0] / len(u))
         return velocity, noise / (b + 2 * c * velocity)
 
-    def erguns_velocity(self, part: Any) -> tuple[Any, Any]:
-        """The same by Ergun's equation, layer by layer of the bed's own void fraction at the part's middle."""
+    def laws_velocity(self, part: Any) -> tuple[Any, Any]:
+        """The same by the drag law, layer by layer of the bed's own void fraction at the part's middle."""
         column = self.column
         middle = self.time[part].mean()
         time = min(column.times(), key=lambda name: abs(float(name) - middle))
         bed = column.layers(time, "voidFraction")
         bed = bed[bed < CLEAR]
         # per layer b U + c U^2, from two velocities
-        u = np.array([0.005, 0.02])
-        gradients = (
-            ergun_gradient(column, bed, u).reshape(len(bed), 2).sum(axis=0) * column["height"] / column["cellsUp"]
-        )
+        u = np.array([0.005, 0.02]) if self.is_ergun else np.array([0.9, 1.1]) * self.fluidising_velocity(part)[0]
+        gradients = sum(self.gradients(layer, u) for layer in bed) * column["height"] / column["cellsUp"]
         b, c = np.linalg.solve(np.column_stack([u, u * u]), gradients)
         return 2 * column.load / (b + np.sqrt(b * b + 4 * c * column.load)), bed[:15].mean()
+
+    def gradients(self, void_fraction: float, velocities: np.ndarray) -> np.ndarray:
+        column = self.column
+        if self.is_ergun:
+            return np.ravel(ergun_gradient(column, void_fraction, velocities))
+        return closures.bed_pressure_gradients(
+            velocities,
+            void_fraction,
+            dragLaw=column["dragLaw"],
+            particleDiameter=column["particleDiameter"],
+            fluidDensity=column["fluidDensity"],
+            fluidViscosity=column["fluidViscosity"],
+        )
 
     def rows(self) -> Any:
         column, found = self.column, []
@@ -101,14 +113,14 @@ class Ramp:
         for name in ("rising", "falling"):
             part = getattr(self, name)
             velocity, error = self.fluidising_velocity(part)
-            expected, void_fraction = self.erguns_velocity(part)
+            expected, void_fraction = self.laws_velocity(part)
             print(f"{column.run.name}, {name}: U_mf {velocity:.5f} m/s, void fraction in the bed {void_fraction:.4f}")
             found.append(
                 validation.row(
                     f"U_mf, {name} velocity, {column.run.name}",
                     "m/s",
                     expected,
-                    "Ergun 1952 in the layers of the bed's void fraction",
+                    f"{'Ergun 1952' if self.is_ergun else column['dragLaw']} in the layers of the bed's void fraction",
                     "computed",
                     velocity,
                     error,
@@ -172,4 +184,4 @@ def plot(fixed: Any, ramps: Any) -> None:
 fixed = sorted(fixed_row(run) for run in Path("runs").glob("fixed*"))
 ramps = [Ramp(run) for run in sorted(Path("runs").glob("free*"))]
 validation.write([found for *_, found in fixed] + [found for ramp in ramps for found in ramp.rows()])
-plot(fixed, ramps)
+plot(fixed, [ramp for ramp in ramps if ramp.is_ergun])
