@@ -43,7 +43,7 @@ const std::string particlesName("particles.%.restart");
 const std::string oldParticlesName("particles.restart");
 /// Holds the time of the fresh start, whose fields are the user's own, and the identifier of the run.
 const std::string beginningName("beginning");
-const std::string runWord("run ");
+const std::string runPrefix("run ");
 /// Marks each time folder that this program has written as half of a checkpoint.
 const word halfName("checkpoint");
 const fileName halfFolder("uniform");
@@ -88,7 +88,7 @@ Beginning beginningOf(const fileName& folder)
         FatalErrorInFunction << file << " holds '" << line.c_str() << "'; allowed: the time of the fresh start"
                              << exit(FatalError);
     }
-    return {{value, line}, run.compare(0, runWord.size(), runWord) == 0 ? run.substr(runWord.size()) : string()};
+    return {{value, line}, run.compare(0, runPrefix.size(), runPrefix) == 0 ? run.substr(runPrefix.size()) : string()};
 }
 
 /// The same on all ranks. Collective.
@@ -661,7 +661,7 @@ void Checkpoints::writeBeginning(const word& startTime) const
         if (Pstream::master())
         {
             writeWhole(
-                (time_.globalPath() / folderName / beginningName).c_str(), startTime + '\n' + runWord + run_ + '\n');
+                (time_.globalPath() / folderName / beginningName).c_str(), startTime + '\n' + runPrefix + run_ + '\n');
         }
     });
     if (!problem.empty())
@@ -755,7 +755,7 @@ void Checkpoints::complete(DemEngine& engine) const
             {
                 fs::create_directories((caseDirectory / half).parent_path());
                 writeWhole(caseDirectory / half, "The particles of this time are in the case's folder " + folderName
-                                                     + '/' + timeName + ".\n" + runWord + run_ + "\ncheckpoint "
+                                                     + '/' + timeName + ".\n" + runPrefix + run_ + "\ncheckpoint "
                                                      + identifier + '\n');
             }
         },

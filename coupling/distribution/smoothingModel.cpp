@@ -45,7 +45,7 @@ public:
 
 defineTypeNameAndDebug(NoSmoothing, 0);
 addToRunTimeSelectionTable(SmoothingModel, NoSmoothing, dictionary);
-const ModelLines lines("smoothingModel", {{NoSmoothing::typeName_(), "no smoothing"}});
+const ModelLines smoothingLines("smoothingModel", {{NoSmoothing::typeName_(), "no smoothing"}});
 
 } // namespace
 

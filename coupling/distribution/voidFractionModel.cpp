@@ -85,7 +85,7 @@ defineTypeNameAndDebug(Divided, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Divided, dictionary);
 defineTypeNameAndDebug(Centre, 0);
 addToRunTimeSelectionTable(VoidFractionModel, Centre, dictionary);
-const ModelLines lines(
+const ModelLines voidFractionLines(
     "voidFractionModel", {{Divided::typeName_(), "each cell holds the part of the sphere in it"},
                              {Centre::typeName_(), "the cell of the centre holds all of it; use with smoothing only"}});
 

@@ -21,7 +21,7 @@ namespace
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr timespec pollInterval{0, 20'000'000};
+constexpr timespec endPollInterval{0, 20'000'000};
 constexpr int statusOfNoProgram = 127;
 constexpr int statusOfSignal = 128;
 
@@ -142,7 +142,7 @@ void signalDescendants(pid_t ancestor, int signal)
         {
             _exit(status);
         }
-        const int signal = programEnded ? 0 : sigtimedwait(&waitedFor, nullptr, &pollInterval);
+        const int signal = programEnded ? 0 : sigtimedwait(&waitedFor, nullptr, &endPollInterval);
         if (!ending && (programEnded || (signal > 0 && signal != SIGCHLD)))
         {
             ending = true;
@@ -178,7 +178,7 @@ ProcessTree::~ProcessTree()
     end();
     while (!status())
     {
-        nanosleep(&pollInterval, nullptr);
+        nanosleep(&endPollInterval, nullptr);
     }
 }
 

@@ -23,7 +23,7 @@ namespace
 
 constexpr const char* statusFile = "status.run";
 constexpr int statusOfNoReport = 125; // the task did not reach its end
-constexpr std::chrono::milliseconds pollInterval{200};
+constexpr std::chrono::milliseconds queuePollInterval{200};
 constexpr int pollsBetweenReports = 5;
 constexpr std::chrono::seconds grace{5};
 
@@ -70,7 +70,7 @@ int waitFor(const std::vector<std::string>& command, const std::filesystem::path
         {
             meanwhile();
         }
-        std::this_thread::sleep_for(pollInterval);
+        std::this_thread::sleep_for(queuePollInterval);
     }
     return processes.status().value_or(statusOfNoReport);
 }
