@@ -17,7 +17,7 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr const char* allowed =
+constexpr const char* allowedInFormulas =
     "allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, cos, min(a, b) and max(a, b)";
 
 [[noreturn]] void fail(const std::string& formula, const std::string& what)
@@ -25,7 +25,7 @@ constexpr const char* allowed =
     constexpr std::size_t longest = 80;
     const bool isLong = formula.size() > longest;
     throw std::invalid_argument(
-        "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowed);
+        "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowedInFormulas);
 }
 
 /// Refuses muParser's other operators (assignment, comparison, conditional) and text.
