@@ -167,7 +167,8 @@ void FluidCoupling::updateSizes(const LocatedParticles& located)
     Eigen::MatrixXd amounts(1, particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        amounts(0, particle) = volumeInFluid(particles, particle) / (2 * particles.radius[particle]);
+        const double diameter = 2 * particles.radius[particle] / settings_.coarseGraining();
+        amounts(0, particle) = volumeInFluid(particles, particle) / diameter;
     }
     Eigen::MatrixXd volumePerDiameter = located.densitiesOf(amounts);
     located.smooth(volumePerDiameter);
