@@ -331,6 +331,12 @@ TEST(BadInput, Parcels)
         },
         {couplingProperties, "'coarseGraining' is 2", "'lubricationForce'", "allowed: without it, or coarseGraining 1"},
         SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("coarseGraining", "2").set("selfInducedVelocityCorrection", "Oseen");
+        },
+        {couplingProperties, "'selfInducedVelocityCorrection' is Oseen", "'coarseGraining' is 2", "allowed:"},
+        SeenBy::engine);
 }
 
 /// A keyword that is unknown is refused, with the known one that it may stand for: the user waits for its effect in
