@@ -118,6 +118,32 @@ TEST(GeometryAndChecks, ADemStepThatIsTooLongForTheDragIsRefused)
     }
 }
 
+/// A low-pass filter over 10 coupling steps of 2 ms, each 16 relaxation times of sand of 0.1 mm in a dense bed in water, may let
+/// errors grow. Sand of 2 mm has 0.1 relaxation times.
+TEST(GeometryAndChecks, AFilterBesideCouplingStepsOfManyRelaxationTimesIsWarnedOf)
+{
+    for (const bool fine : {true, false})
+    {
+        const double diameter = fine ? 1e-4 : 2e-3;
+        TestCase test;
+        test.box.upper = diameter * Eigen::Vector3d(4.9, 4.9, 24.6);
+        test.cells = {2, 2, 10};
+        Box bed = test.box;
+        bed.upper.z() = 9.8 * diameter;
+        test.dem.diameter = diameter;
+        test.dem.particles = bodyCentredLattice(bed, {4, 4, 8});
+        test.dem.timeStep = fine ? 2e-6 : 2e-5;
+        test.coupling()
+            .set("forceModels", "(GidaspowDrag gradPForce viscForce Archimedes)")
+            .set("constDiffSmoothingProps/bandwidth", 1.5 * diameter)
+            .set("useDDTvoidfractionProps/smoothingTime", "0.02");
+        test.setTimes(6e-3, 2e-3, 6e-3);
+        const Outcome outcome = test.run();
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+        EXPECT_EQ(outcome.says("relaxation times of a particle in a dense bed"), fine) << outcome.output;
+    }
+}
+
 /// Two layers of thin cells in a box of coarse ones make the smoothing ten times as expensive.
 TEST(GeometryAndChecks, ThinCellsAreWarnedOf)
 {
