@@ -267,7 +267,6 @@ class Meanings(Folder):
         written = (self.target / "system/controlDict").read_text()
         self.assertRegex(written, r"flow\s*{[^}]*fields\s+\( alphaPhi \)")
 
-
     def test_parcels(self) -> None:
         """The ratio of every force is one entry, under either of CFDEMcoupling's words."""
         coupling = "CFD/constant/couplingProperties"
