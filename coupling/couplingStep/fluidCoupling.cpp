@@ -107,16 +107,16 @@ std::vector<AnticipatedMotion> FluidCoupling::anticipate(const DemResult& result
         {
             motions[i] = anticipatedMotion(result.received[i], result.changeOfVelocity.col(particle),
                 particles.mass[particle], result.timeStep, next);
-            anticipateAddedMass(result.received[i].addedMassTime / result.timeStep, particle, motions[i]);
+            anticipateAddedMass(particles, particle, result.received[i].addedMassTime / result.timeStep, motions[i]);
             motions[i].addedMass *= next / result.timeStep;
         }
     }
     return motions;
 }
 
-void FluidCoupling::anticipateAddedMass(double addedMass, Eigen::Index particle, AnticipatedMotion& motion) const
+void FluidCoupling::anticipateAddedMass(
+    const ParticlesView& particles, Eigen::Index particle, double addedMass, AnticipatedMotion& motion) const
 {
-    const ParticlesView particles = engine_.particles();
     const FluidAtParticle& fluid = particles.state[particle].fluid;
     const double solid = 1 - fluid.voidFraction;
     if (addedMass > 0 && solid > 0)

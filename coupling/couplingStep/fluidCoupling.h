@@ -84,7 +84,8 @@ public:
 private:
     std::vector<AnticipatedMotion> anticipate(const DemResult& result, double next) const;
     /// See implicitAddedMass(). \param addedMass  of the particle in the last coupling step [kg]
-    void anticipateAddedMass(double addedMass, Eigen::Index particle, AnticipatedMotion& motion) const;
+    void anticipateAddedMass(
+        const ParticlesView& particles, Eigen::Index particle, double addedMass, AnticipatedMotion& motion) const;
     /// What each particle adds to its cells, a column per particle with rows_.
     Eigen::MatrixXd contributions(const DemResult& result, const std::vector<AnticipatedMotion>& anticipated) const;
     AnticipatedParticles locate(const DemResult& result, double next);
