@@ -2,6 +2,7 @@
 
 #include "distribution/smoothingModel.h"
 #include "distribution/voidFractionModel.h"
+#include "forces/coarseGraining.h"
 #include "forces/forceModel.h"
 #include "couplingStep/dictionaryText.h"
 #include "openfoam/compatibility.h"
@@ -58,7 +59,7 @@ CouplingSettings::CouplingSettings(const Time& time)
         {"fluid", "couplingTimeStep", "adjustableCouplingTimeStep", "maxCo", "minCouplingTimeStep",
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime",
-            "allowParticlesOutsideMesh"},
+            "allowParticlesOutsideMesh", "coarseGraining"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
@@ -70,6 +71,7 @@ CouplingSettings::CouplingSettings(const Time& time)
 void CouplingSettings::readChoices()
 {
     couplingTimeStep_ = positiveEntry(dict_, "couplingTimeStep");
+    coarseGraining_ = readCoarseGraining(dict_);
     hasFluid_ = selectedModel(dict_, "fluid", fluids.names()) != "none";
     if (!hasFluid_)
     {

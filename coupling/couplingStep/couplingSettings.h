@@ -49,6 +49,12 @@ public:
         return modelType_;
     }
 
+    /// Diameter of the DEM script's spheres divided by that of the real particles, see forces/coarseGraining.h.
+    double coarseGraining() const
+    {
+        return coarseGraining_;
+    }
+
     /// Time between exchanges of particles and fluid [s], which equals the fluid's time step. Where
     /// adjustableCouplingTimeStep() has a value, it is the length of the first coupling step only.
     double couplingTimeStep() const
@@ -127,6 +133,7 @@ private:
     Foam::IOdictionary dict_;
     bool hasFluid_ = true;
     ModelType modelType_ = ModelType::A;
+    double coarseGraining_ = 1;
     double couplingTimeStep_ = 0;
     std::optional<AdjustableCouplingTimeStep> adjustableCouplingTimeStep_;
     bool ddtVoidFraction_ = true;

@@ -20,6 +20,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       timers_(timers),
       mapping_(mesh, settings.dict(), distribution, timers),
       sampling_(mesh, settings, fluid, needs, distribution.smoothingModel()),
+      dragTimes_(settings, fluid.density, engine.timeStep()),
       rows_(sampling_.removesSelfInducedVelocity()),
       fields_{ClippedVoidFraction(mesh, settings.minimumVoidFraction(), conservation),
           PressureOnParticles(mesh, settings.modelType(), needs.pressureGradient, fluid.density, conservation),
@@ -69,6 +70,7 @@ AnticipatedParticles FluidCoupling::subtractFirstDrag(DemResult oneStep, volVect
 ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double next)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
+    dragTimes_.check(engine_.particles(), result);
     AnticipatedParticles located = locate(result, next);
     Eigen::MatrixXd density = densities(located, rows_.count);
     // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
@@ -105,9 +107,24 @@ std::vector<AnticipatedMotion> FluidCoupling::anticipate(const DemResult& result
         {
             motions[i] = anticipatedMotion(result.received[i], result.changeOfVelocity.col(particle),
                 particles.mass[particle], result.timeStep, next);
+            anticipateAddedMass(particles, particle, result.received[i].addedMassTime / result.timeStep, motions[i]);
+            motions[i].addedMass *= next / result.timeStep;
         }
     }
     return motions;
+}
+
+void FluidCoupling::anticipateAddedMass(
+    const ParticlesView& particles, Eigen::Index particle, double addedMass, AnticipatedMotion& motion) const
+{
+    const FluidAtParticle& fluid = particles.state[particle].fluid;
+    const double solid = 1 - fluid.voidFraction;
+    if (addedMass > 0 && solid > 0)
+    {
+        motion.addedMass = implicitAddedMass(
+            addedMass, fluid_.density * volumeInFluid(particles, particle) * fluid.voidFraction / solid);
+        motion.fluidVelocity = fluid.velocityInCells;
+    }
 }
 
 Eigen::MatrixXd FluidCoupling::contributions(
@@ -127,8 +144,8 @@ Eigen::MatrixXd FluidCoupling::contributions(
         ContributionRows::solidVolume.of(all)(0, particle) = volumeInFluid(particles, particle);
         ContributionRows::momentum.of(all).col(particle)
             << received.impulse - checkpointedState::semiImplicitImpulse.of(given).col(particle)
-                   - motion.drag * velocity,
-            motion.drag;
+                   - motion.drag * velocity - motion.addedMass * motion.fluidVelocity,
+            motion.drag + motion.addedMass;
         ContributionRows::motion.of(all).col(particle) << volume * motion.velocityResponse,
             volume * motion.pressureResponse * pressureForce, volume * (1 - motion.velocityResponse) * velocity;
         if (rows_.resistance)
@@ -167,7 +184,8 @@ void FluidCoupling::updateSizes(const LocatedParticles& located)
     Eigen::MatrixXd amounts(1, particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        amounts(0, particle) = volumeInFluid(particles, particle) / (2 * particles.radius[particle]);
+        const double diameter = 2 * particles.radius[particle] / settings_.coarseGraining();
+        amounts(0, particle) = volumeInFluid(particles, particle) / diameter;
     }
     Eigen::MatrixXd volumePerDiameter = located.densitiesOf(amounts);
     located.smooth(volumePerDiameter);
@@ -211,10 +229,11 @@ void FluidCoupling::assignSemiImplicitDrag(
         const FluidAtParticle& fluid = particles.state[particle].fluid;
         const double pressureVolume = fields_.pressure.acts() ? volumeInFluid(particles, particle) : 0;
         fromFluid.col(particle) =
-            motion.drag * fluid.velocityInCells
+            (motion.drag + motion.addedMass) * fluid.velocityInCells
             + anticipated.timeStep * motion.velocityResponse * pressureVolume * fluid.pressureGradient;
         checkpointedState::semiImplicitImpulse.of(given).col(particle) =
-            fromFluid.col(particle) - motion.drag * particles.velocity.col(particle);
+            fromFluid.col(particle) - motion.drag * particles.velocity.col(particle)
+            - motion.addedMass * motion.fluidVelocity;
     }
     fields_.momentum.defer(U, fields_.pressure.source(voidFraction(), p), anticipated.densitiesOf(fromFluid));
 }
@@ -227,10 +246,11 @@ ExchangedMomentum FluidCoupling::semiImplicitMomentum(const AnticipatedParticles
     double magnitudes = sum(mag(inCells));
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        const double drag = anticipated.motions[static_cast<std::size_t>(particle)].drag;
+        const AnticipatedMotion& motion = anticipated.motions[static_cast<std::size_t>(particle)];
         const FluidAtParticle& fluid = particles.state[particle].fluid;
         magnitudes += ofParticles.col(particle).norm()
-                      + drag * (fluid.velocityInCells.norm() + particles.velocity.col(particle).norm());
+                      + motion.drag * (fluid.velocityInCells.norm() + particles.velocity.col(particle).norm())
+                      + motion.addedMass * (fluid.velocityInCells.norm() + motion.fluidVelocity.norm());
     }
     const Vector3d sumOfParticles = ofParticles.rowwise().sum();
     return {returnReduce(toFoam(sumOfParticles), sumOp<vector>()) + gSum(inCells),

@@ -2,6 +2,7 @@
 
 #include "couplingStep/contributions.h"
 #include "couplingStep/demResult.h"
+#include "couplingStep/dragTimeChecks.h"
 #include "couplingStep/fluidSampling.h"
 #include "couplingStep/particlesInFluid.h"
 
@@ -82,6 +83,9 @@ public:
 
 private:
     std::vector<AnticipatedMotion> anticipate(const DemResult& result, double next) const;
+    /// See implicitAddedMass(). \param addedMass  of the particle in the last coupling step [kg]
+    void anticipateAddedMass(
+        const ParticlesView& particles, Eigen::Index particle, double addedMass, AnticipatedMotion& motion) const;
     /// What each particle adds to its cells, a column per particle with rows_.
     Eigen::MatrixXd contributions(const DemResult& result, const std::vector<AnticipatedMotion>& anticipated) const;
     AnticipatedParticles locate(const DemResult& result, double next);
@@ -102,6 +106,7 @@ private:
     PhaseTimers& timers_;
     ParticleMapping mapping_;
     FluidSampling sampling_;
+    DragTimeChecks dragTimes_;
     const ContributionRows rows_;
     ParticleFields fields_;
 };

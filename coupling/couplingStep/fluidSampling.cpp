@@ -18,6 +18,7 @@ FluidSampling::FluidSampling(const fvMesh& mesh, const CouplingSettings& setting
     const ForceNeeds& needs, const SmoothingModel& smoothing)
     : fluid_(fluid),
       needs_(needs),
+      coarseGraining_(settings.coarseGraining()),
       selfInducedVelocityCorrection_(settings, fluid, smoothing),
       viscousStress_(mesh, fluid)
 {
@@ -86,10 +87,10 @@ FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const 
     }
     if (needs_.sauterMeanDiameter)
     {
-        fields.add(sizes_, [](const ParticlesView& view, Eigen::Index particle, const double* value) {
+        fields.add(sizes_, [this](const ParticlesView& view, Eigen::Index particle, const double* value) {
             // A particle that has no volume in the fluid yet, and no others around it, has only its own diameter.
             view.state[particle].fluid.sauterMeanDiameter =
-                value[1] > 0 ? value[0] / value[1] : 2 * view.radius[particle];
+                value[1] > 0 ? value[0] / value[1] : 2 * view.radius[particle] / coarseGraining_;
         });
     }
     if (resistance_)

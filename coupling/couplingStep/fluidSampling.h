@@ -39,7 +39,7 @@ public:
 
     /// Sets the two densities whose quotient is the Sauter mean diameter. \pre needsSauterMeanDiameter()
     /// \param volumePerDiameter  sum over the particles of their volume divided by their diameter, per volume of the
-    /// cell [1/m]
+    /// cell [1/m]; of parcels with the diameter of their particles
     void setSizes(const ConstRow& solidFraction, const ConstRow& volumePerDiameter);
 
     /// Collective.
@@ -55,6 +55,7 @@ public:
 private:
     const FluidProperties fluid_;
     const ForceNeeds needs_;
+    const double coarseGraining_;
     const SelfInducedVelocityCorrection selfInducedVelocityCorrection_;
     const ViscousStress viscousStress_;
     /// Null where the self-induced velocity is not removed.

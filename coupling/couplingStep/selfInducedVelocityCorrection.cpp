@@ -45,6 +45,14 @@ bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
                                      << "(implicitCouple), whose coefficient measures how dense the neighbours are"
                                      << exit(FatalIOError);
     }
+    if (settings.coarseGraining() != 1)
+    {
+        // The velocity that n particles induce together may exceed their slip: then there is no velocity without it.
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << entry << "' is Oseen, and 'coarseGraining' is " << settings.coarseGraining()
+            << "; allowed: coarseGraining 1, because what a parcel induces at its own place is "
+            << "that of all its particles" << exit(FatalIOError);
+    }
     if (dict.get<word>("smoothingModel") == "off")
     {
         FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen, but smoothingModel is off; allowed: with "

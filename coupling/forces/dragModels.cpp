@@ -68,6 +68,11 @@ public:
         return walls_.planes();
     }
 
+    bool scalesToParcels() const override
+    {
+        return !walls_.isOn();
+    }
+
     Foam::string term() const override
     {
         return walls_.hasPlanes() ? Foam::string("+ S_p (U - v + the slip that plane walls add)") : ForceModel::term();

@@ -41,6 +41,11 @@ public:
         return true;
     }
 
+    bool scalesToParcels() const override
+    {
+        return true;
+    }
+
     Foam::string description() const override
     {
         return "gradPForce: -V_p grad(p), p without its hydrostatic part";
@@ -79,6 +84,11 @@ public:
         return true;
     }
 
+    bool scalesToParcels() const override
+    {
+        return true;
+    }
+
     Foam::string description() const override
     {
         return "viscForce: V_p div(tau)";
@@ -103,6 +113,11 @@ public:
         {
             sum.shared.col(particle) -= sphereVolume(particles.radius[particle]) * weightDensity_;
         }
+    }
+
+    bool scalesToParcels() const override
+    {
+        return true;
     }
 
     Foam::string description() const override

@@ -18,6 +18,15 @@ void ForceSum::setZero(Eigen::Index particleCount)
     addedMass.setZero(particleCount);
 }
 
+void ForceSum::multiplyBy(double factor)
+{
+    implicitCoefficient *= factor;
+    source *= factor;
+    pressure *= factor;
+    shared *= factor;
+    addedMass *= factor;
+}
+
 Foam::autoPtr<ForceModel> ForceModel::New(
     const Foam::word& name, const Foam::dictionary& couplingProperties, const FluidProperties& fluid)
 {

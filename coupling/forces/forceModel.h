@@ -64,6 +64,9 @@ struct ForceSum
     double timeStep = 0;
 
     void setZero(Eigen::Index particleCount);
+
+    /// Multiplies all forces whose reaction is not on another particle or a wall. \pre no torque, no mutual force
+    void multiplyBy(double factor);
 };
 
 /// One force of the fluid on the particles. It is selected by name in `forceModels (...)` of couplingProperties, with
@@ -115,6 +118,16 @@ public:
     virtual std::vector<WallPlane> resistingWalls() const
     {
         return {};
+    }
+
+    /// Whether the force on a parcel (`coarseGraining` other than 1) is that on one of its particles times their
+    /// number. For parcels add() receives the radius and the mass of one real particle, with the position, the velocity
+    /// and the fluid of the parcel, and ParticleForces multiplies what it adds. A model for which this is false is
+    /// refused by name. It is false for forces that depend on distances between particles, on rotation or on walls:
+    /// these are not the same for the particles of a parcel, and a parcel has the moment of inertia of its own size.
+    virtual bool scalesToParcels() const
+    {
+        return false;
     }
 
     /// One line with the coefficients for the report at the start of the log.

@@ -29,6 +29,11 @@ public:
         return Family == ForceFamily::pressureGradient || Family == ForceFamily::viscousStress;
     }
 
+    bool scalesToParcels() const override
+    {
+        return true;
+    }
+
     Foam::string description() const override
     {
         return Foam::string(textOf(Family).leftOutBy) + ": the " + textOf(Family).name + " is left out";

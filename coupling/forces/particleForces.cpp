@@ -1,5 +1,6 @@
 #include "forces/particleForces.h"
 
+#include "forces/coarseGraining.h"
 #include "vectors.h"
 
 #include "wordList.H"
@@ -69,7 +70,8 @@ std::string allowedFor(ForceFamily family)
 ParticleForces::ParticleForces(
     const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid, PhaseTimers& timers)
     : timers_(timers),
-      modelType_(modelType)
+      modelType_(modelType),
+      coarseGraining_(readCoarseGraining(couplingProperties))
 {
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
@@ -118,6 +120,13 @@ void ParticleForces::checkLastModel(const Foam::dictionary& couplingProperties) 
             << "Entry 'forceModels' lists '" << name << "' and entry 'modelType' is B; allowed: without it, because in "
             << "model B the fluid has the whole pressure gradient and viscous stress, and the particles' part of "
             << "them is in their drag, which is divided by the void fraction" << Foam::exit(Foam::FatalIOError);
+    }
+    if (coarseGraining_ != 1 && !last.scalesToParcels())
+    {
+        FatalIOErrorInFunction(couplingProperties)
+            << "Entry 'coarseGraining' is " << coarseGraining_ << ", and the force on a parcel of particles is not "
+            << "defined for '" << name << "' of entry 'forceModels' (" << last.description().c_str()
+            << "); allowed: without it, or coarseGraining 1" << Foam::exit(Foam::FatalIOError);
     }
     for (Foam::label other = 0; other < models_.size() - 1; ++other)
     {
@@ -206,10 +215,7 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
         sum_.torqueCoefficient.setZero(particles.size());
     }
     removeSelfInducedVelocity(particles);
-    for (const ForceModel& model : models_)
-    {
-        model.add(particles, sum_);
-    }
+    addModels(particles);
     Vector3d pressureForce = Vector3d::Zero();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -248,6 +254,33 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
     {
         addTorques(particles, timeStep);
     }
+}
+
+ParticlesView ParticleForces::realParticles(const ParticlesView& parcels)
+{
+    realRadius_ = parcels.radius / coarseGraining_;
+    realMass_ = parcels.mass / closures::particlesPerParcel(coarseGraining_);
+    const auto values = [](const Eigen::ArrayXd& all) { return ConstView<double>(all.data(), all.size()); };
+    return {parcels.id, parcels.position, parcels.velocity, parcels.angularVelocity, values(realRadius_),
+        values(realMass_), parcels.state};
+}
+
+void ParticleForces::addModels(const ParticlesView& particles)
+{
+    if (coarseGraining_ == 1)
+    {
+        for (const ForceModel& model : models_)
+        {
+            model.add(particles, sum_);
+        }
+        return;
+    }
+    const ParticlesView real = realParticles(particles);
+    for (const ForceModel& model : models_)
+    {
+        model.add(real, sum_);
+    }
+    sum_.multiplyBy(closures::particlesPerParcel(coarseGraining_));
 }
 
 void ParticleForces::addTorques(const ParticlesView& particles, double timeStep) const

@@ -16,7 +16,8 @@ namespace clepsydra
 class ParticleForces final : public FluidForces
 {
 public:
-    /// FatalIOError for an unknown force, for one that is incompatible with `modelType`, and for two of one family.
+    /// FatalIOError for an unknown force, for one that is incompatible with `modelType` or `coarseGraining`, and for two
+    /// of one family.
     ParticleForces(const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid,
         PhaseTimers& timers);
 
@@ -51,6 +52,12 @@ public:
         return names_;
     }
 
+    /// Diameter of the particles of an engine divided by that of the real ones, see ForceModel::scalesToParcels().
+    double coarseGraining() const
+    {
+        return coarseGraining_;
+    }
+
 private:
     /// FatalIOError where a wall is in the drag and in another force, so that it is counted twice.
     void checkWalls(const Foam::dictionary& couplingProperties) const;
@@ -59,16 +66,24 @@ private:
     /// Adds the fluid's torques of sum_ to those of the other forces, and to CouplingState::angularImpulse.
     void addTorques(const ParticlesView& particles, double timeStep) const;
     void evaluatePart(const ParticlesView& particles, double timeStep, Vectors force);
+    /// One real particle of each parcel, at the parcel's place. Valid until the next call.
+    ParticlesView realParticles(const ParticlesView& parcels);
+    /// Sums up what the models add to particles or parcels.
+    void addModels(const ParticlesView& particles);
     /// Sets the velocity that the forces use to the sampled one less the particle's self-induced velocity.
     static void removeSelfInducedVelocity(const ParticlesView& particles);
 
     PhaseTimers& timers_;
     const ModelType modelType_;
+    const double coarseGraining_;
     bool pairs_ = false;
     bool torque_ = false;
     Foam::wordList names_;
     Foam::PtrList<ForceModel> models_;
     ForceSum sum_;
+    /// See realParticles().
+    Eigen::ArrayXd realRadius_;
+    Eigen::ArrayXd realMass_;
     Vector3d pressureImpulse_ = Vector3d::Zero();
 };
 

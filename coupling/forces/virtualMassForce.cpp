@@ -56,6 +56,11 @@ public:
         return needs;
     }
 
+    bool scalesToParcels() const override
+    {
+        return true;
+    }
+
     Foam::string description() const override
     {
         return "virtualMassForce: added mass, coefficient "

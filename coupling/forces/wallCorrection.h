@@ -69,6 +69,11 @@ public:
         return planes_;
     }
 
+    bool isOn() const
+    {
+        return tubeDiameter_ > 0 || hasPlanes();
+    }
+
     bool hasPlanes() const
     {
         return !planes_.empty();

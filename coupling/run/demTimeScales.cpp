@@ -1,5 +1,6 @@
 #include "run/demTimeScales.h"
 
+#include "closures/parcelScaling.h"
 #include "closures/schillerNaumannDrag.h"
 #include "closures/timeScales.h"
 
@@ -33,12 +34,14 @@ private:
     Foam::scalar shortest_ = Foam::GREAT;
 };
 
-double relaxationTime(const ParticlesView& particles, Eigen::Index particle, const FluidProperties& fluid)
+double relaxationTime(
+    const ParticlesView& particles, Eigen::Index particle, const FluidProperties& fluid, double coarseGraining)
 {
-    const double diameter = 2 * particles.radius[particle];
+    const double diameter = 2 * particles.radius[particle] / coarseGraining;
     const auto inFluid = closures::makeParticleInFluid(diameter, 1.0, DemTimeScales::speed, fluid.density,
         fluid.viscosityAt(particles.position.col(particle), diameter));
-    return closures::relaxationTime(particles.mass[particle], closures::SchillerNaumannDrag{}(inFluid));
+    return closures::relaxationTime(particles.mass[particle] / closures::particlesPerParcel(coarseGraining),
+        closures::SchillerNaumannDrag{}(inFluid));
 }
 
 /// Uses the projected areas of the faces, as OpenFOAM's Courant number does. This is correct for flat cells and for
@@ -65,8 +68,8 @@ void addCells(const Foam::fvMesh& mesh, Shortest& courant)
 
 } // namespace
 
-DemTimeScales demTimeScales(
-    DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid, const Foam::fvMesh& mesh)
+DemTimeScales demTimeScales(DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid,
+    const Foam::fvMesh& mesh, double coarseGraining)
 {
     Shortest rayleigh;
     Shortest collision;
@@ -86,7 +89,7 @@ DemTimeScales demTimeScales(
         }
         if (fluid != nullptr)
         {
-            relaxation.add(relaxationTime(particles, particle, *fluid));
+            relaxation.add(relaxationTime(particles, particle, *fluid, coarseGraining));
         }
     }
     if (fluid != nullptr)

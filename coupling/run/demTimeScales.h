@@ -25,14 +25,15 @@ struct DemTimeScales
     /// Duration of a Hertz collision of two equal particles at `speed`, the shortest over all particles and materials.
     std::optional<double> collision;
     /// Relaxation time of an isolated particle with the slip `speed` and Schiller & Naumann's drag, the shortest over
-    /// all particles.
+    /// all particles. Of parcels it is that of one real particle.
     std::optional<double> relaxation;
     /// Time step at which a uniform flow of `speed` along an axis has the Courant number one in some cell.
     std::optional<double> courant;
 };
 
 /// Collective. \param fluid  null for DEM only. \pre the engine is initialised
-DemTimeScales demTimeScales(
-    DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid, const Foam::fvMesh& mesh);
+/// \param coarseGraining  see CouplingSettings::coarseGraining()
+DemTimeScales demTimeScales(DemEngine& engine, double couplingTimeStep, const FluidProperties* fluid,
+    const Foam::fvMesh& mesh, double coarseGraining = 1);
 
 } // namespace clepsydra

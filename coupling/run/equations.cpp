@@ -1,5 +1,7 @@
 #include "run/equations.h"
 
+#include "closures/parcelScaling.h"
+
 #include <iomanip>
 #include <sstream>
 
@@ -91,6 +93,24 @@ std::string lineOfTerm(const ForceModel& force, const std::string& name, ModelTy
     return lineOf("", line.str());
 }
 
+/// What a sphere of the DEM script is; empty where it is a particle.
+std::vector<std::string> parcels(double coarseGraining, bool hasFluid)
+{
+    if (coarseGraining == 1)
+    {
+        return {};
+    }
+    std::ostringstream text;
+    text << "each sphere of the DEM script stands for " << closures::particlesPerParcel(coarseGraining)
+         << " particles with its diameter divided by " << coarseGraining;
+    std::vector<std::string> lines = {lineOf("parcels", text.str())};
+    if (hasFluid)
+    {
+        lines.push_back(lineOf("", "a term of the fluid below is that on one of these particles, times their number"));
+    }
+    return lines;
+}
+
 void addForces(const ParticleForces& forces, ModelType modelType, std::vector<std::string>& lines)
 {
     std::vector<std::string> leftOut;
@@ -125,9 +145,13 @@ std::vector<std::string> equations(
     const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces)
 {
     const std::string motion = "m dv/dt = forces of the DEM script (contacts, gravity)";
+    const std::vector<std::string> ofParcels = parcels(settings.coarseGraining(), forces != nullptr);
+    const std::string ofSphere = lineOf(ofParcels.empty() ? "particle" : "parcel", motion);
     if (forces == nullptr)
     {
-        return {lineOf("particle", motion)};
+        std::vector<std::string> lines = ofParcels;
+        lines.push_back(ofSphere);
+        return lines;
     }
     const bool isA = settings.modelType() == ModelType::A;
     std::vector<std::string> lines = {lineOf("continuity", continuity(settings)),
@@ -135,7 +159,9 @@ std::vector<std::string> equations(
                                + " + div(tau) - S"),
         lineOf("", stress(fluid)),
         lineOf("", "S: the terms below whose reaction is in S, summed over the particles, per volume"),
-        lineOf("", "p [Pa]: without its hydrostatic part; the field p is p/rho_f"), lineOf("particle", motion)};
+        lineOf("", "p [Pa]: without its hydrostatic part; the field p is p/rho_f")};
+    lines.insert(lines.end(), ofParcels.begin(), ofParcels.end());
+    lines.push_back(ofSphere);
     addForces(*forces, settings.modelType(), lines);
     return lines;
 }

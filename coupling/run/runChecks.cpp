@@ -5,7 +5,10 @@
 #include "openfoam/compatibility.h"
 
 #include "PstreamReduceOps.H"
+#include "fvcSurfaceIntegrate.H"
+#include "globalMeshData.H"
 #include "solverPerformance.H"
+#include "surfaceFields.H"
 
 #include <sstream>
 
@@ -22,6 +25,9 @@ constexpr long mostUnconvergedInRow = 50;
 
 /// A run ends where a particle travels this many lengths of change of the fluid in one coupling step.
 constexpr double farthestTravel = 10;
+
+/// Part of the cells with a Courant number above 1 above which there is a warning: a few small ones are no reason.
+constexpr double mostFastCells = 0.01;
 
 /// Part of the particles within a bandwidth of clear fluid above which there is a warning: that of a bed six bandwidths
 /// high with clear fluid on both sides.
@@ -40,6 +46,7 @@ void RunChecks::afterCouplingStep(const ParticlesView& particles)
     ++couplingSteps_;
     checkConvergence();
     checkTravel(particles);
+    checkCourantNumber();
 }
 
 void RunChecks::checkConvergence()
@@ -111,6 +118,34 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     }
 }
 
+void RunChecks::checkCourantNumber()
+{
+    const auto& phi = mesh_.lookupObject<surfaceScalarField>("phi");
+    const scalarField courantNumber(
+        0.5 * mesh_.time().deltaTValue() * fvc::surfaceSum(mag(phi))().primitiveField() / mesh_.V().field());
+    label fastCells = 0;
+    for (const scalar ofCell : courantNumber)
+    {
+        fastCells += ofCell > 1;
+    }
+    reduce(fastCells, sumOp<label>());
+    const label cells = mesh_.globalData().nTotalCells();
+    if (fastCells <= mostFastCells * cells)
+    {
+        return;
+    }
+    ++fastFluid_;
+    const scalar largest = gMax(courantNumber);
+    if (fastFluid_ == 1 && Pstream::master())
+    {
+        WarningInFunction << "The fluid passes more than a cell in a coupling step of " << mesh_.time().deltaTValue()
+                          << " s in " << fastCells << " of " << cells << " cells, at most " << largest
+                          << " cells (Courant number). The solution is stable, but smears what moves with the fluid; a "
+                          << "couplingTimeStep (and deltaT) of " << mesh_.time().deltaTValue() / largest
+                          << " s resolves it. This warning is printed once, and such steps are counted" << endl;
+    }
+}
+
 void RunChecks::checkBed(double partNearClearFluid)
 {
     if (partNearClearFluid > largestPartNearClearFluid && Pstream::master())
@@ -135,6 +170,11 @@ void RunChecks::report() const
     {
         Info << "WARNING: particles moved farther than the length over which the fluid changes in " << label(fast_)
              << " of " << label(couplingSteps_) << " coupling steps: couplingTimeStep is too long" << nl;
+    }
+    if (fastFluid_ > 0)
+    {
+        Info << "WARNING: the fluid passed more than a cell (Courant number above 1) in " << label(fastFluid_) << " of "
+             << label(couplingSteps_) << " coupling steps" << nl;
     }
 }
 

@@ -7,10 +7,11 @@
 namespace clepsydra
 {
 
-/// Checks after every coupling step of a run with fluid whether the pressure was solved to its tolerance, and whether
-/// particles travel little enough in a coupling step for the fluid at them to be taken as frozen.
+/// Checks after every coupling step of a run with fluid whether the pressure was solved to its tolerance, whether
+/// particles travel little enough in a coupling step for the fluid at them to be taken as frozen, and whether the fluid
+/// passes more than a cell in it.
 ///
-/// The first violation of each is a warning, and violations are counted; a run in which they persist ends with a
+/// The first violation of each is a warning, and violations are counted; a run in which the first two persist ends with a
 /// FatalError.
 class RunChecks
 {
@@ -31,6 +32,7 @@ public:
 private:
     void checkConvergence();
     void checkTravel(const ParticlesView& particles);
+    void checkCourantNumber();
 
     const Foam::fvMesh& mesh_;
     const double smoothingBandwidth_;
@@ -40,6 +42,7 @@ private:
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;
+    long fastFluid_ = 0;
 };
 
 } // namespace clepsydra

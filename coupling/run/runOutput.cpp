@@ -88,7 +88,8 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     {
         lines.push_back(choice);
     }
-    const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_);
+    const DemTimeScales scales = demTimeScales(
+        engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_, settings_.coarseGraining());
     printStartReport(
         engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr), scales, settings_.demDict());
     checkDemStep(scales, settings_.demDict());

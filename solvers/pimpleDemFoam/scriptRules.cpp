@@ -50,6 +50,14 @@ const std::map<std::string, std::string> reasons = {
     {"rigid", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
     {"viscous", "the fluid's forces are those of forceModels, and this force would be added to them"}};
 
+/// The words of a contact law after which the name of a model stands, and the models of these that keep the stress where
+/// parcels have the coefficients of the real particles (Bierwisch's rule, closures/parcelScaling.h): of their
+/// coefficients only moduli, energy densities, velocities and pure numbers enter, so that with all lengths multiplied by
+/// a forces are multiplied by a^2 and torques by a^3. A stiffness, a surface tension or a viscosity would have to change.
+const std::map<std::string, std::set<std::string>> contactsOfParcels = {{"model", {"hertz", "hooke"}},
+    {"tangential", {"history", "no_history"}}, {"rolling_friction", {"off", "cdt", "epsd", "epsd2"}},
+    {"cohesion", {"off", "sjkr", "sjkr2"}}, {"surface", {"default"}}, {"viscous", {"off"}}};
+
 /// Something that the script holds and that is not known to work with a fluid.
 struct Unknown
 {
@@ -138,7 +146,39 @@ void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, std::vector<Un
     }
 }
 
-std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh)
+/// Contact models of one command that are not known to be right between parcels.
+void addContactsOfParcels(const ScriptCommand& command, double coarseGraining, std::vector<Unknown>& unknown)
+{
+    std::istringstream tokens(command.text);
+    for (std::string word, value; tokens >> word;)
+    {
+        const auto known = contactsOfParcels.find(word);
+        if (known != contactsOfParcels.end() && tokens >> value && known->second.count(value) == 0)
+        {
+            std::ostringstream what;
+            what << "'" << word << ' ' << value << "' is not known to be right between parcels (coarseGraining "
+                 << coarseGraining << "): its coefficients would have to be those of parcels";
+            unknown.push_back({placeOf(command), what.str(), value});
+        }
+    }
+}
+
+void addContactsOfParcels(const ScriptFacts& facts, double coarseGraining, std::vector<Unknown>& unknown)
+{
+    if (const ScriptCommand* const contacts = facts.lastCommand("pair_style"); contacts != nullptr)
+    {
+        addContactsOfParcels(*contacts, coarseGraining, unknown);
+    }
+    for (const ScriptFacts::Fix& fix : facts.fixes)
+    {
+        if (fix.style == "wall/gran")
+        {
+            addContactsOfParcels(fix.command, coarseGraining, unknown);
+        }
+    }
+}
+
+std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh, double coarseGraining)
 {
     std::vector<Unknown> unknown;
     const std::string axes = "xyz";
@@ -165,6 +205,10 @@ std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& me
     requireOneOf("run_style", facts.runStyle, {"verlet"});
     addFixes(facts, unknown);
     addMovingWalls(facts, mesh, unknown);
+    if (coarseGraining != 1)
+    {
+        addContactsOfParcels(facts, coarseGraining, unknown);
+    }
     return unknown;
 }
 
@@ -215,7 +259,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     requireRightWithFluid(demDict, facts);
     std::string text;
     std::set<std::string> names;
-    for (const auto& [place, what, name] : unknownWithFluid(facts, mesh))
+    for (const auto& [place, what, name] : unknownWithFluid(facts, mesh, settings.coarseGraining()))
     {
         if (!allowed.match(name))
         {

@@ -267,6 +267,24 @@ class Meanings(Folder):
         written = (self.target / "system/controlDict").read_text()
         self.assertRegex(written, r"flow\s*{[^}]*fields\s+\( alphaPhi \)")
 
+    def test_parcels(self) -> None:
+        """The ratio of every force is one entry, under either of CFDEMcoupling's words."""
+        coupling = "CFD/constant/couplingProperties"
+        for word in ("scale", "scaleDia"):
+            with self.subTest(word):
+                props = f"    treeSearch true; }} DiFeliceDragProps {{ {word} 2; }} ArchimedesProps {{ {word} 2;"
+                case = self.case("settlingParticle", coupling, "    treeSearch true;", props)
+                self.assertIn("scale 2: is coarseGraining 2 here", self.imported(case))
+                written = (self.target / "constant/couplingProperties").read_text()
+                self.assertRegex(written, r"\bcoarseGraining +2;")
+                shutil.rmtree(case)
+                shutil.rmtree(self.target)
+
+    def test_without_parcels(self) -> None:
+        coupling = "CFD/constant/couplingProperties"
+        self.imported(self.case("settlingParticle", coupling))
+        self.assertNotIn("coarseGraining", (self.target / "constant/couplingProperties").read_text())
+
 
 class Errors(Folder):
     """Nothing is written, and the message names the file and the entry."""
@@ -275,7 +293,14 @@ class Errors(Folder):
         coupling, control, script = "CFD/constant/couplingProperties", "CFD/system/controlDict", "DEM/in.liggghts_run"
         for file, old, new, named in (
             (coupling, "modelType B;", "modelType B; useImplicitWhatever on;", "useImplicitWhatever"),
-            (coupling, "    treeSearch true;", "    treeSearch true; } DiFeliceDragProps { scaleDia 2;", "scaleDia"),
+            (coupling, "    treeSearch true;", "    treeSearch true; } DiFeliceDragProps { scaleDrag 2;", "scaleDrag"),
+            (
+                coupling,
+                "    treeSearch true;",
+                "    treeSearch true; } DiFeliceDragProps { scale 2; } ArchimedesProps { scale 3;",
+                "differs (DiFeliceDrag 2, Archimedes 3)",
+            ),
+            (script, "run             0\n", "coarsegraining 2\nrun             0\n", "diameters of the parcels"),
             (coupling, 'granVelFieldName "Us";\n    verbose', "slipFactor 2;\n    verbose", "slipFactor"),
             (coupling, "modelType B;", "modelType Bfull;", "modelType"),
             (coupling, "    Archimedes\n", "    Archimedes\n    magicForce\n", "magicForce"),

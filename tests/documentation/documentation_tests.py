@@ -32,6 +32,7 @@ MODELS = {
     "voidFractionModel": ["models-voidFractionModel"],
     "smoothingModel": ["models-smoothingModel"],
     "selfInducedVelocityCorrection": ["models-selfInducedVelocityCorrection"],
+    "coarseGraining": ["models-coarseGraining"],
     "forceModels": [
         "models-forceModels-drag",
         "models-forceModels-other",

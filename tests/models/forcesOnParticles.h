@@ -39,6 +39,12 @@ public:
         return forces_;
     }
 
+    /// See ParticleForces::takePressureImpulse().
+    Vector3d takePressureImpulse()
+    {
+        return forces_.takePressureImpulse();
+    }
+
     FluidAtParticle& fluidAt(Eigen::Index particle)
     {
         return engine_.particles().state[particle].fluid;

@@ -314,6 +314,31 @@ TEST(BadInput, SetsOfForcesThatBelongToNoEquation)
         {couplingProperties, "forceModels", "model B", "(Archimedes noBuoyancy)"}, SeenBy::dictionaries);
 }
 
+/// Parcels whose number of particles makes no sense, and forces that have no scaling to parcels. Read and not checked, the
+/// first would divide by zero or make particles larger than their parcel; the second would act with the parcel's size.
+TEST(BadInput, Parcels)
+{
+    for (const char* ratio : {"0.5", "0", "-2", "5000"})
+    {
+        expectEntryRefused("coarseGraining", ratio, {ratio, "a number from 1 to 1000"});
+    }
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling()
+                .set("coarseGraining", "2")
+                .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes lubricationForce)")
+                .set("lubricationForceProps/roughness", "1e-6");
+        },
+        {couplingProperties, "'coarseGraining' is 2", "'lubricationForce'", "allowed: without it, or coarseGraining 1"},
+        SeenBy::dictionaries);
+    expectRefused(
+        [](TestCase& test) {
+            test.coupling().set("coarseGraining", "2").set("selfInducedVelocityCorrection", "Oseen");
+        },
+        {couplingProperties, "'selfInducedVelocityCorrection' is Oseen", "'coarseGraining' is 2", "allowed:"},
+        SeenBy::engine);
+}
+
 /// A keyword that is unknown is refused, with the known one that it may stand for: the user waits for its effect in
 /// vain. A program that looks up what it knows and no more would run to its end.
 TEST(BadInput, EntriesThatNobodyReads)

@@ -8,6 +8,7 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace
@@ -270,6 +271,46 @@ TEST(DemScripts, JoinedSpheresAreRefused)
     expectRefused(test, {script + " line ", "fix pairs has the style 'particletemplate/multisphere'",
                             "fix bodies has the style 'multisphere': the spheres of a body overlap",
                             "allowedInScript ( \"multisphere\" \"particletemplate/multisphere\" )"});
+}
+
+/// Between parcels a contact law with the coefficients of the real particles must keep the stress. Hertz' law does; with a
+/// given stiffness the overlaps of twice the size would be twice as large again, and the run went on.
+TEST(DemScripts, ContactLawsThatDoNotKeepTheStressOfParcelsAreRefused)
+{
+    const auto outcomeWith = [](const std::string& ratio, const std::string& contacts, bool allow) {
+        TestCase test;
+        fillIn(test);
+        std::string text = test.dem.text(test.box);
+        const std::string hertz = "model hertz tangential history";
+        for (std::size_t at = text.find(hertz); at != std::string::npos; at = text.find(hertz, at + contacts.size()))
+        {
+            text.replace(at, hertz.size(), contacts);
+        }
+        const std::string beforePair = "pair_style";
+        text.insert(text.find(beforePair), "fix kn all property/global kn peratomtypepair 2 1e3 1e3 1e3 1e3\n"
+                                           "fix kt all property/global kt peratomtypepair 2 1e3 1e3 1e3 1e3\n"
+                                           "fix gn all property/global gamman peratomtypepair 2 10 10 10 10\n"
+                                           "fix gt all property/global gammat peratomtypepair 2 10 10 10 10\n");
+        test.extraFiles[script] = text;
+        test.coupling().set("coarseGraining", ratio);
+        if (allow)
+        {
+            test.coupling().set(allowing, "( \"hooke/stiffness\" )");
+        }
+        return test.run();
+    };
+    const std::string stiffness = "model hooke/stiffness tangential history";
+    const Outcome refused = outcomeWith("2", stiffness, false);
+    EXPECT_NE(refused.status, 0);
+    expectSays(refused,
+        {script + " line ", "'model hooke/stiffness' is not known to be right between parcels (coarseGraining 2)",
+            "allowedInScript ( \"hooke/stiffness\" )"});
+    for (const auto& [ratio, contacts, allow] : std::vector<std::tuple<std::string, std::string, bool>>{
+             {"1", stiffness, false}, {"2", stiffness, true}, {"2", "model hertz tangential no_history", false}})
+    {
+        const Outcome outcome = outcomeWith(ratio, contacts, allow);
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+    }
 }
 
 /// With a DEM step that changes the particles lost step with the fluid: -0.070 m/s after 0.05 s for -0.204 m/s. There is

@@ -54,6 +54,96 @@ TEST(GeometryAndChecks, ParticlesThatMoveWithTheWaterRun)
     EXPECT_LT(test.conservationSummary()["momentumError"].get<double>(), 1e-9);
 }
 
+/// The fluid passes 1.5 cells in a coupling step. Gas does so before its particles travel far, and nothing was said.
+TEST(GeometryAndChecks, AFluidThatPassesMoreThanACellInACouplingStepIsWarnedOf)
+{
+    for (const bool fast : {true, false})
+    {
+        TestCase test;
+        upwards(test, fast ? 3 : 1);
+        test.setFluid(1.2, 1.5e-5);
+        test.dem.fixed = true;
+        test.setTimes(2 * interval, interval, 2 * interval);
+        const Outcome outcome = test.run();
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+        EXPECT_EQ(outcome.says("The fluid passes more than a cell in a coupling step"), fast) << outcome.output;
+        EXPECT_EQ(outcome.says("WARNING: the fluid passed more than a cell (Courant number above 1) in 2 of 2"), fast);
+    }
+}
+
+/// Sand of 0.5 mm in air stops the air in 0.1 ms: the explicit reaction to drag is stable for coupling steps up to twice
+/// that time. Longer ones ended with numbers that are no velocities, without a word on the reason.
+TEST(GeometryAndChecks, ExplicitCouplingWithLongCouplingStepsIsWarnedOf)
+{
+    for (const bool longSteps : {true, false})
+    {
+        TestCase test;
+        test.box.upper = {2.48084e-3, 2.48084e-3, 4.96168e-3};
+        test.cells = {2, 2, 4};
+        test.setFluid(1.2, 1.5e-5);
+        test.setThroughFlow("uniform (0 0 0.2)");
+        test.dem.diameter = 5e-4;
+        test.dem.particles = bodyCentredLattice(test.box, {4, 4, 8});
+        test.dem.fixed = true;
+        test.dem.timeStep = 1e-6;
+        test.coupling().set("momCoupleModels", "(explicitCouple)").set("constDiffSmoothingProps/bandwidth", "1.5e-3");
+        test.coupling().set("forceModels", "(GidaspowDrag gradPForce viscForce Archimedes)");
+        const double step = longSteps ? 1e-3 : 2e-5;
+        test.setTimes(3 * step, step, 3 * step);
+        const Outcome outcome = test.run();
+        EXPECT_EQ(outcome.says("With momCoupleModels (explicitCouple)"), longSteps) << outcome.output;
+        EXPECT_TRUE(longSteps || outcome.succeeded()) << outcome.output;
+    }
+}
+
+/// Drag is explicit in the DEM step, so a step of more than two relaxation times, 0.11 ms for 20 um in water, turns the slip
+/// into a larger one in each step. Contacts set a limit of the step that is usually shorter, but not for such particles.
+TEST(GeometryAndChecks, ADemStepThatIsTooLongForTheDragIsRefused)
+{
+    for (const bool tooLong : {true, false})
+    {
+        TestCase test;
+        test.cells = {4, 4, 8};
+        test.coupling()
+            .set("forceModels", "(StokesDrag gradPForce viscForce Archimedes)")
+            .set("DEM/maxRayleighFraction", "1000");
+        test.dem.diameter = 2e-5;
+        test.dem.timeStep = tooLong ? 2e-4 : 5e-5;
+        test.dem.particles = {{0.0101, 0.0099, 0.02}};
+        test.setTimes(4e-3, 1e-3, 4e-3);
+        const Outcome outcome = test.run();
+        EXPECT_EQ(outcome.succeeded(), !tooLong) << outcome.output;
+        EXPECT_EQ(outcome.says("but the DEM step is 0.0002 s; allowed: a timestep in DEM/in.particles"), tooLong)
+            << outcome.output;
+    }
+}
+
+/// A low-pass filter over 10 coupling steps of 2 ms, each 16 relaxation times of sand of 0.1 mm in a dense bed in water, may let
+/// errors grow. Sand of 2 mm has 0.1 relaxation times.
+TEST(GeometryAndChecks, AFilterBesideCouplingStepsOfManyRelaxationTimesIsWarnedOf)
+{
+    for (const bool fine : {true, false})
+    {
+        const double diameter = fine ? 1e-4 : 2e-3;
+        TestCase test;
+        test.box.upper = diameter * Eigen::Vector3d(4.9, 4.9, 24.6);
+        test.cells = {2, 2, 10};
+        Box bed = test.box;
+        bed.upper.z() = 9.8 * diameter;
+        test.dem.diameter = diameter;
+        test.dem.particles = bodyCentredLattice(bed, {4, 4, 8});
+        test.dem.timeStep = fine ? 2e-6 : 2e-5;
+        test.coupling()
+            .set("forceModels", "(GidaspowDrag gradPForce viscForce Archimedes)")
+            .set("constDiffSmoothingProps/bandwidth", 1.5 * diameter)
+            .set("useDDTvoidfractionProps/smoothingTime", "0.02");
+        test.setTimes(6e-3, 2e-3, 6e-3);
+        const Outcome outcome = test.run();
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+        EXPECT_EQ(outcome.says("relaxation times of a particle in a dense bed"), fine) << outcome.output;
+    }
+}
+
 /// Two layers of thin cells in a box of coarse ones make the smoothing ten times as expensive.
 TEST(GeometryAndChecks, ThinCellsAreWarnedOf)
 {

@@ -126,6 +126,16 @@ class DemScript:
         if command in REFUSED:
             self.report.error(self.where, line.strip(), f"'{command}' has no counterpart")
             return None
+        if command == "coarsegraining":
+            self.report.error(
+                self.where,
+                line.strip(),
+                (
+                    "LIGGGHTS 3.8 has no such command; allowed: a script with the diameters of the parcels, "
+                    "and the ratio as coarseGraining in constant/couplingProperties"
+                ),
+            )
+            return None
         if command == "newton" and words[1:] != ["off"]:
             self.report.change(
                 self.where, line.strip(), "newton off: here each rank evaluates all contacts of its particles"

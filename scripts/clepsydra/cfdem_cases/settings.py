@@ -82,6 +82,7 @@ NOTHING_TO_DO = (
 )
 PROPS = re.compile(r"Props\d*\)?$")  # also of a pattern: (twoWayMPIProps|M2MProps)
 ONE = ("phi", "scaleUpVol", "scaleDia", "scaleDrag", "scale", "weight")
+PARCEL_RATIO = ("scale", "scaleDia")  # of a force: the word of CFDEMcoupling 3 and that of earlier versions
 SWITCHED_OFF = ("off", "false", "no")
 
 
@@ -152,6 +153,7 @@ class Settings:
 
     def forces(self) -> None:
         chosen = []
+        self.parcel_ratios: dict[str, float] = {}
         for name in self.old.words("forceModels"):
             if name in DIAGNOSTICS:
                 self.report.left_out(
@@ -170,8 +172,26 @@ class Settings:
             if name in OTHER_NAMES:
                 self.report.change(self.where, name, f"is {OTHER_NAMES[name]} here")
             self.force_props(name)
+        self.coarse_graining()
         words = self.left_out_of(chosen)
         self.entries["forceModels"] = f"( {' '.join([*chosen, *words])} )"
+
+    def coarse_graining(self) -> None:
+        """One ratio for all forces here: CFDEMcoupling has one in each model's Props."""
+        ratios = sorted(set(self.parcel_ratios.values()))
+        if len(ratios) > 1:
+            given = ", ".join(f"{name} {ratio:g}" for name, ratio in self.parcel_ratios.items())
+            self.report.error(self.where, " or ".join(PARCEL_RATIO), f"differs ({given}); allowed: the same everywhere")
+        elif ratios and ratios[0] != 1:
+            self.entries["coarseGraining"] = f"{ratios[0]:.10g}"
+            self.report.change(
+                self.where,
+                f"scale {ratios[0]:g}",
+                (
+                    f"is coarseGraining {ratios[0]:g} here: all forces on a parcel are those on one of its particles "
+                    "times their number, and the script gives the parcels' diameter"
+                ),
+            )
 
     def left_out_of(self, chosen: list[str]) -> list[str]:
         """The words for terms of the equations that the old case does not have. What no equation has is removed."""
@@ -191,7 +211,10 @@ class Settings:
 
     def force_props(self, name: str) -> None:
         props = self.old.sub(f"{name}Props")
-        self.plain_words(props)
+        for word in PARCEL_RATIO:
+            if word in props:
+                self.parcel_ratios[name] = props.number(word)
+        self.plain_words(props, may_differ_from_one=PARCEL_RATIO)
         if props.text("interpolation") not in (None, *SWITCHED_OFF):
             self.report.left_out(
                 props.where,
@@ -199,15 +222,13 @@ class Settings:
                 "the fluid at a particle is always the mean over the cells on which the particle acts",
             )
 
-    def plain_words(self, props: foam_text.Dictionary) -> None:
+    def plain_words(self, props: foam_text.Dictionary, may_differ_from_one: tuple[str, ...] = ()) -> None:
         """Those that need nothing done, and those that must have the value for which nothing need be done."""
         for name in (*NAMES_OF_FIELDS, *NOTHING_TO_DO):
             props.text(name)
         for name in ONE:
-            if name in props and props.number(name) != 1:
-                self.report.error(
-                    props.where, name, f"is {props.number(name):g}; allowed: 1, for there is no coarse-graining here"
-                )
+            if name in props and props.number(name) != 1 and name not in may_differ_from_one:
+                self.report.error(props.where, name, f"is {props.number(name):g}; allowed: 1, it has no counterpart")
         for name in (
             "treatForceExplicit",
             "treatForceDEM",
