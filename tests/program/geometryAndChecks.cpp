@@ -109,6 +109,7 @@ TEST(GeometryAndChecks, ADemStepThatIsTooLongForTheDragIsRefused)
             .set("DEM/maxRayleighFraction", "1000");
         test.dem.diameter = 2e-5;
         test.dem.timeStep = tooLong ? 2e-4 : 5e-5;
+        test.dem.more = "atom_modify sort 0 0\nneigh_modify binsize 1e-3\n"; // the box is a thousand diameters wide
         test.dem.particles = {{0.0101, 0.0099, 0.02}};
         test.setTimes(4e-3, 1e-3, 4e-3);
         const Outcome outcome = test.run();
