@@ -4,8 +4,8 @@
 usage: discharge.py [CONDITION ...]      those of conditions.yaml; all unless named
        discharge.py --quick              the small hopper of conditions.yaml, one event; writes results/quick.csv
 
-Each event is a run of its own, in work/<condition>/steps/event: it begins with what the event before has left, without the
-particles of the arch (in.clogging), and in water at rest. It ends when no particle has left for 0.3 s, which is a clog,
+Each event is a run of its own, in work/<condition>/steps/event: the first of a filling begins when the plug is gone, each
+other with what the event before has left, without the particles of the arch (in.clogging); water is at rest. It ends when no particle has left for 0.3 s, which is a clog,
 or when fewer particles are left than the file says; then the hopper is filled anew. Ctrl-C and SIGTERM write a
 checkpoint, and the same command resumes. Where work/ is gone, the rows that are there count, and another seed follows."""
 
@@ -152,15 +152,9 @@ class Hopper:
         unfinished = self.folder.with_name(f"{self.name}.unfinished")
         task.copy_case(TEMPLATE, unfinished)
         shutil.copy(HERE / "in.clogging", unfinished / "DEM")
+        shutil.copy(TEMPLATE / "DEM/in.discharge.groups", unfinished / "DEM/in.clogging.groups")
         orifice = self.parameters(FIRST_SEED)["orificeDiameter"]
         (unfinished / "DEM/in.orifice").write_text(f"variable        orificeDiameter equal {orifice}\n")
-        (unfinished / f"step.{EVENT}").write_text(
-            '#include "../../parameters"\n\n'
-            f"stepFluid      {self.condition['fluid']};\n"
-            'stepScript     "DEM/in.clogging";\n'
-            f"stepEndTime    {self.settings['slice']};\n"
-            f'stepRestart    "{END}";\n'
-        )
         unfinished.rename(self.folder)
 
     def next_event(self, case: hopper_run.HopperCase, seed: int, cpu_before: float) -> Event:
@@ -198,13 +192,20 @@ class Hopper:
 
     def begin(self, case: hopper_run.HopperCase, number: int) -> None:
         """The event's folder, with what the event before has left."""
-        source = self.event_folder / END if number else self.folder / "steps/filling/packing.restart"
+        (self.folder / f"step.{EVENT}").write_text(
+            '#include "../../parameters"\n\n'
+            f"stepFluid      {self.condition['fluid']};\n"
+            f'stepScript     "DEM/in.{"clogging" if number else "discharge"}";\n'
+            f"stepEndTime    {self.settings['slice']};\n"
+            f'stepRestart    "{END}";\n'
+        )
         kept = self.folder / START
-        for ending in ("", ".sha256"):  # the solver holds the file against its checksum
-            shutil.copy(f"{source}{ending}", f"{kept}{ending}")
+        files = ("", ".sha256") if number else ()  # the solver holds the file against its checksum
+        for ending in files:
+            shutil.copy(f"{self.event_folder / END}{ending}", f"{kept}{ending}")
         shutil.rmtree(self.event_folder, ignore_errors=True)
         case.step_folder(EVENT)
-        for ending in ("", ".sha256"):
+        for ending in files:
             Path(f"{kept}{ending}").rename(self.event_folder / f"{START}{ending}")
         (self.event_folder / "number").write_text(f"{number}\n")
 
