@@ -116,8 +116,14 @@ class Hopper:
         if not rows:
             return FIRST_SEED
         last = rows[-1].seed
-        goes_on = rows[-1].end != LOW and (self.event_folder / END).exists()
+        begun = sum(row.seed == last for row in rows) == self.number_on_disk()
+        goes_on = rows[-1].end != LOW and (begun or (self.event_folder / END).exists())
         return last if goes_on else next(itertools.islice(seeds.seeds_from(last), 1, None))
+
+    def number_on_disk(self) -> int | None:
+        """Of the event whose folder is there, begun or ended."""
+        note = self.event_folder / "number"
+        return int(note.read_text()) if note.exists() else None
 
     @property
     def event_folder(self) -> Path:
@@ -161,8 +167,7 @@ class Hopper:
         """Begun, or resumed from its checkpoint."""
         rows = [row for row in self.table.of(self.name) if row.seed == seed]
         number = len(rows)
-        note = self.event_folder / "number"
-        if not note.exists() or int(note.read_text()) != number:
+        if self.number_on_disk() != number:
             self.begin(case, number)
         step = hopper_run.Step(self.event_folder)
         while True:
