@@ -7,6 +7,7 @@ all particles that left over the number of clogs, whose relative error is one ov
 
 from __future__ import annotations
 
+import csv
 from dataclasses import dataclass
 from math import inf
 from pathlib import Path
@@ -14,7 +15,6 @@ from typing import Any
 
 import numpy as np
 import yaml
-from discharge import BLOCKED, CLOGGED, HERE, Event, read
 
 from clepsydra import validation
 from clepsydra.picture_style import pyplot
@@ -32,12 +32,34 @@ TOLERANCE_OF_RATIO = 30
 TOLERANCE_OF_SPREAD = 35  # %, of the standard deviation over the mean of 50 events
 LEAST_CLOGS = 20  # for a row
 DRAWS = 2000
+CLOGGED, BLOCKED = "clogged", "blocked"
 MEAN_FINDING = (
-    "the number between clogs depends on the friction of the particles, which was not measured in either experiment; hopper "
-    "and arch-breaking differ from theirs as well"
+    "the number between clogs depends on the friction of the particles, which was not measured in either experiment; "
+    "hopper and arch-breaking differ from theirs as well"
 )
 RATIO_FINDING = "in the simulation water changes the number between clogs more than was measured"
 SPREAD_FINDING = "the distribution is not exponential: an arch that was broken leaves the bed above it as it was"
+
+
+@dataclass(frozen=True)
+class Event:
+    """What a row of ./discharge.py says."""
+
+    condition: str
+    start: int  # particles in the hopper
+    left: int
+    end: str
+    cpu_seconds: float
+
+
+def read(path: str) -> list[Event]:
+    if not Path(path).exists():
+        return []
+    with open(path, newline="") as file:
+        return [
+            Event(row["condition"], int(row["start"]), int(row["left"]), row["end"], float(row["cpuSeconds"]))
+            for row in csv.DictReader(file)
+        ]
 
 
 @dataclass(frozen=True)
@@ -68,7 +90,7 @@ def measured_mean(hole: float) -> float:
 
 
 def conditions(events: list[Event]) -> list[Condition]:
-    settings = yaml.safe_load((HERE / "conditions.yaml").read_text())
+    settings = yaml.safe_load(Path("conditions.yaml").read_text())
     found = []
     for name, about in settings["conditions"].items():
         own = [row for row in events if row.condition == name and row.end != BLOCKED]
@@ -186,7 +208,7 @@ def pairs(found: list[Condition]) -> list[tuple[Condition, Condition]]:
 
 
 def quick_rows() -> list[Any]:
-    """Of the fresh event of the short version, where it was made: some 20 particles leave between clogs, and 500 could."""
+    """Of the fresh event of the short version, where it was made: some 20 particles leave between clogs; 500 could."""
     return [
         validation.row(
             "event of a hole of 2.5 particles that ended by a clog, short run",
@@ -198,20 +220,22 @@ def quick_rows() -> list[Any]:
             0,
             1,
         )
-        for row in read(Path("results/quick.csv"))
+        for row in read("results/quick.csv")
     ]
 
 
 def report(found: list[Condition], events: list[Event]) -> None:
     random = np.random.default_rng(20261126)
     print("clogging: particles between two clogs")
-    print("  condition               D/d  friction  clogs  cut off      mean +- error   measured   exponential: p   CPU s")
+    print(
+        "  condition               D/d  friction  clogs  cut off      mean +- error   measured  exponential: p  CPU s"
+    )
     for one in found:
-        cost = sum(row.cpuSeconds for row in events if row.condition == one.name)
+        cost = sum(row.cpu_seconds for row in events if row.condition == one.name)
         print(
             f"  {one.name:22}{one.hole:5g}{one.friction:10g}{one.clogs:7}{(~one.clogged).sum():9}"
             f"{one.mean:10.1f} +- {one.error:.1f}{measured_mean(one.hole):11.0f}"
-            f"{probability_of_exponential(one, random) if one.clogs > 4 else inf:12.3f}{cost:13.0f}"
+            f"{probability_of_exponential(one, random) if one.clogs > 4 else inf:12.3f}{cost:11.0f}"
         )
     for wet, dry in pairs(found):
         ratio = wet.mean / dry.mean
@@ -233,7 +257,7 @@ def plot(found: list[Condition]) -> None:
 
 
 def main() -> None:
-    events = read(Path("results/runs/events.csv"))
+    events = read("results/runs/events.csv")
     found = conditions(events)
     if found:
         report(found, events)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Simulated over measured discharge rate for each medium, particle diameter and hole, and what the ratio depends on.
+"""Simulated over measured discharge rate for each medium, particle diameter and hole; what the ratio depends on.
 
 The measured rates are those of the two laws: dry W = 0.58 rho_b sqrt(g) (D - 1.4 d)^(5/2), Beverloo's, with the bulk
 density rho_b of a flowing bed of 60 % by volume; under water W = 0.4 rho v_t d^2 (D/d - 2.4)^2 for deep filling, Wilson
@@ -19,8 +19,8 @@ EARLY, LATE = (0.95, 0.8), (0.8, 0.65)
 SHORT = (0.95, 0.8)
 PACKING = 0.6  # of the flowing bed, in Beverloo's rate
 GRAVITY = 9.81
-# %. The constants of Beverloo's law differ between measurements by that much (C = 0.55 to 0.65); those of the other have
-# no stated error. A friction of 0.20 in place of 0.15 lowers a rate by 5 %.
+# %. The constants of Beverloo's law differ between measurements by that much (C = 0.55 to 0.65); those of the other law
+# have no stated error. A friction of 0.20 in place of 0.15 lowers a rate by 5 %.
 TOLERANCE = 10
 TOLERANCE_OF_SHORT = 25  # %: 225 particles of one packing
 MEDIA = ("dry", "submerged")
@@ -130,7 +130,8 @@ def report(grid: list[Cell], deviation: float) -> None:
     for cell in grid:
         error = deviation * np.mean(cell.ratios) / np.sqrt(len(cell.ratios))
         print(
-            f"  {cell.medium:10}{1e3 * cell.diameter:6g}{cell.hole:7g}{cell.reynolds:8.0f}{len(cell.ratios):8}{cell.stopped:9}"
+            f"  {cell.medium:10}{1e3 * cell.diameter:6g}{cell.hole:7g}{cell.reynolds:8.0f}"
+            f"{len(cell.ratios):8}{cell.stopped:9}"
             f"{np.mean(cell.ratios):15.3f} +- {error:.3f}{np.mean(cell.rises):18.3f}"
         )
     for medium in MEDIA:

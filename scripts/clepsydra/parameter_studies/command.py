@@ -5,7 +5,7 @@ usage: parameterStudy run FILE [--cores N] [--only ENTRY ...] [--missing] [--exe
        parameterStudy check FILE [--executor slurm]   whether it is right, and how long each run takes; makes nothing
        parameterStudy status FILE [--missing]   what is done, what is left, when it will end
        parameterStudy stop FILE         asks all that runs here to write a checkpoint and end
-       parameterStudy archive FILE      moves the results into one file, beside the folder; what reads results reads both
+       parameterStudy archive FILE      moves the results into one file beside the folder; what reads results reads both
        parameterStudy task FILE NAME    runs one task here (the executors call this)
 
 FILE is YAML; docs/howTo/parameterStudies.md describes it. Paths in it are relative to its folder.
