@@ -202,7 +202,7 @@ class Hopper:
             '#include "../../parameters"\n\n'
             f"stepFluid      {self.condition['fluid']};\n"
             f'stepScript     "DEM/in.{"clogging" if number else "discharge"}";\n'
-            f"stepEndTime    {self.settings['slice']};\n"
+            f"stepEndTime    {self.settings['firstLook']};\n"
             f'stepRestart    "{END}";\n'
         )
         kept = self.folder / START

@@ -110,9 +110,10 @@ def conditions(events: list[Event]) -> list[Condition]:
 
 
 def places(left: np.ndarray, most: np.ndarray, mean: float) -> np.ndarray:
-    """Where events that ended by a clog lie in the distribution that is cut off at `most`: evenly from 0 to 1, if it is
-    exponential. Half a particle makes the middle of a whole number's step."""
-    return -np.expm1(-(left + 0.5) / (mean + 0.5)) / -np.expm1(-(most + 1) / (mean + 0.5))
+    """Where events of 1, 2, ... particles lie in their distribution, which is cut off at `most`: evenly from 0 to 1, if
+    it is geometric. Half a particle less: the middle of a whole number's step."""
+    decay = np.log1p(-1 / mean)
+    return np.expm1(decay * (left - 0.5)) / np.expm1(decay * most)
 
 
 def distance(values: np.ndarray) -> float:
@@ -127,8 +128,8 @@ def probability_of_exponential(condition: Condition, random: np.random.Generator
     own = distance(places(condition.left, condition.most, condition.mean)[condition.clogged])
     farther = 0
     for _ in range(DRAWS):
-        drawn = random.geometric(1 / (condition.mean + 1), len(condition.left)) - 1.0
-        clogged = drawn < condition.most
+        drawn = random.geometric(1 / condition.mean, len(condition.left)).astype(float)
+        clogged = drawn <= condition.most
         if not clogged.any():
             continue
         left = np.minimum(drawn, condition.most)
