@@ -180,7 +180,7 @@ class Archive(ParameterStudyFile):
         return {run.name: run.mass[0] for run in parameter_study_results.read(self.folder / "results")}
 
     def test_later_results_join_the_archive_and_take_the_place_of_earlier_ones(self) -> None:
-        """An archive that is written anew loses the first run; one that appends has two files of one name."""
+        """An archive that is written from the start loses the first run; one that appends has two files of one name."""
         self.write(runs={"one": {}, "two": {}})
         self.publish("one.1.dry", 1.0)
         self.assertIn("2 files", self.call("archive").stdout)

@@ -7,7 +7,7 @@ usage: discharge.py [CONDITION ...]      those of conditions.yaml; all unless na
 Each event is a run of its own, in work/<condition>/steps/event: the first of a filling begins when the plug is gone,
 each other with what the event before has left, without the particles of the arch (in.clogging); water is at rest. It
 ends when no particle has left for 0.3 s, which is a clog, or when fewer particles are left than the file says; then the
-hopper is filled anew. Ctrl-C and SIGTERM write a checkpoint, and the same command resumes. Where work/ is gone, the
+hopper is filled again. Ctrl-C and SIGTERM write a checkpoint, and the same command resumes. Where work/ is gone, the
 rows that are there count, and another seed follows."""
 
 from __future__ import annotations
