@@ -34,6 +34,7 @@ TEMPLATE = environment.REPOSITORY / "cases/tutorials/hopperQuick"
 FIRST_SEED = 100003
 EVENT = "event"  # the step of an event
 START, END = "start.restart", "end.restart"
+MOST_ATTEMPTS = 5  # at an arch that does not break; then another filling
 CLOGGED, LOW, BLOCKED = "clogged", "low", "blocked"
 
 
@@ -97,6 +98,8 @@ class Hopper:
         self.condition = settings["conditions"][name]
         self.folder = work / name
         self.table = table
+        # one for all fillings: it holds the lock of the folder
+        self.case = hopper_run.HopperCase(self.made_folder(), ["filling", EVENT], 1, signals)
         self.signals = signals
 
     def discharge(self, clogs: int) -> None:
@@ -107,7 +110,8 @@ class Hopper:
     def discharge_once(self) -> None:
         """One event, the rest of one that was stopped, or the first of a new filling."""
         seed, before = self.seed(), cpu_seconds()
-        row = self.next_event(self.filled_case(seed), seed, before)
+        self.fill(seed)
+        row = self.next_event(seed, before)
         self.table.append(row)
         print(f"{self.name}: {row.left} particles left in {row.seconds:.2f} s, {row.end}", flush=True)
 
@@ -118,7 +122,8 @@ class Hopper:
             return FIRST_SEED
         last = rows[-1].seed
         begun = sum(row.seed == last for row in rows) == self.number_on_disk()
-        goes_on = rows[-1].end != LOW and (begun or (self.event_folder / END).exists())
+        held = len(rows) >= MOST_ATTEMPTS and all(row.end == BLOCKED for row in rows[-MOST_ATTEMPTS:])
+        goes_on = rows[-1].end != LOW and not held and (begun or (self.event_folder / END).exists())
         return last if goes_on else next(itertools.islice(seeds.seeds_from(last), 1, None))
 
     def number_on_disk(self) -> int | None:
@@ -130,22 +135,17 @@ class Hopper:
     def event_folder(self) -> Path:
         return self.folder / "steps" / EVENT
 
-    def filled_case(self, seed: int) -> hopper_run.HopperCase:
-        """The case with its mesh and the filling of that seed."""
-        parameters = self.parameters(seed)
-        if not self.folder.exists():
-            self.make_folder()
+    def fill(self, seed: int) -> None:
+        """Makes mesh and filling of that seed, where they are not there."""
         said = self.folder / "parameters"
         if int(parameter_file.parameters(said)["seed"]) != seed:
             shutil.rmtree(self.folder / "steps", ignore_errors=True)
-        text = parameter_file.with_parameters(parameter_file.read(TEMPLATE / "parameters"), parameters, said)
+        text = parameter_file.with_parameters(parameter_file.read(TEMPLATE / "parameters"), self.parameters(seed), said)
         said.write_text(text)
-        case = hopper_run.HopperCase(self.folder, ["filling", EVENT], 1, self.signals)
         if not (self.folder / "constant/polyMesh/madeFrom").is_file():
-            case.run_parts(["mesh"])
-        if not case.has_ended("filling"):
-            case.run_parts(["filling"])
-        return case
+            self.case.run_parts(["mesh"])
+        if not self.case.has_ended("filling"):
+            self.case.run_parts(["filling"])
 
     def parameters(self, seed: int) -> dict[str, str]:
         given = self.settings["parameters"] | {
@@ -155,7 +155,9 @@ class Hopper:
         }
         return {name: f"{value}" for name, value in given.items()}
 
-    def make_folder(self) -> None:
+    def made_folder(self) -> Path:
+        if self.folder.exists():
+            return self.folder
         unfinished = self.folder.with_name(f"{self.name}.unfinished")
         task.copy_case(TEMPLATE, unfinished)
         shutil.copy(HERE / "in.clogging", unfinished / "DEM")
@@ -163,13 +165,14 @@ class Hopper:
         orifice = self.parameters(FIRST_SEED)["orificeDiameter"]
         (unfinished / "DEM/in.orifice").write_text(f"variable        orificeDiameter equal {orifice}\n")
         unfinished.rename(self.folder)
+        return self.folder
 
-    def next_event(self, case: hopper_run.HopperCase, seed: int, cpu_before: float) -> Event:
+    def next_event(self, seed: int, cpu_before: float) -> Event:
         """Begun, or resumed from its checkpoint."""
         rows = [row for row in self.table.of(self.name) if row.seed == seed]
         number = len(rows)
         if self.number_on_disk() != number:
-            self.begin(case, number)
+            self.begin(number)
         step = hopper_run.Step(self.event_folder)
         while True:
             hopper_run.run_here(self.event_folder, 1, self.signals)
@@ -196,7 +199,7 @@ class Hopper:
             code,
         )
 
-    def begin(self, case: hopper_run.HopperCase, number: int) -> None:
+    def begin(self, number: int) -> None:
         """The event's folder, with what the event before has left."""
         (self.folder / f"step.{EVENT}").write_text(
             '#include "../../parameters"\n\n'
@@ -210,7 +213,7 @@ class Hopper:
         for ending in files:
             shutil.copy(f"{self.event_folder / END}{ending}", f"{kept}{ending}")
         shutil.rmtree(self.event_folder, ignore_errors=True)
-        case.step_folder(EVENT)
+        self.case.step_folder(EVENT)
         for ending in files:
             Path(f"{kept}{ending}").rename(self.event_folder / f"{START}{ending}")
         (self.event_folder / "number").write_text(f"{number}\n")
