@@ -3,12 +3,15 @@ list."""
 
 import csv
 import json
+import os
 import zipfile
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Iterable, Union
 
 import numpy as np
+
+from clepsydra import whole_files
 
 
 @dataclass(frozen=True)
@@ -26,13 +29,41 @@ class Run:
 File = Union[Path, zipfile.Path]
 
 
+def archive_of(folder: Path) -> Path:
+    return folder.parent / f"{folder.name}.zip"
+
+
+def archive(folder: Path) -> int:
+    """Puts the files of a folder into the archive beside it, where they take the place of those with the same names,
+    and removes them from the folder. The same files make the same archive. Returns how many files it has."""
+    target = archive_of(folder)
+    contents: dict[str, bytes] = {}
+    if target.exists():
+        with zipfile.ZipFile(target) as old:
+            contents = {name: old.read(name) for name in old.namelist()}
+    added = [path for path in sorted(folder.glob("*")) if path.suffix in (".csv", ".json")]
+    if added:
+        contents |= {path.name: path.read_bytes() for path in added}
+        unfinished = target.with_name(f"{target.name}.unfinished")
+        with zipfile.ZipFile(unfinished, "w", zipfile.ZIP_DEFLATED) as new:
+            for name in sorted(contents):
+                # without a time: the archive would differ each time it is made
+                new.writestr(zipfile.ZipInfo(name), contents[name], zipfile.ZIP_DEFLATED)
+        whole_files.settle(unfinished)
+        os.replace(unfinished, target)
+        whole_files.settle(target.parent)
+        for path in added:
+            path.unlink()
+    return len(contents)
+
+
 def files(folder: Path) -> dict[str, File]:
-    """The JSON files of all runs, by the run's name: those in a folder, and those in the archive beside it (runs.zip,
-    for studies that are finished). A file in the folder takes the place of one in the archive."""
-    archive = folder.parent / f"{folder.name}.zip"
+    """The JSON files of all runs, by the run's name: those in a folder, and those in the archive beside it. A file in
+    the folder takes the place of one in the archive."""
+    archived = archive_of(folder)
     found: dict[str, File] = {}
-    if archive.exists():
-        found = {path.name: path for path in zipfile.Path(archive).iterdir() if path.name.endswith(".json")}
+    if archived.exists():
+        found = {path.name: path for path in zipfile.Path(archived).iterdir() if path.name.endswith(".json")}
     found.update({path.name: path for path in folder.glob("*.json")})
     return {name.removesuffix(".json"): path for name, path in sorted(found.items())}
 

@@ -2,6 +2,7 @@
 tests/parameterStudy; seconds."""
 
 import errno
+import json
 import os
 import shutil
 import subprocess
@@ -13,7 +14,7 @@ from unittest import mock
 
 import yaml
 
-from clepsydra import whole_files
+from clepsydra import parameter_study_results, whole_files
 from clepsydra.parameter_studies import executors, task
 from clepsydra.parameter_studies.plan import ParameterStudy
 
@@ -165,6 +166,39 @@ class MistakenFiles(ParameterStudyFile):
     def test_a_space_in_the_path(self) -> None:
         self.write(work="my work")
         self.assertIn("has a space or a quote in it", self.refused())
+
+
+class Archive(ParameterStudyFile):
+    def publish(self, name: str, mass: float) -> None:
+        results = self.folder / "results"
+        results.mkdir(exist_ok=True)
+        inputs = {"run": name, "step": "dry", "seed": 1, "parameters": {}, "cost": {}}
+        (results / f"{name}.json").write_text(json.dumps(inputs))
+        (results / f"{name}.csv").write_text(f"time [s],mass [kg],particles [-]\n0,{mass},1\n")
+
+    def masses(self) -> dict[str, float]:
+        return {run.name: run.mass[0] for run in parameter_study_results.read(self.folder / "results")}
+
+    def test_later_results_join_the_archive_and_take_the_place_of_earlier_ones(self) -> None:
+        """An archive that is written from the start loses the first run; one that appends has two files of one name."""
+        self.write(runs={"one": {}, "two": {}})
+        self.publish("one.1.dry", 1.0)
+        self.assertIn("2 files", self.call("archive").stdout)
+        self.publish("one.1.dry", 3.0)
+        self.publish("two.1.dry", 2.0)
+        self.assertIn("4 files", self.call("archive").stdout)
+        self.assertEqual(list((self.folder / "results").iterdir()), [])
+        self.assertEqual(self.masses(), {"one.1.dry": 3.0, "two.1.dry": 2.0})
+        self.assertIn("every run has its results", self.call("status", "--missing").stdout)
+
+    def test_the_same_results_make_the_same_archive(self) -> None:
+        self.write()
+        archives = []
+        for _ in range(2):
+            self.publish("one.1.dry", 1.0)
+            self.call("archive")
+            archives.append((self.folder / "results.zip").read_bytes())
+        self.assertEqual(archives[0], archives[1])
 
 
 class Shell(ParameterStudyFile):

@@ -5,6 +5,7 @@ usage: parameterStudy run FILE [--cores N] [--only ENTRY ...] [--missing] [--exe
        parameterStudy check FILE [--executor slurm]   whether it is right, and how long each run takes; makes nothing
        parameterStudy status FILE [--missing]   what is done, what is left, when it will end
        parameterStudy stop FILE         asks all that runs here to write a checkpoint and end
+       parameterStudy archive FILE      moves the results into one file beside the folder; what reads results reads both
        parameterStudy task FILE NAME    runs one task here (the executors call this)
 
 FILE is YAML; docs/howTo/parameterStudies.md describes it. Paths in it are relative to its folder.
@@ -19,7 +20,7 @@ import signal
 import sys
 from typing import Iterator
 
-from clepsydra import environment, whole_files
+from clepsydra import environment, parameter_study_results, whole_files
 from clepsydra.case_rules import Findings
 from clepsydra.parameter_studies import executors, status, task
 from clepsydra.parameter_studies.plan import ParameterStudy, ParameterStudyError
@@ -49,7 +50,8 @@ def read_options() -> argparse.Namespace:
         usage=(__doc__ or "").split("usage: ")[1].split("\n\n")[0], description=(__doc__ or "").split("\n")[0]
     )
     commands = parser.add_subparsers(required=True)
-    for name, command in (("run", run), ("check", check), ("status", show_status), ("stop", stop), ("task", run_task)):
+    known = {"run": run, "check": check, "status": show_status, "stop": stop, "archive": archive, "task": run_task}
+    for name, command in known.items():
         its = commands.add_parser(name, prog=f"parameterStudy {name}")
         its.set_defaults(command=command)
         its.add_argument("file", metavar="FILE")
@@ -194,6 +196,12 @@ def stop(parameter_study: ParameterStudy, _: argparse.Namespace) -> int:
             f"{runner} does not say which process runs here; send SIGTERM to `parameterStudy run` yourself"
         ) from None
     print("parameterStudy: asked to stop; each run writes a checkpoint first")
+    return 0
+
+
+def archive(parameter_study: ParameterStudy, _: argparse.Namespace) -> int:
+    files = parameter_study_results.archive(parameter_study.results)
+    print(f"parameterStudy: {files} files in {parameter_study_results.archive_of(parameter_study.results)}")
     return 0
 
 
