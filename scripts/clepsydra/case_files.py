@@ -37,6 +37,14 @@ def balances(case: Path | str) -> list[dict[str, Any]]:
     return [json.loads(file.read_text()) for file in files if file.exists()]
 
 
+def solid_volume(case: Path | str, diameter: float) -> float:
+    """Of the particles that the solver counted, which are all of one diameter."""
+    parts = balances(case)
+    if not parts:
+        raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
+    return float(parts[0]["particlesEnd"] * np.pi / 6 * diameter**3)
+
+
 def missing_balances(case: Path | str, parts: list[dict[str, Any]], end: float) -> list[tuple[float, float]]:
     """(from, to) of each piece of a run, up to `end`, that none of these balances are of."""
     starts = [float(directory.name) for directory in Path(case).glob("postProcessing/*/[0-9]*")]

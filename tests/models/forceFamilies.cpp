@@ -7,9 +7,7 @@
 
 #include "forcesOnParticles.h"
 
-#include "run/equations.h"
 #include "support/errorOf.h"
-#include "support/temporaryCase.h"
 
 #include <gtest/gtest.h>
 
@@ -35,25 +33,6 @@ std::string errorOfRun(const std::string& modelType, const std::string& forces)
     const Foam::dictionary dict(stream);
     const ForcesOnParticles all(text);
     return errorOf([&] { all.forces().requireAllTerms(dict); });
-}
-
-/// The lines that a case prints, as one text.
-std::string printed(const std::string& entries)
-{
-    TemporaryCase folder;
-    folder.writeDictionary("constant/couplingProperties",
-        "fluid incompressible; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
-        "momCoupleModels (implicitCouple); DEM { engine liggghts; script none; } "
-            + entries);
-    const CouplingSettings settings(folder.time());
-    PhaseTimers timers;
-    const ParticleForces forces(settings.dict(), settings.modelType(), water(), timers);
-    std::string text;
-    for (const std::string& line : equations(settings, water(), &forces))
-    {
-        text += line + '\n';
-    }
-    return text;
 }
 
 TEST(ForceFamilies, TwoModelsOfOneFamilyAreRefused)

@@ -1,7 +1,9 @@
 #pragma once
 
 #include "forces/particleForces.h"
+#include "run/equations.h"
 #include "support/fakeEngine.h"
+#include "support/temporaryCase.h"
 
 #include "IStringStream.H"
 
@@ -69,5 +71,24 @@ private:
     ParticleForces forces_;
     FakeEngine engine_;
 };
+
+/// The lines that a case prints, as one text.
+inline std::string printed(const std::string& entries)
+{
+    TemporaryCase folder;
+    folder.writeDictionary("constant/couplingProperties",
+        "fluid incompressible; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
+        "momCoupleModels (implicitCouple); DEM { engine liggghts; script none; } "
+            + entries);
+    const CouplingSettings settings(folder.time());
+    PhaseTimers timers;
+    const ParticleForces forces(settings.dict(), settings.modelType(), water(), timers);
+    std::string text;
+    for (const std::string& line : equations(settings, water(), &forces))
+    {
+        text += line + '\n';
+    }
+    return text;
+}
 
 } // namespace clepsydra::tests

@@ -2,7 +2,6 @@
 """Pressure drop and height of the bed against time: printed, and drawn into bed.png."""
 
 from pathlib import Path
-from typing import Any
 
 import matplotlib
 import numpy as np
@@ -15,14 +14,6 @@ import matplotlib.pyplot as plt  # noqa: E402
 CASE = Path(__file__).parent
 GRAVITY = 9.81
 SETTLED = 0.5  # of the run: what comes before is the start
-
-
-def solid_volume(p: dict[str, Any]) -> float:
-    """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = case_files.balances(CASE)
-    if not balances:
-        raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
 
 
 def bed_height() -> tuple[np.ndarray, np.ndarray]:
@@ -39,7 +30,7 @@ def bed_height() -> tuple[np.ndarray, np.ndarray]:
 
 def main() -> None:
     p = parameter_file.parameters(CASE / "parameters")
-    solid = solid_volume(p)
+    solid = case_files.solid_volume(CASE, p["particleDiameter"])
     area = p["width"] ** 2
     load = solid * (p["particleDensity"] - p["fluidDensity"]) * GRAVITY / area
     time, drop = case_files.columns(CASE, "pressureDrop", "surfaceFieldValue.dat")

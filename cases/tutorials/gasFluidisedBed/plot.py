@@ -16,17 +16,9 @@ CASE = Path(__file__).parent
 GRAVITY = 9.81
 
 
-def solid_volume(p: dict[str, Any]) -> float:
-    """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = case_files.balances(CASE)
-    if not balances:
-        raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
-
-
 def main() -> None:
     p = parameter_file.parameters(CASE / "parameters")
-    solid = solid_volume(p)
+    solid = case_files.solid_volume(CASE, p["particleDiameter"])
     area = p["width"] * p["depth"]
     load = solid * (p["particleDensity"] - p["fluidDensity"]) * GRAVITY / area
     time, drop = case_files.columns(CASE, "pressureDrop", "surfaceFieldValue.dat")

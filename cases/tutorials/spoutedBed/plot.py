@@ -18,20 +18,12 @@ PACKED = 0.58  # solid fraction of a bed at rest
 REACH = 4e-3  # [m] within which particles count for a height
 
 
-def solid_volume(p: dict[str, Any]) -> float:
-    """Of the particles that the solver counted: it writes this balance at its end."""
-    balances = case_files.balances(CASE)
-    if not balances:
-        raise SystemExit("plot: there is no postProcessing/conservation: has the solver come to its end?")
-    return balances[0]["particlesEnd"] * np.pi / 6 * p["particleDiameter"] ** 3
-
-
 def main() -> None:
     p = parameter_file.parameters(CASE / "parameters")
     means = case_files.columns(CASE, "particleMeans").T
     means = means[means[:, 0] == means[-1, 0]]
     x, z, particles, speed, upwards = means[:, 1], means[:, 3], means[:, 5], means[:, 6], means[:, 10]
-    solid = solid_volume(p)
+    solid = case_files.solid_volume(CASE, p["particleDiameter"])
     rest = solid / PACKED / (p["width"] * p["depth"])
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4))
