@@ -96,7 +96,7 @@ class Tutorials(unittest.TestCase):
                 for _ in range(2):
                     said = self.typed(case, "./Allrun")
                     self.assertEqual(self.status, 0, said[-2000:])
-                self.assertTrue((case / "postProcessing" / BY_HAND[name][1]).exists())
+                self.assertTrue((case / BY_HAND[name][1]).exists())
                 self.typed(case, "./Allclean")
                 self.assertEqual(sorted(case.rglob("*")), before)
 
