@@ -24,6 +24,7 @@ BY_HAND = {
     "gasFluidisedBed": (["blockMesh"], "postProcessing/pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "spoutedBed": (["blockMesh"], "postProcessing/pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "wetDrum": (["blockMesh"], "DEM/drum.dump", "0.02"),
+    "periodicSettling": (["blockMesh"], "postProcessing/waterVelocity/0/volFieldValue.dat", "0.005"),
     "hopperDry": (["blockMesh"], "postProcessing/massInHopper/0/massInHopper.dat", "0.01"),
     "hopperSubmerged": (["blockMesh"], "postProcessing/massInHopper/0/massInHopper.dat", "0.01"),
     "hopperFromSTL": (
@@ -96,7 +97,7 @@ class Tutorials(unittest.TestCase):
                 for _ in range(2):
                     said = self.typed(case, "./Allrun")
                     self.assertEqual(self.status, 0, said[-2000:])
-                self.assertTrue((case / "postProcessing" / BY_HAND[name][1]).exists())
+                self.assertTrue((case / BY_HAND[name][1]).exists())
                 self.typed(case, "./Allclean")
                 self.assertEqual(sorted(case.rglob("*")), before)
 
