@@ -59,7 +59,7 @@ CouplingSettings::CouplingSettings(const Time& time)
         {"fluid", "couplingTimeStep", "adjustableCouplingTimeStep", "maxCo", "minCouplingTimeStep",
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime",
-            "allowParticlesOutsideMesh", "coarseGraining"},
+            "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient"},
         coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});

@@ -20,7 +20,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
       resumed_(resumed),
       timers_(timers),
       conservation_(settings.dict(), mesh.time()),
-      insertionAndRemoval_(settings.dict(), mesh, settings.couplingTimeStep()),
+      insertionAndRemoval_(settings.dict(), mesh, settings.couplingTimeStep(), engine.periodicBox()),
       forces_(models ? &models->forces : nullptr)
 {
     if (models && models->forces.needs().pairReach > 0)
@@ -36,8 +36,8 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     conservation_.countParticles(engine_.particles());
     if (models)
     {
-        fluid_ = std::make_unique<FluidCoupling>(
-            mesh, settings, fluid, models->forces.needs(), engine, models->distribution, conservation_, timers_);
+        fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, models->forces.needs(), engine,
+            models->distribution, models->meanPressureGradient, conservation_, timers_);
     }
     conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
     if (models)

@@ -10,20 +10,22 @@ namespace clepsydra
 using namespace Foam;
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, ConservationCheck& conservation,
-    PhaseTimers& timers)
+    const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, MeanPressureGradient& meanPressureGradient,
+    ConservationCheck& conservation, PhaseTimers& timers)
     : mesh_(mesh),
       settings_(settings),
       fluid_(fluid),
       engine_(engine),
       conservation_(conservation),
       timers_(timers),
+      meanPressureGradient_(meanPressureGradient),
       mapping_(mesh, settings.dict(), distribution, timers),
       sampling_(mesh, settings, fluid, needs, distribution.smoothingModel()),
       dragTimes_(settings, fluid.density, engine.timeStep()),
       rows_(sampling_.removesSelfInducedVelocity()),
       fields_{ClippedVoidFraction(mesh, settings.minimumVoidFraction(), conservation),
-          PressureOnParticles(mesh, settings.modelType(), needs.pressureGradient, fluid.density, conservation),
+          PressureOnParticles(
+              mesh, settings.modelType(), needs.pressureGradient, fluid.density, meanPressureGradient, conservation),
           VoidFractionRate(mesh, settings), SemiImplicitSource(mesh, fluid.density),
           needs.torque ? std::make_unique<TorqueReaction>(mesh, fluid.density) : nullptr}
 {}
@@ -31,6 +33,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
 AnticipatedParticles FluidCoupling::start(bool resumed)
 {
     const ParticlesView particles = engine_.particles();
+    meanPressureGradient_.update(particles);
     Eigen::MatrixXd volumes(ContributionRows::solidVolume.end(), particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -71,6 +74,7 @@ ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
     dragTimes_.check(engine_.particles(), result);
+    meanPressureGradient_.update(engine_.particles());
     AnticipatedParticles located = locate(result, next);
     Eigen::MatrixXd density = densities(located, rows_.count);
     // Motion of the particles over the next coupling step, divided by the length of the step that is solved.

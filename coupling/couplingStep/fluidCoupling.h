@@ -20,8 +20,8 @@ class FluidCoupling
 public:
     /// \param needs  quantities of the fluid that the forces need at the particles
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, ConservationCheck& conservation,
-        PhaseTimers& timers);
+        const ForceNeeds& needs, DemEngine& engine, Distribution& distribution,
+        MeanPressureGradient& meanPressureGradient, ConservationCheck& conservation, PhaseTimers& timers);
 
     /// Computes the void fraction of the first particles, of which no motion is anticipated. Collective.
     /// \param resumed  true where the fields are those of a checkpoint; they are then left unchanged to the last bit
@@ -104,6 +104,7 @@ private:
     DemEngine& engine_;
     ConservationCheck& conservation_;
     PhaseTimers& timers_;
+    MeanPressureGradient& meanPressureGradient_;
     ParticleMapping mapping_;
     FluidSampling sampling_;
     DragTimeChecks dragTimes_;

@@ -3,6 +3,7 @@
 #include "distribution/distribution.h"
 #include "forces/particleForces.h"
 #include "couplingStep/couplingSettings.h"
+#include "couplingStep/meanPressureGradient.h"
 #include "phaseTimers.h"
 
 namespace clepsydra
@@ -15,13 +16,16 @@ struct FluidModels
     FluidModels(
         const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid, PhaseTimers& timers)
         : forces(settings.dict(), settings.modelType(), fluid, timers),
-          distribution(settings.dict(), mesh)
+          distribution(settings.dict(), mesh),
+          meanPressureGradient(settings.dict(), mesh, distribution.periodicBox(), fluid, settings.modelType(),
+              forces.needs().pressureGradient)
     {
         forces.requireAllTerms(settings.dict());
     }
 
     ParticleForces forces;
     Distribution distribution;
+    MeanPressureGradient meanPressureGradient;
 };
 
 } // namespace clepsydra

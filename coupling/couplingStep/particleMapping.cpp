@@ -51,7 +51,8 @@ ParticleMapping::ParticleMapping(const Foam::fvMesh& mesh, const Foam::dictionar
       couplingProperties_(couplingProperties),
       distribution_(distribution),
       timers_(timers),
-      exchange_(duplicateWorld(), distribution.cells().box(), distribution.voidFractionModel().commonReach())
+      exchange_(duplicateWorld(), distribution.cells().box(), distribution.voidFractionModel().commonReach(),
+          distribution.periodicBox())
 {}
 
 template<class Communicate>

@@ -23,6 +23,14 @@ ParticlesInFluid::ParticlesInFluid(AnticipatedParticles anticipated, ParticleFie
       movingf_(voidFractionf_ + fields_.rate.velocityResponse())
 {}
 
+void ParticlesInFluid::addMeanPressureGradient(surfaceScalarField& phiHbyA, const surfaceScalarField& rAUf) const
+{
+    if (const MeanPressureGradient& mean = fields_.pressure.mean(); mean.isActive())
+    {
+        phiHbyA -= rAUf * mean.throughFaces();
+    }
+}
+
 void ParticlesInFluid::spreadImbalance(double outflow)
 {
     conservation_.recordImbalance(couplingTimeStep_ * fields_.rate.spreadImbalance(outflow));
@@ -35,12 +43,19 @@ tmp<surfaceScalarField> ParticlesInFluid::pressureCoefficient(const surfaceScala
 
 tmp<volScalarField> ParticlesInFluid::explicitContinuity(const surfaceScalarField& phiHbyA) const
 {
-    return fields_.rate.withoutImplicit() + fvc::div(movingf_ * phiHbyA);
+    const MeanPressureGradient& mean = fields_.pressure.mean();
+    return fields_.rate.withoutImplicit()
+           + (mean.isActive() ? fvc::div(movingf_ * phiHbyA - fields_.rate.pressureResponse() * mean.throughFaces())
+                              : fvc::div(movingf_ * phiHbyA));
 }
 
 void ParticlesInFluid::setFlux(const surfaceScalarField& phi, const surfaceScalarField& gradient)
 {
     anticipatedFlux_ = fields_.rate.velocityResponse() * phi - fields_.rate.pressureResponse() * gradient;
+    if (const MeanPressureGradient& mean = fields_.pressure.mean(); mean.isActive())
+    {
+        anticipatedFlux_.ref() -= fields_.rate.pressureResponse() * mean.throughFaces();
+    }
 }
 
 SolvedStep ParticlesInFluid::record(

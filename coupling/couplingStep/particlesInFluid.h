@@ -44,7 +44,8 @@ class SolvedStep;
 ///     d(eps)/dt + div(eps U) = 0
 ///     d(eps U)/dt + div(eps U U) = -pressureFactor grad p + div(tau) + momentumSource
 ///
-/// p is kinematic and without its hydrostatic part. In model B grad p has the factor 1, see ModelType.
+/// p is kinematic and without its hydrostatic part. In model B grad p has the factor 1, see ModelType. Where the mesh is
+/// periodic, grad p includes MeanPressureGradient.
 ///
 /// With U = HbyA - pressureFactor rAU grad p, continuity becomes the equation of the pressure
 ///
@@ -84,11 +85,22 @@ public:
         return fields_.pressure.factor();
     }
 
+    /// grad p [m/s2].
+    Foam::tmp<Foam::volVectorField> pressureGradient(const Foam::volScalarField& p) const
+    {
+        return fields_.pressure.mean().gradient(p);
+    }
+
     /// The part of the pressure term that acts on the particles [m/s2], see PressureOnParticles.
     Foam::tmp<Foam::volVectorField> sourceOfPressure(const Foam::volScalarField& p) const
     {
         return fields_.pressure.source(voidFraction(), p);
     }
+
+    /// Subtracts the part of the mean pressure gradient along periodic directions from the flux of U without the
+    /// pressure's part.
+    /// \param rAUf  coefficient of grad p in U, on faces [s]
+    void addMeanPressureGradient(Foam::surfaceScalarField& phiHbyA, const Foam::surfaceScalarField& rAUf) const;
 
     /// Makes continuity solvable where p is fixed nowhere: distributes the volume imbalance of a closed tank over its
     /// cells, see VoidFractionRate::spreadImbalance(). Collective.
@@ -98,12 +110,12 @@ public:
     /// \param rAUf  coefficient of grad p in U, on faces [s]
     Foam::tmp<Foam::surfaceScalarField> pressureCoefficient(const Foam::surfaceScalarField& rAUf) const;
 
-    /// \param phiHbyA  flux of U without the pressure's part [m3/s]
+    /// \param phiHbyA  flux of U without the part of p [m3/s]
     Foam::tmp<Foam::volScalarField> explicitContinuity(const Foam::surfaceScalarField& phiHbyA) const;
 
     /// Sets the flux that the pressure equation has given. The last one counts.
     /// \param phi  flux of U [m3/s]
-    /// \param gradient  of p across the faces, times their areas
+    /// \param gradient  of p across the faces without its mean, times their areas
     void setFlux(const Foam::surfaceScalarField& phi, const Foam::surfaceScalarField& gradient);
 
     /// Ends the solution of the equations: completes d(eps)/dt. The result has what the conservation check compares, of

@@ -4,18 +4,17 @@
 #include "couplingStep/couplingField.h"
 #include "vectors.h"
 
-#include "fvcGrad.H"
-
 namespace clepsydra
 {
 
 using namespace Foam;
 
-PressureOnParticles::PressureOnParticles(
-    const fvMesh& mesh, ModelType modelType, bool isForce, double fluidDensity, ConservationCheck& conservation)
+PressureOnParticles::PressureOnParticles(const fvMesh& mesh, ModelType modelType, bool isForce, double fluidDensity,
+    const MeanPressureGradient& mean, ConservationCheck& conservation)
     : modelType_(modelType),
       acts_(modelType == ModelType::A && isForce),
       fluidDensity_(fluidDensity),
+      mean_(mean),
       conservation_(conservation),
       factor_(
           temporaryField<volScalarField>("pressureFactor", mesh, dimless, 1, zeroGradientFvPatchScalarField::typeName))
@@ -38,12 +37,12 @@ void PressureOnParticles::updateFactor(const volScalarField& voidFraction, const
 tmp<volVectorField> PressureOnParticles::source(const volScalarField& voidFraction, const volScalarField& p) const
 {
     const dimensionedScalar active("active", dimless, acts_ ? 1 : 0);
-    return active * (voidFraction - factor_) * fvc::grad(p);
+    return active * (voidFraction - factor_) * mean_.gradient(p);
 }
 
 Eigen::MatrixXd PressureOnParticles::gradient(const volScalarField& p, const scalarField& solidFraction)
 {
-    const tmp<volVectorField> gradient = fvc::grad(p);
+    const tmp<volVectorField> gradient = mean_.gradient(p);
     const vectorField& inCells = gradient().primitiveField();
     forceInFluid_ = -gSum(vectorField(fluidDensity_ * inCells * solidFraction * p.mesh().V().field()));
     return modelType_ == ModelType::A ? Eigen::MatrixXd(fluidDensity_ * columns(inCells))

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "conservation/conservationCheck.h"
+#include "couplingStep/meanPressureGradient.h"
 #include "couplingStep/rows.h"
 #include "engine/particles.h"
 #include "forces/modelType.h"
@@ -16,13 +17,19 @@ class PressureOnParticles
 {
 public:
     /// \param isForce  whether a force of the particles is that of the pressure gradient
+    /// \param mean  part of all gradients of the pressure here
     PressureOnParticles(const Foam::fvMesh& mesh, ModelType modelType, bool isForce, double fluidDensity,
-        ConservationCheck& conservation);
+        const MeanPressureGradient& mean, ConservationCheck& conservation);
 
     /// Whether the pressure gradient acts on the particles: in model A, unless it is left out.
     bool acts() const
     {
         return acts_;
+    }
+
+    const MeanPressureGradient& mean() const
+    {
+        return mean_;
     }
 
     /// Factor of grad p in the fluid's equation. In model A it is eps plus the part of the particles' pressure force
@@ -55,6 +62,7 @@ private:
     const ModelType modelType_;
     const bool acts_;
     const double fluidDensity_;
+    const MeanPressureGradient& mean_;
     ConservationCheck& conservation_;
     Foam::volScalarField factor_;
     /// Force whose reaction to the particles is in the fluid's equation, and the sum of the magnitudes of the forces on

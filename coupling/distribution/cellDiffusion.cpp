@@ -1,10 +1,13 @@
 #include "distribution/cellDiffusion.h"
 
+#include "distribution/cyclicPatches.h"
 #include "vectorUnits.h"
+#include "vectors.h"
 
 #include "PstreamReduceOps.H"
 #include "UIPstream.H"
 #include "UOPstream.H"
+#include "cyclicFvPatch.H"
 #include "processorFvPatch.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -72,7 +75,8 @@ CLEPSYDRA_FOR_VECTOR_UNITS void sweep(label cellCount, const Neighbours neighbou
 } // namespace
 
 CellDiffusion::CellDiffusion(const fvMesh& mesh)
-    : mesh_(mesh)
+    : mesh_(mesh),
+      periodic_(periodicBoxOf(mesh))
 {
     Part& whole = whole_;
     whole.cells.resize(mesh.nCells());
@@ -97,6 +101,15 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         }
         const scalarField across = conductances(patch.magSf(), patch.deltaCoeffs());
         const labelUList& cells = patch.faceCells();
+        if (isA<cyclicFvPatch>(patch))
+        {
+            const labelUList& behind = refCast<const cyclicFvPatch>(patch).neighbFvPatch().faceCells();
+            forAll (cells, face)
+            {
+                links.push_back({cells[face], behind[face], across[face], 1 / patch.deltaCoeffs()[face]});
+            }
+            continue;
+        }
         const auto& toRank = refCast<const processorFvPatch>(patch);
         whole.boundaries.push_back({toRank.neighbProcNo(), toRank.tag(), toRank.comm(),
             std::vector<label>(cells.begin(), cells.end()), whole.columnCount});
@@ -163,6 +176,11 @@ void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
     part_ = some ? std::optional<Part>(partOf(taken)) : std::nullopt;
 }
 
+double CellDiffusion::distanceSqr(const point& a, const point& b) const
+{
+    return periodic_.isPeriodic() ? periodic_.nearest(toEigen(a - b)).squaredNorm() : magSqr(a - b);
+}
+
 std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double reach) const
 {
     // Each cell receives the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227,
@@ -176,10 +194,10 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
     std::vector<Nearest> nearest(whole_.columnCount);
     std::vector<label> changed;
     const auto offer = [&](label cell, const vector& source) {
-        const scalar distanceSqr = magSqr(centres[cell] - source);
-        if (distanceSqr <= sqr(reach + 2 * width_[cell]) && distanceSqr < nearest[cell].distanceSqr)
+        const scalar awaySqr = distanceSqr(centres[cell], source);
+        if (awaySqr <= sqr(reach + 2 * width_[cell]) && awaySqr < nearest[cell].distanceSqr)
         {
-            nearest[cell] = {source, distanceSqr};
+            nearest[cell] = {source, awaySqr};
             changed.push_back(cell);
         }
     };

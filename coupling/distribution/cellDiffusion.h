@@ -1,5 +1,7 @@
 #pragma once
 
+#include "engine/periodicBox.h"
+
 #include <Eigen/Core>
 
 #include "fvMesh.H"
@@ -15,12 +17,12 @@ namespace clepsydra
 ///     (L u)_P = 1/V_P sum over faces of |S_f| (u_P - u_N)/|d_f|
 ///
 /// There is no correction for non-orthogonality, because only then is L self-adjoint in the volume-weighted product.
-/// Nothing passes a face without a cell behind it (wall, baffle, inlet); faces between ranks are treated as internal
-/// faces. What leaves a cell enters its neighbour, so the integral over the mesh is constant to rounding.
+/// Nothing passes a face without a cell behind it (wall, baffle, inlet); faces between ranks and those of cyclic patches
+/// are treated as internal faces. What leaves a cell enters its neighbour, so the integral over the mesh is constant to rounding.
 class CellDiffusion
 {
 public:
-    /// Collective. \pre no patch couples cells except those between ranks
+    /// Collective. FatalError as periodicBoxOf().
     explicit CellDiffusion(const Foam::fvMesh& mesh);
 
     /// Upper bound of the eigenvalues of L by Gershgorin's theorem [1/m2]; the lower bound is zero.
@@ -88,6 +90,8 @@ private:
 
     /// For each column of the whole mesh, whether it is near a source. Collective.
     std::vector<bool> near(const std::vector<Foam::label>& sources, double reach) const;
+    /// Square of the shortest distance between images of two points [m2].
+    double distanceSqr(const Foam::point& a, const Foam::point& b) const;
     Part partOf(const std::vector<bool>& taken) const;
     /// applyChebyshev() for up to `Lanes` quantities.
     template<int Lanes>
@@ -97,6 +101,7 @@ private:
     static void exchange(const Part& part, std::vector<Values>& values);
 
     const Foam::fvMesh& mesh_;
+    const PeriodicBox periodic_;
     /// Largest distance between a cell and one of its neighbours [m].
     std::vector<double> width_;
     Part whole_;

@@ -1,6 +1,7 @@
 #include "distribution/distribution.h"
 
-#include "processorCyclicPolyPatch.H"
+#include "distribution/cyclicPatches.h"
+
 #include "wedgePolyPatch.H"
 
 #include <algorithm>
@@ -15,9 +16,9 @@ namespace
 /// Margin in units of a particle's reach. A larger one needs fewer searches and more cells to examine between them.
 constexpr double neighbourhoodMargin = 0.3;
 
-/// A particle at a cyclic patch would have to be in two places, in the fluid and among its neighbours. Between wedge
-/// patches the mesh is a slice of an axisymmetric flow, in which a whole sphere would have its volume and drag.
-const Foam::fvMesh& withPatchesForSpheres(const Foam::fvMesh& mesh)
+/// Between wedge patches the mesh is a slice of an axisymmetric flow, in which a whole sphere would have its volume and
+/// drag.
+const Foam::fvMesh& withoutWedges(const Foam::fvMesh& mesh)
 {
     for (const Foam::polyPatch& patch : mesh.boundaryMesh())
     {
@@ -25,28 +26,25 @@ const Foam::fvMesh& withPatchesForSpheres(const Foam::fvMesh& mesh)
         {
             FatalErrorInFunction
                 << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath()
-                << " is of type wedge; allowed: wall, patch, symmetryPlane and others that couple no cells, because "
-                << "the mesh must hold whole particles, and a wedge holds a slice of each"
-                << Foam::exit(Foam::FatalError);
-        }
-        const bool betweenRanks =
-            Foam::isA<Foam::processorPolyPatch>(patch) && !Foam::isA<Foam::processorCyclicPolyPatch>(patch);
-        if (patch.coupled() && !betweenRanks)
-        {
-            FatalErrorInFunction
-                << "Patch '" << patch.name() << "' in " << mesh.boundaryMesh().objectPath() << " is of type "
-                << patch.type() << "; allowed: wall, patch, symmetryPlane and others that "
-                << "couple no cells, and processor between ranks, because a particle is in one place only"
-                << Foam::exit(Foam::FatalError);
+                << " is of type wedge; allowed: wall, patch, symmetryPlane, cyclic and others, because the mesh must "
+                << "hold whole particles, and a wedge holds a slice of each" << Foam::exit(Foam::FatalError);
         }
     }
     return mesh;
 }
 
+/// Key of a ghost in the cache.
+long keyOf(const GhostParticle& particle)
+{
+    constexpr long idCount = 1L << 32;
+    return std::lround(particle.id) + idCount * std::lround(particle.image);
+}
+
 } // namespace
 
 Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh)
-    : mesh_(withPatchesForSpheres(mesh)),
+    : mesh_(withoutWedges(mesh)),
+      periodic_(periodicBoxOf(mesh)),
       cells_(mesh),
       voidFraction_(VoidFractionModel::New(couplingProperties, cells_)),
       smoothing_(SmoothingModel::New(couplingProperties, mesh))
@@ -63,7 +61,7 @@ Eigen::MatrixXd Distribution::findCells(const std::vector<GhostParticle>& ghosts
     for (std::size_t ghost = 0; ghost < ghosts.size(); ++ghost)
     {
         const GhostParticle& particle = ghosts[ghost];
-        Neighbourhood& near = cache_[std::lround(particle.id)];
+        Neighbourhood& near = cache_[keyOf(particle)];
         addShares(particle, near);
         near.call = call_;
         near.position = particle.position;

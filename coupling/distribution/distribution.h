@@ -14,7 +14,7 @@ namespace clepsydra
 class Distribution
 {
 public:
-    /// FatalError that names the patch for a mesh with cyclic patches; FatalIOError from the models.
+    /// FatalError that names the patch for a mesh with wedges, and as periodicBoxOf(); FatalIOError from the models.
     Distribution(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
     /// Finds the cells of each ghost particle. Local.
@@ -43,6 +43,12 @@ public:
     void smooth(Eigen::MatrixXd& densities) const
     {
         smoothing_->smooth(densities);
+    }
+
+    /// The directions in which the mesh is periodic.
+    const PeriodicBox& periodicBox() const
+    {
+        return periodic_;
     }
 
     const CellSlabs& cells() const
@@ -85,6 +91,7 @@ private:
     void pruneCache(std::size_t ghostCount);
 
     const Foam::fvMesh& mesh_;
+    const PeriodicBox periodic_;
     CellSlabs cells_;
     Foam::autoPtr<VoidFractionModel> voidFraction_;
     Foam::autoPtr<SmoothingModel> smoothing_;
@@ -94,7 +101,7 @@ private:
     /// Factor of each ghost's shares that makes them add up to one.
     Eigen::ArrayXd normalisation_;
 
-    /// Cache by particle id. It saves the search for cells where a particle has hardly moved, and the cutting of
+    /// Cache by particle id and image. It saves the search for cells where a particle has hardly moved, and the cutting of
     /// spheres where it is at rest. The shares are the same to the last bit as without the cache.
     std::unordered_map<long, Neighbourhood> cache_;
     long call_ = 0;

@@ -1,5 +1,6 @@
 #include "distribution/wayAroundWalls.h"
 
+#include "distribution/cyclicPatches.h"
 #include "vectors.h"
 
 #include "ListListOps.H"
@@ -8,8 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <utility>
 
 namespace clepsydra
 {
@@ -18,6 +21,7 @@ namespace
 {
 
 using Foam::label;
+using Foam::labelList;
 
 /// Faces whose normals differ by less than about 45 degrees belong to one surface.
 constexpr double sameSurfaceCosine = 0.7;
@@ -88,6 +92,70 @@ BoundaryFaces gatherBoundary(const Foam::fvMesh& mesh)
     return all;
 }
 
+/// The edges at the high ends of a periodic box as the same edges at its low ends.
+class EdgesUnderImages
+{
+public:
+    EdgesUnderImages(const Foam::pointField& points, const PeriodicBox& periodic)
+    {
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+        {
+            if (periodic.isPeriodic(axis))
+            {
+                imageAtLowEnd_.push_back(imagesAlong(axis, points, periodic));
+            }
+        }
+    }
+
+    /// The ends of the edge in ascending order. An edge that only touches an end of the box has no image there.
+    std::array<label, 2> operator()(Foam::edge edge) const
+    {
+        for (const labelList& image : imageAtLowEnd_)
+        {
+            if (image[edge[0]] >= 0 && image[edge[1]] >= 0)
+            {
+                edge = Foam::edge(image[edge[0]], image[edge[1]]);
+            }
+        }
+        return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+    }
+
+private:
+    /// For each point at the high end along an axis, the one at the low end; -1 for any other point.
+    static labelList imagesAlong(Eigen::Index axis, const Foam::pointField& points, const PeriodicBox& periodic)
+    {
+        // Of the box: files have points with few digits.
+        constexpr double roundingOfPoints = 1e-6;
+        const double length = periodic.length[axis];
+        const auto isAt = [&](label point, double height) {
+            return std::abs(toEigen(points[point])[axis] - periodic.low[axis] - height) <= roundingOfPoints * length;
+        };
+        std::vector<label> atLowEnd;
+        std::vector<Box> places;
+        forAll (points, point)
+        {
+            if (isAt(point, 0))
+            {
+                atLowEnd.push_back(point);
+                places.emplace_back(toEigen(points[point]), toEigen(points[point]));
+            }
+        }
+        const BoxTree tree(std::move(places));
+        labelList images(points.size(), -1);
+        forAll (points, point)
+        {
+            if (isAt(point, length))
+            {
+                tree.forEachNear(toEigen(points[point]) - length * Vector3d::Unit(axis), roundingOfPoints * length,
+                    [&](int found) { images[point] = atLowEnd[static_cast<std::size_t>(found)]; });
+            }
+        }
+        return images;
+    }
+
+    std::vector<labelList> imageAtLowEnd_;
+};
+
 /// Disjoint sets of faces.
 class Surfaces
 {
@@ -121,27 +189,38 @@ private:
 } // namespace
 
 WayAroundWalls::WayAroundWalls(const Foam::fvMesh& mesh)
-    : mesh_(mesh)
+    : mesh_(mesh),
+      periodic_(periodicBoxOf(mesh))
 {
     const BoundaryFaces boundary = gatherBoundary(mesh);
     const auto faceCount = static_cast<int>(boundary.faces.size());
     std::vector<Vector3d> normals;
     std::vector<Vector3d> centres;
-    std::map<std::array<label, 2>, std::vector<int>> facesAtEdges;
+    // The faces that meet at an edge or at its images, and the edge as one of them has it.
+    struct FacesAtEdge
+    {
+        std::array<label, 2> edge;
+        std::vector<int> faces;
+    };
+    std::map<std::array<label, 2>, FacesAtEdge> facesAtEdges;
+    const EdgesUnderImages edgeOf(boundary.points, periodic_);
     for (int face = 0; face < faceCount; ++face)
     {
         normals.push_back(toEigen(boundary.faces[face].areaNormal(boundary.points)).normalized());
         centres.push_back(toEigen(boundary.faces[face].centre(boundary.points)));
         for (const Foam::edge& edge : boundary.faces[face].edges())
         {
-            facesAtEdges[{std::min(edge[0], edge[1]), std::max(edge[0], edge[1])}].push_back(face);
+            FacesAtEdge& at = facesAtEdges[edgeOf(edge)];
+            at.edge = {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
+            at.faces.push_back(face);
         }
     }
 
     Surfaces surfaces(faceCount);
     const auto areSmooth = [&](int a, int b) { return normals[a].dot(normals[b]) > sameSurfaceCosine; };
-    for (const auto& [edge, faces] : facesAtEdges)
+    for (const auto& [key, at] : facesAtEdges)
     {
+        const std::vector<int>& faces = at.faces;
         for (std::size_t i = 0; i < faces.size(); ++i)
         {
             for (std::size_t j = 0; j < i; ++j)
@@ -155,15 +234,16 @@ WayAroundWalls::WayAroundWalls(const Foam::fvMesh& mesh)
     }
     const auto pointAt = [&](label point) { return toEigen(boundary.points[point]); };
     std::vector<Box> rimBoxes;
-    for (const auto& [edge, faces] : facesAtEdges)
+    for (const auto& [key, at] : facesAtEdges)
     {
+        const auto& [edge, faces] = at;
         // Where more than two faces meet, a wall goes on or stands on another one.
         if (faces.size() != 2 || areSmooth(faces[0], faces[1]))
         {
             continue;
         }
         // Positive where the second face bends away from the fluid before the first; zero for the sides of a baffle.
-        const double behind = (centres[faces[1]] - centres[faces[0]]).dot(normals[faces[0]]);
+        const double behind = periodic_.nearest(centres[faces[1]] - centres[faces[0]]).dot(normals[faces[0]]);
         const double length = (pointAt(edge[1]) - pointAt(edge[0])).norm();
         if (behind > -roundingOfPosition * length)
         {
@@ -236,31 +316,49 @@ double WayAroundWalls::factor(const Vector3d& centre, Foam::label cell, double b
     const Vector3d to = toEigen(mesh_.cellCentres()[cell]);
     const double straightSqr = (to - centre).squaredNorm();
     const double longest = std::sqrt(straightSqr + longestWaySqr * bandwidth * bandwidth);
-    std::vector<int> nearRims;
-    rimBoxes_.forEachNear(centre, longest, [&](int rim) { nearRims.push_back(rim); });
+    // Not the walls are moved to their images, but the two points, which are near the image of a wall where their own
+    // images are near the wall.
+    struct NearRim
+    {
+        int rim;
+        Vector3d away;
+    };
+    std::vector<NearRim> nearRims;
+    periodic_.forEachImage(
+        rimBoxes_.around(), centre, longest, [&](const Vector3d& image, const Eigen::Vector3i& periods) {
+            const Vector3d away = periodic_.image(Vector3d::Zero(), periods);
+            rimBoxes_.forEachNear(image, longest, [&](int rim) { nearRims.push_back({rim, away}); });
+        });
     if (nearRims.empty())
     {
         return 0;
     }
     std::vector<int> passed;
-    triangleBoxes_.forEachNear(0.5 * (centre + to), 0.5 * (to - centre).cwiseAbs().maxCoeff(), [&](int index) {
-        const Triangle& triangle = triangles_[static_cast<std::size_t>(index)];
-        if (emergesFrom(triangle, centre, to)
-            && std::find(passed.begin(), passed.end(), triangle.surface) == passed.end())
-        {
-            passed.push_back(triangle.surface);
-        }
-    });
+    const Vector3d middle = 0.5 * (centre + to);
+    const double half = 0.5 * (to - centre).cwiseAbs().maxCoeff();
+    periodic_.forEachImage(
+        triangleBoxes_.around(), middle, half, [&](const Vector3d& image, const Eigen::Vector3i& periods) {
+            const Vector3d away = periodic_.image(Vector3d::Zero(), periods);
+            triangleBoxes_.forEachNear(image, half, [&](int index) {
+                const Triangle& triangle = triangles_[static_cast<std::size_t>(index)];
+                if (emergesFrom(triangle, centre + away, to + away)
+                    && std::find(passed.begin(), passed.end(), triangle.surface) == passed.end())
+                {
+                    passed.push_back(triangle.surface);
+                }
+            });
+        });
     double detourSqr = 0;
     for (const int surface : passed)
     {
-        double shortest = longest;
-        for (const int index : nearRims)
+        // Not the longest one that counts: rounding would decide whether a surface without a rim nearby lets nothing pass.
+        double shortest = std::numeric_limits<double>::infinity();
+        for (const auto& [index, away] : nearRims)
         {
             const Rim& rim = rims_[static_cast<std::size_t>(index)];
             if (rim.surfaces[0] == surface || rim.surfaces[1] == surface)
             {
-                shortest = std::min(shortest, wayOver(rim, centre, to));
+                shortest = std::min(shortest, wayOver(rim, centre + away, to + away));
             }
         }
         detourSqr += std::max(0.0, shortest * shortest - straightSqr);

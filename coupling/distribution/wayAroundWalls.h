@@ -1,6 +1,7 @@
 #pragma once
 
 #include "distribution/boxTree.h"
+#include "engine/periodicBox.h"
 
 #include "fvMesh.H"
 
@@ -17,7 +18,8 @@ namespace clepsydra
 /// leads through a wall, the way around the nearest rim of that wall counts with its whole length L: the share is
 /// multiplied by exp(-(L2 - r2)/b2). At the rim L equals r, so the share is continuous in the position of the particle.
 ///
-/// Every rank stores the walls of all ranks, so the result does not depend on the decomposition.
+/// Every rank stores the walls of all ranks, so the result does not depend on the decomposition. Where the mesh is
+/// periodic, the walls repeat themselves, and a wall that reaches a cyclic patch does not end there.
 class WayAroundWalls
 {
 public:
@@ -50,6 +52,7 @@ private:
     static bool emergesFrom(const Triangle& triangle, const Vector3d& from, const Vector3d& to);
 
     const Foam::fvMesh& mesh_;
+    const PeriodicBox periodic_;
     std::vector<Triangle> triangles_;
     std::vector<Rim> rims_;
     BoxTree triangleBoxes_;

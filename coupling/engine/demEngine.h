@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/particles.h"
+#include "engine/periodicBox.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -109,6 +109,19 @@ public:
 
     /// Gravity as the engine's script states it, the sum where it does so several times [m/s2]. Local.
     virtual Vector3d gravity() const = 0;
+
+    /// The directions in which the particles' space is periodic. Local.
+    virtual PeriodicBox periodicBox() const
+    {
+        return {};
+    }
+
+    /// Position of a particle of this rank as if the engine had never moved it by a length of the periodic box [m], so
+    /// that it is continuous in time. Local. \pre initialised
+    virtual Vector3d unwrappedPosition(Eigen::Index particle)
+    {
+        return particles().position.col(particle);
+    }
 
     /// Contact materials; empty where the script states none. Local.
     virtual std::vector<ContactMaterial> contactMaterials() const = 0;

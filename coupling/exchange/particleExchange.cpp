@@ -47,21 +47,32 @@ Box boxAround(const ParticlesView& particles, double commonReach)
     return around;
 }
 
-GhostParticle ghostOf(const ParticlesView& particles, Eigen::Index particle)
+/// A number for each image; different for all images within 500 lengths of the box.
+int imageNumber(const Eigen::Vector3i& periods)
 {
-    const SphereInFluid sphere = sphereInFluid(particles, particle);
-    return {sphere.centre, sphere.radius, static_cast<double>(particles.id[particle])};
+    constexpr int most = 1000;
+    return periods.x() + most * (periods.y() + most * periods.z());
 }
 
 } // namespace
 
-ParticleExchange::ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach)
+ParticleExchange::ParticleExchange(
+    MPI_Comm communicator, const Box& cells, double commonReach, const PeriodicBox& periodic)
     : communicator_(communicator),
       cells_(cells),
       commonReach_(commonReach),
+      periodic_(periodic),
       subdomainBounds_(subdomainBounds(communicator, cells))
 {
     MPI_Comm_rank(communicator_, &rank_);
+}
+
+GhostParticle ParticleExchange::ghostOf(
+    const ParticlesView& particles, Eigen::Index particle, const Eigen::Vector3i& periods) const
+{
+    const SphereInFluid sphere = sphereInFluid(particles, particle);
+    return {periodic_.image(sphere.centre, periods), sphere.radius, static_cast<double>(particles.id[particle]),
+        static_cast<double>(imageNumber(periods))};
 }
 
 void ParticleExchange::publishBounds(const Box& particles)
@@ -76,11 +87,11 @@ void ParticleExchange::publishBounds(const Box& particles)
     sendingRanks_.clear();
     const auto add = [&](int rank) {
         const auto of = static_cast<std::size_t>(rank);
-        if (publishedBounds_.intersects(subdomainBounds_[of]))
+        if (periodic_.imagesIntersect(publishedBounds_, subdomainBounds_[of]))
         {
             receivingRanks_.push_back(rank);
         }
-        if (published[of].intersects(cells_))
+        if (periodic_.imagesIntersect(published[of], cells_))
         {
             sendingRanks_.push_back(rank);
         }
@@ -107,15 +118,16 @@ void ParticleExchange::makePlan(const ParticlesView& particles)
     exports_.clear();
     for (const int receivingRank : receivingRanks_)
     {
-        Exports leaving{receivingRank, {}};
+        Exports leaving{receivingRank, {}, {}};
         const Box& cells = subdomainBounds_[static_cast<std::size_t>(receivingRank)];
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             const SphereInFluid sphere = sphereInFluid(particles, particle);
-            if (cubeMeets(cells, sphere.centre, std::max(sphere.radius, commonReach_)))
-            {
-                leaving.particles.push_back(particle);
-            }
+            periodic_.forEachImage(cells, sphere.centre, std::max(sphere.radius, commonReach_),
+                [&](const Vector3d&, const Eigen::Vector3i& periods) {
+                    leaving.particles.push_back(particle);
+                    leaving.periods.push_back(periods);
+                });
         }
         exports_.push_back(std::move(leaving));
     }
@@ -180,9 +192,10 @@ void ParticleExchange::send(const ParticlesView& particles, const Eigen::MatrixX
         toRanks.push_back(leaving.rank);
         std::vector<double>& message = out.emplace_back(leaving.particles.size() * size);
         double* place = message.data();
-        for (const Eigen::Index particle : leaving.particles)
+        for (std::size_t i = 0; i < leaving.particles.size(); ++i)
         {
-            const GhostParticle ghost = ghostOf(particles, particle);
+            const Eigen::Index particle = leaving.particles[i];
+            const GhostParticle ghost = ghostOf(particles, particle, leaving.periods[i]);
             place = std::copy_n(reinterpret_cast<const double*>(&ghost), ghostSize, place);
             place = std::copy_n(contributions.col(particle).data(), rows, place);
         }

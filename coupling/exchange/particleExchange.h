@@ -1,6 +1,6 @@
 #pragma once
 
-#include "engine/particles.h"
+#include "engine/periodicBox.h"
 
 #include <mpi.h>
 
@@ -16,6 +16,8 @@ struct GhostParticle
     Vector3d position;
     double radius;
     double id;
+    /// Number of the image that this copy is; 0 for that at the position which the engine states.
+    double image;
 };
 
 /// Sends particles to the ranks whose cells they overlap, as ghost particles, and returns results to their owners.
@@ -25,6 +27,9 @@ struct GhostParticle
 /// intersect never exchange a message. Every rank knows two boxes per rank, not the particles of other ranks. A rank
 /// publishes a box with a margin around its particles, so that in most coupling steps the only collective communication
 /// is the confirmation that no box has become too small.
+///
+/// Where space is periodic, a particle has a ghost for each of its images that is near a rank's cells. The sums over
+/// its ghosts are then those over all images.
 class ParticleExchange
 {
 public:
@@ -32,7 +37,7 @@ public:
     /// \param cells  box around this rank's cells; the mesh does not move
     /// \param commonReach  distance from its centre over which every particle acts, where that is larger than its
     /// radius [m]
-    ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0);
+    ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0, const PeriodicBox& periodic = {});
 
     /// Sends every particle to each rank whose box of cells intersects the cube around the particle's sphere or reach.
     /// Collective.
@@ -68,11 +73,14 @@ public:
     }
 
 private:
-    /// Particles that this rank sends to one rank (also to itself), and ghosts that it receives from one rank.
+    /// Particles that this rank sends to one rank (also to itself), and ghosts that it receives from one rank. A particle
+    /// is listed once for each of its images that it sends.
     struct Exports
     {
         int rank;
         std::vector<Eigen::Index> particles;
+        /// Of each entry above: lengths of the periodic box between the particle and its image.
+        std::vector<Eigen::Vector3i> periods;
     };
     struct Imports
     {
@@ -82,6 +90,7 @@ private:
     };
 
     void makePlan(const ParticlesView& particles);
+    GhostParticle ghostOf(const ParticlesView& particles, Eigen::Index particle, const Eigen::Vector3i& periods) const;
     /// Enlarges the published boxes where necessary, and determines the receiving and sending ranks from them.
     /// Collective.
     void publishBounds(const Box& particles);
@@ -92,6 +101,7 @@ private:
     int rank_ = 0;
     Box cells_;
     double commonReach_;
+    PeriodicBox periodic_;
     /// Boxes around the cells of each rank.
     std::vector<Box> subdomainBounds_;
     /// Box around this rank's particles with a margin; it never shrinks.

@@ -176,12 +176,13 @@ void MassInHopper::sample()
         return;
     }
 
-    const ParticlesView particles = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
+    const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
+    const ParticlesView particles = observed.particles();
     scalar mass = 0;
     label count = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        if (hopper_->contains(particles.position.col(particle)))
+        if (hopper_->contains(observed.positionInBox(particle)))
         {
             mass += particles.mass[particle];
             ++count;

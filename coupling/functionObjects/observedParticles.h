@@ -28,6 +28,18 @@ public:
         return engine_.particles();
     }
 
+    /// The image of a particle's position that lies in the engine's box [m].
+    Vector3d positionInBox(Eigen::Index particle) const
+    {
+        return engine_.periodicBox().wrapped(engine_.particles().position.col(particle));
+    }
+
+    /// See DemEngine::unwrappedPosition().
+    Vector3d unwrappedPosition(Eigen::Index particle) const
+    {
+        return engine_.unwrappedPosition(particle);
+    }
+
     bool writeData(Foam::Ostream&) const override
     {
         return true;

@@ -109,12 +109,13 @@ void ParticleHeight::sample()
     scalar height = 0;
     scalar velocity = 0;
     bool found = false;
-    const ParticlesView particles = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
+    const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
+    const ParticlesView particles = observed.particles();
     for (Eigen::Index i = 0; i < particles.size(); ++i)
     {
         if (particles.id[i] == particle_)
         {
-            height = axis_.dot(particles.position.col(i));
+            height = axis_.dot(observed.unwrappedPosition(i));
             velocity = axis_.dot(particles.velocity.col(i));
             found = true;
         }

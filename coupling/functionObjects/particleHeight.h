@@ -19,6 +19,8 @@ namespace clepsydra
 ///         stopBelow   0.06;       // height below which the run writes a checkpoint and ends [m]; default: none
 ///     }
 ///
+/// Where space is periodic along the axis, the height goes on beyond the ends of the box.
+///
 /// Writes postProcessing/<name>/<startTime>/<name>.dat: time [s], height of the centre [m], velocity [m/s]. There is
 /// one row at the fresh start and one per execution until the particle has left. Set executeControl, executeInterval
 /// and `writeControl none`, because OpenFOAM executes function objects before each write, too. A resumed run continues

@@ -247,10 +247,11 @@ void ParticleMeans::sample()
 {
     scalarField here(sumCount * bins_->count(), 0);
     Eigen::Map<Eigen::ArrayXXd> sumsHere(here.data(), sumCount, bins_->count());
-    const ParticlesView particles = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName).particles();
+    const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
+    const ParticlesView particles = observed.particles();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        const label bin = bins_->binOf(particles.position.col(particle));
+        const label bin = bins_->binOf(observed.positionInBox(particle));
         if (bin < 0)
         {
             continue;

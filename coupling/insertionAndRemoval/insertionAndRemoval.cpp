@@ -55,9 +55,10 @@ void addParticle(ParticleTransfer& to, double mass, const Vector3d& velocity)
 } // namespace
 
 InsertionAndRemoval::InsertionAndRemoval(
-    const dictionary& couplingProperties, const fvMesh& mesh, double couplingTimeStep)
+    const dictionary& couplingProperties, const fvMesh& mesh, double couplingTimeStep, const PeriodicBox& periodic)
     : regIOobject(IOobject(registryName, mesh.time().timeName(), mesh)),
       outlets_(couplingProperties, mesh),
+      periodic_(periodic),
       insertionTime_(readInsertionTime(couplingProperties, couplingTimeStep)),
       couplingTimeStep_(couplingTimeStep),
       lastDeparted_(static_cast<std::size_t>(outlets_.names().size()))
@@ -223,8 +224,18 @@ label InsertionAndRemoval::removeDeparted(DemEngine& engine)
 PartWithin InsertionAndRemoval::partOf(
     const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const
 {
-    return outlets_.partWithin(particles.position.col(particle), particles.radius[particle],
-        couplingTimeStep * particles.velocity.col(particle).norm());
+    const double radius = particles.radius[particle];
+    const double travel = couplingTimeStep * particles.velocity.col(particle).norm();
+    PartWithin part;
+    periodic_.forEachImage(outlets_.bounds(), particles.position.col(particle), ParticleOutlets::reach(radius, travel),
+        [&](const Vector3d& image, const Eigen::Vector3i&) {
+            const PartWithin ofImage = outlets_.partWithin(image, radius, travel);
+            if (part.outlet < 0 || ofImage.share < part.share)
+            {
+                part = ofImage;
+            }
+        });
+    return part;
 }
 
 } // namespace clepsydra

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/demEngine.h"
+#include "engine/periodicBox.h"
 #include "insertionAndRemoval/particleOutlets.h"
 
 #include "regIOobject.H"
@@ -51,7 +52,9 @@ public:
     static constexpr const char* registryName = "insertionAndRemoval";
 
     /// FatalIOError where an entry is out of range.
-    InsertionAndRemoval(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh, double couplingTimeStep);
+    /// \param periodic  directions in which the particles have images
+    InsertionAndRemoval(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh, double couplingTimeStep,
+        const PeriodicBox& periodic = {});
 
     /// Determines the submerged fraction of the particles at the start, without recording insertions. Collective.
     /// \param freshStart  true where no particle is being inserted; otherwise the engine's checkpoint holds each
@@ -127,6 +130,7 @@ private:
     PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const;
 
     const ParticleOutlets outlets_;
+    const PeriodicBox periodic_;
     const double insertionTime_;
     double couplingTimeStep_;
     ParticleTransfer lastInserted_;

@@ -118,14 +118,12 @@ PartWithin ParticleOutlets::partWithin(const Vector3d& centre, double radius, do
 {
     PartWithin part;
     const point at = toFoam(centre);
-    // A particle that an obstacle behind the outlet has slowed down has come farther than its present velocity
-    // suggests.
-    const double reach = 3 * radius + travel;
-    if (!search_ || magSqr(bounds_.nearest(at) - at) > sqr(reach))
+    const double farthest = reach(radius, travel);
+    if (!search_ || magSqr(bounds_.nearest(at) - at) > sqr(farthest))
     {
         return part;
     }
-    const pointIndexHit found = search_->tree().findNearest(at, sqr(reach));
+    const pointIndexHit found = search_->tree().findNearest(at, sqr(farthest));
     if (!found.hit())
     {
         return part;

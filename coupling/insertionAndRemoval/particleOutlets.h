@@ -1,6 +1,7 @@
 #pragma once
 
 #include "couplingState.h"
+#include "vectors.h"
 
 #include "fvMesh.H"
 #include "triSurfaceSearch.H"
@@ -29,6 +30,20 @@ public:
     const Foam::wordList& names() const
     {
         return names_;
+    }
+
+    /// Box around all outlets; empty where there are none.
+    Box bounds() const
+    {
+        return search_ ? Box(toEigen(bounds_.min()), toEigen(bounds_.max())) : Box();
+    }
+
+    /// Distance from an outlet beyond which a particle is not examined [m].
+    static double reach(double radius, double travel)
+    {
+        // A particle that an obstacle behind the outlet has slowed down has come farther than its present velocity
+        // suggests.
+        return 3 * radius + travel;
     }
 
     /// The part of a particle that is on the fluid's side of the outlets; its share is 0 where the particle is entirely

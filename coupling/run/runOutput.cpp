@@ -33,6 +33,21 @@ std::string describe(const closures::Stratification& liquid)
     return line.str();
 }
 
+std::string describe(const PeriodicBox& periodic)
+{
+    std::ostringstream line;
+    line << "periodic      ";
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+        if (periodic.isPeriodic(axis))
+        {
+            line << " along "
+                 << "xyz"[axis] << " over " << periodic.length[axis] << " m";
+        }
+    }
+    return line.str();
+}
+
 double sum(const std::map<std::string, double>& secondsByPhase)
 {
     return std::accumulate(secondsByPhase.begin(), secondsByPhase.end(), 0.0,
@@ -83,6 +98,11 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
         }
         lines.push_back("void fraction  " + models->distribution.voidFractionModel().description());
         lines.push_back("smoothing      " + models->distribution.smoothingModel().description());
+        if (const PeriodicBox& periodic = models->distribution.periodicBox(); periodic.isPeriodic())
+        {
+            lines.push_back(describe(periodic));
+            lines.push_back("mean grad(p)   " + models->meanPressureGradient.description() + "; grad(p) contains it");
+        }
     }
     for (const std::string& choice : settings_.descriptions())
     {

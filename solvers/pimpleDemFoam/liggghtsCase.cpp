@@ -63,6 +63,7 @@ public:
         if (fluid)
         {
             requireSameGravity(*fluid, *engine_, script);
+            requireSamePeriodicBox(settings_, script, mesh);
             warnOfPatchesWithoutWall(mesh, wallMotions(script));
         }
         return *engine_;

@@ -1,9 +1,13 @@
 #include "scriptRules.h"
 
+#include "distribution/cyclicPatches.h"
 #include "movingWalls.h"
 #include "runTimeSelection.h"
 #include "wordRes.H"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <sstream>
@@ -181,17 +185,6 @@ void addContactsOfParcels(const ScriptFacts& facts, double coarseGraining, std::
 std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh, double coarseGraining)
 {
     std::vector<Unknown> unknown;
-    const std::string axes = "xyz";
-    for (std::size_t axis = 0; axis < facts.periodic.size(); ++axis)
-    {
-        if (facts.periodic[axis])
-        {
-            unknown.push_back({placeOf(facts, "boundary"),
-                std::string("the DEM box is periodic along ") + axes[axis]
-                    + ": a particle that leaves it appears at the other side, but the fluid's mesh is not periodic",
-                "periodic"});
-        }
-    }
     const auto requireOneOf = [&](const std::string& command, const std::string& style,
                                   const std::set<std::string>& known) {
         if (known.count(style) == 0)
@@ -245,7 +238,68 @@ void requireConstantDemStep(const dictionary& demDict, const ScriptFacts& facts)
     }
 }
 
+/// What is wrong with the DEM box along an axis; empty where it is periodic exactly where the mesh is.
+/// \param patches  the cyclic ones at the ends of the mesh along the axis
+std::string objectionToBox(
+    const ScriptFacts& facts, const PeriodicBox& mesh, const std::string& patches, Eigen::Index axis)
+{
+    // Of the length: files of meshes have points with few digits.
+    constexpr double roundingOfPoints = 1e-6;
+    const char name = "xyz"[axis];
+    std::ostringstream text;
+    const auto range = [&text](double low, double length) { text << "from " << low << " to " << low + length << " m"; };
+    if (!facts.periodic.isPeriodic(axis) && mesh.isPeriodic(axis))
+    {
+        text << placeOf(facts, "boundary") << "the fluid's mesh has the cyclic patches " << patches << " along " << name
+             << ", but the DEM box is not periodic there; allowed: p in the command boundary, and a box ";
+        range(mesh.low[axis], mesh.length[axis]);
+    }
+    else if (facts.periodic.isPeriodic(axis) && !mesh.isPeriodic(axis))
+    {
+        text << placeOf(facts, "boundary") << "the DEM box is periodic along " << name
+             << ": a particle that leaves it appears at the other side, but the fluid's mesh has no cyclic patches "
+             << "there; allowed: f, or a pair of cyclic patches at the ends of the box ";
+        range(facts.periodic.low[axis], facts.periodic.length[axis]);
+    }
+    else if (mesh.isPeriodic(axis)
+             && std::max(std::abs(facts.periodic.low[axis] - mesh.low[axis]),
+                    std::abs(facts.periodic.length[axis] - mesh.length[axis]))
+                    > roundingOfPoints * mesh.length[axis])
+    {
+        text << placeOf(facts, "create_box") << "the periodic DEM box is ";
+        range(facts.periodic.low[axis], facts.periodic.length[axis]);
+        text << " along " << name << ", but the cyclic patches " << patches << " are at the ends of the mesh ";
+        range(mesh.low[axis], mesh.length[axis]);
+        text << "; allowed: the same in both";
+    }
+    return text.str();
+}
+
 } // namespace
+
+void requireSamePeriodicBox(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh)
+{
+    const PeriodicBox periodic = periodicBoxOf(mesh);
+    const std::array<std::string, 3> patches = cyclicPatchesAlongAxes(mesh);
+    std::string objections;
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+    {
+        const std::string objection = objectionToBox(facts, periodic, patches[static_cast<std::size_t>(axis)], axis);
+        objections += objection.empty() ? "" : "    " + objection + '\n';
+    }
+    if (objections.empty() && periodic.isPeriodic() && facts.isTriclinic)
+    {
+        objections = "    " + placeOf(facts, "create_box")
+                     + "the DEM box is sheared (triclinic); allowed: a box along the axes, as the mesh is periodic\n";
+    }
+    if (!objections.empty())
+    {
+        const dictionary& demDict = settings.demDict();
+        FatalIOErrorInFunction(demDict) << "The DEM script " << demDict.get<fileName>("script").c_str()
+                                        << " and the cyclic patches in constant/polyMesh/boundary do not agree:\n"
+                                        << objections.c_str() << exit(FatalIOError);
+    }
+}
 
 void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh)
 {

@@ -14,6 +14,10 @@ namespace clepsydra
 /// Collective.
 void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const Foam::fvMesh& mesh);
 
+/// Requires that the particles' space is periodic exactly where cyclic patches make the mesh periodic, with the same
+/// box. FatalIOError that names the lines of the script, the patches, both boxes and what is allowed. Collective.
+void requireSamePeriodicBox(const CouplingSettings& settings, const ScriptFacts& facts, const Foam::fvMesh& mesh);
+
 /// Warns of contact coefficients that have no effect because no model of the script reads them.
 /// \param properties  as unreadProperties() returns them
 void warnOfUnreadProperties(const std::vector<ScriptCommand>& properties);

@@ -130,7 +130,7 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
 
     if (pimple_.momentumPredictor())
     {
-        Foam::solve(UEqn == -particles.pressureFactor()*fvc::grad(p_));
+        Foam::solve(UEqn == -particles.pressureFactor()*particles.pressureGradient(p_));
         sources_.correct(U_);
     }
     return UEqn;
@@ -150,6 +150,7 @@ void VoidFractionFlow::correctPressure(ParticlesInFluid& particles, const fvVect
     surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + particles.voidFractionf()*rAf*fvc::ddtCorr(U_, phi_));
 
     constrainPressure(p_, U_, phiHbyA, rAUf);
+    particles.addMeanPressureGradient(phiHbyA, rAUf);
     if (p_.needReference())
     {
         particles.spreadImbalance(outflow(particles.voidFractionf(), phiHbyA, rAUf, p_));
@@ -178,7 +179,7 @@ void VoidFractionFlow::correctPressure(ParticlesInFluid& particles, const fvVect
 
     p_.relax();
 
-    U_ = HbyA - rAU*pressureFactor*fvc::grad(p_);
+    U_ = HbyA - rAU*pressureFactor*particles.pressureGradient(p_);
     U_.correctBoundaryConditions();
     sources_.correct(U_);
 }

@@ -118,6 +118,36 @@ class Meanings(Folder):
         self.assertIn("( gradPForce viscForce GidaspowDrag noBuoyancy );", text)
         self.assertIn("has no Archimedes, so noBuoyancy is added", said)
 
+    def test_mean_velocity_of_a_periodic_channel(self) -> None:
+        """As the tutorial periodicChannel writes it. Taken over as it is, OpenFOAM knows no such option; left in its
+        library, the program does not start."""
+        case = self.case(
+            "packedColumn", "CFD/system/controlDict", "application", 'libs ("libfvOptionsCFDEM.so");\napplication'
+        )
+        options = (
+            "momentumSource { type meanSupVelocityForce; active yes;"
+            " meanSupVelocityForceCoeffs { selectionMode all;"
+            " fields (U); Ubar (10 0 0); relaxation 0.9; twoPhase false; coupled true;"
+            ' voidfractionField "voidfraction";'
+            " } }\nmore { type vectorSemiImplicitSource; selectionMode all; }\n"
+        )
+        (case / "CFD/system/fvOptions").write_text(options)
+        said = self.imported(case)
+        self.assertIn("Ubar is the mean of U between the particles", said)
+        self.assertIn("libfvOptionsCFDEM.so", said)
+        self.assertNotIn("libfvOptionsCFDEM", (self.target / "system/controlDict").read_text())
+        text = (self.target / "system/fvOptions").read_text()
+        for words in (
+            r"type\s+meanVelocityForce;",
+            r"meanVelocityForceCoeffs\s",
+            r"Ubar\s+\( 10 0 0 \);",
+            r"relaxation\s+0.9;",
+        ):
+            self.assertRegex(text, words)
+        self.assertRegex(text, r"more\s+{\s+type\s+vectorSemiImplicitSource;")
+        for gone in ("Sup", "twoPhase", "coupled", "voidfraction"):
+            self.assertNotIn(gone, text)
+
     def test_model_b_lacks_no_pressure_gradient(self) -> None:
         self.imported(self.old / "settlingParticle")
         text = (self.target / "constant/couplingProperties").read_text()

@@ -33,6 +33,7 @@ MODELS = {
     "smoothingModel": ["models-smoothingModel"],
     "selfInducedVelocityCorrection": ["models-selfInducedVelocityCorrection"],
     "coarseGraining": ["models-coarseGraining"],
+    "meanPressureGradient": ["models-meanPressureGradient"],
     "forceModels": [
         "models-forceModels-drag",
         "models-forceModels-other",

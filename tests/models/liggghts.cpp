@@ -488,7 +488,7 @@ TEST(Liggghts, StatesWhatTheScriptHasMade)
     EXPECT_EQ(facts.atomStyle, "granular");
     EXPECT_EQ(facts.runStyle, "verlet");
     EXPECT_EQ(facts.pairStyle, "gran");
-    EXPECT_EQ(facts.periodic, (std::array<bool, 3>{false, false, false}));
+    EXPECT_FALSE(facts.periodic.isPeriodic());
     EXPECT_TRUE(facts.integratedTwice.empty());
 
     const auto shared = [](const std::string& more) {

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <regex>
 
 namespace
 {
@@ -160,26 +161,128 @@ TEST(BadInput, TheSameCaseWithoutMistakeRuns)
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
 }
 
-/// Sides that are joined to each other would need every particle near them twice. A program that took them would let the fluid
-/// pass, and keep the particles and their volume at their own side.
-TEST(BadInput, CyclicPatches)
+/// A box of water of which two sides are joined, as text of blockMeshDict.
+/// \param patches  without the other sides
+/// \param corners  of the upper side
+std::string joinedBox(const std::string& patches, const std::string& corners = "(0 0 4) (2 0 4) (2 2 4) (0 2 4)")
 {
-    const Change joinSides = [](TestCase& test) {
-        test.extraFiles["system/blockMeshDict"] =
-            FoamFile().text("blockMeshDict")
-            + "scale 0.01; vertices ((0 0 0) (2 0 0) (2 2 0) (0 2 0) (0 0 4) (2 0 4) (2 2 4) (0 2 4));\n"
-              "blocks (hex (0 1 2 3 4 5 6 7) (4 4 8) simpleGrading (1 1 1));\n"
-              "boundary ( west { type cyclic; neighbourPatch east; faces ((0 4 7 3)); }\n"
-              "east { type cyclic; neighbourPatch west; faces ((1 2 6 5)); }\n"
-              "walls { type wall; faces ((0 3 2 1) (4 5 6 7) (0 1 5 4) (3 7 6 2)); } );\n";
+    return FoamFile().text("blockMeshDict") + "scale 0.01; vertices ((0 0 0) (2 0 0) (2 2 0) (0 2 0) " + corners
+           + ");\nblocks (hex (0 1 2 3 4 5 6 7) (4 4 8) simpleGrading (1 1 1));\nboundary (" + patches
+           + "walls { type wall; faces ((0 3 2 1) (4 5 6 7) (0 1 5 4) (3 7 6 2)); } );\n";
+}
+
+Change withJoinedSides(const std::string& mesh)
+{
+    return [mesh](TestCase& test) {
+        test.extraFiles["system/blockMeshDict"] = mesh;
         for (const char* field : {"0/U", "0/p"})
         {
-            test.file(field).set("boundaryField/\"west|east\"/type", "cyclic");
+            const std::string type = mesh.find("cyclicAMI") != std::string::npos ? "cyclicAMI" : "cyclic";
+            test.file(field).set("boundaryField/\"west|east\"/type", type);
         }
+    };
+}
+
+/// Sides that are joined otherwise than by a translation along an axis would give a particle's image another direction or
+/// another shape.
+TEST(BadInput, CyclicPatchesThatAreNoTranslation)
+{
+    const auto pair = [](const std::string& type, const std::string& more = "") {
+        return "west { type " + type + "; neighbourPatch east; faces ((0 4 7 3)); " + more + " }\neast { type " + type
+               + "; neighbourPatch west; faces ((1 2 6 5)); " + more + " }\n";
     };
     for (const int ranks : {1, 2})
     {
-        expectRefused(joinSides, {"'west'", "polyMesh/boundary", "cyclic", "allowed:"}, SeenBy::dictionaries, ranks);
+        expectRefused(withJoinedSides(joinedBox(pair("cyclicAMI", "transform translational; separationVector (0.02 0 "
+                                                                  "0);"))),
+            {"'west'", "polyMesh/boundary", "cyclicAMI", "allowed:", "pairs of cyclic patches"}, SeenBy::dictionaries,
+            ranks);
+        // A parallelepiped: the sides are planes and translations of each other, but at right angles to no axis.
+        expectRefused(withJoinedSides(joinedBox(pair("cyclic"), "(1 0 4) (3 0 4) (3 2 4) (1 2 4)")),
+            {"'west'", "polyMesh/boundary", "plane perpendicular to an axis", "allowed:"}, SeenBy::dictionaries, ranks);
+    }
+    // A quarter of a ring around the z axis.
+    const std::string ring =
+        FoamFile().text("blockMeshDict")
+        + "scale 0.01; vertices ((1 0 0) (3 0 0) (0 3 0) (0 1 0) (1 0 4) (3 0 4) (0 3 4) (0 1 4));\n"
+          "blocks (hex (0 1 2 3 4 5 6 7) (4 4 8) simpleGrading (1 1 1));\n"
+          "boundary ( west { type cyclic; neighbourPatch east; transform rotational; rotationAxis (0 0 1); "
+          "rotationCentre (0 0 0); faces ((0 1 5 4)); } east { type cyclic; neighbourPatch west; transform rotational; "
+          "rotationAxis (0 0 1); rotationCentre (0 0 0); faces ((3 7 6 2)); }\n"
+          "walls { type wall; faces ((0 3 2 1) (4 5 6 7) (0 4 7 3) (1 2 6 5)); } );\n";
+    expectRefused(
+        withJoinedSides(ring), {"'west'", "polyMesh/boundary", "rotational", "allowed:"}, SeenBy::dictionaries);
+}
+
+/// The particles' space must be periodic where the mesh is, and only there, over the same length: otherwise particles
+/// cross walls of the fluid, or leave it where it goes on.
+TEST(BadInput, BoxesThatDoNotAgree)
+{
+    const std::string joined = joinedBox("west { type cyclic; neighbourPatch east; faces ((0 4 7 3)); }\n"
+                                         "east { type cyclic; neighbourPatch west; faces ((1 2 6 5)); }\n");
+    const auto with = [&](const std::string& periodic, const std::string& region) {
+        return [=](TestCase& test) {
+            withJoinedSides(joined)(test);
+            std::string text = test.dem.text(test.box);
+            text = std::regex_replace(text, std::regex("boundary f f f"), "boundary " + periodic);
+            text = std::regex_replace(text, std::regex("block \\S+ \\S+"), "block " + region);
+            test.extraFiles[script] = std::regex_replace(text, std::regex("fix wallx.*\n"), "");
+        };
+    };
+    const std::string agree = "do not agree";
+    for (const int ranks : {1, 2})
+    {
+        expectRefused(with("f f f", "0 0.02"),
+            {agree, script,
+                "line 3: 'boundary f f f': the fluid's mesh has the cyclic patches 'west' and 'east' along x",
+                "allowed: p in the command boundary, and a box from 0 to 0.02 m"},
+            SeenBy::engine, ranks);
+        expectRefused(with("p f f", "0 0.0201"),
+            {agree, script, "'create_box", "the periodic DEM box is from 0 to 0.0201 m along x",
+                "the cyclic patches 'west' and 'east' are at the ends of the mesh from 0 to 0.02 m",
+                "allowed: the same in both"},
+            SeenBy::engine, ranks);
+        expectRefused(with("p f f", "0.001 0.021"), {agree, "from 0.001 to 0.021 m", "allowed: the same in both"},
+            SeenBy::engine, ranks);
+    }
+    expectRefused(with("p p f", "0 0.02"), {agree, script, "the DEM box is periodic along y", "has no cyclic patches"},
+        SeenBy::engine);
+    TestCase right;
+    fillIn(right);
+    with("p f f", "0 0.02")(right);
+    const Outcome outcome = right.run();
+    EXPECT_TRUE(outcome.succeeded()) << outcome.output;
+}
+
+/// Nothing would carry a suspension along a periodic direction: the entry must say what does. Along other directions p
+/// itself has the gradient.
+TEST(BadInput, MeanPressureGradient)
+{
+    const auto alongZ = [](const std::string& gradient) {
+        return [gradient](TestCase& test) {
+            test.box.periodic = {false, false, true};
+            if (!gradient.empty())
+            {
+                test.coupling().set("meanPressureGradient", gradient);
+            }
+        };
+    };
+    expectRefused(alongZ(""),
+        {couplingProperties, "'meanPressureGradient' is missing", "gravity", "allowed: balanceWeight"},
+        SeenBy::dictionaries);
+    expectRefused(
+        alongZ("balanceWieght"), {couplingProperties, "'meanPressureGradient'", "did you mean"}, SeenBy::dictionaries);
+    expectRefused(alongZ("(1 0 0)"),
+        {couplingProperties, "'meanPressureGradient' is (1 0 0)", "no cyclic patches along x"}, SeenBy::dictionaries);
+    expectEntryRefused("meanPressureGradient", "balanceWeight", {"no direction in which the mesh has cyclic patches"});
+    for (const std::string gradient : {"balanceWeight", "none", "(0 0 -20)"})
+    {
+        SCOPED_TRACE(gradient);
+        TestCase right;
+        fillIn(right);
+        alongZ(gradient)(right);
+        const Outcome outcome = right.run();
+        EXPECT_TRUE(outcome.succeeded()) << outcome.output;
     }
 }
 

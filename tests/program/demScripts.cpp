@@ -365,7 +365,7 @@ TEST(DemScripts, GravityThatConstantGCannotBe)
 }
 
 /// A particle that left a periodic box at +20 mm appeared at -20 mm, on the other side of the fluid's walls.
-TEST(DemScripts, APeriodicBoxIsRefused)
+TEST(DemScripts, APeriodicBoxIsRefusedWhereTheMeshHasWalls)
 {
     const auto fillInPeriodic = [](TestCase& test) {
         fillIn(test);
@@ -374,7 +374,7 @@ TEST(DemScripts, APeriodicBoxIsRefused)
     TestCase test;
     fillInPeriodic(test);
     expectRefused(test, {script + " line 3: 'boundary p f p': the DEM box is periodic along x", "periodic along z",
-                            "allowedInScript ( \"periodic\" )"});
+                            "allowed: f, or a pair of cyclic patches"});
     TestCase demOnly;
     fillInPeriodic(demOnly);
     withoutFluid(demOnly);

@@ -24,14 +24,20 @@ std::string DemScript::text(const Box& box) const
     std::ostringstream os;
     os.precision(std::numeric_limits<double>::max_digits10);
 
-    os << "atom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\n"
+    os << "atom_style granular\natom_modify map array\nboundary";
+    for (const bool periodic : box.periodic)
+    {
+        os << (periodic ? " p" : " f");
+    }
+    os << "\nnewton off\ncommunicate single vel yes\n"
           "units si\n";
     if (readRestart.empty())
     {
         os << "region domain block";
         for (int axis = 0; axis < 3; ++axis)
         {
-            os << ' ' << box.lower[axis] - margin << ' ' << box.upper[axis] + margin;
+            const double outside = box.periodic[axis] ? 0 : margin;
+            os << ' ' << box.lower[axis] - outside << ' ' << box.upper[axis] + outside;
         }
         os << " units box\ncreate_box " << wallMaterial << " domain\n";
     }
@@ -55,6 +61,10 @@ std::string DemScript::text(const Box& box) const
         const char axisName[] = {'x', 'y', 'z'};
         for (int axis = 0; axis < 3; ++axis)
         {
+            if (box.periodic[axis])
+            {
+                continue;
+            }
             const double low = axis == 2 && !std::isnan(floor) ? floor : box.lower[axis];
             for (const bool upper : {false, true})
             {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 
+#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -14,6 +15,8 @@ struct Box
 {
     Eigen::Vector3d lower = Eigen::Vector3d::Zero();
     Eigen::Vector3d upper = Eigen::Vector3d(0.02, 0.02, 0.04);
+    /// Axes along which mesh and particles are periodic, without walls at the ends.
+    std::array<bool, 3> periodic = {false, false, false};
 
     Eigen::Vector3d size() const
     {
@@ -41,7 +44,7 @@ struct DemScript
     /// Against the box's sides; a negative one means `friction`.
     double wallFriction = -1;
 
-    /// Planes at the box's six faces.
+    /// Planes at the box's faces, except along periodic axes.
     bool walls = true;
     /// Height of the bottom plane, where it is not the box's (a floor that lets the fluid through).
     double floor = std::numeric_limits<double>::quiet_NaN();

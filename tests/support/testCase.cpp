@@ -169,10 +169,28 @@ std::string TestCase::blockMeshDict() const
     }
     os << ");\nblocks (hex (0 1 2 3 4 5 6 7) (" << cells.x() << ' ' << cells.y() << ' ' << cells.z()
        << ") simpleGrading (1 1 1));\nedges ();\nboundary\n(\n";
-    const std::string bottom = "(0 3 2 1)";
-    const std::string top = "(4 5 6 7)";
-    const std::string sides = "(0 4 7 3)(1 2 6 5)(0 1 5 4)(3 7 6 2)";
-    os << "walls { type wall; faces (" << sides << (throughFlow_ ? "" : bottom + top) << "); }\n";
+    const std::array<std::array<std::string, 2>, 3> ends = {
+        {{"(0 4 7 3)", "(1 2 6 5)"}, {"(0 1 5 4)", "(3 7 6 2)"}, {"(0 3 2 1)", "(4 5 6 7)"}}};
+    const auto& [bottom, top] = ends[2];
+    std::string walls;
+    for (std::size_t axis = 0; axis < ends.size(); ++axis)
+    {
+        if (box.periodic[axis])
+        {
+            const std::string low = std::string(1, "xyz"[axis]) + "Low";
+            const std::string high = std::string(1, "xyz"[axis]) + "High";
+            os << low << " { type cyclic; neighbourPatch " << high << "; faces (" << ends[axis][0] << "); }\n"
+               << high << " { type cyclic; neighbourPatch " << low << "; faces (" << ends[axis][1] << "); }\n";
+        }
+        else if (axis < 2 || !throughFlow_)
+        {
+            walls += ends[axis][0] + ends[axis][1];
+        }
+    }
+    if (!walls.empty())
+    {
+        os << "walls { type wall; faces (" << walls << "); }\n";
+    }
     if (throughFlow_)
     {
         os << "inlet { type patch; faces (" << bottom << "); }\noutlet { type patch; faces (" << top << "); }\n";
@@ -183,6 +201,16 @@ std::string TestCase::blockMeshDict() const
 
 void TestCase::write()
 {
+    if (const auto& along = box.periodic; along[0] || along[1] || along[2])
+    {
+        for (const char* field : {"0/U", "0/p"})
+        {
+            if (files_.count(field) > 0)
+            {
+                file(field).set("boundaryField/\"[xyz](Low|High)\"/type", "cyclic");
+            }
+        }
+    }
     for (const auto& [name, dictionary] : files_)
     {
         writeText(path_ / name, dictionary.text(std::filesystem::path(name).filename().string()));

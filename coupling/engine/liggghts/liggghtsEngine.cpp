@@ -194,6 +194,16 @@ Vector3d LiggghtsEngine::gravity() const
     return gravityOf(parts_->program);
 }
 
+PeriodicBox LiggghtsEngine::periodicBox() const
+{
+    return periodicBoxOf(parts_->program);
+}
+
+Vector3d LiggghtsEngine::unwrappedPosition(Eigen::Index particle)
+{
+    return parts_->particles.unwrappedPosition(particle);
+}
+
 std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const
 {
     return contactMaterialsOf(parts_->program);

@@ -4,6 +4,7 @@
 #include "engine/liggghts/rows.h"
 
 #include <atom.h>
+#include <domain.h>
 #include <force.h>
 #include <lammps.h>
 #include <neigh_list.h>
@@ -62,6 +63,14 @@ ParticlesView LiggghtsParticles::view(
         state_ ? reinterpret_cast<CouplingState*>(state_->values()) : nullptr,
         ConstVectors(firstElement(atom.f), 3, count), pairs, memory_ ? memory_->values() : nullptr, memorySize_,
         advancesMemory, fixed, insertionRamp_->values(), Vectors(firstElement(atom.torque), 3, count)};
+}
+
+Vector3d LiggghtsParticles::unwrappedPosition(Eigen::Index particle) const
+{
+    const lmp::Atom& atom = *program_->atom;
+    Vector3d position;
+    program_->domain->unmap(atom.x[particle], atom.image[particle], position.data());
+    return position;
 }
 
 ParticlePairs LiggghtsParticles::pairs()

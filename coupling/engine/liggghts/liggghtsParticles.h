@@ -29,6 +29,9 @@ public:
     ParticlesView view(const ParticlePairs& pairs = {}, bool advancesMemory = true,
         const ConstView<bool>& fixed = ConstView<bool>(nullptr, 0)) const;
 
+    /// See DemEngine::unwrappedPosition().
+    Vector3d unwrappedPosition(Eigen::Index particle) const;
+
     /// LIGGGHTS' own list. It is a half list; with `newton off`, pairs across ranks are on both ranks.
     ParticlePairs pairs();
 

@@ -163,12 +163,27 @@ const ScriptCommand* ScriptFacts::lastCommand(const std::string& name) const
     return found == commands.rend() ? nullptr : &*found;
 }
 
+PeriodicBox periodicBoxOf(const LiggghtsProgram& program)
+{
+    const lmp::Domain& domain = *program->domain;
+    PeriodicBox periodic;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        if (domain.periodicity[axis] != 0)
+        {
+            periodic.low[axis] = domain.boxlo[axis];
+            periodic.length[axis] = domain.boxhi[axis] - domain.boxlo[axis];
+        }
+    }
+    return periodic;
+}
+
 ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> commands)
 {
     ScriptFacts facts{textOrEmpty(program->update->unit_style), textOrEmpty(program->atom->atom_style),
-        textOrEmpty(program->update->integrate_style), textOrEmpty(program->force->pair_style), {}, {},
-        integratedTwice(*program), std::move(commands)};
-    std::copy_n(program->domain->periodicity, facts.periodic.size(), facts.periodic.begin());
+        textOrEmpty(program->update->integrate_style), textOrEmpty(program->force->pair_style),
+        Box(Vector3d(program->domain->boxlo), Vector3d(program->domain->boxhi)), periodicBoxOf(program),
+        program->domain->triclinic != 0, {}, integratedTwice(*program), std::move(commands)};
     for (const lmp::Fix* fix : fixesOf(*program->modify))
     {
         const ScriptCommand* const command = facts.lastCommand(std::string("fix ") + fix->id);

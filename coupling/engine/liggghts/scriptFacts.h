@@ -2,8 +2,8 @@
 
 #include "engine/demEngine.h"
 #include "engine/liggghts/script.h"
+#include "engine/periodicBox.h"
 
-#include <array>
 #include <string>
 #include <vector>
 
@@ -44,11 +44,18 @@ struct ScriptFacts
     std::string atomStyle;
     std::string runStyle;
     std::string pairStyle;
-    std::array<bool, 3> periodic;
+    /// Corners of the box.
+    Box box;
+    PeriodicBox periodic;
+    /// Whether the box is sheared.
+    bool isTriclinic = false;
     std::vector<Fix> fixes;
     std::vector<SharedParticles> integratedTwice;
     std::vector<ScriptCommand> commands;
 };
+
+/// The periodic directions of LIGGGHTS' box. Local.
+PeriodicBox periodicBoxOf(const LiggghtsProgram& program);
 
 /// \param commands  the script's that have been executed, each with the values of its variables
 /// Collective.

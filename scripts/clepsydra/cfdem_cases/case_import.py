@@ -43,11 +43,12 @@ CONSTANT_FILES = (
     "environmentalProperties",
     "g",
     "dynamicMeshDict",
+    "fvOptions",
     "particleTrackProperties",
     "polyMesh",
     "triSurface",
 )
-SYSTEM_FILES = ("controlDict", "fvSchemes", "fvSolution", "blockMeshDict", "decomposeParDict")
+SYSTEM_FILES = ("controlDict", "fvSchemes", "fvSolution", "blockMeshDict", "decomposeParDict", "fvOptions")
 OFF = ("off", "false", "no")
 
 ALLRUN = """#!/bin/bash
@@ -279,7 +280,9 @@ class Import:
             self.report.change(where, "writeCompression", "is off here: a checkpoint must be seen to be whole")
         entries["runTimeModifiable"] = "no"
         old.text("runTimeModifiable")
-        if "libs" in old:
+        if "libs" in old and set(old.words("libs")) <= set(inlets.LIBRARIES):
+            self.report.left_out(where, "libs", f"{old.text('libs')}: its options become those of OpenFOAM")
+        elif "libs" in old:
             self.report.error(where, "libs", f"{old.text('libs')}: libraries of CFDEMcoupling or others are not here")
         entries["functions"] = self.functions()
         self.files["system/controlDict"] = foam_text.file("controlDict", "dictionary", entries)
@@ -396,6 +399,10 @@ class Import:
         )
         self.turbulence()
         self.gravity()
+        for folder in ("constant", "system"):
+            if self.has(f"CFD/{folder}/fvOptions"):
+                options = inlets.converted_sources(self.read(f"CFD/{folder}/fvOptions"), self.report)
+                self.files[f"{folder}/fvOptions"] = foam_text.file("fvOptions", "dictionary", options)
 
     def turbulence(self) -> None:
         """Only laminar flow: every file that names a model must name none."""

@@ -1,5 +1,6 @@
-"""Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there, between the particles
-here."""
+"""What drives the fluid. Velocities at inlets: superficial in CFDEMcoupling where 0/voidfraction is fixed there,
+between the particles here. fvOptions: those of OpenFOAM stay as they are, and CFDEMcoupling's own becomes the one of
+OpenFOAM."""
 
 import re
 from typing import Any, Iterable
@@ -9,6 +10,8 @@ from clepsydra.cfdem_cases.report import Report
 
 TERMS_OF_A_VARIABLE = 10
 FIXED = ("fixedValue", "uniformFixedValue")
+LIBRARIES = ("libfvOptionsCFDEM.so",)  # with CFDEMcoupling's own options
+OF_THEIR_SOLVERS = ("twoPhase", "coupled", "voidfractionField", "alphaField", "alphaMin", "rhoField")
 
 
 def converted(U: foam_text.Dictionary, void_fraction: foam_text.Dictionary, report: Report) -> Any:
@@ -125,3 +128,25 @@ def component(table: list[tuple[float, list[float]]], axis: int) -> list[str]:
 
 def ramp(slope: float, start: float) -> list[str]:
     return [f"{slope:.10g}*max(time() - {start:.10g}, 0)"] if abs(slope) > 1e-12 else []
+
+
+def converted_sources(options: foam_text.Dictionary, report: Report) -> dict[str, Any]:
+    """The options for the new case."""
+    new: dict[str, Any] = {}
+    for name, option in options.is_read().entries.items():
+        is_theirs = isinstance(option, foam_text.Dictionary) and option.text("type") == "meanSupVelocityForce"
+        new[name] = mean_velocity_force(option, report) if is_theirs else option
+    return new
+
+
+def mean_velocity_force(option: foam_text.Dictionary, report: Report) -> dict[str, Any]:
+    coefficients = option.sub("meanSupVelocityForceCoeffs")
+    kept = {name: value for name, value in coefficients.entries.items() if name not in OF_THEIR_SOLVERS}
+    report.change(
+        option.where,
+        f"meanSupVelocityForce Ubar {kept.get('Ubar', '')}",
+        "is OpenFOAM's meanVelocityForce here: Ubar is the mean of U between the particles, there of the void fraction"
+        " times U. Divide it by the mean void fraction where that is not near 1",
+    )
+    active = {"active": option.entries["active"]} if "active" in option else {}
+    return {"type": "meanVelocityForce", **active, "meanVelocityForceCoeffs": kept}
