@@ -13,6 +13,8 @@ set(_shared share/clepsydra)
 
 set_target_properties(pimpleDemFoam traceResidual closuresProgram PROPERTIES INSTALL_RPATH "$ORIGIN/../lib")
 install(TARGETS pimpleDemFoam traceResidual closuresProgram RUNTIME DESTINATION ${_programs}/bin)
+set_target_properties(clepsydraTurbulence PROPERTIES INSTALL_RPATH "$ORIGIN")
+install(TARGETS clepsydraTurbulence LIBRARY DESTINATION ${_programs}/lib)
 install(TARGETS coupling EXPORT ClepsydraTargets LIBRARY DESTINATION ${_programs}/lib INCLUDES DESTINATION include/clepsydra)
 if(TARGET scotchDecomp)
     install(TARGETS scotchDecomp LIBRARY DESTINATION ${_programs}/lib/openfoam)

@@ -126,7 +126,7 @@ RunInputs::RunInputs(const fvMesh& mesh, const std::vector<std::filesystem::path
         Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
     meshOfThisRank_ = {part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()), digestOf(mesh)}};
     for (const char* name : {"constant/couplingProperties", "constant/transportProperties", "constant/g",
-             "constant/fvOptions", "system/fvOptions"})
+             "constant/turbulenceProperties", "constant/fvOptions", "system/fvOptions"})
     {
         // On all ranks, because the file handlers collated and masterUncollated read included files collectively.
         const fileName file = mesh.time().globalPath() / name;

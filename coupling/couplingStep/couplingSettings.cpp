@@ -58,9 +58,10 @@ CouplingSettings::CouplingSettings(const Time& time)
     requireKnownEntries(dict_,
         {"fluid", "couplingTimeStep", "adjustableCouplingTimeStep", "maxCo", "minCouplingTimeStep",
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
-            "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime",
-            "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient"},
-        coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
+            "turbulentDispersion", "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets",
+            "insertionTime", "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient"},
+        coefficientsOfModels(
+            {"useDDTvoidfractionProps", "turbulentDispersionProps", "DEM", "particleOutput", "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
     requireKnownEntries(dict_.subOrEmptyDict("particleOutput"), {"writeVtk"});

@@ -29,7 +29,8 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     }
     if (models)
     {
-        engine_.requestMemory(models->forces.needs().memory + checkpointedState::size);
+        engine_.requestMemory(
+            models->forces.needs().memory + TurbulentDispersion::memory(settings.dict()) + checkpointedState::size);
     }
     engine_.requestState(numbersOf(CouplingState::ofNewParticle()));
     engine_.initialise(models ? &models->forces : nullptr);
@@ -37,7 +38,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     if (models)
     {
         fluid_ = std::make_unique<FluidCoupling>(mesh, settings, fluid, models->forces.needs(), engine,
-            models->distribution, models->meanPressureGradient, conservation_, timers_);
+            models->distribution, models->viscousStress, models->meanPressureGradient, conservation_, timers_);
     }
     conservation_.setInitialSolidVolume(insertionAndRemoval_.start(engine_.particles(), !resumed, findOutsideMesh()));
     if (models)
@@ -80,7 +81,7 @@ ParticlesInFluid CouplingStep::advanceParticles(const Foam::surfaceScalarField& 
 void CouplingStep::fluidToParticles(
     const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p)
 {
-    fluid_->updateAcceleration(U, couplingTimeStep_);
+    fluid_->endStep(U, couplingTimeStep_);
     fluid_->fluidToParticles(solved.particles(), U, p);
     solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()));
     removeParticlesThatLeft();

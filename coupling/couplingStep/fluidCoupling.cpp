@@ -10,8 +10,8 @@ namespace clepsydra
 using namespace Foam;
 
 FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, MeanPressureGradient& meanPressureGradient,
-    ConservationCheck& conservation, PhaseTimers& timers)
+    const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, const ViscousStress& viscousStress,
+    MeanPressureGradient& meanPressureGradient, ConservationCheck& conservation, PhaseTimers& timers)
     : mesh_(mesh),
       settings_(settings),
       fluid_(fluid),
@@ -20,7 +20,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       timers_(timers),
       meanPressureGradient_(meanPressureGradient),
       mapping_(mesh, settings.dict(), distribution, timers),
-      sampling_(mesh, settings, fluid, needs, distribution.smoothingModel()),
+      sampling_(mesh, settings, fluid, needs, distribution.smoothingModel(), viscousStress),
       dragTimes_(settings, fluid.density, engine.timeStep()),
       rows_(sampling_.removesSelfInducedVelocity()),
       fields_{ClippedVoidFraction(mesh, settings.minimumVoidFraction(), conservation),
@@ -196,7 +196,7 @@ void FluidCoupling::updateSizes(const LocatedParticles& located)
     sampling_.setSizes(columns(fields_.voidFraction.solidFraction()), volumePerDiameter.row(0));
 }
 
-void FluidCoupling::sample(const LocatedParticles& particles, const volVectorField& U, const volScalarField& p)
+void FluidCoupling::sample(const AnticipatedParticles& particles, const volVectorField& U, const volScalarField& p)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
     const ParticlesView view = engine_.particles();

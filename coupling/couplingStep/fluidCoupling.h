@@ -20,7 +20,7 @@ class FluidCoupling
 public:
     /// \param needs  quantities of the fluid that the forces need at the particles
     FluidCoupling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        const ForceNeeds& needs, DemEngine& engine, Distribution& distribution,
+        const ForceNeeds& needs, DemEngine& engine, Distribution& distribution, const ViscousStress& viscousStress,
         MeanPressureGradient& meanPressureGradient, ConservationCheck& conservation, PhaseTimers& timers);
 
     /// Computes the void fraction of the first particles, of which no motion is anticipated. Collective.
@@ -37,14 +37,15 @@ public:
     /// \param next  length of the coupling step after it, whose drag is in the semi-implicit source [s]
     ParticlesInFluid particlesToFluid(const DemResult& result, double next);
 
-    /// Computes DU/Dt, see FluidSampling::updateAcceleration().
-    void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep)
+    /// Ends the fluid's step, before it is sampled for the next one: see FluidSampling.
+    void endStep(const Foam::volVectorField& U, double couplingTimeStep)
     {
         sampling_.updateAcceleration(U, couplingTimeStep);
+        sampling_.endWalks(engine_.particles());
     }
 
     /// Samples the fluid at the particles, for the next DEM steps. Collective.
-    void sample(const LocatedParticles& particles, const Foam::volVectorField& U, const Foam::volScalarField& p);
+    void sample(const AnticipatedParticles& particles, const Foam::volVectorField& U, const Foam::volScalarField& p);
 
     /// Samples the fluid, and gives each particle its part of the drag that the fluid's equation held semi-implicitly,
     /// see SemiImplicitSource. Collective.

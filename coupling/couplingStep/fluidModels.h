@@ -4,12 +4,14 @@
 #include "forces/particleForces.h"
 #include "couplingStep/couplingSettings.h"
 #include "couplingStep/meanPressureGradient.h"
+#include "couplingStep/viscousStress.h"
 #include "phaseTimers.h"
 
 namespace clepsydra
 {
 
-/// The models that couplingProperties selects, with their coefficients. They are created before the engine starts and
+/// The models that couplingProperties selects, with their coefficients, and the stress of the fluid. They are created
+/// before the engine starts and
 /// before any file is written, so that a wrong entry leaves the case unchanged.
 struct FluidModels
 {
@@ -18,7 +20,8 @@ struct FluidModels
         : forces(settings.dict(), settings.modelType(), fluid, timers),
           distribution(settings.dict(), mesh),
           meanPressureGradient(settings.dict(), mesh, distribution.periodicBox(), fluid, settings.modelType(),
-              forces.needs().pressureGradient)
+              forces.needs().pressureGradient),
+          viscousStress(mesh, fluid)
     {
         forces.requireAllTerms(settings.dict());
     }
@@ -26,6 +29,8 @@ struct FluidModels
     ParticleForces forces;
     Distribution distribution;
     MeanPressureGradient meanPressureGradient;
+    /// Of the fluid's momentum equation and of the viscous force on particles.
+    ViscousStress viscousStress;
 };
 
 } // namespace clepsydra

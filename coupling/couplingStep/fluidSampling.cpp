@@ -2,6 +2,7 @@
 
 #include "couplingStep/checkpointedState.h"
 #include "couplingStep/couplingField.h"
+#include "couplingStep/particlesInFluid.h"
 #include "vectors.h"
 
 #include "fvcCurl.H"
@@ -15,12 +16,13 @@ namespace clepsydra
 using namespace Foam;
 
 FluidSampling::FluidSampling(const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    const ForceNeeds& needs, const SmoothingModel& smoothing)
+    const ForceNeeds& needs, const SmoothingModel& smoothing, const ViscousStress& viscousStress)
     : fluid_(fluid),
       needs_(needs),
       coarseGraining_(settings.coarseGraining()),
       selfInducedVelocityCorrection_(settings, fluid, smoothing),
-      viscousStress_(mesh, fluid)
+      turbulentDispersion_(settings, fluid),
+      viscousStress_(viscousStress)
 {
     if (needs_.acceleration)
     {
@@ -56,7 +58,7 @@ void FluidSampling::setSizes(const ConstRow& solidFraction, const ConstRow& volu
     sizes_ << solidFraction, volumePerDiameter;
 }
 
-FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const volVectorField& U,
+FluidAtParticles FluidSampling::sample(const AnticipatedParticles& particles, const volVectorField& U,
     const volScalarField& voidFraction, const Eigen::MatrixXd& pressureGradient) const
 {
     SampledFields fields;
@@ -71,6 +73,17 @@ FluidAtParticles FluidSampling::sample(const LocatedParticles& particles, const 
         fluid.velocity = Eigen::Map<const Vector3d>(value);
         fluid.velocityInCells = fluid.velocity;
     });
+    if (turbulentDispersion_.isActive())
+    {
+        const FluidTurbulence& turbulence = *viscousStress_.turbulence();
+        Eigen::Matrix2Xd eddies(2, U.size());
+        eddies << columns(turbulence.k()().primitiveField()), columns(turbulence.dissipation()().primitiveField());
+        fields.add(eddies,
+            [this, time = particles.timeStep](const ParticlesView& view, Eigen::Index particle, const double* value) {
+                view.state[particle].fluid.velocity +=
+                    turbulentDispersion_.velocity(view, particle, value[0], value[1], time);
+            });
+    }
     fields.add(pressureGradient, &FluidAtParticle::pressureGradient);
     if (needs_.viscousStress)
     {

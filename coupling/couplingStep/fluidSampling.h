@@ -4,11 +4,14 @@
 #include "couplingStep/fluidAtParticles.h"
 #include "couplingStep/rows.h"
 #include "couplingStep/selfInducedVelocityCorrection.h"
+#include "couplingStep/turbulentDispersion.h"
 #include "couplingStep/viscousStress.h"
 #include "forces/forceModel.h"
 
 namespace clepsydra
 {
+
+struct AnticipatedParticles;
 
 /// Samples what the forces need of the fluid at the particles. To add a quantity, give FluidAtParticle a member and
 /// sample() a line.
@@ -16,8 +19,9 @@ class FluidSampling
 {
 public:
     /// Reads the fields that an earlier process of this run has written.
+    /// \param viscousStress  that of the fluid's momentum equation
     FluidSampling(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        const ForceNeeds& needs, const SmoothingModel& smoothing);
+        const ForceNeeds& needs, const SmoothingModel& smoothing, const ViscousStress& viscousStress);
 
     bool removesSelfInducedVelocity() const
     {
@@ -27,6 +31,12 @@ public:
     /// Computes DU/Dt over the coupling step that has just been solved, where a force needs it. It is stored as a field,
     /// so that a resumed run has it too.
     void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
+
+    /// Lets the particles go on through the eddies with the next sample(), where turbulent dispersion is selected.
+    void endWalks(const ParticlesView& particles) const
+    {
+        turbulentDispersion_.endStep(particles);
+    }
 
     /// Sets the drag coefficient of all particles per volume.
     /// \param resistanceTime  times the length of the coupling step [kg/m3] \pre removesSelfInducedVelocity()
@@ -44,7 +54,7 @@ public:
 
     /// Collective.
     /// \param pressureGradient  that acts on the particles [Pa/m], 3 x cells
-    FluidAtParticles sample(const LocatedParticles& particles, const Foam::volVectorField& U,
+    FluidAtParticles sample(const AnticipatedParticles& particles, const Foam::volVectorField& U,
         const Foam::volScalarField& voidFraction, const Eigen::MatrixXd& pressureGradient) const;
 
     /// The self-induced velocity is computed from drag and mobility at the last sampling. They are stored in the part of
@@ -57,7 +67,8 @@ private:
     const ForceNeeds needs_;
     const double coarseGraining_;
     const SelfInducedVelocityCorrection selfInducedVelocityCorrection_;
-    const ViscousStress viscousStress_;
+    const TurbulentDispersion turbulentDispersion_;
+    const ViscousStress& viscousStress_;
     /// Null where the self-induced velocity is not removed.
     Foam::autoPtr<Foam::volScalarField> resistance_;
     /// DU/Dt [m/s2]; null where no force needs it.

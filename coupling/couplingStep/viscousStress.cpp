@@ -21,16 +21,20 @@ tmp<volVectorField> ofTranspose(const Viscosity& nu, const volVectorField& U)
     return fvc::div(nu * dev2(T(fvc::grad(U))));
 }
 
+/// Names of the schemes, as those of OpenFOAM's single-phase solvers.
+const word laminarScheme("laplacian(nu,U)");
+const word turbulentScheme("laplacian(nuEff,U)");
+
 template<class Viscosity>
-tmp<volVectorField> explicitly(const Viscosity& nu, const volVectorField& U)
+tmp<volVectorField> explicitly(const Viscosity& nu, const volVectorField& U, const word& scheme)
 {
-    return fvc::laplacian(nu, U, "laplacian(nu,U)") + ofTranspose(nu, U);
+    return fvc::laplacian(nu, U, scheme) + ofTranspose(nu, U);
 }
 
 template<class Viscosity>
-tmp<fvVectorMatrix> implicitly(const Viscosity& nu, volVectorField& U)
+tmp<fvVectorMatrix> implicitly(const Viscosity& nu, volVectorField& U, const word& scheme)
 {
-    return fvm::laplacian(nu, U, "laplacian(nu,U)") + ofTranspose(nu, U);
+    return fvm::laplacian(nu, U, scheme) + ofTranspose(nu, U);
 }
 
 void setViscosity(scalarField& nu, const vectorField& places, const FluidProperties& fluid)
@@ -70,14 +74,28 @@ ViscousStress::ViscousStress(const fvMesh& mesh, const FluidProperties& fluid)
     }
 }
 
+tmp<volScalarField> ViscousStress::effectiveViscosity() const
+{
+    const volScalarField& eddyViscosity = turbulence_->eddyViscosity();
+    return tmp<volScalarField>::New("nuEff", stratified_ ? eddyViscosity + *stratified_ : eddyViscosity + uniform_);
+}
+
 tmp<volVectorField> ViscousStress::divergence(const volVectorField& U) const
 {
-    return stratified_ ? explicitly(*stratified_, U) : explicitly(uniform_, U);
+    if (turbulence_)
+    {
+        return explicitly(effectiveViscosity()(), U, turbulentScheme);
+    }
+    return stratified_ ? explicitly(*stratified_, U, laminarScheme) : explicitly(uniform_, U, laminarScheme);
 }
 
 tmp<fvVectorMatrix> ViscousStress::implicitDivergence(volVectorField& U) const
 {
-    return stratified_ ? implicitly(*stratified_, U) : implicitly(uniform_, U);
+    if (turbulence_)
+    {
+        return implicitly(effectiveViscosity()(), U, turbulentScheme);
+    }
+    return stratified_ ? implicitly(*stratified_, U, laminarScheme) : implicitly(uniform_, U, laminarScheme);
 }
 
 } // namespace clepsydra

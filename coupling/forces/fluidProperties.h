@@ -6,6 +6,8 @@
 #include "boundBox.H"
 #include "dictionary.H"
 
+#include <string>
+
 namespace clepsydra
 {
 
@@ -17,6 +19,8 @@ struct FluidProperties
     double dynamicViscosity;
     Vector3d gravity;
     closures::Stratification stratification = {};
+    /// Turbulence model as it is reported, such as "RAS kEpsilon"; empty for laminar flow.
+    std::string turbulence = {};
 
     /// Dynamic viscosity at a position [Pa s]. \param diameter  of the particle on which the liquid acts [m]; 0 for the
     /// liquid itself

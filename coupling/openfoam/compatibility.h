@@ -1,7 +1,8 @@
 #pragma once
 
 // All differences of OpenFOAM's interface between the versions with which Clepsydra compiles (ESI, v1912 and later) are
-// handled in this file. FindOpenFOAM.cmake defines OPENFOAM (2312 for v2312).
+// handled in this file, except those of the turbulence models (solvers/turbulence/modelTypes.h). FindOpenFOAM.cmake defines
+// OPENFOAM (2312 for v2312).
 
 #include "IOobject.H"
 #include "Time.H"

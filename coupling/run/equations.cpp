@@ -38,8 +38,13 @@ std::string continuity(const CouplingSettings& settings)
 std::string stress(const FluidProperties& fluid)
 {
     std::ostringstream text;
-    text << "tau = mu (grad(U) + grad(U)^T - 2/3 div(U) I), mu = " << fluid.dynamicViscosity << " Pa s"
+    text << "tau = " << (fluid.turbulence.empty() ? "mu" : "(mu + rho_f nut)")
+         << " (grad(U) + grad(U)^T - 2/3 div(U) I), mu = " << fluid.dynamicViscosity << " Pa s"
          << (fluid.stratification.isThere() ? " in the lower liquid, stratified" : "");
+    if (!fluid.turbulence.empty())
+    {
+        text << ", nut: " << fluid.turbulence << " with the void fraction in its equations";
+    }
     return text.str();
 }
 

@@ -15,6 +15,7 @@
 #include "run/caseSizes.h"
 #include "run/runOutput.h"
 #include "runTimeSelection.h"
+#include "turbulence.h"
 #include "vectors.h"
 #include "voidFractionFlow.h"
 
@@ -30,21 +31,6 @@ namespace
 
 using namespace clepsydra;
 
-/// Refuses entries of OpenFOAM's other solvers that would have no effect here.
-void requireLaminar(const Time& runTime, const dictionary& transportProperties)
-{
-    if (transportProperties.found("transportModel"))
-    {
-        selectedModel(transportProperties, "transportModel", {"Newtonian"});
-    }
-    const IOdictionary turbulence(
-        IOobject("turbulenceProperties", runTime.constant(), runTime, IOobject::READ_IF_PRESENT, IOobject::NO_WRITE));
-    if (turbulence.found("simulationType"))
-    {
-        selectedModel(turbulence, "simulationType", {"laminar"});
-    }
-}
-
 FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
 {
     const IOdictionary transportProperties(
@@ -53,7 +39,10 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
     requireKnownEntries(transportProperties, {"transportModel", "rho", "nu"}, {"stratification"});
-    requireLaminar(runTime, transportProperties);
+    if (transportProperties.found("transportModel"))
+    {
+        selectedModel(transportProperties, "transportModel", {"Newtonian"});
+    }
     const auto positive = [&](const word& entry, const dimensionSet& dimensions) {
         const dimensionedScalar value(entry, dimensions, transportProperties);
         requirePositive(transportProperties, entry, value.value());
@@ -63,7 +52,8 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
     const double kinematicViscosity = positive("nu", dimViscosity);
 
     const Vector3d gravity = toEigen(g.value());
-    return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
+    return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh),
+        readTurbulence(runTime)};
 }
 
 /// Writes the particles for other runs, with a checksum that these runs check.
@@ -111,9 +101,10 @@ private:
 };
 
 void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
-    CouplingStep& couplingStep, RunOutput& output)
+    FluidModels& models, CouplingStep& couplingStep, RunOutput& output, bool resumed)
 {
-    VoidFractionFlow flow(mesh, fluid, modelType, couplingStep.timers());
+    VoidFractionFlow flow(mesh, fluid, modelType, models.viscousStress, couplingStep.timers());
+    flow.addTurbulence(fluid, couplingStep.fluid().voidFraction(), resumed);
     couplingStep.start(flow.U(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
@@ -219,7 +210,8 @@ int main(int argc, char* argv[])
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, settings.modelType(), couplingStep, output);
+            runWithFluid(
+                runTime, mesh, fluid, settings.modelType(), *models, couplingStep, output, checkpoints.resumed());
         }
         else
         {

@@ -1,6 +1,7 @@
 #include "voidFractionFlow.h"
 
 #include "openfoam/objectFile.h"
+#include "turbulence.h"
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
@@ -64,7 +65,8 @@ scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField
 
 } // namespace
 
-VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, PhaseTimers& timers)
+VoidFractionFlow::VoidFractionFlow(
+    fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, ViscousStress& viscousStress, PhaseTimers& timers)
     : mesh_(mesh),
       timers_(timers),
       pimple_(mesh),
@@ -73,7 +75,7 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, M
       phi_(readFlux(U_)),
       alphaPhi_(
           IOobject("alphaPhi", mesh.time().timeName(), mesh, IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE), phi_),
-      viscousStress_(mesh, fluid),
+      viscousStress_(viscousStress),
       sources_(mesh, fluid, modelType)
 {
     requireDimensions(p_, sqr(dimVelocity), "the kinematic pressure, which is the pressure in Pa divided by rho");
@@ -81,6 +83,15 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, const FluidProperties& fluid, M
     requireDimensions(phi_, dimVolume / dimTime, "a flux of volume");
     setRefCell(p_, pimple_.dict(), pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
+}
+
+void VoidFractionFlow::addTurbulence(const FluidProperties& fluid, const volScalarField& voidFraction, bool resumed)
+{
+    if (!fluid.turbulence.empty())
+    {
+        turbulence_ = newTurbulence({fluid, voidFraction, U_, phi_, alphaPhi_}, resumed);
+        viscousStress_.add(*turbulence_);
+    }
 }
 
 void VoidFractionFlow::updateAlphaPhi(const volScalarField& voidFraction)
@@ -99,6 +110,11 @@ SolvedStep VoidFractionFlow::solve(ParticlesInFluid& particles)
         while (pimple_.correct())
         {
             correctPressure(particles, UEqn);
+        }
+        if (turbulence_ && pimple_.turbCorr())
+        {
+            const PhaseTimers::Scope timing = timers_.time("turbulence");
+            turbulence_->correct(particles.voidFractionf() * phi_);
         }
     }
     alphaPhi_ = particles.voidFractionf() * phi_;

@@ -17,7 +17,12 @@ class VoidFractionFlow
 public:
     /// Reads p and U, where the run was stopped also phi, and the sources. FatalError that names the file where a field
     /// has wrong dimensions.
-    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, PhaseTimers& timers);
+    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
+        ViscousStress& viscousStress, PhaseTimers& timers);
+
+    /// Creates the turbulence model, where the fluid has one, and adds it to the stress. Call before CouplingStep::start(),
+    /// whose forces contain the stress. \param resumed  see NewFluidTurbulence
+    void addTurbulence(const FluidProperties& fluid, const Foam::volScalarField& voidFraction, bool resumed);
 
     /// Interstitial velocity [m/s].
     Foam::volVectorField& U()
@@ -58,8 +63,9 @@ private:
     Foam::surfaceScalarField alphaPhi_;
     Foam::label pRefCell_ = 0;
     Foam::scalar pRefValue_ = 0;
-    const ViscousStress viscousStress_;
+    ViscousStress& viscousStress_;
     const FluidSources sources_;
+    std::unique_ptr<FluidTurbulence> turbulence_; // null in laminar flow
 };
 
 } // namespace clepsydra

@@ -34,6 +34,7 @@ MODELS = {
     "selfInducedVelocityCorrection": ["models-selfInducedVelocityCorrection"],
     "coarseGraining": ["models-coarseGraining"],
     "meanPressureGradient": ["models-meanPressureGradient"],
+    "turbulentDispersion": ["models-turbulentDispersion"],
     "forceModels": [
         "models-forceModels-drag",
         "models-forceModels-other",
@@ -46,6 +47,9 @@ MODELS = {
     "historyForceProps { law }": ["models-historyForceProps"],
     "functions { type }": ["models-functions"],
     "DEM/engine": ["models-engine"],
+    "turbulenceProperties { simulationType }": ["models-simulationType"],
+    "turbulenceProperties { RAS { RASModel } }": ["models-RASModel"],
+    "turbulenceProperties { LES { LESModel } }": ["models-LESModel"],
 }
 
 # File of each call of requireKnownEntries(), in the order of the calls -> label; None where the call allows no entry.
@@ -57,6 +61,7 @@ ENTRIES: dict[str, list[Optional[str]]] = {
         "entries-useDDTvoidfractionProps",
     ],
     "coupling/conservation/conservationCheck.cpp": ["entries-conservationCheck"],
+    "coupling/couplingStep/turbulentDispersion.cpp": ["entries-turbulentDispersionProps"],
     "coupling/distribution/constDiffSmoothing.cpp": ["entries-constDiffSmoothingProps"],
     "coupling/distribution/gaussianVoidFraction.cpp": ["entries-GaussianProps"],
     "coupling/distribution/voidFractionModel.cpp": ["entries-dividedProps", "entries-dividedProps"],

@@ -781,8 +781,8 @@ TEST(BadInput, SizesAndFilesThatNobodyReads)
     expectEntryRefused("DEM/variables/youngsModulus", "1e200", {"1e+200"});
     expectRefused([](TestCase& test) { test.coupling().set("constDiffSmoothingProps/bandwidth", "1"); },
         {couplingProperties, "'bandwidth' is 1 m", "the mesh spans"}, SeenBy::engine);
-    expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationType", "RAS"); },
-        {"turbulenceProperties", "'RAS'", "laminar"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.file("constant/turbulenceProperties").set("simulationType", "DNS"); },
+        {"turbulenceProperties", "'DNS'", "laminar"}, SeenBy::dictionaries);
     expectRefused([](TestCase& test) { test.file("0/voidfraction") = test.file("0/p"); },
         {"0/voidfraction", "did you mean 'voidFraction'?", "allowed:"}, SeenBy::engine);
 }
