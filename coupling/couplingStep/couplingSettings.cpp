@@ -59,7 +59,7 @@ CouplingSettings::CouplingSettings(const Time& time)
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets", "insertionTime",
             "allowParticlesOutsideMesh"},
-        coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "particleOutput", "conservationCheck"}));
+        coefficientsOfModels({"useDDTvoidfractionProps", "DEM", "energy", "particleOutput", "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
     requireKnownEntries(dict_.subOrEmptyDict("particleOutput"), {"writeVtk"});

@@ -119,10 +119,29 @@ void addForces(const ParticleForces& forces, ModelType modelType, std::vector<st
     lines.insert(lines.end(), leftOut.begin(), leftOut.end());
 }
 
+void addTemperatures(const ThermalProperties& fluid, std::vector<std::string>& lines)
+{
+    lines.push_back(
+        lineOf("temperature", "rho_f Cp (d(eps T)/dt + div(eps U T)) = div(eps kappa grad(T)) - Q"));
+    std::ostringstream values;
+    values << "Cp = " << fluid.specificHeat << " J/(kg K), kappa = " << fluid.conductivity << " W/(m K)";
+    lines.push_back(lineOf("", values.str()));
+    lines.push_back(lineOf("", "Q: h A (T - T_p), summed over the particles, per volume"));
+    if (fluid.expansion > 0)
+    {
+        std::ostringstream buoyancy;
+        buoyancy << "momentum also has - eps rho_f beta (T - TRef) g, beta = " << fluid.expansion
+                 << " 1/K, TRef = " << fluid.referenceTemperature << " K";
+        lines.push_back(lineOf("", buoyancy.str()));
+    }
+    lines.push_back(lineOf("of a particle", "m Cp_p dT_p/dt = h A (T - T_p) + heat of the DEM script (contacts)"));
+}
+
 } // namespace
 
 std::vector<std::string> equations(
-    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces)
+    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces,
+    const std::optional<Energy>& energy)
 {
     const std::string motion = "m dv/dt = forces of the DEM script (contacts, gravity)";
     if (forces == nullptr)
@@ -137,6 +156,10 @@ std::vector<std::string> equations(
         lineOf("", "S: the terms below whose reaction is in S, summed over the particles, per volume"),
         lineOf("", "p [Pa]: without its hydrostatic part; the field p is p/rho_f"), lineOf("particle", motion)};
     addForces(*forces, settings.modelType(), lines);
+    if (energy)
+    {
+        addTemperatures(energy->fluid, lines);
+    }
     return lines;
 }
 

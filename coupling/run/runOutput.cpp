@@ -42,8 +42,8 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
-    bool dryRun)
+    DemEngine& engine, const FluidModels* models, const std::optional<Energy>& energy, CouplingStep& couplingStep,
+    const Checkpoints& checkpoints, bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
@@ -59,7 +59,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     }
     startTime_ = time_.value();
     couplingStepCount_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
-    printReport(fluid, models);
+    printReport(fluid, models, energy);
     if (models)
     {
         const double smoothingBandwidth = models->distribution.smoothingModel().bandwidth();
@@ -68,7 +68,8 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     }
 }
 
-void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* models)
+void RunOutput::printReport(
+    const FluidProperties& fluid, const FluidModels* models, const std::optional<Energy>& energy)
 {
     std::vector<std::string> lines;
     if (models)
@@ -81,6 +82,10 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
         {
             lines.push_back(describe(fluid.stratification));
         }
+        if (energy)
+        {
+            lines.push_back("heat           " + HeatTransferModel::New(energy->dict)->description());
+        }
         lines.push_back("void fraction  " + models->distribution.voidFractionModel().description());
         lines.push_back("smoothing      " + models->distribution.smoothingModel().description());
     }
@@ -90,7 +95,7 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     }
     const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_);
     printStartReport(
-        engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr), scales, settings_.demDict());
+        engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr, energy), scales, settings_.demDict());
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.particles > 0;
 }

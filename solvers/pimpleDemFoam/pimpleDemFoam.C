@@ -10,6 +10,7 @@
 #include "demProgram.h"
 #include "ignoredInputs.h"
 #include "fluidSources.h"
+#include "fluidTemperature.h"
 #include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
@@ -45,14 +46,21 @@ void requireLaminar(const Time& runTime, const dictionary& transportProperties)
     }
 }
 
-FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
+IOdictionary readTransportProperties(const Time& runTime)
 {
-    const IOdictionary transportProperties(
+    IOdictionary transportProperties(
         IOobject("transportProperties", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
+    requireKnownEntries(transportProperties, {"transportModel", "rho", "nu", "Cp", "kappa", "beta", "TRef"},
+        {"stratification"});
+    return transportProperties;
+}
+
+FluidProperties readFluidProperties(
+    const Time& runTime, const dictionary& transportProperties, const boundBox& mesh)
+{
     const uniformDimensionedVectorField g(
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
-    requireKnownEntries(transportProperties, {"transportModel", "rho", "nu"}, {"stratification"});
     requireLaminar(runTime, transportProperties);
     const auto positive = [&](const word& entry, const dimensionSet& dimensions) {
         const dimensionedScalar value(entry, dimensions, transportProperties);
@@ -110,10 +118,15 @@ private:
     const int before_ = messageStream::level;
 };
 
+/// \param temperature  null where the case has none
 void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
-    CouplingStep& couplingStep, RunOutput& output)
+    FluidTemperature* temperature, CouplingStep& couplingStep, RunOutput& output)
 {
     VoidFractionFlow flow(mesh, fluid, modelType, couplingStep.timers());
+    if (temperature)
+    {
+        flow.setAcceleration(temperature->buoyancy());
+    }
     couplingStep.start(flow.U(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
@@ -126,6 +139,11 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
             Info << "Time = " << runTime.timeName() << nl;
             return flow.solve(particles);
         }();
+        if (temperature)
+        {
+            const QuietOnTerminal quiet(output);
+            temperature->solve(particles, flow.alphaPhi());
+        }
         couplingStep.fluidToParticles(solved, flow.U(), flow.p());
         if (output.afterCouplingStep())
         {
@@ -193,9 +211,13 @@ int main(int argc, char* argv[])
 
     const CouplingSettings settings(runTime);
     requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
-    const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
+    FluidProperties fluid{};
+    std::optional<Energy> energy;
     if (settings.hasFluid())
     {
+        const IOdictionary transportProperties = readTransportProperties(runTime);
+        fluid = readFluidProperties(runTime, transportProperties, mesh.bounds());
+        energy = readEnergy(settings, transportProperties);
         checkScalarTransport(mesh);
     }
     else
@@ -213,13 +235,19 @@ int main(int argc, char* argv[])
             runTime.resume(checkpoints.beginning());
         }
         DemEngine& engine = demProgram->start(checkpoints, mesh, models ? &fluid : nullptr);
+        std::optional<FluidTemperature> temperature;
+        if (energy)
+        {
+            temperature.emplace(mesh, *energy, fluid, engine);
+        }
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         demProgram->warnOfUnreadInput();
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), energy, couplingStep, checkpoints, dryRun);
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, settings.modelType(), couplingStep, output);
+            runWithFluid(runTime, mesh, fluid, settings.modelType(), temperature ? &*temperature : nullptr, couplingStep,
+                output);
         }
         else
         {

@@ -1,5 +1,6 @@
 #include "scriptRules.h"
 
+#include "couplingStep/energy.h"
 #include "movingWalls.h"
 #include "runTimeSelection.h"
 #include "wordRes.H"
@@ -35,6 +36,9 @@ const std::set<std::string> knownFixes = {
     "READ_RESTART", "STORE", "contacthistory", "contacthistory/mesh", "neighlist/mesh", "contactproperty/atom",
     "contactproperty/atom/wall", "diam/max"};
 
+/// Styles of LIGGGHTS' heat conduction, which work with a fluid whose temperature is computed.
+const std::set<std::string> heatFixes = {"heat/gran", "heat/gran/conduction", "transportequation/scalar"};
+
 /// Why fixes are not known to work with a fluid, by the beginning of their style.
 const std::map<std::string, std::string> reasons = {
     {"buoyancy", "the fluid's forces are those of forceModels, and this force would be added to them"},
@@ -43,7 +47,7 @@ const std::map<std::string, std::string> reasons = {
     {"deform", "the DEM box changes, and the fluid's mesh does not"},
     {"drag", "the fluid's forces are those of forceModels, and this force would be added to them"},
     {"external", "the coupling adds its own fix of this style, which must be the only one"},
-    {"heat/", "the fluid neither heats nor cools the particles"},
+    {"heat/", "without the dictionary 'energy' in couplingProperties the fluid neither heats nor cools the particles"},
     {"multisphere", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
     {"particletemplate/multi",
         "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
@@ -103,7 +107,7 @@ std::string objectionToGravity(const ScriptFacts::Fix& gravity, const ScriptFact
                                                                  : std::string();
 }
 
-void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
+void addFixes(const ScriptFacts& facts, bool hasEnergy, std::vector<Unknown>& unknown)
 {
     const bool hasIf = facts.lastCommand("if") != nullptr;
     for (const ScriptFacts::Fix& fix : facts.fixes)
@@ -115,7 +119,8 @@ void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
         }
         const std::string place = placeOf(fix.command);
         const std::string name = "fix " + fix.id + " has the style '" + fix.style + "': ";
-        if (knownFixes.count(fix.style) == 0)
+        const bool isKnown = knownFixes.count(fix.style) > 0 || (hasEnergy && heatFixes.count(fix.style) > 0);
+        if (!isKnown)
         {
             unknown.push_back({place, name + reasonFor(fix.style), fix.style});
         }
@@ -138,7 +143,7 @@ void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, std::vector<Un
     }
 }
 
-std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh)
+std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, bool hasEnergy, const fvMesh& mesh)
 {
     std::vector<Unknown> unknown;
     const std::string axes = "xyz";
@@ -163,7 +168,7 @@ std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& me
     requireOneOf("atom_style", facts.atomStyle, {"granular", "sphere"});
     requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
     requireOneOf("run_style", facts.runStyle, {"verlet"});
-    addFixes(facts, unknown);
+    addFixes(facts, hasEnergy, unknown);
     addMovingWalls(facts, mesh, unknown);
     return unknown;
 }
@@ -215,7 +220,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     requireRightWithFluid(demDict, facts);
     std::string text;
     std::set<std::string> names;
-    for (const auto& [place, what, name] : unknownWithFluid(facts, mesh))
+    for (const auto& [place, what, name] : unknownWithFluid(facts, clepsydra::hasEnergy(settings), mesh))
     {
         if (!allowed.match(name))
         {

@@ -41,6 +41,19 @@ public:
     /// present phi. Call before the first step; solve() does so after each.
     void updateAlphaPhi(const Foam::volScalarField& voidFraction);
 
+    /// The flux of fluid of the last updateAlphaPhi() or solve() [m3/s].
+    const Foam::surfaceScalarField& alphaPhi() const
+    {
+        return alphaPhi_;
+    }
+
+    /// Adds an acceleration of the fluid to the momentum equation, or none where it is null. It must exist as long as
+    /// solve() is called.
+    void setAcceleration(const Foam::volVectorField* acceleration)
+    {
+        acceleration_ = acceleration;
+    }
+
     /// Solves the fluid's equations over one coupling step.
     SolvedStep solve(ParticlesInFluid& particles);
 
@@ -60,6 +73,7 @@ private:
     Foam::scalar pRefValue_ = 0;
     const ViscousStress viscousStress_;
     const FluidSources sources_;
+    const Foam::volVectorField* acceleration_ = nullptr;
 };
 
 } // namespace clepsydra

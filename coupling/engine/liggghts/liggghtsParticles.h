@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/liggghts/particleProperty.h"
-#include "engine/particles.h"
+#include "engine/particleTemperatures.h"
 
 #include <array>
 #include <optional>
@@ -23,6 +23,10 @@ public:
     void requestState(const std::vector<double>& ofNewParticle);
     void requestMemory(int numbers);
 
+    /// As the members of ParticleTemperatures with these names.
+    void requestTemperatures(const HeatOfParticles& heat);
+    TemperaturesView temperatures();
+
     /// Adds what was requested to LIGGGHTS, and the insertion ramp.
     void addProperties();
 
@@ -41,6 +45,8 @@ public:
     std::vector<bool> areNew() const;
 
 private:
+    void addTemperatures();
+
     LiggghtsProgram& program_;
     std::vector<double> stateOfNewParticle_;
     int memorySize_ = 0;
@@ -48,6 +54,12 @@ private:
     std::optional<ParticleProperty> state_;
     std::optional<ParticleProperty> memory_;
     std::optional<ParticleProperty> insertionRamp_;
+    std::optional<HeatOfParticles> heat_;
+    std::optional<ParticleProperty> temperature_;
+    /// By material [J/(kg K)].
+    std::vector<double> specificHeats_;
+    /// Of the particles when temperatures() was called last.
+    std::vector<double> heatCapacities_;
     std::vector<std::array<int, 2>> pairList_;
 };
 
