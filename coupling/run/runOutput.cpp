@@ -1,5 +1,6 @@
 #include "run/runOutput.h"
 
+#include "couplingStep/heatTransferModel.h"
 #include "files/writeFailures.h"
 #include "functionObjects/massInHopper.h"
 #include "run/caseSizes.h"

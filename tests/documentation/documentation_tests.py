@@ -44,6 +44,7 @@ MODELS = {
     "historyForceProps { law }": ["models-historyForceProps"],
     "functions { type }": ["models-functions"],
     "DEM/engine": ["models-engine"],
+    "energy/heatTransferModel": ["models-heatTransferModel"],
 }
 
 # File of each call of requireKnownEntries(), in the order of the calls -> label; None where the call allows no entry.
@@ -55,6 +56,7 @@ ENTRIES: dict[str, list[Optional[str]]] = {
         "entries-useDDTvoidfractionProps",
     ],
     "coupling/conservation/conservationCheck.cpp": ["entries-conservationCheck"],
+    "coupling/couplingStep/energy.cpp": ["entries-energy"],
     "coupling/distribution/constDiffSmoothing.cpp": ["entries-constDiffSmoothingProps"],
     "coupling/distribution/gaussianVoidFraction.cpp": ["entries-GaussianProps"],
     "coupling/distribution/voidFractionModel.cpp": ["entries-dividedProps", "entries-dividedProps"],

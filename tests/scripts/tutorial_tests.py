@@ -20,6 +20,7 @@ BY_HAND = {
     "settlingParticle": (["blockMesh"], "particleHeight/0/particleHeight.dat", "0.005"),
     "fluidisedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "gasFluidisedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
+    "heatedBed": (["blockMesh"], "outletTemperature/0/surfaceFieldValue.dat", "0.01"),
     "spoutedBed": (["blockMesh"], "pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "hopperDry": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
     "hopperSubmerged": (["blockMesh"], "massInHopper/0/massInHopper.dat", "0.01"),
