@@ -43,6 +43,25 @@ struct HeatOfStep
     double ofContinuityError = 0;
 };
 
+/// Heat since the start of this process, over all ranks [J], and the largest errors.
+struct HeatSoFar
+{
+    HeatOfStep last;
+    /// In fluid and particles and pending.
+    double atStart = 0;
+    double toParticles = 0;
+    double throughBoundary = 0;
+    double ofContinuityError = 0;
+    double exchangeError = 0;
+    double largestExchangeError = 0;
+    double largestFluidError = 0;
+
+    double now() const
+    {
+        return last.inFluid + last.inParticles + last.pending;
+    }
+};
+
 /// Solid volume that is cut off where the void fraction is below alphaMin.
 struct ClippedVolume
 {
@@ -222,25 +241,8 @@ private:
     Foam::label outsideMesh_ = 0;
     Foam::label leftMesh_ = 0;
     double imbalance_ = 0;
-    /// Sums and largest errors since the start of this process; empty where no heat is recorded.
-    struct Heat
-    {
-        HeatOfStep last;
-        /// In fluid and particles and pending [J].
-        double atStart;
-        double toParticles = 0;
-        double throughBoundary = 0;
-        double ofContinuityError = 0;
-        double exchangeError = 0;
-        double largestExchangeError = 0;
-        double largestFluidError = 0;
-
-        double now() const
-        {
-            return last.inFluid + last.inParticles + last.pending;
-        }
-    };
-    std::optional<Heat> heat_;
+    /// Empty where no heat is recorded.
+    std::optional<HeatSoFar> heat_;
 };
 
 } // namespace clepsydra

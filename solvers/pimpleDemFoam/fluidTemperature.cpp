@@ -88,7 +88,7 @@ void FluidTemperature::solve(const ParticlesInFluid& particles, const surfaceSca
         exchange_.source(T_)
     );
     // clang-format on
-    TEqn.solve();
+    TEqn.solve(mesh_.solver(T_.name()));
 
     HeatOfStep heat = exchange_.exchange(particles, temperatures_.temperatures(), T_);
     heat.inFluidBefore = before;

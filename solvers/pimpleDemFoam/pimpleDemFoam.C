@@ -46,21 +46,23 @@ void requireLaminar(const Time& runTime, const dictionary& transportProperties)
     }
 }
 
-IOdictionary readTransportProperties(const Time& runTime)
+/// What a case with fluid states of it.
+struct Fluid
 {
-    IOdictionary transportProperties(
-        IOobject("transportProperties", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
-    requireKnownEntries(transportProperties, {"transportModel", "rho", "nu", "Cp", "kappa", "beta", "TRef"},
-        {"stratification"});
-    return transportProperties;
-}
+    FluidProperties properties = {};
+    /// Empty where the case has no temperatures.
+    std::optional<Energy> energy = {};
+};
 
-FluidProperties readFluidProperties(
-    const Time& runTime, const dictionary& transportProperties, const boundBox& mesh)
+Fluid readFluid(const Time& runTime, const boundBox& mesh, const CouplingSettings& settings)
 {
+    const IOdictionary transportProperties(
+        IOobject("transportProperties", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
     const uniformDimensionedVectorField g(
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
+    requireKnownEntries(
+        transportProperties, {"transportModel", "rho", "nu", "Cp", "kappa", "beta", "TRef"}, {"stratification"});
     requireLaminar(runTime, transportProperties);
     const auto positive = [&](const word& entry, const dimensionSet& dimensions) {
         const dimensionedScalar value(entry, dimensions, transportProperties);
@@ -71,7 +73,8 @@ FluidProperties readFluidProperties(
     const double kinematicViscosity = positive("nu", dimViscosity);
 
     const Vector3d gravity = toEigen(g.value());
-    return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)};
+    return {{density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh)},
+        readEnergy(settings, transportProperties)};
 }
 
 /// Writes the particles for other runs, with a checksum that these runs check.
@@ -142,6 +145,7 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
         if (temperature)
         {
             const QuietOnTerminal quiet(output);
+            const PhaseTimers::Scope timing = couplingStep.timers().time("heat");
             temperature->solve(particles, flow.alphaPhi());
         }
         couplingStep.fluidToParticles(solved, flow.U(), flow.p());
@@ -211,13 +215,10 @@ int main(int argc, char* argv[])
 
     const CouplingSettings settings(runTime);
     requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
-    FluidProperties fluid{};
-    std::optional<Energy> energy;
+    const Fluid input = settings.hasFluid() ? readFluid(runTime, mesh.bounds(), settings) : Fluid{};
+    const FluidProperties& fluid = input.properties;
     if (settings.hasFluid())
     {
-        const IOdictionary transportProperties = readTransportProperties(runTime);
-        fluid = readFluidProperties(runTime, transportProperties, mesh.bounds());
-        energy = readEnergy(settings, transportProperties);
         checkScalarTransport(mesh);
     }
     else
@@ -236,13 +237,14 @@ int main(int argc, char* argv[])
         }
         DemEngine& engine = demProgram->start(checkpoints, mesh, models ? &fluid : nullptr);
         std::optional<FluidTemperature> temperature;
-        if (energy)
+        if (input.energy)
         {
-            temperature.emplace(mesh, *energy, fluid, engine);
+            temperature.emplace(mesh, *input.energy, fluid, engine);
         }
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         demProgram->warnOfUnreadInput();
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), energy, couplingStep, checkpoints, dryRun);
+        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), input.energy, couplingStep, checkpoints,
+            dryRun);
 
         if (models)
         {
