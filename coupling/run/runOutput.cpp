@@ -49,6 +49,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
       mesh_(mesh),
       settings_(settings),
       engine_(engine),
+      temperatures_(energy ? dynamic_cast<ParticleTemperatures*>(&engine) : nullptr),
       couplingStep_(couplingStep),
       checkpoints_(checkpoints),
       observedParticles_(mesh, engine),
@@ -165,7 +166,7 @@ void RunOutput::start()
     if (settings_.writeVtk())
     {
         particleWriter_ = std::make_unique<ParticleWriter>(time_);
-        particleWriter_->write(engine_.particles(), time_.value());
+        writeParticles();
     }
 }
 
@@ -232,7 +233,7 @@ bool RunOutput::afterCouplingStep()
         progress_.clear();
         if (particleWriter_)
         {
-            particleWriter_->write(engine_.particles(), time_.value());
+            writeParticles();
         }
         couplingStep_.conservation().report();
     }
@@ -260,6 +261,12 @@ void RunOutput::writeCheckpoint()
     }
     requireTablesWritten();
     checkpoints_.complete(engine_);
+}
+
+void RunOutput::writeParticles()
+{
+    particleWriter_->write(
+        engine_.particles(), time_.value(), temperatures_ ? temperatures_->temperatures().temperature.data() : nullptr);
 }
 
 void RunOutput::finish()

@@ -61,6 +61,7 @@ private:
     void checkBedOnce();
     void requireTablesWritten() const;
     void writeCheckpoint();
+    void writeParticles();
     void printReport(const FluidProperties& fluid, const FluidModels* models, const std::optional<Energy>& energy);
     /// Updates the estimates of the run time after each coupling step. \return wall time that is left [s], negative
     /// where not known yet
@@ -70,6 +71,8 @@ private:
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
+    /// Null where the case has no temperatures.
+    ParticleTemperatures* const temperatures_;
     CouplingStep& couplingStep_;
     const Checkpoints& checkpoints_;
     /// Gives function objects access to the particles.
