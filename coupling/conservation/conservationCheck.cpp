@@ -280,8 +280,7 @@ void ConservationCheck::writeSummary(
             {{"heatError", heat_->largestExchangeError}, {"heatErrorOfFluid", heat_->largestFluidError},
                 {"heatStart", heat_->atStart}, {"heatEnd", heat_->now()}, {"heatToParticles", heat_->toParticles},
                 {"heatInParticles", heat_->last.inParticles}, {"heatInFluid", heat_->last.inFluid},
-                {"heatThroughBoundary", heat_->throughBoundary},
-                {"heatOfContinuityError", heat_->ofContinuityError}});
+                {"heatThroughBoundary", heat_->throughBoundary}, {"heatOfContinuityError", heat_->ofContinuityError}});
     }
     if (estimate)
     {

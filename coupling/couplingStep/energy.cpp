@@ -41,12 +41,13 @@ void refuseThermalEntries(const dictionary& transportProperties)
 
 ThermalProperties readThermalProperties(const dictionary& dict, ModelType modelType)
 {
-    ThermalProperties thermal{positiveWithDimensions(dict, "Cp", dimHeatCapacity),
-        positiveWithDimensions(dict, "kappa", dimConductivity)};
+    ThermalProperties thermal{
+        positiveWithDimensions(dict, "Cp", dimHeatCapacity), positiveWithDimensions(dict, "kappa", dimConductivity)};
     if (dict.found("beta") != dict.found("TRef"))
     {
-        FatalIOErrorInFunction(dict) << "There is only one of the entries 'beta' and 'TRef'; allowed: both, for a fluid "
-                                     << "whose density depends on its temperature, or none" << exit(FatalIOError);
+        FatalIOErrorInFunction(dict)
+            << "There is only one of the entries 'beta' and 'TRef'; allowed: both, for a fluid "
+            << "whose density depends on its temperature, or none" << exit(FatalIOError);
     }
     if (dict.found("beta"))
     {

@@ -42,10 +42,9 @@ void HeatExchange::update(const LocatedParticles& located, const ParticlesView& 
     Eigen::MatrixXd amounts(2, particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        coefficients_[particle] = closures::heatTaken(
-            temperatures.heatCapacity[particle], conductance(particles, particle), timeStep);
-        amounts.col(particle) << coefficients_[particle],
-            coefficients_[particle] * temperatures.temperature[particle];
+        coefficients_[particle] =
+            closures::heatTaken(temperatures.heatCapacity[particle], conductance(particles, particle), timeStep);
+        amounts.col(particle) << coefficients_[particle], coefficients_[particle] * temperatures.temperature[particle];
     }
     Eigen::MatrixXd densities = located.densitiesOf(amounts);
     densities.row(1) -= capacityPerVolume_ * columns(deferred_.primitiveField());

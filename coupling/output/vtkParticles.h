@@ -16,8 +16,7 @@ namespace clepsydra
 /// voidFraction (of the fluid at the particle; 1 without fluid) and speed.
 /// \throws std::runtime_error where VTK cannot create it
 /// \param temperatures  of the particles [K], which then are point data, too; null where they have none
-std::string partOfVtp(
-    const ParticlesView& particles, bool first, bool last, const double* temperatures = nullptr);
+std::string partOfVtp(const ParticlesView& particles, bool first, bool last, const double* temperatures = nullptr);
 
 constexpr std::size_t pageSize = 4096;
 

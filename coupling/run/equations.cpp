@@ -121,8 +121,7 @@ void addForces(const ParticleForces& forces, ModelType modelType, std::vector<st
 
 void addTemperatures(const ThermalProperties& fluid, std::vector<std::string>& lines)
 {
-    lines.push_back(
-        lineOf("temperature", "rho_f Cp (d(eps T)/dt + div(eps U T)) = div(eps kappa grad(T)) - Q"));
+    lines.push_back(lineOf("temperature", "rho_f Cp (d(eps T)/dt + div(eps U T)) = div(eps kappa grad(T)) - Q"));
     std::ostringstream values;
     values << "Cp = " << fluid.specificHeat << " J/(kg K), kappa = " << fluid.conductivity << " W/(m K)";
     lines.push_back(lineOf("", values.str()));
@@ -139,9 +138,8 @@ void addTemperatures(const ThermalProperties& fluid, std::vector<std::string>& l
 
 } // namespace
 
-std::vector<std::string> equations(
-    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces,
-    const std::optional<Energy>& energy)
+std::vector<std::string> equations(const CouplingSettings& settings, const FluidProperties& fluid,
+    const ParticleForces* forces, const std::optional<Energy>& energy)
 {
     const std::string motion = "m dv/dt = forces of the DEM script (contacts, gravity)";
     if (forces == nullptr)

@@ -14,8 +14,7 @@ namespace clepsydra
 /// The equations that a run solves, term by term, for the report at the start of the log; one line each.
 /// \param forces  null for DEM only
 /// \param energy  empty where the case has no temperatures
-std::vector<std::string> equations(
-    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces,
-    const std::optional<Energy>& energy = std::nullopt);
+std::vector<std::string> equations(const CouplingSettings& settings, const FluidProperties& fluid,
+    const ParticleForces* forces, const std::optional<Energy>& energy = std::nullopt);
 
 } // namespace clepsydra

@@ -96,8 +96,8 @@ void RunOutput::printReport(
         lines.push_back(choice);
     }
     const DemTimeScales scales = demTimeScales(engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_);
-    printStartReport(
-        engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr, energy), scales, settings_.demDict());
+    printStartReport(engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr, energy), scales,
+        settings_.demDict());
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.particles > 0;
 }

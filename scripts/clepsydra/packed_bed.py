@@ -1,5 +1,5 @@
-"""A packed bed that a fluid heats: T. E. W. Schumann's solution, J. Franklin Inst. 208, 405 (1929), for plug flow without
-conduction along the bed, beside what a run of the tutorial heatedBed left."""
+"""A packed bed that a fluid heats: T. E. W. Schumann's solution, J. Franklin Inst. 208, 405 (1929), for plug flow
+without conduction along the bed, beside what a run of the tutorial heatedBed left."""
 
 from pathlib import Path
 from typing import Any
@@ -11,8 +11,8 @@ from clepsydra import case_files, closures, parameter_file
 
 
 def fluid_temperature(length: float, time: float) -> float:
-    """Of the fluid at the end of a bed, from 0 (initial) to 1 (inlet). `length` is h a z/(rho Cp U), the number of transfer
-    units; `time` is h a t/((1 - eps) rho_p Cp_p), from the arrival of the fluid that entered first on."""
+    """Of the fluid at the end of a bed, from 0 (initial) to 1 (inlet). `length` is h a z/(rho Cp U), the number of
+    transfer units; `time` is h a t/((1 - eps) rho_p Cp_p), from the arrival of the fluid that entered first on."""
     if time <= 0:
         return 0.0
 
@@ -25,8 +25,8 @@ def fluid_temperature(length: float, time: float) -> float:
 
 
 class HeatedBed:
-    """A run of the tutorial, and Schumann's solution for its particles. The solution depends on the bed's height only by
-    the volume of the fluid in the column, which it takes as plug flow."""
+    """A run of the tutorial, and Schumann's solution for its particles. The solution depends on the bed's height only
+    by the volume of the fluid in the column, which it takes as plug flow."""
 
     def __init__(self, run: Path | str) -> None:
         self.run = Path(run)

@@ -71,8 +71,7 @@ void FluidTemperature::solve(const ParticlesInFluid& particles, const surfaceSca
     };
     const double before = inFluid(voidFraction.oldTime(), T_.oldTime());
 
-    const dimensionedScalar diffusivityOfFluid(
-        "diffusivity", dimViscosity, thermal_.conductivity / capacityPerVolume_);
+    const dimensionedScalar diffusivityOfFluid("diffusivity", dimViscosity, thermal_.conductivity / capacityPerVolume_);
     const surfaceScalarField diffusivity("kappa", diffusivityOfFluid * particles.voidFractionf());
     const volScalarField continuityError("continuityError", fvc::ddt(voidFraction) + fvc::div(alphaPhi));
     exchange_.update(particles, engine_.particles(), temperatures_.temperatures(), timeStep);
@@ -94,9 +93,8 @@ void FluidTemperature::solve(const ParticlesInFluid& particles, const surfaceSca
     heat.inFluidBefore = before;
     heat.inFluid = inFluid(voidFraction, T_);
     heat.throughBoundary = throughBoundary(alphaPhi, diffusivity);
-    heat.ofContinuityError =
-        timeStep * capacityPerVolume_
-        * gSum(scalarField(volumes * continuityError.primitiveField() * T_.primitiveField()));
+    heat.ofContinuityError = timeStep * capacityPerVolume_
+                             * gSum(scalarField(volumes * continuityError.primitiveField() * T_.primitiveField()));
     particles.recordHeat(heat);
     updateBuoyancy();
 }

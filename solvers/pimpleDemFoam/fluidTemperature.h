@@ -23,8 +23,7 @@ class FluidTemperature
 public:
     /// Reads T. FatalError that names the file where the field has wrong dimensions, and where the engine has no
     /// temperatures. \pre the engine is not initialised
-    FluidTemperature(
-        const Foam::fvMesh& mesh, const Energy& energy, const FluidProperties& fluid, DemEngine& engine);
+    FluidTemperature(const Foam::fvMesh& mesh, const Energy& energy, const FluidProperties& fluid, DemEngine& engine);
 
     /// Buoyancy in the momentum equation of the next step by Boussinesq's approximation, -beta (T - TRef) g [m/s2]: a
     /// force per mass of fluid. Null where the density does not depend on the temperature.
@@ -39,8 +38,7 @@ public:
 
 private:
     /// Heat that leaves the fluid through the boundary in the step [J]. Collective.
-    double throughBoundary(
-        const Foam::surfaceScalarField& alphaPhi, const Foam::surfaceScalarField& diffusivity) const;
+    double throughBoundary(const Foam::surfaceScalarField& alphaPhi, const Foam::surfaceScalarField& diffusivity) const;
     void updateBuoyancy();
 
     const Foam::fvMesh& mesh_;

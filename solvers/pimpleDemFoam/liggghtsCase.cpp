@@ -53,9 +53,10 @@ void requireHeatStatedOnce(const dictionary& energy, const ScriptFacts& script)
     requireOnce("particleCp", script.hasSpecificHeat, "fix property/global thermalCapacity peratomtype");
     if (script.hasTemperature && !script.temperatureInRestartFiles)
     {
-        FatalIOErrorInFunction(energy) << "'fix property/atom Temp scalar' in the DEM script is not in restart files, so "
-                                       << "that a resumed run would lose the particles' temperatures; allowed: "
-                                       << "'property/atom Temp scalar yes yes no <temperature>'" << exit(FatalIOError);
+        FatalIOErrorInFunction(energy)
+            << "'fix property/atom Temp scalar' in the DEM script is not in restart files, so "
+            << "that a resumed run would lose the particles' temperatures; allowed: "
+            << "'property/atom Temp scalar yes yes no <temperature>'" << exit(FatalIOError);
     }
 }
 

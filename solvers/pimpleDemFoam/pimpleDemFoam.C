@@ -243,13 +243,13 @@ int main(int argc, char* argv[])
         }
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         demProgram->warnOfUnreadInput();
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), input.energy, couplingStep, checkpoints,
-            dryRun);
+        RunOutput output(
+            runTime, mesh, settings, fluid, engine, models.get(), input.energy, couplingStep, checkpoints, dryRun);
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, settings.modelType(), temperature ? &*temperature : nullptr, couplingStep,
-                output);
+            runWithFluid(runTime, mesh, fluid, settings.modelType(), temperature ? &*temperature : nullptr,
+                couplingStep, output);
         }
         else
         {

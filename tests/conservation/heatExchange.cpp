@@ -47,9 +47,9 @@ public:
     explicit HeatedBox(const BoxSetup& setup)
         : engine_(interval, Vector3d::Zero())
     {
-        case_.writeDictionary("constant/couplingProperties",
-            "voidFractionModel divided; smoothingModel " + setup.smoothing
-                + "; energy { heatTransferModel RanzMarshall; }");
+        case_.writeDictionary("constant/couplingProperties", "voidFractionModel divided; smoothingModel "
+                                                                 + setup.smoothing
+                                                                 + "; energy { heatTransferModel RanzMarshall; }");
         properties_ = std::make_unique<IOdictionary>(IOobject(
             "couplingProperties", case_.time().constant(), case_.time(), IOobject::MUST_READ, IOobject::NO_WRITE));
         mesh_ = boxMesh(case_.time(), point::zero, point::one, setup.cells);
@@ -257,7 +257,10 @@ TEST(HeatBalance, FindsASourceThatIsChanged)
     ConservationCheck conservation(dictionary::null, box.time());
     EXPECT_NO_THROW(conservation.recordHeat(box.advance()));
     expectFound(
-        [&] { conservation.recordHeat(box.advance(interval, [](fvScalarMatrix& source) { source *= dimensionedScalar("kept", dimless, 0.999); })); },
+        [&] {
+            conservation.recordHeat(box.advance(
+                interval, [](fvScalarMatrix& source) { source *= dimensionedScalar("kept", dimless, 0.999); }));
+        },
         "heatTolerance");
 }
 

@@ -312,8 +312,8 @@ TEST(BadInput, Temperatures)
             test.coupling().set("modelType", "B").set("forceModels", "(DiFeliceDrag Archimedes)");
         },
         {transportProperties, "'beta'", "'modelType'", "allowed: modelType A"}, SeenBy::dictionaries);
-    expectWithEnergyRefused([](TestCase& test) { test.transport().remove("Cp"); }, {transportProperties, "Cp"},
-        SeenBy::dictionaries);
+    expectWithEnergyRefused(
+        [](TestCase& test) { test.transport().remove("Cp"); }, {transportProperties, "Cp"}, SeenBy::dictionaries);
 
     // Without energy
     expectRefused([](TestCase& test) { test.transport().set("Cp", "4200"); },

@@ -121,8 +121,7 @@ TEST(Heat, SphereInAStreamCoolsAsTheLawStates)
         const double reynolds = speed * diameter / water.viscosity;
         const double nusselt = run.law == "Gunn" ? closures::gunnNusselt(reynolds, water.prandtl(), 1)
                                                  : closures::ranzMarshallNusselt(reynolds, water.prandtl());
-        const double timeConstant =
-            density * run.particleCp * diameter * diameter / (6 * nusselt * water.conductivity);
+        const double timeConstant = density * run.particleCp * diameter * diameter / (6 * nusselt * water.conductivity);
         const double heatCapacity = particleMass() * run.particleCp;
         const double hotter = heat(test, "heatInParticles") / heatCapacity - coldTemperature;
         const double expected = (hotTemperature - coldTemperature) * std::exp(-run.steps * timeStep / timeConstant);
@@ -300,10 +299,9 @@ TEST(Heat, ContactsConductHeatByTheScript)
     ASSERT_EQ(temperatures.size(), 4U);
     const double area = pi / 4 * (diameter * diameter - gap * gap);
     const double h = 2 * conductivity * std::sqrt(area);
-    const double difference =
-        100 * std::pow(1 - 2 * h * test.dem.timeStep / (particleMass() * specificHeat), 400);
-    std::cout << "difference after 400 steps: " << temperatures[2] - temperatures[3] << " K, expected "
-              << difference << std::endl;
+    const double difference = 100 * std::pow(1 - 2 * h * test.dem.timeStep / (particleMass() * specificHeat), 400);
+    std::cout << "difference after 400 steps: " << temperatures[2] - temperatures[3] << " K, expected " << difference
+              << std::endl;
     EXPECT_NEAR(temperatures[2] - temperatures[3], difference, 2e-3 * difference);
     EXPECT_LT(difference, 90);
     EXPECT_NEAR(temperatures[2] + temperatures[3], 700, 1e-3);

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""When the temperature at the outlet of a packed bed passes 16, 50 and 84 % of the step at the inlet, against Schumann's
-solution, and the heat that bed and water took up against the heat that came in."""
+"""When the temperature at the outlet of a packed bed passes 16, 50 and 84 % of the step at the inlet, against
+Schumann's solution, and the heat that bed and water took up against the heat that came in."""
 
 from pathlib import Path
 from typing import Any

@@ -11,7 +11,7 @@ from clepsydra.column import Column
 
 # Sums of some hundred numbers over a hundred steps
 ROUNDING_PERCENT = 1e-10
-# The splitting between water and particles is of first order in the coupling time step, which is 1 % of the time constant.
+# The splitting between water and particles is of first order in the coupling time step, 1 % of the time constant.
 SPLITTING_PERCENT = 1.5
 
 
@@ -50,8 +50,8 @@ def heat_capacity(column: Column) -> float:
 
 
 def time_constant_row(run: Path) -> dict[str, Any]:
-    """From the difference between the temperatures of particles and water at the end: two bodies that exchange h A n times their
-    difference."""
+    """From the difference between the temperatures of particles and water at the end: two bodies that exchange h A n
+    times their difference."""
     column = Column(run)
     count = column["particleCount"]
     volume = column.area * column["height"]

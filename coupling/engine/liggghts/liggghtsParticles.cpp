@@ -63,8 +63,8 @@ void LiggghtsParticles::requestTemperatures(const HeatOfParticles& heat)
 
 void LiggghtsParticles::addTemperatures()
 {
-    temperature_ = heat_->temperature ? ParticleProperty(program_, temperatureName, {*heat_->temperature},
-                       ParticleProperty::InRestartFiles::yes)
+    temperature_ = heat_->temperature ? ParticleProperty(
+                       program_, temperatureName, {*heat_->temperature}, ParticleProperty::InRestartFiles::yes)
                                       : ParticleProperty(program_, temperatureName);
     specificHeats_ = heat_->specificHeat
                          ? std::vector<double>(static_cast<std::size_t>(program_->atom->ntypes), *heat_->specificHeat)
@@ -80,8 +80,7 @@ TemperaturesView LiggghtsParticles::temperatures()
         heatCapacities_[static_cast<std::size_t>(particle)] =
             atom.rmass[particle] * specificHeats_[static_cast<std::size_t>(atom.type[particle] - 1)];
     }
-    return {View<double>(temperature_->values(), atom.nlocal),
-        ConstView<double>(heatCapacities_.data(), atom.nlocal)};
+    return {View<double>(temperature_->values(), atom.nlocal), ConstView<double>(heatCapacities_.data(), atom.nlocal)};
 }
 
 ParticlesView LiggghtsParticles::view(
