@@ -1,7 +1,6 @@
 #include "fluidTemperature.h"
 
 #include "couplingStep/couplingField.h"
-#include "engine/demEngine.h"
 #include "vectors.h"
 
 #include "fvCFD.H"

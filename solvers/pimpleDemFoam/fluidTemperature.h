@@ -2,6 +2,7 @@
 
 #include "couplingStep/heatExchange.h"
 #include "couplingStep/particlesInFluid.h"
+#include "engine/demEngine.h"
 
 #include "surfaceFields.H"
 #include "volFields.H"
