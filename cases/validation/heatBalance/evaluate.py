@@ -6,13 +6,21 @@ from math import exp, log, pi
 from pathlib import Path
 from typing import Any
 
-from clepsydra import case_files, closures, validation
+from clepsydra import case_files, closures, parameter_file, validation
 from clepsydra.column import Column
 
 # Sums of some hundred numbers over a hundred steps
 ROUNDING_PERCENT = 1e-10
 # The splitting between water and particles is of first order in the coupling time step, 1 % of the time constant.
 SPLITTING_PERCENT = 1.5
+
+
+class HeatedColumn(Column):
+    """With the entries of constant/heat."""
+
+    def __init__(self, run: Path) -> None:
+        super().__init__(run)
+        self.parameters = {**self.parameters, **parameter_file.parameters(run / "constant/heat")}
 
 
 def main() -> None:
@@ -24,7 +32,7 @@ def main() -> None:
 
 def balance_row(run: Path) -> dict[str, Any]:
     found = case_files.balances(run)[-1]
-    column = Column(run)
+    column = HeatedColumn(run)
     capacity = column["particleCount"] * heat_capacity(column)
     print(
         f"{run.name}: particles at {found['heatInParticles'] / capacity:.3f} K, heat error of the exchange "
@@ -44,7 +52,7 @@ def balance_row(run: Path) -> dict[str, Any]:
     )
 
 
-def heat_capacity(column: Column) -> float:
+def heat_capacity(column: HeatedColumn) -> float:
     """Of a particle [J/K]."""
     return float(column["particleDensity"] * column.particle_volume * column["particleCp"])
 
@@ -52,7 +60,7 @@ def heat_capacity(column: Column) -> float:
 def time_constant_row(run: Path) -> dict[str, Any]:
     """From the difference between the temperatures of particles and water at the end: two bodies that exchange h A n
     times their difference."""
-    column = Column(run)
+    column = HeatedColumn(run)
     count = column["particleCount"]
     volume = column.area * column["height"]
     void_fraction = 1 - count * column.particle_volume / volume
