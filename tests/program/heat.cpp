@@ -127,7 +127,16 @@ TEST(Heat, SphereInAStreamCoolsAsTheLawStates)
         const double expected = (hotTemperature - coldTemperature) * std::exp(-run.steps * timeStep / timeConstant);
         std::cout << run.law << ", coupling step " << timeStep / timeConstant << " time constants: " << hotter
                   << " K hotter than the water, expected " << expected << std::endl;
-        EXPECT_NEAR(std::log(hotter / expected) / std::log(expected / 100), 0, run.law == "Gunn" ? 0.01 : 1e-3);
+        if (expected > 1)
+        {
+            EXPECT_NEAR(std::log(hotter / expected) / std::log(expected / 100), 0, run.law == "Gunn" ? 0.01 : 1e-3);
+        }
+        else
+        {
+            // The water around the particle is warmer by the particle's heat, some 1e-6 K.
+            EXPECT_GE(hotter, 0);
+            EXPECT_LT(hotter, 1e-4);
+        }
         EXPECT_LT(heat(test, "heatError"), 1e-12);
     }
 }
@@ -193,7 +202,7 @@ TEST(Heat, IsTheSameOnTwoRanks)
     const Eigen::MatrixXd two = parallel.field("T", "0.12");
     std::cout << "largest difference " << (one - two).cwiseAbs().maxCoeff() << " K of "
               << one.maxCoeff() - one.minCoeff() << " K" << std::endl;
-    EXPECT_GT(one.maxCoeff() - one.minCoeff(), 1);
+    EXPECT_GT(one.maxCoeff() - one.minCoeff(), 0.5);
     EXPECT_LT((one - two).cwiseAbs().maxCoeff(), 1e-7);
     EXPECT_NEAR(heat(serial, "heatInParticles"), heat(parallel, "heatInParticles"), 1e-9);
     EXPECT_NEAR(heat(parallel, "heatEnd") - heat(parallel, "heatOfContinuityError"), heat(parallel, "heatStart"), 1e-9);
@@ -207,6 +216,7 @@ TEST(Heat, ResumedRunIsTheSame)
     for (TestCase* test : {&through, &stopped})
     {
         hotCloud(*test);
+        test->control().set("writeFormat", "binary"); // all digits
     }
     const Outcome whole = through.run();
     ASSERT_TRUE(whole.succeeded()) << whole.output;
@@ -263,48 +273,60 @@ TEST(Heat, WarmFluidIsLighter)
 }
 
 /// LIGGGHTS' conduction between particles beside the exchange with the fluid, from the temperatures and the specific heat of
-/// the script: two particles that touch, one hot and one cold, in a fluid that conducts almost nothing. Their difference
-/// decreases by the factor 1 - 2 h dt/(m Cp) in each DEM step, with LIGGGHTS' h = 2 k sqrt(contact area), and the heat of all
-/// remains. A program with temperatures of its own beside LIGGGHTS' would leave it at 100 K, or lose the heat.
+/// the script: two particles that touch in a fluid that conducts almost nothing, a hot one from the particles at the end of
+/// another run and a cold one. Their difference decreases by the factor 1 - 2 h dt/(m Cp) in each DEM step, with LIGGGHTS'
+/// h = 2 k sqrt(contact area), and the heat of all remains. A program with temperatures of its own beside LIGGGHTS' would
+/// leave the difference at 100 K, or lose the heat; one whose files of particles lack temperatures would begin with 0 K.
 TEST(Heat, ContactsConductHeatByTheScript)
 {
-    TestCase test;
-    test.setTimes(0.01, 1e-3, 0.01);
-    addHeat(test, 840);
-    test.coupling().remove("energy/particleCp").remove("energy/particleTemperature");
-    test.transport().set("kappa", 1e-9);
-    constexpr double gap = 0.0019;
-    test.dem.particles = {{0.0091, 0.01, 0.02}, {0.0091 + gap, 0.01, 0.02}};
-    test.dem.fixed = true;
-    constexpr double conductivity = 400;
+    constexpr double distance = 0.0019;
     constexpr double specificHeat = 500;
+    const auto prepare = [](TestCase& test, double endTime) {
+        test.setTimes(endTime, 1e-3, endTime);
+        addHeat(test, specificHeat);
+        test.transport().set("kappa", 1e-9);
+        test.dem.fixed = true;
+    };
+    TestCase hot;
+    prepare(hot, 1e-3);
+    hot.dem.particles = {{0.0091, 0.01, 0.02}};
+    hot.coupling().set("DEM/writeRestart", "\"DEM/hot.restart\"");
+    const Outcome first = hot.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+
+    TestCase test;
+    prepare(test, 0.01);
+    test.coupling().remove("energy/particleCp").remove("energy/particleTemperature");
+    test.dem.readRestart = (hot.path() / "DEM/hot.restart").string();
     test.dem.more = "fix conductivity all property/global thermalConductivity peratomtype 400 400\n"
                     "fix capacity all property/global thermalCapacity peratomtype 500 500\n"
                     "fix heat all heat/gran/conduction initial_temperature 300.\n"
-                    "group first id 1\n"
-                    "set group first property/atom Temp 400\n"
-                    "dump heat all custom 400 DEM/heat.dump id f_Temp\n"
-                    "dump_modify heat sort id format \"%d %.15g\"";
+                    "create_atoms 1 single "
+                    + exactText(0.0091 + distance)
+                    + " 0.01 0.02 units box\n"
+                      "set atom 2 diameter 0.002 density 2500\n"
+                      "dump heat all custom 400 DEM/heat.dump id f_Temp\n"
+                      "dump_modify heat sort id format \"%d %.15g\"";
     const Outcome outcome = test.run();
     ASSERT_TRUE(outcome.succeeded()) << outcome.output;
-    const auto rows = test.table("DEM/heat.dump");
     std::vector<double> temperatures;
-    for (const auto& row : rows)
+    for (const auto& row : test.table("DEM/heat.dump"))
     {
-        if (row.size() == 2 && row[0] < 3 && row[1] > 100)
+        if (row.size() == 2 && row[1] > 100)
         {
             temperatures.push_back(row[1]);
         }
     }
-    ASSERT_EQ(temperatures.size(), 4U);
-    const double area = pi / 4 * (diameter * diameter - gap * gap);
-    const double h = 2 * conductivity * std::sqrt(area);
+    ASSERT_GE(temperatures.size(), 2U);
+    const double warm = temperatures[temperatures.size() - 2];
+    const double cold = temperatures.back();
+    const double area = pi / 4 * (diameter * diameter - distance * distance);
+    const double h = 2 * 400 * std::sqrt(area);
     const double difference = 100 * std::pow(1 - 2 * h * test.dem.timeStep / (particleMass() * specificHeat), 400);
-    std::cout << "difference after 400 steps: " << temperatures[2] - temperatures[3] << " K, expected " << difference
-              << std::endl;
-    EXPECT_NEAR(temperatures[2] - temperatures[3], difference, 2e-3 * difference);
+    std::cout << "difference after 400 steps: " << warm - cold << " K, expected " << difference << std::endl;
+    EXPECT_NEAR(warm - cold, difference, 2e-3 * difference);
     EXPECT_LT(difference, 90);
-    EXPECT_NEAR(temperatures[2] + temperatures[3], 700, 1e-3);
+    EXPECT_NEAR(warm + cold, 700, 1e-3);
     EXPECT_NEAR(heat(test, "heatEnd"), heat(test, "heatStart"), 1e-9 * heat(test, "heatStart"));
 }
 
