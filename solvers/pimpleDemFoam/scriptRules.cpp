@@ -47,7 +47,7 @@ const std::map<std::string, std::string> reasons = {
     {"deform", "the DEM box changes, and the fluid's mesh does not"},
     {"drag", "the fluid's forces are those of forceModels, and this force would be added to them"},
     {"external", "the coupling adds its own fix of this style, which must be the only one"},
-    {"heat/", "without the dictionary 'energy' in couplingProperties the fluid neither heats nor cools the particles"},
+    {"heat/", "the fluid neither heats nor cools the particles without the dictionary 'energy' in couplingProperties"},
     {"multisphere", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
     {"particletemplate/multi",
         "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
