@@ -273,40 +273,38 @@ TEST(Heat, WarmFluidIsLighter)
 }
 
 /// LIGGGHTS' conduction between particles beside the exchange with the fluid, from the temperatures and the specific heat of
-/// the script: two particles that touch in a fluid that conducts almost nothing, a hot one from the particles at the end of
-/// another run and a cold one. Their difference decreases by the factor 1 - 2 h dt/(m Cp) in each DEM step, with LIGGGHTS'
-/// h = 2 k sqrt(contact area), and the heat of all remains. A program with temperatures of its own beside LIGGGHTS' would
-/// leave the difference at 100 K, or lose the heat; one whose files of particles lack temperatures would begin with 0 K.
+/// the script: two particles that touch, one of which has a hundred times the mass. In a first run the light one cools in
+/// the water and the heavy one hardly does; in the second, which begins with these particles, the water conducts almost
+/// nothing, and their difference decreases by the factor 1 - h dt(1/C_1 + 1/C_2) in each DEM step, with LIGGGHTS' h = 2 k
+/// sqrt(contact area), while their heat remains. A program with temperatures of its own beside LIGGGHTS' would leave the
+/// difference as it was; one whose files of particles lack temperatures would begin with equal ones.
 TEST(Heat, ContactsConductHeatByTheScript)
 {
     constexpr double distance = 0.0019;
     constexpr double specificHeat = 500;
-    const auto prepare = [](TestCase& test, double endTime) {
-        test.setTimes(endTime, 1e-3, endTime);
-        addHeat(test, specificHeat);
-        test.transport().set("kappa", 1e-9);
+    const auto prepare = [](TestCase& test, double particleCp, double conductivity) {
+        test.setTimes(0.01, 1e-3, 0.01);
+        addHeat(test, particleCp);
+        test.transport().set("kappa", conductivity);
         test.dem.fixed = true;
     };
-    TestCase hot;
-    prepare(hot, 1e-3);
-    hot.dem.particles = {{0.0091, 0.01, 0.02}};
-    hot.coupling().set("DEM/writeRestart", "\"DEM/hot.restart\"");
-    const Outcome first = hot.run();
+    TestCase cooling;
+    prepare(cooling, 5, 0.6);
+    cooling.dem.particles = {{0.0091, 0.01, 0.02}, {0.0091 + distance, 0.01, 0.02}};
+    cooling.dem.more = "set atom 2 density 250000";
+    cooling.coupling().set("DEM/writeRestart", "\"DEM/end.restart\"");
+    const Outcome first = cooling.run();
     ASSERT_TRUE(first.succeeded()) << first.output;
 
     TestCase test;
-    prepare(test, 0.01);
+    prepare(test, specificHeat, 1e-9);
     test.coupling().remove("energy/particleCp").remove("energy/particleTemperature");
-    test.dem.readRestart = (hot.path() / "DEM/hot.restart").string();
+    test.dem.readRestart = (cooling.path() / "DEM/end.restart").string();
     test.dem.more = "fix conductivity all property/global thermalConductivity peratomtype 400 400\n"
                     "fix capacity all property/global thermalCapacity peratomtype 500 500\n"
                     "fix heat all heat/gran/conduction initial_temperature 300.\n"
-                    "create_atoms 1 single "
-                    + exactText(0.0091 + distance)
-                    + " 0.01 0.02 units box\n"
-                      "set atom 2 diameter 0.002 density 2500\n"
-                      "dump heat all custom 400 DEM/heat.dump id f_Temp\n"
-                      "dump_modify heat sort id format \"%d %.15g\"";
+                    "dump heat all custom 400 DEM/heat.dump id f_Temp\n"
+                    "dump_modify heat sort id format \"%d %.15g\"";
     const Outcome outcome = test.run();
     ASSERT_TRUE(outcome.succeeded()) << outcome.output;
     std::vector<double> temperatures;
@@ -317,16 +315,19 @@ TEST(Heat, ContactsConductHeatByTheScript)
             temperatures.push_back(row[1]);
         }
     }
-    ASSERT_GE(temperatures.size(), 2U);
-    const double warm = temperatures[temperatures.size() - 2];
-    const double cold = temperatures.back();
+    // Of both particles at the first step of the dump and at the last
+    ASSERT_EQ(temperatures.size(), 4U);
+    const double atStart = temperatures[1] - temperatures[0];
+    EXPECT_GT(atStart, 50);
     const double area = pi / 4 * (diameter * diameter - distance * distance);
     const double h = 2 * 400 * std::sqrt(area);
-    const double difference = 100 * std::pow(1 - 2 * h * test.dem.timeStep / (particleMass() * specificHeat), 400);
-    std::cout << "difference after 400 steps: " << warm - cold << " K, expected " << difference << std::endl;
-    EXPECT_NEAR(warm - cold, difference, 2e-3 * difference);
-    EXPECT_LT(difference, 90);
-    EXPECT_NEAR(warm + cold, 700, 1e-3);
+    const double light = particleMass() * specificHeat;
+    const double difference = atStart * std::pow(1 - h * test.dem.timeStep * (1 / light + 1 / (100 * light)), 400);
+    std::cout << "difference " << atStart << " K at the start, " << temperatures[3] - temperatures[2]
+              << " K after 400 steps, expected " << difference << " K" << std::endl;
+    EXPECT_NEAR(temperatures[3] - temperatures[2], difference, 1e-4 * atStart);
+    EXPECT_LT(difference, 0.9 * atStart);
+    EXPECT_NEAR(temperatures[2] + 100 * temperatures[3], temperatures[0] + 100 * temperatures[1], 1e-4);
     EXPECT_NEAR(heat(test, "heatEnd"), heat(test, "heatStart"), 1e-9 * heat(test, "heatStart"));
 }
 
