@@ -10,6 +10,7 @@
 #include "tokens/jsonText.h"
 
 #include <cmath>
+#include <limits>
 
 namespace clepsydra
 {
@@ -52,11 +53,17 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
       continuityTolerance_(tolerance(tolerances_, "continuityTolerance", 1e-4)),
       filteredVolumeTolerance_(tolerance(tolerances_, "filteredVolumeTolerance", 1)),
       imbalanceTolerance_(tolerance(tolerances_, "imbalanceTolerance", 1e-3)),
+      heatTolerance_(tolerance(tolerances_, "heatTolerance", 1e-9)),
       startTime_(time.timeName())
 {
     requireKnownEntries(
         tolerances_, {"solidVolumeTolerance", "clippedVolumeTolerance", "momentumTolerance", "pressureForceTolerance",
-                         "continuityTolerance", "filteredVolumeTolerance", "imbalanceTolerance"});
+                         "continuityTolerance", "filteredVolumeTolerance", "imbalanceTolerance", "heatTolerance"});
+    if (tolerances_.found("heatTolerance") && !couplingProperties.found("energy"))
+    {
+        FatalIOErrorInFunction(tolerances_) << "Entry 'heatTolerance' has no effect without the dictionary 'energy' in "
+                                            << "couplingProperties; allowed: together with it" << exit(FatalIOError);
+    }
 }
 
 int ConservationCheck::countParticles(const ParticlesView& particles)
@@ -149,6 +156,44 @@ void ConservationCheck::recordPressureForce(
     }
 }
 
+void ConservationCheck::recordHeat(const HeatOfStep& heat)
+{
+    if (!heat_)
+    {
+        heat_.emplace();
+        heat_->atStart = heat.inFluidBefore + heat.inParticles - heat.received + heat.pendingBefore;
+    }
+    heat_->last = heat;
+    heat_->toParticles += heat.received;
+    heat_->throughBoundary += heat.throughBoundary;
+    heat_->ofContinuityError += heat.ofContinuityError;
+    // Where hardly any heat is exchanged, the temperatures of the particles hold it to their own rounding only.
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * mag(heat.inParticles);
+    const double lost = mag(heat.received + heat.pending - heat.pendingBefore - heat.fluidLost);
+    heat_->exchangeError = relativeError(std::isnan(lost) ? lost : max(lost - rounding, 0.0), heat.magnitudes);
+    heat_->largestExchangeError = larger(heat_->largestExchangeError, heat_->exchangeError);
+    if (!isWithin(heat_->exchangeError, heatTolerance_))
+    {
+        FatalErrorInFunction << "In the last coupling step the particles received " << heat.received
+                             << " J from the fluid, and the fluid lost " << heat.fluidLost
+                             << " J. What it has given semi-implicitly changed from " << heat.pendingBefore << " to "
+                             << heat.pending << " J: the relative error is " << heat_->exchangeError
+                             << "; allowed: at most heatTolerance, which is " << heatTolerance_ << exit(FatalError);
+    }
+    const double created =
+        heat.inFluid - heat.inFluidBefore + heat.throughBoundary - heat.ofContinuityError + heat.fluidLost;
+    const double fluidError = relativeError(mag(created), mag(heat.inFluid));
+    heat_->largestFluidError = larger(heat_->largestFluidError, fluidError);
+    if (!isWithin(fluidError, heatTolerance_))
+    {
+        FatalErrorInFunction << "In the last coupling step the solution of the equation of the fluid's temperature "
+                             << "created " << created << " J in a fluid that holds " << heat.inFluid
+                             << " J: the relative error is " << fluidError
+                             << "; allowed: at most heatTolerance, which is " << heatTolerance_
+                             << ". Solve T to a smaller tolerance in system/fvSolution" << exit(FatalError);
+    }
+}
+
 void ConservationCheck::recordContinuity(const volScalarField& error)
 {
     localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
@@ -201,8 +246,14 @@ void ConservationCheck::report() const
          << " N s, of which semi-implicit " << semiImplicit_.sum << " N s (error " << momentumError_
          << "), pressure force error " << pressureForceError_ << ", continuity error local " << localContinuityError_
          << ", global " << globalContinuityError_ << ", cumulative " << cumulativeContinuityError_
-         << ", volume held back by the filter " << filteredVolume_ << ", imbalance of a closed tank " << imbalance_
-         << endl;
+         << ", volume held back by the filter " << filteredVolume_ << ", imbalance of a closed tank " << imbalance_;
+    if (heat_)
+    {
+        Info << ", heat to particles " << heat_->toParticles << " J (error " << heat_->exchangeError
+             << "), through the boundary " << heat_->throughBoundary << " J, in particles " << heat_->last.inParticles
+             << " J, in the fluid " << heat_->last.inFluid << " J";
+    }
+    Info << endl;
 }
 
 void ConservationCheck::writeSummary(
@@ -226,6 +277,14 @@ void ConservationCheck::writeSummary(
         {"imbalance", imbalance_}, {"wallSeconds", time_.elapsedClockTime()}, {"cpuSeconds", time_.elapsedCpuTime()},
         {"ranks", Pstream::nProcs()}, {"phaseSeconds", timers.wallSeconds()},
         {"phaseProcessorSeconds", timers.processorSeconds()}, {"exchangedBytes", exchangedBytes}};
+    if (heat_)
+    {
+        summary.insert(summary.end(),
+            {{"heatError", heat_->largestExchangeError}, {"heatErrorOfFluid", heat_->largestFluidError},
+                {"heatStart", heat_->atStart}, {"heatEnd", heat_->now()}, {"heatToParticles", heat_->toParticles},
+                {"heatInParticles", heat_->last.inParticles}, {"heatInFluid", heat_->last.inFluid},
+                {"heatThroughBoundary", heat_->throughBoundary}, {"heatOfContinuityError", heat_->ofContinuityError}});
+    }
     if (estimate)
     {
         summary.emplace_back("estimatedSeconds", estimate->wall);

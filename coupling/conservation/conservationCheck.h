@@ -22,6 +22,46 @@ struct ExchangedMomentum
     double sumOfMagnitudes = 0;
 };
 
+/// Heat of one coupling step, over all ranks [J]. Heats that are stored are those above 0 K.
+struct HeatOfStep
+{
+    /// By the particles from the fluid, from the particles' own temperatures.
+    double received = 0;
+    /// What the particles' source took from the fluid, from the equation that was solved.
+    double fluidLost = 0;
+    /// The part of fluidLost, in sum over the steps, that no particle has received yet; before and after the step.
+    double pendingBefore = 0;
+    double pending = 0;
+    /// Sum of the magnitudes of the terms h A T_f and h A T_p of the exchange.
+    double magnitudes = 0;
+    double inParticles = 0;
+    double inFluidBefore = 0;
+    double inFluid = 0;
+    /// Out of the fluid, by convection and conduction.
+    double throughBoundary = 0;
+    /// That the continuity error of the flow creates, because a uniform temperature must remain uniform.
+    double ofContinuityError = 0;
+};
+
+/// Heat since the start of this process, over all ranks [J], and the largest errors.
+struct HeatSoFar
+{
+    HeatOfStep last;
+    /// In fluid and particles and pending.
+    double atStart = 0;
+    double toParticles = 0;
+    double throughBoundary = 0;
+    double ofContinuityError = 0;
+    double exchangeError = 0;
+    double largestExchangeError = 0;
+    double largestFluidError = 0;
+
+    double now() const
+    {
+        return last.inFluid + last.inParticles + last.pending;
+    }
+};
+
 /// Solid volume that is cut off where the void fraction is below alphaMin.
 struct ClippedVolume
 {
@@ -53,6 +93,8 @@ struct EstimatedSeconds
 ///     continuityTolerance     1e-4;   // mean of |d(eps)/dt + div(eps U)| times the coupling step
 ///     filteredVolumeTolerance 1;      // solid volume whose motion the low-pass filter of d(eps)/dt has not passed yet
 ///                                     // / largest solid volume so far; 2 where it passes nothing
+///     heatTolerance           1e-9;   // |lost by fluid - pending - received by particles| / sum of the magnitudes of the
+///                                     // terms, and the same of the fluid's own balance / heat of the fluid above 0 K
 ///     imbalanceTolerance      1e-3;   // net volume of fluid that a closed tank had to take up / volume of the tank
 class ConservationCheck
 {
@@ -111,6 +153,9 @@ public:
     void recordPressureForce(
         const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes, bool leftOut = false);
 
+    /// Records the heat of one coupling step.
+    void recordHeat(const HeatOfStep& heat);
+
     /// What recordMomentum() received last as `semiImplicit`, or setInitialMomentum().
     const ExchangedMomentum& semiImplicitMomentum() const
     {
@@ -163,6 +208,7 @@ private:
     const double continuityTolerance_;
     const double filteredVolumeTolerance_;
     const double imbalanceTolerance_;
+    const double heatTolerance_;
     const Foam::word startTime_;
 
     ParticleCensus census_;
@@ -195,6 +241,8 @@ private:
     Foam::label outsideMesh_ = 0;
     Foam::label leftMesh_ = 0;
     double imbalance_ = 0;
+    /// Empty where no heat is recorded.
+    std::optional<HeatSoFar> heat_;
 };
 
 } // namespace clepsydra

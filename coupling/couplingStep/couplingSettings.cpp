@@ -60,8 +60,8 @@ CouplingSettings::CouplingSettings(const Time& time)
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "turbulentDispersion", "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets",
             "insertionTime", "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient"},
-        coefficientsOfModels(
-            {"useDDTvoidfractionProps", "turbulentDispersionProps", "DEM", "particleOutput", "conservationCheck"}));
+        coefficientsOfModels({"useDDTvoidfractionProps", "turbulentDispersionProps", "DEM", "energy", "particleOutput",
+            "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),
         {"engine", "script", "writeRestart", "maxRayleighFraction", "allowedInScript"}, {"variables", "groupChanges"});
     requireKnownEntries(dict_.subOrEmptyDict("particleOutput"), {"writeVtk"});

@@ -118,6 +118,19 @@ public:
     /// \param gradient  of p across the faces without its mean, times their areas
     void setFlux(const Foam::surfaceScalarField& phi, const Foam::surfaceScalarField& gradient);
 
+    /// The void fraction whose change the continuity equation holds, see VoidFractionRate; oldTime() is that of the step
+    /// before. \pre record() has been called
+    const Foam::volScalarField& voidFractionInContinuity() const
+    {
+        return fields_.rate.integral();
+    }
+
+    /// Records the heat of the coupling step in the conservation check. Collective.
+    void recordHeat(const HeatOfStep& heat) const
+    {
+        conservation_.recordHeat(heat);
+    }
+
     /// Ends the solution of the equations: completes d(eps)/dt. The result has what the conservation check compares, of
     /// the equation that was solved.
     /// \param source  momentumSource() as it was in the last momentum equation

@@ -39,7 +39,9 @@ VoidFractionRate::VoidFractionRate(const fvMesh& mesh, const CouplingSettings& s
       velocityResponse_(temporaryField<surfaceScalarField>("velocityResponse", mesh, dimless)),
       pressureResponse_(temporaryField<surfaceScalarField>("pressureResponse", mesh, dimTime)),
       rate_(couplingField<scalar>("ddtVoidFraction", mesh, dimless / dimTime, 0))
-{}
+{
+    integral_.oldTime();
+}
 
 void VoidFractionRate::start(const volScalarField& voidFraction)
 {

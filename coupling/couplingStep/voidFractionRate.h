@@ -74,6 +74,12 @@ public:
         return pressureResponse_;
     }
 
+    /// The void fraction whose change the continuity equation has held, with that of the last step as oldTime() [-].
+    const Foam::volScalarField& integral() const
+    {
+        return integral_;
+    }
+
     /// Completes the rate when U and p have been solved for. \param flux  of the implicit part [m3/s]
     void close(const Foam::surfaceScalarField& flux);
 

@@ -51,7 +51,7 @@ ParticleWriter::ParticleWriter(const Foam::Time& time)
 
 ParticleWriter::~ParticleWriter() = default;
 
-void ParticleWriter::write(const ParticlesView& particles, double time)
+void ParticleWriter::write(const ParticlesView& particles, double time, const double* temperatures)
 {
     using Foam::Pstream;
 
@@ -64,7 +64,7 @@ void ParticleWriter::write(const ParticlesView& particles, double time)
             std::filesystem::create_directories(folder_);
             beginInParts(file);
         }
-        part = partOfVtp(particles, Pstream::master(), Pstream::myProcNo() == Pstream::nProcs() - 1);
+        part = partOfVtp(particles, Pstream::master(), Pstream::myProcNo() == Pstream::nProcs() - 1, temperatures);
     });
     if (problem.empty())
     {

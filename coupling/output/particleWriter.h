@@ -25,7 +25,7 @@ public:
 
     /// Writes the particles of all ranks into one file. Each rank writes its own part; no rank receives the particles
     /// of others. Collective. \param time  [s]
-    void write(const ParticlesView& particles, double time);
+    void write(const ParticlesView& particles, double time, const double* temperatures = nullptr);
 
 private:
     std::filesystem::path folder_;

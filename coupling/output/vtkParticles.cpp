@@ -44,7 +44,7 @@ Eigen::RowVectorXd voidFractions(const ParticlesView& particles)
     return values;
 }
 
-vtkNew<vtkPolyData> polyDataOf(const ParticlesView& particles)
+vtkNew<vtkPolyData> polyDataOf(const ParticlesView& particles, const double* temperatures)
 {
     std::vector<Eigen::Index> byId(static_cast<std::size_t>(particles.size()));
     std::iota(byId.begin(), byId.end(), 0);
@@ -70,17 +70,22 @@ vtkNew<vtkPolyData> polyDataOf(const ParticlesView& particles)
     data.AddArray(vtkArray<vtkDoubleArray>("angularVelocity", sorted(particles.angularVelocity)));
     data.AddArray(vtkArray<vtkDoubleArray>("voidFraction", sorted(voidFractions(particles))));
     data.AddArray(vtkArray<vtkDoubleArray>("speed", velocity.colwise().norm().eval()));
+    if (temperatures)
+    {
+        const Eigen::Map<const Eigen::RowVectorXd> all(temperatures, particles.size());
+        data.AddArray(vtkArray<vtkDoubleArray>("temperature", sorted(all)));
+    }
     return drawing;
 }
 
 } // namespace
 
-std::string partOfVtp(const ParticlesView& particles, bool first, bool last)
+std::string partOfVtp(const ParticlesView& particles, bool first, bool last, const double* temperatures)
 {
     vtkNew<vtkXMLPolyDataWriter> writer;
     // Into a string, because VTK does not detect every failure of writing to a file.
     writer->WriteToOutputStringOn();
-    writer->SetInputData(polyDataOf(particles));
+    writer->SetInputData(polyDataOf(particles, temperatures));
     // Not "appended", which would be a third smaller: Debian 12's ParaView 5.11 cannot read that with Debian's expat
     // 2.5.0-1+deb12u2.
     writer->SetDataModeToBinary();

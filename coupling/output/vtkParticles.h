@@ -15,7 +15,8 @@ namespace clepsydra
 /// A piece holds the particles as vertices, sorted by id, with the point data id, radius, velocity, angularVelocity,
 /// voidFraction (of the fluid at the particle; 1 without fluid) and speed.
 /// \throws std::runtime_error where VTK cannot create it
-std::string partOfVtp(const ParticlesView& particles, bool first, bool last);
+/// \param temperatures  of the particles [K], which then are point data, too; null where they have none
+std::string partOfVtp(const ParticlesView& particles, bool first, bool last, const double* temperatures = nullptr);
 
 constexpr std::size_t pageSize = 4096;
 

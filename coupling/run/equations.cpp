@@ -144,10 +144,33 @@ void addForces(const ParticleForces& forces, ModelType modelType, std::vector<st
     lines.insert(lines.end(), leftOut.begin(), leftOut.end());
 }
 
+void addTemperatures(const ThermalProperties& fluid, bool turbulent, std::vector<std::string>& lines)
+{
+    lines.push_back(
+        lineOf("temperature", std::string("rho_f Cp (d(eps T)/dt + div(eps U T)) = div(eps ")
+                                  + (turbulent ? "(kappa + rho_f Cp nut/Prt)" : "kappa") + " grad(T)) - Q"));
+    std::ostringstream values;
+    values << "Cp = " << fluid.specificHeat << " J/(kg K), kappa = " << fluid.conductivity << " W/(m K)";
+    if (turbulent)
+    {
+        values << ", Prt = " << fluid.turbulentPrandtlNumber;
+    }
+    lines.push_back(lineOf("", values.str()));
+    lines.push_back(lineOf("", "Q: h A (T - T_p), summed over the particles, per volume"));
+    if (fluid.expansion > 0)
+    {
+        std::ostringstream buoyancy;
+        buoyancy << "momentum also has - eps rho_f beta (T - TRef) g, beta = " << fluid.expansion
+                 << " 1/K, TRef = " << fluid.referenceTemperature << " K";
+        lines.push_back(lineOf("", buoyancy.str()));
+    }
+    lines.push_back(lineOf("of a particle", "m Cp_p dT_p/dt = h A (T - T_p) + heat of the DEM script (contacts)"));
+}
+
 } // namespace
 
-std::vector<std::string> equations(
-    const CouplingSettings& settings, const FluidProperties& fluid, const ParticleForces* forces)
+std::vector<std::string> equations(const CouplingSettings& settings, const FluidProperties& fluid,
+    const ParticleForces* forces, const std::optional<Energy>& energy)
 {
     const std::string motion = "m dv/dt = forces of the DEM script (contacts, gravity)";
     const std::vector<std::string> ofParcels = parcels(settings.coarseGraining(), forces != nullptr);
@@ -168,6 +191,10 @@ std::vector<std::string> equations(
     lines.insert(lines.end(), ofParcels.begin(), ofParcels.end());
     lines.push_back(ofSphere);
     addForces(*forces, settings.modelType(), lines);
+    if (energy)
+    {
+        addTemperatures(energy->fluid, !fluid.turbulence.empty(), lines);
+    }
     return lines;
 }
 

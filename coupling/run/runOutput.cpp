@@ -1,5 +1,6 @@
 #include "run/runOutput.h"
 
+#include "couplingStep/heatTransferModel.h"
 #include "files/writeFailures.h"
 #include "functionObjects/massInHopper.h"
 #include "run/caseSizes.h"
@@ -57,12 +58,13 @@ double sum(const std::map<std::string, double>& secondsByPhase)
 } // namespace
 
 RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-    DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
-    bool dryRun)
+    DemEngine& engine, const FluidModels* models, const std::optional<Energy>& energy, CouplingStep& couplingStep,
+    const Checkpoints& checkpoints, bool dryRun)
     : time_(time),
       mesh_(mesh),
       settings_(settings),
       engine_(engine),
+      temperatures_(energy ? dynamic_cast<ParticleTemperatures*>(&engine) : nullptr),
       couplingStep_(couplingStep),
       checkpoints_(checkpoints),
       observedParticles_(mesh, engine),
@@ -74,7 +76,7 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     }
     startTime_ = time_.value();
     couplingStepCount_ = (time_.endTime().value() - startTime_) / settings_.couplingTimeStep();
-    printReport(fluid, models);
+    printReport(fluid, models, energy);
     if (models)
     {
         const double smoothingBandwidth = models->distribution.smoothingModel().bandwidth();
@@ -83,7 +85,8 @@ RunOutput::RunOutput(RunTime& time, const fvMesh& mesh, const CouplingSettings& 
     }
 }
 
-void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* models)
+void RunOutput::printReport(
+    const FluidProperties& fluid, const FluidModels* models, const std::optional<Energy>& energy)
 {
     std::vector<std::string> lines;
     if (models)
@@ -95,6 +98,10 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
         if (fluid.stratification.isThere())
         {
             lines.push_back(describe(fluid.stratification));
+        }
+        if (energy)
+        {
+            lines.push_back("heat           " + HeatTransferModel::New(energy->dict)->description());
         }
         lines.push_back("void fraction  " + models->distribution.voidFractionModel().description());
         lines.push_back("smoothing      " + models->distribution.smoothingModel().description());
@@ -110,8 +117,8 @@ void RunOutput::printReport(const FluidProperties& fluid, const FluidModels* mod
     }
     const DemTimeScales scales = demTimeScales(
         engine_, settings_.couplingTimeStep(), models ? &fluid : nullptr, mesh_, settings_.coarseGraining());
-    printStartReport(
-        engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr), scales, settings_.demDict());
+    printStartReport(engine_, lines, equations(settings_, fluid, models ? &models->forces : nullptr, energy), scales,
+        settings_.demDict());
     checkDemStep(scales, settings_.demDict());
     demStepChecked_ = scales.particles > 0;
 }
@@ -180,7 +187,7 @@ void RunOutput::start()
     if (settings_.writeVtk())
     {
         particleWriter_ = std::make_unique<ParticleWriter>(time_);
-        particleWriter_->write(engine_.particles(), time_.value());
+        writeParticles();
     }
 }
 
@@ -247,7 +254,7 @@ bool RunOutput::afterCouplingStep()
         progress_.clear();
         if (particleWriter_)
         {
-            particleWriter_->write(engine_.particles(), time_.value());
+            writeParticles();
         }
         couplingStep_.conservation().report();
     }
@@ -275,6 +282,12 @@ void RunOutput::writeCheckpoint()
     }
     requireTablesWritten();
     checkpoints_.complete(engine_);
+}
+
+void RunOutput::writeParticles()
+{
+    particleWriter_->write(
+        engine_.particles(), time_.value(), temperatures_ ? temperatures_->temperatures().temperature.data() : nullptr);
 }
 
 void RunOutput::finish()

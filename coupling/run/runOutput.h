@@ -5,6 +5,7 @@
 #include "checkpoint/stopRequest.h"
 #include "functionObjects/observedParticles.h"
 #include "couplingStep/couplingStep.h"
+#include "couplingStep/energy.h"
 #include "output/particleWriter.h"
 #include "run/costModel.h"
 #include "run/progress.h"
@@ -25,10 +26,11 @@ class RunOutput
 public:
     /// Prints the report. Collective. FatalIOError where the DEM step is above the stable one.
     /// \param models  null for DEM only
+    /// \param energy  empty where the case has no temperatures
     /// \param dryRun  whether the case is only checked
     RunOutput(RunTime& time, const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
-        DemEngine& engine, const FluidModels* models, CouplingStep& couplingStep, const Checkpoints& checkpoints,
-        bool dryRun = false);
+        DemEngine& engine, const FluidModels* models, const std::optional<Energy>& energy, CouplingStep& couplingStep,
+        const Checkpoints& checkpoints, bool dryRun = false);
 
     /// Starts the function objects and writes the first particles. Call when all fields exist. Collective.
     void start();
@@ -59,7 +61,8 @@ private:
     void checkBedOnce();
     void requireTablesWritten() const;
     void writeCheckpoint();
-    void printReport(const FluidProperties& fluid, const FluidModels* models);
+    void writeParticles();
+    void printReport(const FluidProperties& fluid, const FluidModels* models, const std::optional<Energy>& energy);
     /// Updates the estimates of the run time after each coupling step. \return wall time that is left [s], negative
     /// where not known yet
     double estimate();
@@ -68,6 +71,8 @@ private:
     const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
+    /// Null where the case has no temperatures.
+    ParticleTemperatures* const temperatures_;
     CouplingStep& couplingStep_;
     const Checkpoints& checkpoints_;
     /// Gives function objects access to the particles.

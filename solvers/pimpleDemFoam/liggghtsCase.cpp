@@ -1,3 +1,4 @@
+#include "couplingStep/energy.h"
 #include "demProgram.h"
 #include "engine/liggghts/liggghtsEngine.h"
 #include "engine/liggghts/script.h"
@@ -35,6 +36,30 @@ void requireSameGravity(const FluidProperties& fluid, const DemEngine& engine, c
     }
 }
 
+/// The temperature and the specific heat of the particles are stated once: in the script, where LIGGGHTS' own heat
+/// conduction reads them, or in the dictionary `energy`.
+void requireHeatStatedOnce(const dictionary& energy, const ScriptFacts& script)
+{
+    const auto requireOnce = [&](const word& entry, bool inScript, const char* command) {
+        if (energy.found(entry) == inScript)
+        {
+            FatalIOErrorInFunction(energy)
+                << (inScript ? "Entry '" : "There is no entry '") << entry << "' in the dictionary 'energy' and "
+                << (inScript ? "a '" : "no '") << command << "' in the DEM script; allowed: one of both"
+                << exit(FatalIOError);
+        }
+    };
+    requireOnce("particleTemperature", script.hasTemperature, "fix heat/gran' or 'fix property/atom Temp scalar");
+    requireOnce("particleCp", script.hasSpecificHeat, "fix property/global thermalCapacity peratomtype");
+    if (script.hasTemperature && !script.temperatureInRestartFiles)
+    {
+        FatalIOErrorInFunction(energy)
+            << "'fix property/atom Temp scalar' in the DEM script is not in restart files, so "
+            << "that a resumed run would lose the particles' temperatures; allowed: "
+            << "'property/atom Temp scalar yes yes no <temperature>'" << exit(FatalIOError);
+    }
+}
+
 /// A case whose particles LIGGGHTS moves.
 class LiggghtsCase final : public DemProgram
 {
@@ -60,6 +85,10 @@ public:
         engine_ = std::make_unique<LiggghtsEngine>(setup_);
         const ScriptFacts script = engine_->scriptFacts();
         requireKnownScript(settings_, script, mesh);
+        if (hasEnergy(settings_))
+        {
+            requireHeatStatedOnce(settings_.dict().subDict("energy"), script);
+        }
         if (fluid)
         {
             requireSameGravity(*fluid, *engine_, script);

@@ -10,6 +10,7 @@
 #include "demProgram.h"
 #include "ignoredInputs.h"
 #include "fluidSources.h"
+#include "fluidTemperature.h"
 #include "modelLines.h"
 #include "mpiSession.h"
 #include "run/caseSizes.h"
@@ -31,14 +32,23 @@ namespace
 
 using namespace clepsydra;
 
-FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
+/// What a case with fluid states of it.
+struct Fluid
+{
+    FluidProperties properties = {};
+    /// Empty where the case has no temperatures.
+    std::optional<Energy> energy = {};
+};
+
+Fluid readFluid(const Time& runTime, const boundBox& mesh, const CouplingSettings& settings)
 {
     const IOdictionary transportProperties(
         IOobject("transportProperties", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
     const uniformDimensionedVectorField g(
         IOobject("g", runTime.constant(), runTime, IOobject::MUST_READ, IOobject::NO_WRITE));
 
-    requireKnownEntries(transportProperties, {"transportModel", "rho", "nu"}, {"stratification"});
+    requireKnownEntries(
+        transportProperties, {"transportModel", "rho", "nu", "Cp", "kappa", "Prt", "beta", "TRef"}, {"stratification"});
     if (transportProperties.found("transportModel"))
     {
         selectedModel(transportProperties, "transportModel", {"Newtonian"});
@@ -52,8 +62,9 @@ FluidProperties readFluidProperties(const Time& runTime, const boundBox& mesh)
     const double kinematicViscosity = positive("nu", dimViscosity);
 
     const Vector3d gravity = toEigen(g.value());
-    return {density, density * kinematicViscosity, gravity, readStratification(transportProperties, gravity, mesh),
-        readTurbulence(runTime)};
+    const FluidProperties properties{density, density * kinematicViscosity, gravity,
+        readStratification(transportProperties, gravity, mesh), readTurbulence(runTime)};
+    return {properties, readEnergy(settings, transportProperties, !properties.turbulence.empty())};
 }
 
 /// Writes the particles for other runs, with a checksum that these runs check.
@@ -100,11 +111,16 @@ private:
     const int before_ = messageStream::level;
 };
 
+/// \param temperature  null where the case has none
 void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
-    FluidModels& models, CouplingStep& couplingStep, RunOutput& output, bool resumed)
+    FluidModels& models, FluidTemperature* temperature, CouplingStep& couplingStep, RunOutput& output, bool resumed)
 {
     VoidFractionFlow flow(mesh, fluid, modelType, models.viscousStress, couplingStep.timers());
     flow.addTurbulence(fluid, couplingStep.fluid().voidFraction(), resumed);
+    if (temperature)
+    {
+        flow.setAcceleration(temperature->buoyancy());
+    }
     couplingStep.start(flow.U(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
@@ -117,6 +133,12 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
             Info << "Time = " << runTime.timeName() << nl;
             return flow.solve(particles);
         }();
+        if (temperature)
+        {
+            const QuietOnTerminal quiet(output);
+            const PhaseTimers::Scope timing = couplingStep.timers().time("heat");
+            temperature->solve(particles, flow.alphaPhi(), models.viscousStress.turbulence());
+        }
         couplingStep.fluidToParticles(solved, flow.U(), flow.p());
         if (output.afterCouplingStep())
         {
@@ -184,7 +206,8 @@ int main(int argc, char* argv[])
 
     const CouplingSettings settings(runTime);
     requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
-    const FluidProperties fluid = settings.hasFluid() ? readFluidProperties(runTime, mesh.bounds()) : FluidProperties{};
+    const Fluid input = settings.hasFluid() ? readFluid(runTime, mesh.bounds(), settings) : Fluid{};
+    const FluidProperties& fluid = input.properties;
     if (settings.hasFluid())
     {
         checkScalarTransport(mesh);
@@ -204,14 +227,20 @@ int main(int argc, char* argv[])
             runTime.resume(checkpoints.beginning());
         }
         DemEngine& engine = demProgram->start(checkpoints, mesh, models ? &fluid : nullptr);
+        std::optional<FluidTemperature> temperature;
+        if (input.energy)
+        {
+            temperature.emplace(mesh, *input.energy, fluid, engine);
+        }
         CouplingStep couplingStep(mesh, settings, fluid, engine, models.get(), timers, checkpoints.resumed());
         demProgram->warnOfUnreadInput();
-        RunOutput output(runTime, mesh, settings, fluid, engine, models.get(), couplingStep, checkpoints, dryRun);
+        RunOutput output(
+            runTime, mesh, settings, fluid, engine, models.get(), input.energy, couplingStep, checkpoints, dryRun);
 
         if (models)
         {
-            runWithFluid(
-                runTime, mesh, fluid, settings.modelType(), *models, couplingStep, output, checkpoints.resumed());
+            runWithFluid(runTime, mesh, fluid, settings.modelType(), *models, temperature ? &*temperature : nullptr,
+                couplingStep, output, checkpoints.resumed());
         }
         else
         {

@@ -1,5 +1,6 @@
 #include "scriptRules.h"
 
+#include "couplingStep/energy.h"
 #include "distribution/cyclicPatches.h"
 #include "movingWalls.h"
 #include "runTimeSelection.h"
@@ -39,6 +40,9 @@ const std::set<std::string> knownFixes = {
     "READ_RESTART", "STORE", "contacthistory", "contacthistory/mesh", "neighlist/mesh", "contactproperty/atom",
     "contactproperty/atom/wall", "diam/max"};
 
+/// Styles of LIGGGHTS' heat conduction, which work with a fluid whose temperature is computed.
+const std::set<std::string> heatFixes = {"heat/gran", "heat/gran/conduction", "transportequation/scalar"};
+
 /// Why fixes are not known to work with a fluid, by the beginning of their style.
 const std::map<std::string, std::string> reasons = {
     {"buoyancy", "the fluid's forces are those of forceModels, and this force would be added to them"},
@@ -47,7 +51,7 @@ const std::map<std::string, std::string> reasons = {
     {"deform", "the DEM box changes, and the fluid's mesh does not"},
     {"drag", "the fluid's forces are those of forceModels, and this force would be added to them"},
     {"external", "the coupling adds its own fix of this style, which must be the only one"},
-    {"heat/", "the fluid neither heats nor cools the particles"},
+    {"heat/", "the fluid neither heats nor cools the particles without the dictionary 'energy' in couplingProperties"},
     {"multisphere", "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
     {"particletemplate/multi",
         "the spheres of a body overlap, and the fluid would count the volume of the overlap twice"},
@@ -115,7 +119,7 @@ std::string objectionToGravity(const ScriptFacts::Fix& gravity, const ScriptFact
                                                                  : std::string();
 }
 
-void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
+void addFixes(const ScriptFacts& facts, bool hasEnergy, std::vector<Unknown>& unknown)
 {
     const bool hasIf = facts.lastCommand("if") != nullptr;
     for (const ScriptFacts::Fix& fix : facts.fixes)
@@ -127,7 +131,8 @@ void addFixes(const ScriptFacts& facts, std::vector<Unknown>& unknown)
         }
         const std::string place = placeOf(fix.command);
         const std::string name = "fix " + fix.id + " has the style '" + fix.style + "': ";
-        if (knownFixes.count(fix.style) == 0)
+        const bool isKnown = knownFixes.count(fix.style) > 0 || (hasEnergy && heatFixes.count(fix.style) > 0);
+        if (!isKnown)
         {
             unknown.push_back({place, name + reasonFor(fix.style), fix.style});
         }
@@ -179,10 +184,18 @@ void addContactsOfParcels(const ScriptFacts& facts, double coarseGraining, std::
         {
             addContactsOfParcels(fix.command, coarseGraining, unknown);
         }
+        if (heatFixes.count(fix.style) > 0 && !fix.command.text.empty())
+        {
+            unknown.push_back({placeOf(fix.command),
+                "fix " + fix.id + " has the style '" + fix.style
+                    + "': heat that parcels conduct through their contacts is not that of their particles",
+                fix.style});
+        }
     }
 }
 
-std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& mesh, double coarseGraining)
+std::vector<Unknown> unknownWithFluid(
+    const ScriptFacts& facts, const fvMesh& mesh, double coarseGraining, bool hasEnergy)
 {
     std::vector<Unknown> unknown;
     const auto requireOneOf = [&](const std::string& command, const std::string& style,
@@ -196,7 +209,7 @@ std::vector<Unknown> unknownWithFluid(const ScriptFacts& facts, const fvMesh& me
     requireOneOf("atom_style", facts.atomStyle, {"granular", "sphere"});
     requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
     requireOneOf("run_style", facts.runStyle, {"verlet"});
-    addFixes(facts, unknown);
+    addFixes(facts, hasEnergy, unknown);
     addMovingWalls(facts, mesh, unknown);
     if (coarseGraining != 1)
     {
@@ -313,7 +326,8 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     requireRightWithFluid(demDict, facts);
     std::string text;
     std::set<std::string> names;
-    for (const auto& [place, what, name] : unknownWithFluid(facts, mesh, settings.coarseGraining()))
+    for (const auto& [place, what, name] :
+        unknownWithFluid(facts, mesh, settings.coarseGraining(), clepsydra::hasEnergy(settings)))
     {
         if (!allowed.match(name))
         {

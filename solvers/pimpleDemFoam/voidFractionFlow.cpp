@@ -141,6 +141,10 @@ fvVectorMatrix VoidFractionFlow::momentumEquation(
         particleSource
     );
     sources_.addTo(UEqn, U_, voidFraction);
+    if (acceleration_)
+    {
+        UEqn -= voidFraction*(*acceleration_);
+    }
     UEqn.relax();
     sources_.constrain(UEqn);
 

@@ -46,6 +46,19 @@ public:
     /// present phi. Call before the first step; solve() does so after each.
     void updateAlphaPhi(const Foam::volScalarField& voidFraction);
 
+    /// The flux of fluid of the last updateAlphaPhi() or solve() [m3/s].
+    const Foam::surfaceScalarField& alphaPhi() const
+    {
+        return alphaPhi_;
+    }
+
+    /// Adds an acceleration of the fluid to the momentum equation, or none where it is null. It must exist as long as
+    /// solve() is called.
+    void setAcceleration(const Foam::volVectorField* acceleration)
+    {
+        acceleration_ = acceleration;
+    }
+
     /// Solves the fluid's equations over one coupling step.
     SolvedStep solve(ParticlesInFluid& particles);
 
@@ -66,6 +79,7 @@ private:
     ViscousStress& viscousStress_;
     const FluidSources sources_;
     std::unique_ptr<FluidTurbulence> turbulence_; // null in laminar flow
+    const Foam::volVectorField* acceleration_ = nullptr;
 };
 
 } // namespace clepsydra

@@ -50,6 +50,7 @@ MODELS = {
     "turbulenceProperties { simulationType }": ["models-simulationType"],
     "turbulenceProperties { RAS { RASModel } }": ["models-RASModel"],
     "turbulenceProperties { LES { LESModel } }": ["models-LESModel"],
+    "energy/heatTransferModel": ["models-heatTransferModel"],
 }
 
 # File of each call of requireKnownEntries(), in the order of the calls -> label; None where the call allows no entry.
@@ -61,6 +62,7 @@ ENTRIES: dict[str, list[Optional[str]]] = {
         "entries-useDDTvoidfractionProps",
     ],
     "coupling/conservation/conservationCheck.cpp": ["entries-conservationCheck"],
+    "coupling/couplingStep/energy.cpp": ["entries-energy"],
     "coupling/couplingStep/turbulentDispersion.cpp": ["entries-turbulentDispersionProps"],
     "coupling/distribution/constDiffSmoothing.cpp": ["entries-constDiffSmoothingProps"],
     "coupling/distribution/gaussianVoidFraction.cpp": ["entries-GaussianProps"],

@@ -370,6 +370,79 @@ TEST(BadInput, FluidSources)
     EXPECT_TRUE(outcome.succeeded()) << outcome.output;
 }
 
+/// Temperatures: entries that are missing, wrong or without effect, and what is stated twice or nowhere. Each would be a run
+/// with other temperatures than the user has in mind.
+TEST(BadInput, Temperatures)
+{
+    const auto expectWithEnergyRefused = [](const Change& makeMistake, const Words& words, SeenBy seenBy) {
+        const Change change = [&](TestCase& test) {
+            test.transport().set("Cp", 4200).set("kappa", 0.6);
+            test.coupling()
+                .set("energy/heatTransferModel", "Gunn")
+                .set("energy/particleCp", 840)
+                .set("energy/particleTemperature", 350);
+            test.file("0/T") = FoamFile("volScalarField");
+            test.file("0/T")
+                .set("dimensions", "[0 0 0 1 0 0 0]")
+                .set("internalField", "uniform 300")
+                .set("boundaryField/walls/type", "zeroGradient");
+            test.file("system/fvSchemes").set("divSchemes/div(phi,T)", "Gauss upwind");
+            test.solution().set("solvers/T", "{ solver PBiCGStab; preconditioner DILU; tolerance 1e-14; relTol 0; }");
+            makeMistake(test);
+        };
+        expectRefused(change, words, seenBy);
+    };
+    const auto expectInCoupling = [&](const std::string& entry, const std::string& value, const Words& words) {
+        SCOPED_TRACE(entry + ' ' + value);
+        expectWithEnergyRefused(
+            [&](TestCase& test) { test.coupling().set(entry, value); }, words, SeenBy::dictionaries);
+    };
+    expectInCoupling("energy/heatTransferModel", "Wakao", {couplingProperties, "'Wakao'", "RanzMarshall"});
+    expectInCoupling("energy/particleCP", "840", {couplingProperties, "did you mean 'particleCp'?"});
+    expectInCoupling("energy/particleCp", "0", {couplingProperties, "'particleCp' is 0", "a number > 0"});
+    expectInCoupling("useDDTvoidfraction", "off", {couplingProperties, "'useDDTvoidfraction' is off", "'energy'"});
+
+    const auto expectInTransport = [&](const std::string& entry, const std::string& value, const Words& words) {
+        SCOPED_TRACE(entry + ' ' + value);
+        expectWithEnergyRefused(
+            [&](TestCase& test) { test.transport().set(entry, value); }, words, SeenBy::dictionaries);
+    };
+    expectInTransport("kappa", "-1", {transportProperties, "'kappa' is -1", "a number > 0"});
+    expectInTransport("beta", "2e-4", {transportProperties, "'beta'", "'TRef'", "allowed: both"});
+    expectWithEnergyRefused(
+        [](TestCase& test) {
+            test.transport().set("beta", "2e-4").set("TRef", "300");
+            test.coupling().set("modelType", "B").set("forceModels", "(DiFeliceDrag Archimedes)");
+        },
+        {transportProperties, "'beta'", "'modelType'", "allowed: modelType A"}, SeenBy::dictionaries);
+    expectWithEnergyRefused(
+        [](TestCase& test) { test.transport().remove("Cp"); }, {transportProperties, "Cp"}, SeenBy::dictionaries);
+
+    // Without energy
+    expectRefused([](TestCase& test) { test.transport().set("Cp", "4200"); },
+        {transportProperties, "'Cp' has no effect without", "'energy'"}, SeenBy::dictionaries);
+    expectRefused([](TestCase& test) { test.coupling().set("conservationCheck/heatTolerance", "1e-6"); },
+        {couplingProperties, "'heatTolerance' has no effect without", "'energy'"}, SeenBy::engine);
+
+    // Beside the DEM script
+    expectWithEnergyRefused([](TestCase& test) { test.coupling().remove("energy/particleCp"); },
+        {couplingProperties, "no entry 'particleCp'", "thermalCapacity"}, SeenBy::engine);
+    expectWithEnergyRefused(
+        [](TestCase& test) { test.dem.more = "fix Temp all property/atom Temp scalar yes yes no 300"; },
+        {couplingProperties, "Entry 'particleTemperature'", "Temp scalar", "allowed: one of both"}, SeenBy::engine);
+    expectWithEnergyRefused(
+        [](TestCase& test) {
+            test.coupling().remove("energy/particleTemperature");
+            test.dem.more = "fix Temp all property/atom Temp scalar no yes no 300";
+        },
+        {"not in restart files", "allowed: 'property/atom Temp scalar yes yes no"}, SeenBy::engine);
+
+    // The field
+    expectWithEnergyRefused([](TestCase& test) { test.file("0/T").set("dimensions", "[0 0 0 0 0 0 0]"); },
+        {"0/T", "dimensions [0 0 0 1 0 0 0] of a temperature"}, SeenBy::engine);
+    expectWithEnergyRefused([](TestCase& test) { test.removeFile("0/T"); }, {"0/T"}, SeenBy::engine);
+}
+
 /// OpenFOAM's transport equation with the flux between the particles would change a uniform concentration, to 0.64 to 1.46
 /// in a fluidised bed; a scheme that subtracts the divergence of the flux does not.
 TEST(BadInput, ScalarTransportWithoutBoundedScheme)

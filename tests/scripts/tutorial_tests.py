@@ -25,6 +25,7 @@ BY_HAND = {
     "spoutedBed": (["blockMesh"], "postProcessing/pressureDrop/0/surfaceFieldValue.dat", "0.005"),
     "wetDrum": (["blockMesh"], "DEM/drum.dump", "0.02"),
     "periodicSettling": (["blockMesh"], "postProcessing/waterVelocity/0/volFieldValue.dat", "0.005"),
+    "heatedBed": (["blockMesh"], "postProcessing/outletTemperature/0/surfaceFieldValue.dat", "0.01"),
     "hopperDry": (["blockMesh"], "postProcessing/massInHopper/0/massInHopper.dat", "0.01"),
     "hopperSubmerged": (["blockMesh"], "postProcessing/massInHopper/0/massInHopper.dat", "0.01"),
     "hopperFromSTL": (

@@ -81,6 +81,16 @@ void LiggghtsEngine::requestMemory(int numbers)
     parts_->particles.requestMemory(numbers);
 }
 
+void LiggghtsEngine::requestTemperatures(const HeatOfParticles& heat)
+{
+    parts_->particles.requestTemperatures(heat);
+}
+
+TemperaturesView LiggghtsEngine::temperatures()
+{
+    return parts_->particles.temperatures();
+}
+
 void LiggghtsEngine::initialise(FluidForces* forces)
 {
     LiggghtsProgram& program = parts_->program;

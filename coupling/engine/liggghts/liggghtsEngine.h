@@ -3,6 +3,7 @@
 #include "engine/demEngine.h"
 #include "engine/liggghts/scriptFacts.h"
 #include "engine/liggghts/setup.h"
+#include "engine/particleTemperatures.h"
 
 #include <memory>
 #include <vector>
@@ -13,7 +14,7 @@ namespace clepsydra
 /// LIGGGHTS 3.8 in this process. The script sets up particles, walls, contacts and gravity. It must not define
 /// `fix external`, which the coupling adds as the last fix, so that it has access to all other forces, and no fix that
 /// changes the DEM step.
-class LiggghtsEngine final : public DemEngine
+class LiggghtsEngine final : public DemEngine, public ParticleTemperatures
 {
 public:
     /// Runs the script. \throws DemEngineError that names the script, the line and LIGGGHTS' own message
@@ -29,6 +30,8 @@ public:
     void requestPairs(double reach) override;
     void requestState(const std::vector<double>& ofNewParticle) override;
     void requestMemory(int numbers) override;
+    void requestTemperatures(const HeatOfParticles& heat) override;
+    TemperaturesView temperatures() override;
     void initialise(FluidForces* forces) override;
     void advance(int steps) override;
     void prepare() override;

@@ -2,6 +2,7 @@
 
 #include "engine/liggghts/liggghtsProgram.h"
 #include "engine/liggghts/rows.h"
+#include "engine/liggghts/scriptFacts.h"
 
 #include <atom.h>
 #include <domain.h>
@@ -50,6 +51,37 @@ void LiggghtsParticles::addProperties()
         memory_.emplace(program_, "clepsydraMemory", std::vector<double>(static_cast<std::size_t>(memorySize_), 0.0),
             InRestartFiles::yes);
     }
+    if (heat_)
+    {
+        addTemperatures();
+    }
+}
+
+void LiggghtsParticles::requestTemperatures(const HeatOfParticles& heat)
+{
+    heat_ = heat;
+}
+
+void LiggghtsParticles::addTemperatures()
+{
+    temperature_ = heat_->temperature ? ParticleProperty(
+                       program_, temperatureName, {*heat_->temperature}, ParticleProperty::InRestartFiles::yes)
+                                      : ParticleProperty(program_, temperatureName);
+    specificHeats_ = heat_->specificHeat
+                         ? std::vector<double>(static_cast<std::size_t>(program_->atom->ntypes), *heat_->specificHeat)
+                         : specificHeatsOf(program_);
+}
+
+TemperaturesView LiggghtsParticles::temperatures()
+{
+    const lmp::Atom& atom = *program_->atom;
+    heatCapacities_.resize(static_cast<std::size_t>(atom.nlocal));
+    for (int particle = 0; particle < atom.nlocal; ++particle)
+    {
+        heatCapacities_[static_cast<std::size_t>(particle)] =
+            atom.rmass[particle] * specificHeats_[static_cast<std::size_t>(atom.type[particle] - 1)];
+    }
+    return {View<double>(temperature_->values(), atom.nlocal), ConstView<double>(heatCapacities_.data(), atom.nlocal)};
 }
 
 ParticlesView LiggghtsParticles::view(

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "engine/liggghts/particleProperty.h"
-#include "engine/particles.h"
+#include "engine/particleTemperatures.h"
 
 #include <array>
 #include <optional>
@@ -22,6 +22,10 @@ public:
     void requestPairs(double reach);
     void requestState(const std::vector<double>& ofNewParticle);
     void requestMemory(int numbers);
+
+    /// As the members of ParticleTemperatures with these names.
+    void requestTemperatures(const HeatOfParticles& heat);
+    TemperaturesView temperatures();
 
     /// Adds what was requested to LIGGGHTS, and the insertion ramp.
     void addProperties();
@@ -44,6 +48,8 @@ public:
     std::vector<bool> areNew() const;
 
 private:
+    void addTemperatures();
+
     LiggghtsProgram& program_;
     std::vector<double> stateOfNewParticle_;
     int memorySize_ = 0;
@@ -51,6 +57,12 @@ private:
     std::optional<ParticleProperty> state_;
     std::optional<ParticleProperty> memory_;
     std::optional<ParticleProperty> insertionRamp_;
+    std::optional<HeatOfParticles> heat_;
+    std::optional<ParticleProperty> temperature_;
+    /// By material [J/(kg K)].
+    std::vector<double> specificHeats_;
+    /// Of the particles when temperatures() was called last.
+    std::vector<double> heatCapacities_;
     std::vector<std::array<int, 2>> pairList_;
 };
 

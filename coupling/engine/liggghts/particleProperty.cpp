@@ -2,6 +2,7 @@
 
 #include "engine/liggghts/liggghtsProgram.h"
 #include "engine/liggghts/rows.h"
+#include "tokens/exactText.h"
 
 #include <fix_property_atom.h>
 #include <lammps.h>
@@ -20,13 +21,18 @@ ParticleProperty::ParticleProperty(LiggghtsProgram& program, const std::string& 
                           + (inRestartFiles == InRestartFiles::yes ? " yes" : " no") + " no no";
     for (const double value : ofNewParticle)
     {
-        command += ' ' + std::to_string(value);
+        command += ' ' + exactText(value);
     }
     // LIGGGHTS warns of many values per particle.
     program.execute(command, name, LiggghtsProgram::Warnings::dropped);
     fix_ = program->modify->find_fix_property(name.c_str(), "property/atom", style.c_str(),
         isScalar_ ? 0 : static_cast<int>(ofNewParticle.size()), 0, "coupling");
 }
+
+ParticleProperty::ParticleProperty(LiggghtsProgram& program, const std::string& name)
+    : isScalar_(true),
+      fix_(program->modify->find_fix_property(name.c_str(), "property/atom", "scalar", 0, 0, "coupling"))
+{}
 
 double* ParticleProperty::values() const
 {

@@ -28,11 +28,14 @@ public:
     ParticleProperty(LiggghtsProgram& program, const std::string& name, const std::vector<double>& ofNewParticle,
         InRestartFiles inRestartFiles);
 
+    /// A number that the script has given each particle. \pre the script has run and has it
+    ParticleProperty(LiggghtsProgram& program, const std::string& name);
+
     /// The numbers of this rank's particles, one particle after another.
     double* values() const;
 
 private:
-    const bool isScalar_;
+    bool isScalar_;
     LAMMPS_NS::Fix* fix_;
 };
 

@@ -190,6 +190,15 @@ ScriptFacts factsOf(const LiggghtsProgram& program, std::vector<ScriptCommand> c
         facts.fixes.push_back({fix->id, fix->style, nameOfGroup(*program->group, fix->groupbit),
             command ? *command : ScriptCommand{}, fix->time_integrate == 1});
     }
+    const auto property = [&](const char* name, const char* style, const char* kind, int size) {
+        constexpr bool missingIsError = false;
+        return program->modify->find_fix_property(name, style, kind, size, 0, "coupling", missingIsError);
+    };
+    const lmp::Fix* const temperature = property(temperatureName, "property/atom", "scalar", 0);
+    facts.hasTemperature = temperature != nullptr;
+    facts.temperatureInRestartFiles = temperature && temperature->restart_peratom != 0;
+    facts.hasSpecificHeat =
+        property(specificHeatName, "property/global", "peratomtype", program->atom->ntypes) != nullptr;
     return facts;
 }
 
@@ -229,6 +238,19 @@ std::vector<ContactMaterial> contactMaterialsOf(const LiggghtsProgram& program)
         }
     }
     return materials;
+}
+
+std::vector<double> specificHeatsOf(const LiggghtsProgram& program)
+{
+    const int materialCount = program->atom->ntypes;
+    auto* const fix = static_cast<lmp::FixPropertyGlobal*>(program->modify->find_fix_property(
+        specificHeatName, "property/global", "peratomtype", materialCount, 0, "coupling"));
+    std::vector<double> specificHeats;
+    for (int material = 0; material < materialCount; ++material)
+    {
+        specificHeats.push_back(fix->compute_vector(material));
+    }
+    return specificHeats;
 }
 
 std::vector<ScriptCommand> unreadProperties(const LiggghtsProgram& program, const std::vector<ScriptCommand>& commands)

@@ -52,10 +52,19 @@ struct ScriptFacts
     std::vector<Fix> fixes;
     std::vector<SharedParticles> integratedTwice;
     std::vector<ScriptCommand> commands;
+    /// Whether the script gives each particle a temperature (`fix heat/gran`, or `fix property/atom Temp`), whether that is
+    /// in restart files, and whether it gives each material a specific heat (`fix property/global thermalCapacity`).
+    bool hasTemperature = false;
+    bool temperatureInRestartFiles = false;
+    bool hasSpecificHeat = false;
 };
 
+/// Names that LIGGGHTS' own heat conduction uses.
+constexpr const char* temperatureName = "Temp";
+constexpr const char* specificHeatName = "thermalCapacity";
 /// The periodic directions of LIGGGHTS' box. Local.
 PeriodicBox periodicBoxOf(const LiggghtsProgram& program);
+
 
 /// \param commands  the script's that have been executed, each with the values of its variables
 /// Collective.
@@ -66,6 +75,9 @@ Vector3d gravityOf(const LiggghtsProgram& program);
 
 /// Contact materials of the fixes youngsModulus and poissonsRatio; empty where there are none. Local.
 std::vector<ContactMaterial> contactMaterialsOf(const LiggghtsProgram& program);
+
+/// Specific heat of each material [J/(kg K)]. \pre ScriptFacts::hasSpecificHeat. Local.
+std::vector<double> specificHeatsOf(const LiggghtsProgram& program);
 
 /// Commands `fix ... property/global` whose values no model, no fix and no other command has looked up, so that they
 /// have no effect. Values that are all zero are left out, because they would have none either. Complete when LIGGGHTS
