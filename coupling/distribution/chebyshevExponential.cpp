@@ -8,7 +8,9 @@ namespace clepsydra
 
 std::vector<double> chebyshevExponential(double exponent, double tolerance)
 {
-    if (exponent == 0)
+    // All terms but the first are below the tolerance, and the recurrence would overflow at exponents such as those of a
+    // mesh of one cell.
+    if (2 * exponent < tolerance)
     {
         return {1};
     }

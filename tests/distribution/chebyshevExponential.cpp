@@ -13,12 +13,12 @@ namespace
 
 using clepsydra::chebyshevExponential;
 
-/// The sum is exp(-a (1 - x)) to its tolerance on all of [-1, 1], for exponents from none to far beyond the one where
-/// e^a overflows, and 1 at x = 1, which is what conserves the integral. A series that is cut too early, or coefficients
-/// that lose their digits in the recurrence, miss by more.
+/// The sum is exp(-a (1 - x)) to its tolerance on all of [-1, 1], for exponents from none, and nearly none, to far beyond
+/// the one where e^a overflows, and 1 at x = 1, which is what conserves the integral. A series that is cut too early, or
+/// coefficients that lose their digits in the recurrence, miss by more.
 TEST(ChebyshevExponential, IsTheExponential)
 {
-    for (const double exponent : {0.0, 1e-6, 0.1, 1.0, 8.0, 60.0, 600.0, 1e4, 1e5})
+    for (const double exponent : {0.0, 1e-300, 1e-6, 0.1, 1.0, 8.0, 60.0, 600.0, 1e4, 1e5})
     {
         for (const double tolerance : {1e-4, 1e-8, 1e-12})
         {
