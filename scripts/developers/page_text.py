@@ -9,7 +9,8 @@ PROGRAMS = (".", "Allrun", "closures", "cmake", "ctest", "mpirun", "pimpleDemFoa
 
 
 def without_fences(text: str) -> str:
-    return re.sub(r"^```.*?^```", "", text, flags=re.S | re.M)
+    """Fences of list items are indented."""
+    return re.sub(r"^ {0,3}```.*?^ {0,3}```", "", text, flags=re.S | re.M)
 
 
 def typed_lines(text: str) -> list[tuple[str, str]]:
@@ -38,5 +39,5 @@ def is_command(page: str, line: str) -> bool:
 
 def links(text: str) -> list[str]:
     """Targets within the repository, without the part after #."""
-    found = re.findall(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)", re.sub(r"^```.*?^```|`[^`]+`", "", text, flags=re.S | re.M))
+    found = re.findall(r"\]\(([^)#\s]+)(?:#[^)\s]*)?\)", re.sub(r"`[^`]+`", "", without_fences(text)))
     return [link for link in found if "://" not in link]

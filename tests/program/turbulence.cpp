@@ -102,6 +102,10 @@ void selectModel(TestCase& test, const std::string& type, const std::string& mod
         .set(type + '/' + type + "Model", model)
         .set(type + "/turbulence", "on")
         .set(type + "/printCoeffs", "off");
+    if (model == "kOmegaSSTSAS")
+    {
+        properties.set("RAS/delta", "cubeRootVol").set("RAS/cubeRootVolCoeffs/deltaCoeff", "1");
+    }
     if (type == "LES")
     {
         properties.set("LES/delta", model.find("IDDES") != std::string::npos ? "IDDESDelta" : "cubeRootVol")
@@ -343,29 +347,40 @@ TEST_P(TurbulentCheckpoint, ResumedIsNeverStopped)
 INSTANTIATE_TEST_SUITE_P(Models, TurbulentCheckpoint, testing::Values("kEpsilon", "kOmegaSST", "SpalartAllmaras"),
     [](const testing::TestParamInfo<std::string>& model) { return model.param; });
 
+class TurbulenceOnTwoRanks : public testing::TestWithParam<std::pair<std::string, double>>
+{};
+
 /// Fields of a turbulent channel with particles in serial and on two ranks. A wall function or a wall distance that saw one
-/// rank only would differ by parts of the field.
-TEST(Turbulence, SerialAndTwoRanksAgree)
+/// rank only would differ by parts of the field. In the middle of the channel the blending function of kOmegaSST depends on
+/// grad(k) . grad(omega) where both vanish, so that differences by rounding grow there.
+TEST_P(TurbulenceOnTwoRanks, AgreesWithSerial)
 {
+    const auto& [model, tolerance] = GetParam();
     TestCase serial;
     TestCase parallel;
     for (TestCase* test : {&serial, &parallel})
     {
         channel(*test);
-        selectModel(*test, "RAS", "kOmegaSST", true);
+        selectModel(*test, "RAS", model, true);
         addParticles(*test);
     }
     const Outcome alone = serial.run();
     ASSERT_TRUE(alone.succeeded()) << alone.output;
     const Outcome together = parallel.run(2);
     ASSERT_TRUE(together.succeeded()) << together.output;
-    for (const std::string name : {"U", "p", "k", "omega", "nut", "voidFraction"})
+    std::vector<std::string> names = fieldsOf(model);
+    names.insert(names.end(), {"U", "p", "nut", "voidFraction"});
+    for (const std::string& name : names)
     {
         const double found = difference(parallel.field(name, "0.02"), serial.field(name, "0.02"));
-        std::cout << name << ": " << found << std::endl;
-        EXPECT_LT(found, 1e-9) << name;
+        std::cout << model << ", " << name << ": " << found << std::endl;
+        EXPECT_LT(found, tolerance) << name;
     }
 }
+
+INSTANTIATE_TEST_SUITE_P(Models, TurbulenceOnTwoRanks,
+    testing::Values(std::pair("kEpsilon", 1e-9), std::pair("kOmegaSST", 1e-6)),
+    [](const testing::TestParamInfo<TurbulenceOnTwoRanks::ParamType>& model) { return model.param.first; });
 
 /// Particles that follow the liquid within a twentieth of an eddy's lifetime of 4 ms, in liquid at rest whose turbulence
 /// neither decays nor diffuses: the variance of their places grows as 2 D t with the coefficient of the closure
@@ -376,7 +391,7 @@ TEST(Turbulence, ParticlesDisperseAsTheEddiesSay)
 {
     constexpr double k = 1e-4;
     constexpr double dissipation = 4e-3;
-    constexpr double end = 0.4;
+    constexpr double end = 0.2;
     for (const double couplingTimeStep : {2e-3, 2e-2})
     {
         TestCase test;
@@ -385,9 +400,9 @@ TEST(Turbulence, ParticlesDisperseAsTheEddiesSay)
         test.dem.diameter = 5e-5;
         test.dem.density = 1000;
         test.dem.walls = false;
-        test.dem.timeStep = 2e-5;
-        // No contacts, whose duration would limit the DEM step.
-        test.dem.more = "neigh_modify exclude group all all";
+        test.dem.timeStep = 1e-4;
+        // No contacts, whose duration would limit the DEM step, nor what LIGGGHTS does for them in bins of small particles.
+        test.dem.more = "atom_modify sort 0 0\nneigh_modify exclude group all all binsize 0.01";
         test.coupling().set("DEM/maxRayleighFraction", "1000");
         test.dem.gravity = 0;
         test.file("constant/g").set("value", "(0 0 0)");
@@ -402,7 +417,7 @@ TEST(Turbulence, ParticlesDisperseAsTheEddiesSay)
             .set("turbulentDispersionProps/seed", "5")
             .set("forceModels", "(SchillerNaumannDrag gradPForce viscForce Archimedes)");
         test.setTimes(end, couplingTimeStep, end);
-        test.dem.dumpEvery = 20000;
+        test.dem.dumpEvery = 2000;
         const Outcome outcome = test.run();
         ASSERT_TRUE(outcome.succeeded()) << outcome.output;
         const auto history = test.particleHistory();
