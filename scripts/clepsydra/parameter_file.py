@@ -21,6 +21,7 @@ PIECE = re.compile(
     re.DOTALL,
 )
 EVALUATED = re.compile(r"#eval[ \t]*\{(.*)\}")
+SPELT_ALIKE = 0.85  # as "widht" and "width"; "depth" and "width" are less alike
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 
@@ -153,7 +154,19 @@ def set_values(path: str, *wishes: str) -> None:
 
 
 def merge(path: str, other: str) -> None:
-    change(path, {name: value for name, value, _ in entries(read(other), other)})
+    """The entries of a case on top of those of its template: other values, then entries that the template lacks. Those
+    that look like a misspelt entry of the template are refused."""
+    known = [name for name, _, _ in entries(read(path), path)]
+    wanted = {name: value for name, value, _ in entries(read(other), other)}
+    added = {name: value for name, value in wanted.items() if name not in known}
+    for name in added:
+        if name in NEW_NAMES or difflib.get_close_matches(name, known, 1, SPELT_ALIKE):
+            raise ParameterError(
+                f"{other}: the template {path} has no entry '{name}'{meant(name, known)}; it has: {', '.join(known)}"
+            )
+    change(path, {name: value for name, value in wanted.items() if name not in added})
+    if added:
+        whole_files.write(path, read(path) + "".join(f"\n{name} {value};" for name, value in added.items()) + "\n")
 
 
 def change(path: Path | str, values: Mapping[str, str]) -> None:
