@@ -72,14 +72,16 @@ def field(case: Path | str, time: str, name: str) -> np.ndarray:
     """Values of a field in all cells, one row per cell; of one row where the field is uniform. Written as ascii."""
     text = (Path(case) / time / name).read_text()
     entry = re.search(
-        r"^internalField\s+(nonuniform List<\w+>\s*\d+\s*\((.*?)\n\)|uniform ([^;]*))\s*;",
+        r"^internalField\s+(nonuniform List<\w+>\s*\d+\s*\((.*?)\)|uniform ([^;]*))\s*;",
         text,
         re.MULTILINE | re.DOTALL,
     )
     if not entry:
         raise SystemExit(f"{case}/{time}/{name}: no internalField in ascii")
-    lines = (entry.group(2) or entry.group(3)).strip().splitlines()
-    return np.array([[float(part) for part in line.strip("() ").split()] for line in lines])
+    # A short list stands in one line.
+    values = entry.group(2) or entry.group(3)
+    rows = re.findall(r"\(([^()]*)\)", values) or (values.split() if entry.group(2) else [values])
+    return np.array([[float(part) for part in row.split()] for row in rows])
 
 
 def surface_values(case: Path | str, name: str) -> tuple[np.ndarray, np.ndarray]:

@@ -21,7 +21,7 @@ PIECE = re.compile(
     re.DOTALL,
 )
 EVALUATED = re.compile(r"#eval[ \t]*\{(.*)\}")
-SPELT_ALIKE = 0.85  # as "widht" and "width"; "depth" and "width" are less alike
+SPELT_ALIKE = 0.75  # as "widht" and "width"; "depth" and "width" are less alike
 NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 
 

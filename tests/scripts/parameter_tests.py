@@ -1,6 +1,7 @@
 """clepsydra.parameter_file and clepsydra.arithmetic: what is read, what is refused, what is never run."""
 
 import subprocess
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -101,6 +102,22 @@ class Changing(unittest.TestCase):
             ParameterError, r"no entry 'fricton' \(is 'friction' meant\?\); it has: friction, other"
         ):
             with_parameters("friction 1;\nother 2;\n", {"fricton": "1"})
+
+    def test_a_case_on_top_of_its_template(self) -> None:
+        """Other values, then entries of its own; what looks like a misspelt entry of the template is refused, and
+        neither file is changed."""
+        with tempfile.TemporaryDirectory(prefix="clepsydra-parameters-") as folder:
+            template, case = Path(folder) / "template", Path(folder) / "case"
+            template.write_text("width 1;  // m\nsides noSlip;\n")
+            case.write_text("depth 3;\nwidth 2;\n")
+            parameter_file.merge(str(template), str(case))
+            merged = template.read_text()
+            self.assertIn("width 2;  // m", merged)
+            self.assertEqual(parameters_in(merged), {"width": 2.0, "sides": "noSlip", "depth": 3.0})
+            case.write_text("width 5; widht 3;\n")
+            with self.assertRaisesRegex(ParameterError, "case: the template .* no entry 'widht' .is 'width' meant"):
+                parameter_file.merge(str(template), str(case))
+            self.assertEqual(template.read_text(), merged)
 
 
 class OldNames(unittest.TestCase):
