@@ -1,5 +1,5 @@
-"""Pages that are files outside of docs/, and parts of pages that are made from files of the repository, so that they cannot
-differ from them."""
+"""Pages that are files outside of docs/, and parts of pages that are made from files of the repository, so that they
+cannot differ from them."""
 
 import os
 import re

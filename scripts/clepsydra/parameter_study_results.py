@@ -58,8 +58,8 @@ def archive(folder: Path) -> int:
 
 
 def files(folder: Path, suffix: str = ".json") -> dict[str, File]:
-    """The files with this suffix, by the name before it: those in a folder, and those in the archive beside it. A file in
-    the folder takes the place of one in the archive. There is a JSON file for each run."""
+    """The files with this suffix, by the name before it: those in a folder, and those in the archive beside it. A file
+    in the folder takes the place of one in the archive. There is a JSON file for each run."""
     archived = archive_of(folder)
     found: dict[str, File] = {}
     if archived.exists():

@@ -39,8 +39,8 @@ def run(seed: str, options: list[str]) -> None:
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "statistics.json"
         study = ROOT / "tests/identification/surrogate/study.yaml"
-        command = [environment.program("checkIdentification"), study, *usual, "--seed", seed, *options]
-        subprocess.run([*command, "--output", output], check=True, stdout=subprocess.DEVNULL)
+        command = [str(environment.program("checkIdentification")), str(study), *usual, "--seed", seed, *options]
+        subprocess.run([*command, "--output", str(output)], check=True, stdout=subprocess.DEVNULL)
         keep(json.loads(output.read_text()))
 
 

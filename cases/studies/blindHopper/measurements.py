@@ -1,8 +1,8 @@
 """The measurements of the sets.
 
 SET.csv holds a whole set: a row for each reading, with its condition and its repeat. A set that has just been measured
-lies in data/; `./pack` moves it into data.zip. A file in data/ takes the place of the one in the archive. While a set is
-being measured, and for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv. """
+lies in data/; `./pack` moves it into data.zip. A file in data/ takes the place of the one in the archive. While a set
+is being measured, and for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv. """
 
 import zipfile
 from pathlib import Path
