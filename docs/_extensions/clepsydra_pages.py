@@ -1,4 +1,5 @@
-"""Parts of pages that are made from files of the repository, so that they cannot differ from them."""
+"""Pages that are files outside of docs/, and parts of pages that are made from files of the repository, so that they
+cannot differ from them."""
 
 import os
 import re
@@ -10,6 +11,7 @@ import yaml
 from docutils import nodes
 from docutils.parsers.rst import Directive
 from docutils.statemachine import StringList
+from sphinx.project import Project
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 
@@ -124,14 +126,21 @@ def files_read_by_doxygen(xml: Path) -> dict[str, list[tuple[str, str]]]:
     return found
 
 
-# Where the site has what a README outside of docs/ stands for.
-PAGES = {
+# Pages of the site that are files of the repository outside of docs/.
+FILES = {
+    "changelog": "CHANGELOG.md",
+    "developers/contributing": "CONTRIBUTING.md",
+    "validation/blindTests": "cases/studies/blindHopper/README.md",
+    "validation/paperHopper": "cases/paper/README.md",
+} | {
+    f"tutorials/{page.parent.name}": str(page.relative_to(REPOSITORY))
+    for page in sorted(REPOSITORY.glob("cases/tutorials/*/README.md"))
+}
+
+# Where the site has what a file outside of docs/ stands for.
+PAGES = {file: page for page, file in FILES.items()} | {
     "README.md": "index",
-    "CHANGELOG.md": "changelog",
-    "CONTRIBUTING.md": "developers/contributing",
     "cases/README.md": "tutorials/index",
-    "cases/paper/README.md": "validation/paperHopper",
-    "cases/studies/blindHopper/README.md": "validation/blindTests",
     "cases/validation/README.md": "validation/index",
     "cmake/README.md": "howTo/install",
     "coupling/README.md": "reference/index",
@@ -141,22 +150,50 @@ PAGES = {
 }
 
 
-def insert_repository_pages(app: Any, docname: str, source: list) -> None:
-    """Replaces a line `% repository page: FILE` by the text of that Markdown file; with `, table of NAME` behind it by
-    what stands there between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
+class ProjectWithFiles(Project):
+    """The pages of docs/ and those of FILES, which stand in docs/ for whatever refers to them."""
 
-    def text_of(match: Any) -> str:
+    def discover(self, *patterns: Any, **named: Any) -> set[str]:
+        self.docnames = super().discover(*patterns, **named) | set(FILES)
+        return self.docnames
+
+    def doc2path(self, docname: str, basedir: bool = True) -> str:
+        if basedir and docname in FILES:
+            # Sphinx requires that the path of a page begins with that of docs/
+            return os.path.join(self.srcdir, os.path.relpath(REPOSITORY / FILES[docname], self.srcdir))
+        return super().doc2path(docname, basedir)
+
+
+def add_files(app: Any) -> None:
+    app.project = app.env.project = ProjectWithFiles(app.srcdir, app.config.source_suffix)
+
+
+def prepare_text(app: Any, docname: str, source: list) -> None:
+    """Links of a page as they are in the site. In a page of docs/, a line `% repository page: FILE, table of NAME` is
+    replaced by what stands in that file between `<!-- table of NAME ...-->` and `<!-- end of the table -->`."""
+
+    def table_of(match: Any) -> str:
         path = REPOSITORY / match["file"]
         app.env.dependencies[docname].add(str(path))
         text = path.read_text(encoding="utf-8")
-        if match["table"]:
-            table = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)
-            text = table[1] if table else ""
-        return with_links_from(text, match["file"], docname)
+        table = re.search(rf"<!-- {match['table']}.*?-->\n(.*?)<!-- end of the table -->", text, re.DOTALL)
+        return with_links_from(table[1] if table else "", match["file"], docname)
 
+    def link_to_file(match: Any) -> str:
+        path = os.path.normpath(os.path.join("docs", os.path.dirname(docname), match["target"]))
+        return f"]({relative(PAGES[path], docname)}" if path in PAGES else match[0]
+
+    if docname in FILES:
+        source[0] = with_links_from(source[0], FILES[docname], docname)
+        return
+    text = re.sub(r"\]\((?P<target>[^)#\s]+\.md)", link_to_file, source[0])
     source[0] = re.sub(
-        r"^% repository page: (?P<file>\S+?)(?:, (?P<table>table of .+))?$", text_of, source[0], flags=re.MULTILINE
+        r"^% repository page: (?P<file>\S+), (?P<table>table of .+)$", table_of, text, flags=re.MULTILINE
     )
+
+
+def relative(page: str, docname: str) -> str:
+    return os.path.relpath(page, os.path.dirname(docname) or ".") + ".md"
 
 
 def with_links_from(text: str, file: str, docname: str) -> str:
@@ -170,8 +207,8 @@ def with_links_from(text: str, file: str, docname: str) -> str:
         page = re.sub(r"^docs/|\.md$", "", path) if path.startswith("docs/") else PAGES.get(path)
         if page and not picture:
             # of another README the site has the text under headings of its own
-            kept = anchor if path.startswith("docs/") or path in ("CHANGELOG.md", "CONTRIBUTING.md") else ""
-            return f"[{label}]({os.path.relpath(page, os.path.dirname(docname) or '.')}.md{kept or ''})"
+            kept = anchor if path.startswith("docs/") or page in FILES else ""
+            return f"[{label}]({relative(page, docname)}{kept or ''})"
         if picture:
             return f"![{label}]({os.path.relpath(path, os.path.join('docs', os.path.dirname(docname)))})"
         return f"{label} (`{path}`)"
@@ -187,5 +224,6 @@ def setup(app: Any) -> dict[str, Any]:
     """Called by Sphinx."""
     app.add_directive("effects", EffectTable)
     app.add_directive("headers", Headers)
-    app.connect("source-read", insert_repository_pages)
+    app.connect("builder-inited", add_files)
+    app.connect("source-read", prepare_text)
     return {"version": "1", "parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,11 +1,13 @@
 """Values of the closed formulas in coupling/closures, from the program `closures`."""
 
 import subprocess
-from typing import Any
+from typing import Any, Mapping
 
 import numpy as np
 
 from clepsydra import environment
+
+OF_BED = ("dragLaw", "particleDiameter", "fluidDensity", "fluidViscosity")
 
 
 def value(formula: str, **options: Any) -> float:
@@ -27,15 +29,18 @@ def values(formula: str, **options: Any) -> np.ndarray:
     return np.array([float(line) for line in found.stdout.split()])
 
 
-def bed_pressure_gradient(superficial_velocity: float, void_fraction: float, **options: Any) -> float:
+def bed_pressure_gradient(superficial_velocity: float, void_fraction: float, parameters: Mapping[str, Any]) -> float:
     """One of bed_pressure_gradients()."""
-    return float(bed_pressure_gradients(np.array([superficial_velocity]), void_fraction, **options)[0])
+    return float(bed_pressure_gradients(np.array([superficial_velocity]), void_fraction, parameters)[0])
 
 
-def bed_pressure_gradients(superficial_velocities: np.ndarray, void_fraction: float, **options: Any) -> np.ndarray:
+def bed_pressure_gradients(
+    superficial_velocities: np.ndarray, void_fraction: float, parameters: Mapping[str, Any]
+) -> np.ndarray:
     """Pressure gradients [Pa/m] of flow through a bed at rest in model A, where the void fraction times the gradient is
-    the drag per volume. The options are those of the formula `drag` without voidFraction and slipSpeed."""
+    the drag per volume. Of a case's parameters those named in OF_BED are used."""
     slips = superficial_velocities / void_fraction
-    coefficients = values("drag", **options, voidFraction=void_fraction, slipSpeed=slips)
-    particle_volume = np.pi / 6 * options["particleDiameter"] ** 3
+    of_bed = {name: parameters[name] for name in OF_BED}
+    coefficients = values("drag", **of_bed, voidFraction=void_fraction, slipSpeed=slips)
+    particle_volume = np.pi / 6 * parameters["particleDiameter"] ** 3
     return (1 - void_fraction) / particle_volume * coefficients * slips / void_fraction

@@ -57,15 +57,15 @@ def archive(folder: Path) -> int:
     return len(contents)
 
 
-def files(folder: Path) -> dict[str, File]:
-    """The JSON files of all runs, by the run's name: those in a folder, and those in the archive beside it. A file in
-    the folder takes the place of one in the archive."""
+def files(folder: Path, suffix: str = ".json") -> dict[str, File]:
+    """The files with this suffix, by the name before it: those in a folder, and those in the archive beside it. A file
+    in the folder takes the place of one in the archive. There is a JSON file for each run."""
     archived = archive_of(folder)
     found: dict[str, File] = {}
     if archived.exists():
-        found = {path.name: path for path in zipfile.Path(archived).iterdir() if path.name.endswith(".json")}
-    found.update({path.name: path for path in folder.glob("*.json")})
-    return {name.removesuffix(".json"): path for name, path in sorted(found.items())}
+        found = {path.name: path for path in zipfile.Path(archived).iterdir() if path.name.endswith(suffix)}
+    found.update({path.name: path for path in folder.glob(f"*{suffix}")})
+    return {name.removesuffix(suffix): path for name, path in sorted(found.items())}
 
 
 def read(folder: Path | str) -> list[Run]:

@@ -8,46 +8,49 @@ build/bin/checkIdentification may follow, for instance --libraries 3. """
 import argparse
 import json
 import subprocess
+import tempfile
+from pathlib import Path
 from typing import Any
 
 from scipy.stats import binomtest
 
-from clepsydra import environment
+from clepsydra import environment, whole_files
 
 ROOT = environment.REPOSITORY
-RESULTS = ROOT / "identification/results"
+RESULTS = ROOT / "identification/results/statistics.json"  # a list of what checkIdentification writes for each seed
 USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2, "again": 2, "draws": 500}
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
-        "--run", metavar="SEED", help="run one seed first, 13 minutes, to identification/results/statistics.SEED.json"
+        "--run", metavar="SEED", help="run one seed first, 13 minutes, into identification/results/statistics.json"
     )
     given, options = parser.parse_known_args()
     if given.run:
         run(given.run, options)
     elif options:
         parser.error(f"{options[0]}: only --run SEED has options, those of build/bin/checkIdentification")
-    table([json.loads(path.read_text()) for path in sorted(RESULTS.glob("statistics.*.json"))])
+    table(json.loads(RESULTS.read_text()))
 
 
 def run(seed: str, options: list[str]) -> None:
     usual = [word for name, number in USUAL.items() for word in (f"--{name}", str(number))]
-    subprocess.run(
-        [
-            environment.program("checkIdentification"),
-            ROOT / "tests/identification/surrogate/study.yaml",
-            *usual,
-            "--seed",
-            seed,
-            "--output",
-            RESULTS / f"statistics.{seed}.json",
-            *options,
-        ],
-        check=True,
-        stdout=subprocess.DEVNULL,
-    )
+    with tempfile.TemporaryDirectory() as folder:
+        output = Path(folder) / "statistics.json"
+        study = ROOT / "tests/identification/surrogate/study.yaml"
+        command = [str(environment.program("checkIdentification")), str(study), *usual, "--seed", seed, *options]
+        subprocess.run([*command, "--output", str(output)], check=True, stdout=subprocess.DEVNULL)
+        keep(json.loads(output.read_text()))
+
+
+def keep(result: dict[str, Any]) -> None:
+    """In the place of an earlier result of the same seed."""
+    results = [one for one in json.loads(RESULTS.read_text()) if one["seed"] != result["seed"]]
+    results = sorted([*results, result], key=lambda one: one["seed"])
+    with whole_files.replacing(RESULTS) as file:
+        json.dump(results, file, indent=1)
+        file.write("\n")
 
 
 def table(seeds: list[dict[str, Any]]) -> None:

@@ -331,6 +331,12 @@ class Site(unittest.TestCase):
             pages = {page: Targets(page) for page in sorted(site.rglob("*.html"))}
             self.assertIn(site / "reference/couplingProperties.html", pages)
             self.assertIn("couplingTimeStep", (site / "reference/couplingProperties.html").read_text(encoding="utf-8"))
+            # files outside of docs/ are pages as well
+            tutorials = sorted(REPOSITORY.glob("cases/tutorials/*/README.md"))
+            self.assertGreater(len(tutorials), 5)
+            for readme in tutorials:
+                self.assertIn(site / f"tutorials/{readme.parent.name}.html", pages)
+            self.assertIn("Keep a Changelog", (site / "changelog.html").read_text(encoding="utf-8"))
             wrong, followed = [], 0
             for page, found in pages.items():
                 for link in found.links:

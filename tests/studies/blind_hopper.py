@@ -54,6 +54,7 @@ def main() -> None:
         )
     changes_are_found(folder)
     nothing_is_lost_in_files(folder)
+    what_is_measured_takes_the_place_of_what_is_archived(folder)
     old_names_are_read()
     study_is_changed_where_asked(folder)
     what_was_asked_for_was_measured()
@@ -109,11 +110,10 @@ def nothing_is_lost_in_files(folder: Path) -> None:
         "record.tar.xz packed again has other bytes",
     )
     case = copy(folder / "unpacked")
-    shutil.copytree(CASE / "data", case / "data")
     candidates = blind_run.candidates()
     for name in opened_sets():
         runs = {run for run in measurements.discharges(name) if run.rsplit("_", 1)[0] not in candidates}
-        require(runs == set(seals.open(name)["seeds"]), f"data/{name}.csv has other discharges than {name}'s truth")
+        require(runs == set(seals.open(name)["seeds"]), f"{name}.csv has other discharges than {name}'s truth")
     subprocess.run([case / "unpack", SET_OF_THIRD_DRAW], check=True)
     answer = f"results/{SET_OF_THIRD_DRAW}/report.json"
     require(
@@ -125,8 +125,7 @@ def nothing_is_lost_in_files(folder: Path) -> None:
         len(files) == 40,
         f"{SET_OF_THIRD_DRAW} is unpacked into {len(files)} files and not into 32 and 8 of one more condition",
     )
-    together = measurements.set_file(SET_OF_THIRD_DRAW).read_bytes()
-    (case / f"data/{SET_OF_THIRD_DRAW}.csv").unlink()
+    together = measurements.set_files()[SET_OF_THIRD_DRAW].read_bytes()
     subprocess.run(
         [sys.executable, "-Bc", f"import measurements; measurements.join('{SET_OF_THIRD_DRAW}')"], cwd=case, check=True
     )
@@ -134,6 +133,24 @@ def nothing_is_lost_in_files(folder: Path) -> None:
         (case / f"data/{SET_OF_THIRD_DRAW}.csv").read_bytes() == together,
         f"data/{SET_OF_THIRD_DRAW}.csv is not made of its discharges",
     )
+
+
+def what_is_measured_takes_the_place_of_what_is_archived(folder: Path) -> None:
+    case = copy(folder / "measured")
+    (case / "data").mkdir(exist_ok=True)
+    measured = case / f"data/{SET_OF_THIRD_DRAW}.csv"
+    measured.write_text(f"{measurements.HEADER_OF_SET}\ndryLarge,1,0.000,1.000\n")
+    for packed in (False, True):
+        if packed:
+            subprocess.run([case / "pack"], check=True, stdout=subprocess.DEVNULL)
+            require(not measured.exists(), f"pack leaves {measured}")
+        shutil.rmtree(case / "work", ignore_errors=True)
+        subprocess.run([case / "unpack", SET_OF_THIRD_DRAW], check=True)
+        files = {path.name: path.read_text() for path in (case / f"work/data/{SET_OF_THIRD_DRAW}").iterdir()}
+        require(
+            files == {"dryLarge_1.csv": "t_s,m_g\n0.000,1.000\n"},
+            f"{measured} does not take the place of the file in data.zip",
+        )
 
 
 def old_names_are_read() -> None:
@@ -155,7 +172,7 @@ def old_names_are_read() -> None:
 
 
 def copy(target: Any) -> Any:
-    shutil.copytree(CASE, target, ignore=shutil.ignore_patterns("work", "data"))
+    shutil.copytree(CASE, target, ignore=shutil.ignore_patterns("work"))
     return target
 
 
@@ -204,7 +221,7 @@ def alarms_are_counted() -> None:
 def measured_once_more(folder: Path) -> None:
     subprocess.run([CASE / "generate", "again", SET, RUN, folder / "again.csv"], check=True)
     again = readings("the measurement once more", (folder / "again.csv").read_text())
-    for name in (path.stem for path in sorted(measurements.DATA.glob("*.csv"))):
+    for name in measurements.set_files():
         committed = readings(f"{name}, {RUN}", measurements.discharges(name)[RUN])
         require(
             again.shape == committed.shape,

@@ -1,4 +1,4 @@
-"""Particles at the orifice: what of their dense output is kept in results/exit, and what follows from it."""
+"""Particles at the orifice: what of their dense output is kept in results/exit.zip, and what follows from it."""
 
 import csv
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ import paper
 import series
 from repository import RESULTS
 
-from clepsydra import parameter_file, particle_files, whole_files
+from clepsydra import parameter_file, parameter_study_results, particle_files, whole_files
 
 FOLDER = RESULTS / "exit"
 RUNS = f"fill100-{paper.MATCHING_FRICTION['dry']}.*"
@@ -92,21 +92,21 @@ class Profile:
 
 def run_of(step: Any) -> str:
     """The name of the run that the particles at the exit are from."""
-    return kept(step, "profile")[0].name.removesuffix(".profile.csv")
+    return kept(step, "profile").name.removesuffix(".profile.csv")
 
 
 def kept(step: Any, kind: Any) -> Any:
-    found = sorted(FOLDER.glob(f"*.{step}.{kind}.csv"))
-    if not found:
-        raise series.MissingRuns(
-            f"no particles at the exit, {step}: entry fill100, then scripts/reproduce/figure1.py --from WORK"
-        )
-    return found
+    """The file of the first run, in the archive or, if it has just been written, in the folder beside it."""
+    for path in parameter_study_results.files(FOLDER, f".{step}.{kind}.csv").values():
+        return path
+    raise series.MissingRuns(
+        f"no particles at the exit, {step}: entry fill100, then scripts/reproduce/figure1.py --from WORK"
+    )
 
 
 def read(step: Any, kind: Any) -> Any:
-    with open(kept(step, kind)[0]) as file:
-        return np.array([[float(value) for value in row] for row in list(csv.reader(file))[1:]])
+    rows = list(csv.reader(kept(step, kind).read_text().splitlines()))[1:]
+    return np.array([[float(value) for value in row] for row in rows])
 
 
 def profile(step: Any) -> Any:
@@ -126,3 +126,4 @@ def keep_all(work: Any) -> None:
     for step in paper.STEPS:
         for folder in sorted(Path(work).glob(f"runs/{RUNS}.{step}")):
             keep(folder)
+    parameter_study_results.archive(FOLDER)

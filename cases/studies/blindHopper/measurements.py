@@ -1,19 +1,25 @@
 """The measurements of the sets.
 
-data/SET.csv holds a whole set: a row for each reading, with its condition and its repeat. While a set is being
-measured, and for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv. """
+SET.csv holds a whole set: a row for each reading, with its condition and its repeat. A set that has just been measured
+lies in data/; `./pack` moves it into data.zip. A file in data/ takes the place of the one in the archive. While a set
+is being measured, and for traceResidual, each discharge is a file of its own: work/data/SET/CONDITION_REPEAT.csv. """
 
+import zipfile
 from pathlib import Path
-from typing import Dict, List, Tuple
+from typing import Any, Dict, List, Tuple
 
 HERE = Path(__file__).resolve().parent
 DATA = HERE / "data"
+ARCHIVE = HERE / "data.zip"
 HEADER = "t_s,m_g"  # of a discharge
 HEADER_OF_SET = "condition,repeat," + HEADER
 
 
-def set_file(name: str) -> Path:
-    return DATA / f"{name}.csv"
+def set_files() -> Dict[str, Any]:
+    """{set: its file}, of all sets that have been measured; a file is a path in data/ or in the archive."""
+    archived = zipfile.Path(ARCHIVE).iterdir() if ARCHIVE.exists() else []
+    files = {path.name: path for path in archived} | {path.name: path for path in DATA.glob("*.csv")}
+    return {name[: -len(".csv")]: path for name, path in sorted(files.items())}
 
 
 def folder(name: str) -> Path:
@@ -22,11 +28,12 @@ def folder(name: str) -> Path:
 
 def discharges(name: str) -> Dict[str, str]:
     """{CONDITION_REPEAT: text of its CSV file} of a set; empty where the set has not been measured."""
-    if not set_file(name).exists():
+    file = set_files().get(name)
+    if file is None:
         return {}
-    header, *rows = set_file(name).read_text().splitlines()
+    header, *rows = file.read_text().splitlines()
     if header != HEADER_OF_SET:
-        raise SystemExit(f"{set_file(name)}: the first line is '{header}'; allowed is '{HEADER_OF_SET}'")
+        raise SystemExit(f"{file}: the first line is '{header}'; allowed is '{HEADER_OF_SET}'")
     texts: Dict[str, List[str]] = {}
     for row in rows:
         condition, repeat, reading = row.split(",", 2)
@@ -35,7 +42,7 @@ def discharges(name: str) -> Dict[str, str]:
 
 
 def unpack(name: str) -> Path:
-    """Writes a file for each discharge that data/SET.csv holds, and returns their folder."""
+    """Writes a file for each discharge that SET.csv holds, and returns their folder."""
     for run, text in discharges(name).items():
         path = folder(name) / f"{run}.csv"
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -53,9 +60,9 @@ def join(name: str) -> None:
             raise SystemExit(f"{path}: the first line is '{header}'; allowed is '{HEADER}'")
         rows += [f"{condition},{repeat},{reading}" for reading in readings]
     DATA.mkdir(exist_ok=True)
-    unfinished = set_file(name).with_suffix(".unfinished")
+    unfinished = DATA / f"{name}.unfinished"
     unfinished.write_text("\n".join(rows) + "\n")
-    unfinished.rename(set_file(name))
+    unfinished.rename(DATA / f"{name}.csv")
 
 
 def condition_and_repeat(path: Path) -> Tuple[str, int]:

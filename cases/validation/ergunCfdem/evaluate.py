@@ -35,12 +35,7 @@ class Bed:
 
     def gradient(self, void_fraction: float) -> float:
         return closures.bed_pressure_gradient(
-            self.velocity,
-            void_fraction,
-            dragLaw="KochHillDrag",
-            particleDiameter=self.diameter,
-            fluidDensity=self["fluidDensity"],
-            fluidViscosity=self["fluidViscosity"],
+            self.velocity, void_fraction, {**self.parameters, "dragLaw": "KochHillDrag"}
         )
 
     @property

@@ -95,14 +95,7 @@ class Ramp:
         column = self.column
         if self.is_ergun:
             return np.ravel(ergun_gradient(column, void_fraction, velocities))
-        return closures.bed_pressure_gradients(
-            velocities,
-            void_fraction,
-            dragLaw=column["dragLaw"],
-            particleDiameter=column["particleDiameter"],
-            fluidDensity=column["fluidDensity"],
-            fluidViscosity=column["fluidViscosity"],
-        )
+        return closures.bed_pressure_gradients(velocities, void_fraction, column.parameters)
 
     def rows(self) -> Any:
         column, found = self.column, []

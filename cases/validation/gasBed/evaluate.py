@@ -75,14 +75,7 @@ class Bed:
         )
 
     def gradient(self, void_fraction: float) -> float:
-        return closures.bed_pressure_gradient(
-            self["superficialVelocity"],
-            void_fraction,
-            dragLaw=self["dragLaw"],
-            particleDiameter=self["particleDiameter"],
-            fluidDensity=self["fluidDensity"],
-            fluidViscosity=self["fluidViscosity"],
-        )
+        return closures.bed_pressure_gradient(self["superficialVelocity"], void_fraction, self.parameters)
 
 
 def rows_beside_measurement(bed: Bed) -> list[dict[str, Any]]:

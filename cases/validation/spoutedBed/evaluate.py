@@ -167,14 +167,7 @@ def layer_gradient(bed: Bed, void_fractions: np.ndarray, areas: np.ndarray) -> f
 
 def gradients(bed: Bed, void_fraction: float, velocities: np.ndarray) -> np.ndarray:
     """[Pa/m] at superficial velocities, by the drag law."""
-    return closures.bed_pressure_gradients(
-        velocities,
-        void_fraction,
-        dragLaw=bed["dragLaw"],
-        particleDiameter=bed["particleDiameter"],
-        fluidDensity=bed["fluidDensity"],
-        fluidViscosity=bed["fluidViscosity"],
-    )
+    return closures.bed_pressure_gradients(velocities, void_fraction, bed.parameters)
 
 
 main()

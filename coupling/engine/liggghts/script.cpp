@@ -31,25 +31,6 @@ bool isQuote(char c)
     return c == '"' || c == '\'';
 }
 
-/// Tokens of a command; a text in quotes is one token, with its quotes.
-std::vector<std::string> tokensOf(const std::string& command)
-{
-    const auto isSpace = [](unsigned char c) { return std::isspace(c) != 0; };
-    std::vector<std::string> tokens;
-    for (auto at = command.begin(); (at = std::find_if_not(at, command.end(), isSpace)) != command.end();)
-    {
-        auto end = std::find_if(at, command.end(), isSpace);
-        if (isQuote(*at))
-        {
-            end = std::find(at + 1, command.end(), *at);
-            end += end == command.end() ? 0 : 1;
-        }
-        tokens.emplace_back(at, end);
-        at = end;
-    }
-    return tokens;
-}
-
 /// Commands whose results a checkpoint holds.
 const std::set<std::string> held = {"change_box", "create_atoms", "create_box", "delete_atoms", "delete_bonds",
     "displace_atoms", "group", "read_data", "read_dump", "read_restart", "replicate", "reset_timestep", "rotate", "set",
@@ -205,6 +186,24 @@ std::vector<ScriptCommand> readFile(
 std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables)
 {
     return readFile(script, variables, {});
+}
+
+std::vector<std::string> tokensOf(const std::string& command)
+{
+    const auto isSpace = [](unsigned char c) { return std::isspace(c) != 0; };
+    std::vector<std::string> tokens;
+    for (auto at = command.begin(); (at = std::find_if_not(at, command.end(), isSpace)) != command.end();)
+    {
+        auto end = std::find_if(at, command.end(), isSpace);
+        if (isQuote(*at))
+        {
+            end = std::find(at + 1, command.end(), *at);
+            end += end == command.end() ? 0 : 1;
+        }
+        tokens.emplace_back(at, end);
+        at = end;
+    }
+    return tokens;
 }
 
 bool isCommand(const std::string& command, const std::string& name)

@@ -26,6 +26,9 @@ struct ScriptCommand
 /// which must not create particles either.
 std::vector<ScriptCommand> readScript(const std::filesystem::path& script, const ScriptVariables& variables);
 
+/// The words of a command; a text in quotes is one word, with its quotes.
+std::vector<std::string> tokensOf(const std::string& command);
+
 /// Whether the command has this name.
 bool isCommand(const std::string& command, const std::string& name);
 

@@ -16,17 +16,6 @@ namespace
 using Eigen::Vector3d;
 using Tokens = std::vector<std::string>;
 
-Tokens wordsOf(const std::string& command)
-{
-    std::istringstream stream(command);
-    Tokens tokens;
-    for (std::string token; stream >> token;)
-    {
-        tokens.push_back(token);
-    }
-    return tokens;
-}
-
 /// The numbers that follow a word in the command; none where there are fewer.
 /// \param first  index from which on the word is looked for
 template<std::size_t Count>
@@ -90,7 +79,7 @@ void set(WallMotion& wall, const std::optional<RigidMotion>& motion)
 WallMotion ofMovedMesh(const ScriptFacts::Fix& fix)
 {
     WallMotion wall{fix.id, fix.command, "move/mesh", {}, {}};
-    const Tokens tokens = wordsOf(fix.command.text);
+    const Tokens tokens = tokensOf(fix.command.text);
     if (has(tokens, "rotate"))
     {
         const auto period = numbersAfter<1>(tokens, "period");
@@ -112,7 +101,7 @@ WallMotion ofMovedMesh(const ScriptFacts::Fix& fix)
 /// The words of `mesh/surface`; none where the surface is at rest.
 std::optional<WallMotion> ofSurface(const ScriptFacts::Fix& fix)
 {
-    const Tokens tokens = wordsOf(fix.command.text);
+    const Tokens tokens = tokensOf(fix.command.text);
     WallMotion wall{fix.id, fix.command, "surface_vel", {}, {}};
     if (has(tokens, wall.kind))
     {
@@ -135,7 +124,7 @@ std::optional<WallMotion> ofSurface(const ScriptFacts::Fix& fix)
 std::optional<WallMotion> ofShearedWall(const ScriptFacts::Fix& fix)
 {
     static const std::string axes = "xyz";
-    const Tokens tokens = wordsOf(fix.command.text);
+    const Tokens tokens = tokensOf(fix.command.text);
     const auto word = std::find(tokens.begin(), tokens.end(), "shear");
     if (word == tokens.end())
     {
@@ -215,7 +204,7 @@ std::vector<WallMotion> wallMotions(const ScriptFacts& facts)
     for (WallMotion& wall : walls)
     {
         const auto meshOf = [](const WallMotion& of) {
-            const Tokens tokens = wordsOf(of.command.text);
+            const Tokens tokens = tokensOf(of.command.text);
             const auto word = std::find(tokens.begin(), tokens.end(), "mesh");
             return of.kind == "move/mesh" && std::distance(word, tokens.end()) > 1 ? *(word + 1) : std::string();
         };

@@ -13,9 +13,12 @@ from pathlib import Path
 from typing import Any
 
 from clepsydra import case_files
+from clepsydra.environment import REPOSITORY
 from developers.fault_kinds.kinds import Skipped, Wrong
 
 HERE = Path(__file__).resolve().parent
+TUTORIAL = REPOSITORY / "cases/tutorials/hopperQuick"
+OF_TUTORIAL = ("0/U", "0/p", "constant/g", "system/fvSchemes")  # water at rest between walls, as for the pile
 END = 0.1  # s, simulated; a checkpoint every .02 s
 STOPPED = "0.06"  # where stopped() has been
 BEFORE_STOPPED = "0.04"
@@ -200,6 +203,9 @@ class Bench:
     def _meshed(self, ranks: int) -> Any:
         folder = self.fresh_folder("mesh")
         shutil.copytree(HERE / "pile", folder, dirs_exist_ok=True)
+        for name in OF_TUTORIAL:
+            (folder / name).parent.mkdir(exist_ok=True)
+            shutil.copy(TUTORIAL / name, folder / name)
         for command in [["blockMesh"]] + [["decomposePar"]] * (ranks > 1):
             outcome = self.call(command, folder)
             if outcome.status != 0:

@@ -16,6 +16,7 @@ TUTORIALS = CASES / "tutorials"
 EFFECTS = REPOSITORY / "identification/effects"
 SURROGATE = REPOSITORY / "tests/identification/surrogate"
 CURVE = zipfile.Path(CASES / "paper/results/runs.zip", "fill100packings-0.8.100019.dry.csv")
+BLIND_SET = zipfile.Path(CASES / "studies/blindHopper/data.zip", "set1.csv")
 
 
 def formulas(_: Path) -> list[Any]:
@@ -27,7 +28,7 @@ def formulas(_: Path) -> list[Any]:
 
 
 def tables(_: Path) -> list[Any]:
-    rows = (CASES / "studies/blindHopper/data/set1.csv").read_text().splitlines()
+    rows = BLIND_SET.read_text().splitlines()
     discharge = [row.split(",", 2)[2] + "\n" for row in rows[:30]]  # behind condition and repeat
     return [
         "".join(discharge),
