@@ -59,6 +59,11 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
                          "continuityTolerance", "filteredVolumeTolerance", "imbalanceTolerance"});
 }
 
+int ConservationCheck::countParticles(const ParticlesView& particles, RankTotals& totals)
+{
+    return census_.count(particles, totals);
+}
+
 int ConservationCheck::countParticles(const ParticlesView& particles)
 {
     return census_.count(particles);
@@ -149,10 +154,22 @@ void ConservationCheck::recordPressureForce(
     }
 }
 
-void ConservationCheck::recordContinuity(const volScalarField& error)
+void ConservationCheck::addContinuity(const volScalarField& error, RankTotals& totals)
 {
-    localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
-    globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
+    const scalarField& volumes = error.mesh().V().field();
+    if (!meshVolume_)
+    {
+        meshVolume_ = gSum(volumes);
+    }
+    const scalarField& inCells = error.primitiveField();
+    totals.add({{sum(volumes * mag(inCells)), sum(volumes * inCells)}, {}},
+        [this](const RankNumbers& all) { recordContinuity(all.sums[0] / *meshVolume_, all.sums[1] / *meshVolume_); });
+}
+
+void ConservationCheck::recordContinuity(double meanMagnitude, double mean)
+{
+    localContinuityError_ = meanMagnitude;
+    globalContinuityError_ = mean;
     cumulativeContinuityError_ += globalContinuityError_;
     largestContinuityError_ = larger(largestContinuityError_, localContinuityError_);
     if (!isWithin(localContinuityError_, continuityTolerance_))
@@ -205,8 +222,8 @@ void ConservationCheck::report() const
          << endl;
 }
 
-void ConservationCheck::writeSummary(
-    const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const
+void ConservationCheck::writeSummary(const PhaseTimers& timers, double exchangedBytes,
+    const std::optional<EstimatedSeconds>& estimate, const std::optional<double>& reductionsPerStep) const
 {
     if (!Pstream::master())
     {
@@ -230,6 +247,10 @@ void ConservationCheck::writeSummary(
     {
         summary.emplace_back("estimatedSeconds", estimate->wall);
         summary.emplace_back("estimatedProcessorSeconds", estimate->processor);
+    }
+    if (reductionsPerStep)
+    {
+        summary.emplace_back("reductionsPerStep", *reductionsPerStep);
     }
     writeWhole((folder / "summary.json").c_str(), jsonText(summary) + '\n');
 }

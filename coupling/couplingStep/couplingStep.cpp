@@ -60,35 +60,50 @@ void CouplingStep::start(Foam::volVectorField& U, const Foam::volScalarField& p)
         engine_.evaluateFluidForces();
         takeDemResult(0);
     }
-    conservation_.setInitialMomentum(fluid_->semiImplicitMomentum(first));
+    RankNumbers semiImplicit;
+    fluid_->semiImplicitMomentum(first).appendTo(semiImplicit);
+    conservation_.setInitialMomentum(ExchangedMomentum::in(RankTotals::of(semiImplicit), 0));
 }
 
 ParticlesInFluid CouplingStep::advanceParticles(const Foam::surfaceScalarField& phi, double timeLeft)
 {
     couplingTimeStep_ = length_.seconds();
     const double demTime = length_.steps() * engine_.timeStep();
-    advanceDem();
+    RankTotals totals;
+    advanceDem(totals);
     const DemResult result = takeDemResult(couplingTimeStep_);
-    fluid_->checkPressureForce(result.pressureImpulse / demTime);
+    fluid_->checkPressureForce(result.pressureImpulse / demTime, totals);
     if (length_.isAdjustable())
     {
         length_.choose(limits(phi), timeLeft);
     }
-    return fluid_->particlesToFluid(result, length_.seconds());
+    return fluid_->particlesToFluid(result, length_.seconds(), totals);
 }
 
 void CouplingStep::fluidToParticles(
-    const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p)
+    const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p, const AddToTotals& addMore)
 {
     fluid_->updateAcceleration(U, couplingTimeStep_);
     fluid_->fluidToParticles(solved.particles(), U, p);
-    solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()));
+    RankTotals totals;
+    solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()), totals);
+    if (addMore)
+    {
+        addMore(totals);
+    }
+    totals.reduce();
     removeParticlesThatLeft();
 }
 
-void CouplingStep::advance()
+void CouplingStep::advance(const AddToTotals& addMore)
 {
-    advanceDem();
+    RankTotals totals;
+    advanceDem(totals);
+    if (addMore)
+    {
+        addMore(totals);
+    }
+    totals.reduce();
     removeParticlesThatLeft();
 }
 
@@ -116,23 +131,26 @@ std::vector<CouplingStepLimit> CouplingStep::limits(const Foam::surfaceScalarFie
 {
     const double courant = settings_.adjustableCouplingTimeStep()->largestCourantNumber;
     const double throughCells =
-        0.5 * Foam::gMax(Foam::fvc::surfaceSum(Foam::mag(phi))().primitiveField() / phi.mesh().V().field());
+        0.5 * Foam::max(Foam::fvc::surfaceSum(Foam::mag(phi))().primitiveField() / phi.mesh().V().field());
     const ParticlesView particles = engine_.particles();
-    const double fastestHere = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff() : 0;
-    const double fastest = returnReduce(fastestHere, Foam::maxOp<double>());
-    return {{"Courant number of the fluid", courant / std::max(throughCells, Foam::VSMALL)},
-        {"Courant number of the particles", courant * lengthOfChange_ / std::max(fastest, Foam::VSMALL)}};
+    const double fastest = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff() : 0;
+    // The drag of the next coupling step is distributed to the cells with its length.
+    const std::vector<double> largest = RankTotals::of({{}, {throughCells, fastest}}).maxima;
+    return {{"Courant number of the fluid", courant / std::max(largest[0], Foam::VSMALL)},
+        {"Courant number of the particles", courant * lengthOfChange_ / std::max(largest[1], Foam::VSMALL)}};
 }
 
-void CouplingStep::advanceDem()
+void CouplingStep::advanceDem(RankTotals& totals)
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
-    const int highestBefore = conservation_.countParticles(particles);
-    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_, findOutsideMesh());
-    conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
-    conservation_.recordOutsideMesh(insertionAndRemoval_.outsideMesh(), insertionAndRemoval_.leftMesh());
+    const int highestBefore = conservation_.countParticles(particles, totals);
+    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_, findOutsideMesh(), totals);
+    totals.add({}, [this](const RankNumbers&) {
+        conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
+        conservation_.recordOutsideMesh(insertionAndRemoval_.outsideMesh(), insertionAndRemoval_.leftMesh());
+    });
 }
 
 FindOutsideMesh CouplingStep::findOutsideMesh()

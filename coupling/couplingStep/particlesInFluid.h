@@ -54,7 +54,7 @@ class SolvedStep;
 class ParticlesInFluid : public AnticipatedParticles
 {
 public:
-    /// \param received  what the particles received in the coupling step that is solved, over all ranks
+    /// \param received  what the particles of this rank received in the coupling step that is solved
     /// \param couplingTimeStep  its length [s]
     ParticlesInFluid(AnticipatedParticles anticipated, ParticleFields& fields, ConservationCheck& conservation,
         const ExchangedMomentum& received, double fluidDensity, double couplingTimeStep);
@@ -94,6 +94,9 @@ public:
     /// cells, see VoidFractionRate::spreadImbalance(). Collective.
     /// \param outflow  of fluid through the boundary of this rank without a correction of p [m3/s]
     void spreadImbalance(double outflow);
+
+    /// The same where nothing can pass the boundary of any rank. Local.
+    void spreadImbalance();
 
     /// \param rAUf  coefficient of grad p in U, on faces [s]
     Foam::tmp<Foam::surfaceScalarField> pressureCoefficient(const Foam::surfaceScalarField& rAUf) const;
@@ -137,9 +140,10 @@ public:
         return particles_;
     }
 
-    /// Compares what the fluid lost with what the particles received. Collective.
-    /// \param semiImplicit  see ConservationCheck::recordMomentum()
-    void checkConservation(const ExchangedMomentum& semiImplicit) const;
+    /// Compares what the fluid lost with what the particles received, and checks continuity, when the totals are reduced.
+    /// Collective.
+    /// \param semiImplicit  of this rank, see ConservationCheck::recordMomentum()
+    void checkConservation(const ExchangedMomentum& semiImplicit, RankTotals& totals) const;
 
 private:
     friend class ParticlesInFluid;

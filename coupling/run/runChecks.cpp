@@ -4,7 +4,7 @@
 #include "distribution/lengthOfChange.h"
 #include "openfoam/compatibility.h"
 
-#include "PstreamReduceOps.H"
+#include "Pstream.H"
 #include "solverPerformance.H"
 
 #include <sstream>
@@ -35,11 +35,26 @@ RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
       lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
-void RunChecks::afterCouplingStep(const ParticlesView& particles)
+void RunChecks::addTo(const ParticlesView& particles, RankTotals& totals)
+{
+    fastestHere_ = Fastest();
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const double speed = particles.velocity.col(particle).norm();
+        // Not one that is outside the mesh or beyond an outlet.
+        if (speed > fastestHere_.speed && particles.state[particle].part.share > 0)
+        {
+            fastestHere_ = {particles.id[particle], speed};
+        }
+    }
+    totals.add({{}, {fastestHere_.speed}}, [this](const RankNumbers& all) { largestSpeed_ = all.maxima[0]; });
+}
+
+void RunChecks::afterCouplingStep()
 {
     ++couplingSteps_;
     checkConvergence();
-    checkTravel(particles);
+    checkTravel();
 }
 
 void RunChecks::checkConvergence()
@@ -72,20 +87,9 @@ void RunChecks::checkConvergence()
     }
 }
 
-void RunChecks::checkTravel(const ParticlesView& particles)
+void RunChecks::checkTravel()
 {
-    Eigen::Index fastest = 0;
-    double here = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        const double ofParticle = particles.velocity.col(particle).norm();
-        if (ofParticle > here && !isOutsideMesh(particles.state[particle]))
-        {
-            here = ofParticle;
-            fastest = particle;
-        }
-    }
-    const double speed = returnReduce(here, maxOp<scalar>());
+    const double speed = largestSpeed_;
     const double timeStep = mesh_.time().deltaTValue();
     const double travel = speed * timeStep / lengthOfChange_;
     if (travel <= 1)
@@ -97,11 +101,10 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     text << "moves " << speed << " m/s, hence " << speed * timeStep << " m in a coupling step of " << timeStep
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing bandwidth or cell), "
          << lengthOfChange_ << " m, but the fluid at a particle is frozen during a coupling step";
-    if (travel > farthestTravel && here == speed)
+    if (travel > farthestTravel && fastestHere_.speed == speed)
     {
-        FatalErrorInFunction << "Particle " << particles.id[fastest] << ' ' << text.str().c_str()
-                             << "; allowed: at most " << farthestTravel
-                             << " times, by a shorter couplingTimeStep (and deltaT), "
+        FatalErrorInFunction << "Particle " << fastestHere_.id << ' ' << text.str().c_str() << "; allowed: at most "
+                             << farthestTravel << " times, by a shorter couplingTimeStep (and deltaT), "
                              << farthestTravel * lengthOfChange_ / speed << " s here" << exit(FatalError);
     }
     if (fast_ == 1 && Pstream::master())

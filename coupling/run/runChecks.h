@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/particles.h"
+#include "rankTotals.h"
 
 #include "fvMesh.H"
 
@@ -18,8 +19,11 @@ public:
     /// \param smoothingBandwidth  [m], 0 without smoothing
     RunChecks(const Foam::fvMesh& mesh, double smoothingBandwidth);
 
-    /// Call when the fluid has been solved. Collective.
-    void afterCouplingStep(const ParticlesView& particles);
+    /// Adds the largest velocity of a particle to the totals. Call when the fluid has been solved. Local.
+    void addTo(const ParticlesView& particles, RankTotals& totals);
+
+    /// Call when these totals have been reduced. Local.
+    void afterCouplingStep();
 
     /// Warns where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
     /// not that of the bed. \param partNearClearFluid  see bedEdge.h
@@ -30,7 +34,14 @@ public:
 
 private:
     void checkConvergence();
-    void checkTravel(const ParticlesView& particles);
+    void checkTravel();
+
+    /// A particle and its velocity [m/s].
+    struct Fastest
+    {
+        int id = 0;
+        double speed = 0;
+    };
 
     const Foam::fvMesh& mesh_;
     const double smoothingBandwidth_;
@@ -40,6 +51,10 @@ private:
     long unconverged_ = 0;
     long unconvergedInRow_ = 0;
     long fast_ = 0;
+    /// Of this rank's particles in the mesh.
+    Fastest fastestHere_;
+    /// Over all ranks [m/s].
+    double largestSpeed_ = 0;
 };
 
 } // namespace clepsydra

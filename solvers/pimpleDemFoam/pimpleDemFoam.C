@@ -126,7 +126,8 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
             Info << "Time = " << runTime.timeName() << nl;
             return flow.solve(particles);
         }();
-        couplingStep.fluidToParticles(solved, flow.U(), flow.p());
+        couplingStep.fluidToParticles(
+            solved, flow.U(), flow.p(), [&](RankTotals& totals) { output.addTo(totals); });
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace(flow.U(), flow.p());
@@ -139,7 +140,7 @@ void runDemOnly(RunTime& runTime, CouplingStep& couplingStep, RunOutput& output)
     output.start();
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        couplingStep.advance();
+        couplingStep.advance([&](RankTotals& totals) { output.addTo(totals); });
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace();
