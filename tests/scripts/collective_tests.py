@@ -43,7 +43,6 @@ OTHERS = {
     "coupling/functionObjects/hopperCylinder.cpp": (3, START),
     "coupling/functionObjects/massInHopper.cpp": (1, START),
     "coupling/functionObjects/particleHeight.cpp": (2, START),
-    "coupling/functionObjects/particleMeans.cpp": (1, ROW),
     "coupling/insertionAndRemoval/insertionAndRemoval.cpp": (2, f"{START} and {WRITE}"),
     "coupling/insertionAndRemoval/particleOutlets.cpp": (5, START),
     "coupling/openfoam/objectFile.h": (1, START),
@@ -76,6 +75,7 @@ REDUCTIONS = {
     "coupling/exchange/particleExchange.cpp": (1, "one where particles may be outside the mesh"),
     "coupling/functionObjects/massInHopper.cpp": (1, ROW),
     "coupling/functionObjects/particleHeight.cpp": (1, ROW),
+    "coupling/functionObjects/particleMeans.cpp": (1, ROW),
     "coupling/insertionAndRemoval/insertionAndRemoval.cpp": (1, "where particles have left"),
 }
 
