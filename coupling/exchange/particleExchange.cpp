@@ -207,10 +207,10 @@ void ParticleExchange::sendAsPlanned(
         std::vector<double>& message = outgoing_[i];
         message.resize(leaving.particles.size() * size);
         double* place = message.data();
-        for (std::size_t i = 0; i < leaving.particles.size(); ++i)
+        for (std::size_t listed = 0; listed < leaving.particles.size(); ++listed)
         {
-            const Eigen::Index particle = leaving.particles[i];
-            const GhostParticle ghost = ghostOf(particles, particle, leaving.periods[i]);
+            const Eigen::Index particle = leaving.particles[listed];
+            const GhostParticle ghost = ghostOf(particles, particle, leaving.periods[listed]);
             place = std::copy_n(reinterpret_cast<const double*>(&ghost), ghostSize, place);
             place = std::copy_n(contributions.col(particle).data(), rows, place);
         }
