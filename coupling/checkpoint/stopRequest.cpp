@@ -1,6 +1,5 @@
 #include "checkpoint/stopRequest.h"
 
-#include "PstreamReduceOps.H"
 #include "runTimeSelection.h"
 
 #include <unistd.h>
@@ -70,11 +69,15 @@ std::vector<int> ignoredSignals()
 const std::vector<int> ignoredAtStart = ignoredSignals();
 const Clock::time_point start = Clock::now();
 
-bool isClockTimeOver(const Foam::Time& time)
+double wallSecondsHere()
+{
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+bool isClockTimeOver(const Foam::Time& time, double wallSeconds)
 {
     constexpr const char* entry = "maxClockTime";
-    return time.controlDict().found(entry)
-           && std::chrono::duration<double>(Clock::now() - start).count() > positiveEntry(time.controlDict(), entry);
+    return time.controlDict().found(entry) && wallSeconds > positiveEntry(time.controlDict(), entry);
 }
 
 } // namespace
@@ -82,7 +85,7 @@ bool isClockTimeOver(const Foam::Time& time)
 StopRequest::StopRequest(const Foam::Time& time)
     : time_(time)
 {
-    isClockTimeOver(time_);
+    isClockTimeOver(time_, wallSecondsHere());
     for (const int signal : fromUsers)
     {
         const bool ignored = std::count(ignoredAtStart.begin(), ignoredAtStart.end(), signal) > 0;
@@ -115,9 +118,17 @@ StopRequest::~StopRequest()
     }
 }
 
+void StopRequest::addTo(RankTotals& totals)
+{
+    totals.add({{}, {signalCame != 0 ? 1.0 : 0.0, wallSecondsHere()}}, [this](const RankNumbers& all) {
+        signalCameToAnyRank_ = all.maxima[0] > 0;
+        wallSeconds_ = all.maxima[1];
+    });
+}
+
 bool StopRequest::asked() const
 {
-    return Foam::returnReduce(signalCame != 0 || isClockTimeOver(time_), Foam::orOp<bool>());
+    return signalCameToAnyRank_ || isClockTimeOver(time_, wallSeconds_);
 }
 
 } // namespace clepsydra

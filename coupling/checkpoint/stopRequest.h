@@ -1,5 +1,7 @@
 #pragma once
 
+#include "rankTotals.h"
+
 #include "Time.H"
 
 namespace clepsydra
@@ -22,12 +24,19 @@ public:
     StopRequest(const StopRequest&) = delete;
     StopRequest& operator=(const StopRequest&) = delete;
 
-    /// Whether the run should stop; the same on all ranks. Collective. An entry `maxClockTime` that has been edited
-    /// since the last call counts from now on; FatalIOError where it is not a number > 0.
+    /// Adds to the totals whether this rank has received a signal, and its wall time. Local.
+    void addTo(RankTotals& totals);
+
+    /// Whether the run should stop, as of the totals that were reduced last; the same on all ranks. Local. An entry
+    /// `maxClockTime` that has been edited since the last call counts from now on; FatalIOError where it is not a number
+    /// > 0.
     bool asked() const;
 
 private:
     const Foam::Time& time_;
+    bool signalCameToAnyRank_ = false;
+    /// Largest wall time of a rank [s].
+    double wallSeconds_ = 0;
 };
 
 } // namespace clepsydra

@@ -66,6 +66,11 @@ ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const
     }
 }
 
+int ConservationCheck::countParticles(const ParticlesView& particles, RankTotals& totals)
+{
+    return census_.count(particles, totals);
+}
+
 int ConservationCheck::countParticles(const ParticlesView& particles)
 {
     return census_.count(particles);
@@ -194,10 +199,34 @@ void ConservationCheck::recordHeat(const HeatOfStep& heat)
     }
 }
 
-void ConservationCheck::recordContinuity(const volScalarField& error)
+void ConservationCheck::addHeat(const HeatOfStep& ofRank, RankTotals& totals)
 {
-    localContinuityError_ = mag(error)().weightedAverage(error.mesh().V()).value();
-    globalContinuityError_ = error.weightedAverage(error.mesh().V()).value();
+    totals.add({{ofRank.received, ofRank.fluidLost, ofRank.pendingBefore, ofRank.pending, ofRank.magnitudes,
+                    ofRank.inParticles, ofRank.inFluidBefore, ofRank.inFluid, ofRank.throughBoundary,
+                    ofRank.ofContinuityError},
+                   {}},
+        [this](const RankNumbers& all) {
+            const std::vector<double>& sums = all.sums;
+            recordHeat({sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8], sums[9]});
+        });
+}
+
+void ConservationCheck::addContinuity(const volScalarField& error, RankTotals& totals)
+{
+    const scalarField& volumes = error.mesh().V().field();
+    if (!meshVolume_)
+    {
+        meshVolume_ = gSum(volumes);
+    }
+    const scalarField& inCells = error.primitiveField();
+    totals.add({{sum(volumes * mag(inCells)), sum(volumes * inCells)}, {}},
+        [this](const RankNumbers& all) { recordContinuity(all.sums[0] / *meshVolume_, all.sums[1] / *meshVolume_); });
+}
+
+void ConservationCheck::recordContinuity(double meanMagnitude, double mean)
+{
+    localContinuityError_ = meanMagnitude;
+    globalContinuityError_ = mean;
     cumulativeContinuityError_ += globalContinuityError_;
     largestContinuityError_ = larger(largestContinuityError_, localContinuityError_);
     if (!isWithin(localContinuityError_, continuityTolerance_))
@@ -256,8 +285,8 @@ void ConservationCheck::report() const
     Info << endl;
 }
 
-void ConservationCheck::writeSummary(
-    const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const
+void ConservationCheck::writeSummary(const PhaseTimers& timers, double exchangedBytes,
+    const std::optional<EstimatedSeconds>& estimate, const std::optional<double>& reductionsPerStep) const
 {
     if (!Pstream::master())
     {
@@ -289,6 +318,10 @@ void ConservationCheck::writeSummary(
     {
         summary.emplace_back("estimatedSeconds", estimate->wall);
         summary.emplace_back("estimatedProcessorSeconds", estimate->processor);
+    }
+    if (reductionsPerStep)
+    {
+        summary.emplace_back("reductionsPerStep", *reductionsPerStep);
     }
     writeWhole((folder / "summary.json").c_str(), jsonText(summary) + '\n');
 }

@@ -2,6 +2,7 @@
 
 #include "conservation/particleCensus.h"
 #include "phaseTimers.h"
+#include "rankTotals.h"
 
 #include "Time.H"
 #include "dictionary.H"
@@ -14,15 +15,30 @@
 namespace clepsydra
 {
 
-/// Momentum between particles and fluid, over all ranks [N s].
+/// Momentum between particles and fluid, on one rank or over all ranks [N s].
 struct ExchangedMomentum
 {
     Foam::vector sum = Foam::vector::zero;
     /// Sum of the magnitudes of the terms of the sum, which may cancel each other.
     double sumOfMagnitudes = 0;
+
+    static constexpr std::size_t size = 4;
+
+    /// Appends this rank's part to numbers whose totals are needed.
+    void appendTo(RankNumbers& ofRank) const
+    {
+        ofRank.addVector(sum);
+        ofRank.sums.push_back(sumOfMagnitudes);
+    }
+
+    /// Over all ranks, from the total sums from `first` on.
+    static ExchangedMomentum in(const RankNumbers& totals, std::size_t first)
+    {
+        return {totals.vectorAt<Foam::vector>(first), totals.sums[first + size - 1]};
+    }
 };
 
-/// Heat of one coupling step, over all ranks [J]. Heats that are stored are those above 0 K.
+/// Heat of one coupling step, on one rank or over all ranks [J]. Heats that are stored are those above 0 K.
 struct HeatOfStep
 {
     /// By the particles from the fluid, from the particles' own temperatures.
@@ -101,8 +117,11 @@ class ConservationCheck
 public:
     ConservationCheck(const Foam::dictionary& couplingProperties, const Foam::Time& time);
 
-    /// Counts the particles; see ParticleCensus::count(). Collective.
+    /// Counts the particles; see ParticleCensus::count(). Local; the count is complete when the totals are reduced.
     /// \return the highest id among the particles that were there at the last count
+    int countParticles(const ParticlesView& particles, RankTotals& totals);
+
+    /// The same with a reduction of its own. Collective.
     int countParticles(const ParticlesView& particles);
 
     /// Counts the particles after some have been removed; see ParticleCensus::countAfterRemoval(). Collective.
@@ -127,7 +146,8 @@ public:
     }
 
     /// Records the solid volume of one coupling step [m3], each a sum over all ranks. The volume in the cells must
-    /// equal that of the particles, and the initial volume plus what was inserted less what has left.
+    /// equal that of the particles, and the initial volume plus what was inserted less what has left. Collective where
+    /// too much was clipped, because the message describes the worst cell.
     /// \param particles  volume of the particles that is in the fluid
     /// \param cells  solid volume in the cells before clipping
     void recordSolidVolume(double particles, double cells, const ClippedVolume& clipped);
@@ -153,8 +173,8 @@ public:
     void recordPressureForce(
         const Foam::vector& onParticles, const Foam::vector& inFluid, double sumOfMagnitudes, bool leftOut = false);
 
-    /// Records the heat of one coupling step.
-    void recordHeat(const HeatOfStep& heat);
+    /// Adds the heat of one coupling step on this rank to the totals. It is recorded when they are reduced. Local.
+    void addHeat(const HeatOfStep& ofRank, RankTotals& totals);
 
     /// What recordMomentum() received last as `semiImplicit`, or setInitialMomentum().
     const ExchangedMomentum& semiImplicitMomentum() const
@@ -168,9 +188,10 @@ public:
         return pressureForceError_;
     }
 
-    /// Records the continuity error of one coupling step, d(eps)/dt + div(eps U) times the coupling step [-]: the
-    /// volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it.
-    void recordContinuity(const Foam::volScalarField& error);
+    /// Adds the continuity error of one coupling step to the totals, d(eps)/dt + div(eps U) times the coupling step [-]:
+    /// the volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it. It is recorded when
+    /// the totals are reduced. Collective at the first call, which sums up the cells' volumes.
+    void addContinuity(const Foam::volScalarField& error, RankTotals& totals);
 
     /// Records the difference between the void fraction of the particles and that whose change the fluid's continuity
     /// equation has seen, in volume over all ranks [m3]; see VoidFractionRate::filteredVolume().
@@ -195,10 +216,17 @@ public:
     /// writes.
     /// \param exchangedBytes  size of all messages in which ParticleExchange has sent particles between ranks
     /// \param estimate  empty where the run was too short for one
-    void writeSummary(
-        const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate) const;
+    /// \param reductionsPerStep  RankTotals' reductions in the mean coupling step that wrote no checkpoint; empty where
+    /// there was none
+    void writeSummary(const PhaseTimers& timers, double exchangedBytes, const std::optional<EstimatedSeconds>& estimate,
+        const std::optional<double>& reductionsPerStep) const;
 
 private:
+    /// \param heat  over all ranks
+    void recordHeat(const HeatOfStep& heat);
+    /// \param mean, meanMagnitude  of the continuity error over the cells of all ranks, weighted with their volumes [-]
+    void recordContinuity(double meanMagnitude, double mean);
+
     const Foam::Time& time_;
     const Foam::dictionary tolerances_;
     const double solidVolumeTolerance_;
@@ -236,6 +264,8 @@ private:
     double globalContinuityError_ = 0;
     double cumulativeContinuityError_ = 0;
     double largestContinuityError_ = 0;
+    /// Of the cells of all ranks [m3]; empty until it is needed.
+    std::optional<double> meshVolume_;
     double filteredVolume_ = 0;
     double largestFilteredVolume_ = 0;
     Foam::label outsideMesh_ = 0;

@@ -7,7 +7,6 @@
 #include "HashSet.H"
 #include "ListListOps.H"
 #include "Pstream.H"
-#include "PstreamReduceOps.H"
 #include "error.H"
 #include "pointField.H"
 
@@ -31,33 +30,46 @@ Foam::List<Type> onMaster(const Foam::UList<Type>& own)
                : Foam::List<Type>();
 }
 
+/// Of this rank; 0 without particles.
+double highestIdOf(const ParticlesView& particles)
+{
+    return particles.size() > 0 ? particles.id.maxCoeff() : 0;
+}
+
 } // namespace
 
-int ParticleCensus::count(const ParticlesView& particles)
+int ParticleCensus::count(const ParticlesView& particles, RankTotals& totals)
 {
     using namespace Foam;
 
-    label stillThere = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        stillThere += !isNewParticle(particles, particle, highestId_);
-    }
-    reduce(stillThere, sumOp<label>());
-    if (stillThere != now_)
-    {
-        reportMissing(particles, now_ - stillThere);
-    }
+    const label stillThere = list(particles);
+    totals.add({{static_cast<double>(stillThere), static_cast<double>(particles.size())}, {highestIdOf(particles)}},
+        [this](const RankNumbers& all) {
+            const auto still = static_cast<label>(all.sums[0]);
+            if (still != now_)
+            {
+                reportMissing(now_ - still);
+            }
+            const bool first = atStart_ < 0;
+            record(static_cast<label>(all.sums[1]), static_cast<label>(all.maxima[0]));
+            if (first)
+            {
+                atStart_ = now_;
+            }
+            else
+            {
+                inserted_ += now_ - still;
+            }
+        });
+    return static_cast<int>(highestId_);
+}
 
-    const bool first = atStart_ < 0;
-    const label highestBefore = highestId_;
-    record(particles);
-    if (first)
-    {
-        atStart_ = now_;
-        return static_cast<int>(highestId_);
-    }
-    inserted_ += now_ - stillThere;
-    return static_cast<int>(highestBefore);
+int ParticleCensus::count(const ParticlesView& particles)
+{
+    RankTotals totals;
+    const int highestBefore = count(particles, totals);
+    totals.reduce();
+    return highestBefore;
 }
 
 void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::label removed)
@@ -65,7 +77,9 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     using namespace Foam;
 
     const label expected = now_ - removed;
-    record(particles);
+    list(particles);
+    const RankNumbers all = RankTotals::of({{static_cast<double>(particles.size())}, {highestIdOf(particles)}});
+    record(static_cast<label>(all.sums[0]), static_cast<label>(all.maxima[0]));
     removed_ += removed;
     if (now_ != expected)
     {
@@ -75,48 +89,54 @@ void ParticleCensus::countAfterRemoval(const ParticlesView& particles, Foam::lab
     }
 }
 
-void ParticleCensus::record(const ParticlesView& particles)
+Foam::label ParticleCensus::list(const ParticlesView& particles)
 {
-    using namespace Foam;
-
-    now_ = returnReduce(static_cast<label>(particles.size()), sumOp<label>());
-    highestId_ = returnReduce(particles.size() > 0 ? static_cast<label>(particles.id.maxCoeff()) : 0, maxOp<label>());
-    last_.clear();
+    Foam::label stillThere = 0;
+    here_.clear();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        last_.push_back({particles.id[particle], particles.position.col(particle)});
+        const bool isNew = isNewParticle(particles, particle, highestId_);
+        stillThere += !isNew;
+        here_.push_back({particles.id[particle], isNew, particles.position.col(particle)});
     }
+    return stillThere;
 }
 
-void ParticleCensus::reportMissing(const ParticlesView& particles, Foam::label missing) const
+void ParticleCensus::record(Foam::label now, Foam::label highestId)
+{
+    now_ = now;
+    highestId_ = highestId;
+    last_.swap(here_);
+}
+
+void ParticleCensus::reportMissing(Foam::label missing) const
 {
     using namespace Foam;
 
     // A particle that a rank no longer has is either new on another rank or lost. Only such particles are communicated,
     // not all of them.
     labelHashSet before;
-    for (const LastPosition& seen : last_)
+    for (const Counted& seen : last_)
     {
         before.insert(seen.id);
     }
     labelHashSet here;
     DynamicList<label> arrived;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    for (const Counted& particle : here_)
     {
-        const int id = particles.id[particle];
-        if (isNewParticle(particles, particle, highestId_))
+        if (particle.isNew)
         {
             continue;
         }
-        here.insert(id);
-        if (!before.found(id))
+        here.insert(particle.id);
+        if (!before.found(particle.id))
         {
-            arrived.append(id);
+            arrived.append(particle.id);
         }
     }
     DynamicList<label> departed;
     DynamicList<point> places;
-    for (const LastPosition& seen : last_)
+    for (const Counted& seen : last_)
     {
         if (!here.found(seen.id))
         {

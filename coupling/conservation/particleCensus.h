@@ -1,6 +1,7 @@
 #pragma once
 
 #include "engine/particles.h"
+#include "rankTotals.h"
 
 #include "label.H"
 
@@ -14,13 +15,17 @@ class ParticleCensus
 {
 public:
     /// Counts the particles and compares them with the last count. New particles have higher ids than all that were
-    /// there at the last count, or the state of a new particle (see isNewParticle()). Collective. FatalError that names
-    /// the missing particles and their last positions where some are missing.
-    /// \return the highest id among the particles that are not new
+    /// there at the last count, or the state of a new particle (see isNewParticle()). The count is complete when the
+    /// totals are reduced: FatalError then that names the missing particles and their last positions where some are
+    /// missing. Local.
+    /// \return the highest id at the last count over all ranks, 0 before the first one
+    int count(const ParticlesView& particles, RankTotals& totals);
+
+    /// The same with a reduction of its own. Collective.
     int count(const ParticlesView& particles);
 
-    /// Counts the particles after some have been removed. Collective. FatalError where a number other than `removed` is
-    /// missing.
+    /// Counts the particles after some have been removed. Collective, one reduction. FatalError where a number other than
+    /// `removed` is missing.
     void countAfterRemoval(const ParticlesView& particles, Foam::label removed);
 
     /// Number of particles at the first count and at the last one, over all ranks.
@@ -52,16 +57,23 @@ public:
     }
 
 private:
-    struct LastPosition
+    struct Counted
     {
         int id;
+        /// Whether the particle was new at this count.
+        bool isNew;
         Vector3d position;
     };
 
-    void record(const ParticlesView& particles);
-    [[noreturn]] void reportMissing(const ParticlesView& particles, Foam::label missing) const;
+    /// Lists this rank's particles in here_. \return number of particles that are not new
+    Foam::label list(const ParticlesView& particles);
+    /// Numbers over all ranks of a count that is complete; here_ becomes last_.
+    void record(Foam::label now, Foam::label highestId);
+    [[noreturn]] void reportMissing(Foam::label missing) const;
 
-    std::vector<LastPosition> last_;
+    /// The particles of this rank at the last count that is complete, and at the one that is not yet.
+    std::vector<Counted> last_;
+    std::vector<Counted> here_;
     Foam::label atStart_ = -1;
     Foam::label inserted_ = 0;
     Foam::label removed_ = 0;

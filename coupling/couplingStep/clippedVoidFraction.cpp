@@ -24,7 +24,7 @@ void ClippedVoidFraction::restore(const ConstRow& solidFraction)
 }
 
 void ClippedVoidFraction::update(
-    const ConstRow& solidFraction, const ParticlesView& particles, const LocatedParticles& located)
+    const ConstRow& solidFraction, const ParticlesView& particles, const LocatedParticles& located, RankTotals& totals)
 {
     restore(solidFraction);
     double particleVolume = 0;
@@ -33,33 +33,37 @@ void ClippedVoidFraction::update(
         particleVolume += volumeInFluid(particles, particle);
     }
     const scalarField& cellVolumes = voidFraction_.mesh().V().field();
-    const double cellVolume = gSum(scalarField(solidFraction_ * cellVolumes));
+    const double cellVolume = sum(solidFraction_ * cellVolumes);
 
     scalarField& voidFraction = voidFraction_.primitiveFieldRef();
     voidFraction = 1 - solidFraction_;
-    ClippedVolume clipped;
+    double clippedVolume = 0;
     label worstCell = -1;
     forAll (voidFraction, cell)
     {
         if (voidFraction[cell] < minimum_)
         {
             worstCell = worstCell < 0 || solidFraction_[cell] > solidFraction_[worstCell] ? cell : worstCell;
-            clipped.sum += (minimum_ - voidFraction[cell]) * cellVolumes[cell];
+            clippedVolume += (minimum_ - voidFraction[cell]) * cellVolumes[cell];
             voidFraction[cell] = minimum_;
         }
     }
     voidFraction_.correctBoundaryConditions();
     const double worstHere = worstCell < 0 ? 0 : 1 - (1 - minimum_) / solidFraction_[worstCell];
-    clipped.sum = returnReduce(clipped.sum, sumOp<scalar>());
-    if (clipped.sum > 0)
-    {
-        clipped.largestPart = returnReduce(worstHere, maxOp<scalar>());
-        if (worstCell >= 0 && worstHere == clipped.largestPart)
-        {
-            clipped.worstCell = describeCell(worstCell, located.ghosts());
-        }
-    }
-    conservation_.recordSolidVolume(returnReduce(particleVolume, sumOp<scalar>()), cellVolume, clipped);
+    totals.add({{particleVolume, cellVolume, clippedVolume}, {worstHere}},
+        [this, worstCell, worstHere, located](const RankNumbers& all) {
+            ClippedVolume clipped;
+            clipped.sum = all.sums[2];
+            if (clipped.sum > 0)
+            {
+                clipped.largestPart = all.maxima[0];
+                if (worstCell >= 0 && worstHere == clipped.largestPart)
+                {
+                    clipped.worstCell = describeCell(worstCell, located.ghosts());
+                }
+            }
+            conservation_.recordSolidVolume(all.sums[0], all.sums[1], clipped);
+        });
 }
 
 string ClippedVoidFraction::describeCell(label cell, const std::vector<GhostParticle>& particles) const

@@ -10,7 +10,7 @@ namespace clepsydra
 {
 
 /// The void fraction of the fluid's equations: 1 less the smoothed volume of the particles per volume of each cell, and
-/// not less than `alphaMin`. What is clipped is recorded in the conservation check.
+/// not less than `alphaMin`. What is clipped is recorded in the conservation check when the totals are reduced.
 class ClippedVoidFraction
 {
 public:
@@ -33,7 +33,8 @@ public:
 
     /// Collective.
     /// \param located  the particles of the same view
-    void update(const ConstRow& solidFraction, const ParticlesView& particles, const LocatedParticles& located);
+    void update(const ConstRow& solidFraction, const ParticlesView& particles, const LocatedParticles& located,
+        RankTotals& totals);
 
 private:
     Foam::string describeCell(Foam::label cell, const std::vector<GhostParticle>& particles) const;

@@ -4,8 +4,6 @@
 #include "distribution/lengthOfChange.h"
 #include "vectors.h"
 
-#include "fvc.H"
-
 #include <algorithm>
 
 namespace clepsydra
@@ -47,7 +45,7 @@ CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& set
     }
 }
 
-void CouplingStep::start(Foam::volVectorField& U, const Foam::volScalarField& p)
+void CouplingStep::start(Foam::volVectorField& U, const Foam::surfaceScalarField& phi, const Foam::volScalarField& p)
 {
     AnticipatedParticles first = fluid_->start(resumed_);
     takeDemResult(0);
@@ -61,35 +59,55 @@ void CouplingStep::start(Foam::volVectorField& U, const Foam::volScalarField& p)
         engine_.evaluateFluidForces();
         takeDemResult(0);
     }
-    conservation_.setInitialMomentum(fluid_->semiImplicitMomentum(first));
+    RankNumbers semiImplicit;
+    fluid_->semiImplicitMomentum(first).appendTo(semiImplicit);
+    RankTotals totals;
+    totals.add(semiImplicit,
+        [this](const RankNumbers& all) { conservation_.setInitialMomentum(ExchangedMomentum::in(all, 0)); });
+    courantNumber_.addTo(phi, couplingTimeStep_, totals);
+    totals.reduce();
 }
 
-ParticlesInFluid CouplingStep::advanceParticles(const Foam::surfaceScalarField& phi, double timeLeft)
+ParticlesInFluid CouplingStep::advanceParticles(double timeLeft)
 {
     couplingTimeStep_ = length_.seconds();
     const double demTime = length_.steps() * engine_.timeStep();
-    advanceDem();
+    RankTotals totals;
+    advanceDem(totals);
     const DemResult result = takeDemResult(couplingTimeStep_);
-    fluid_->checkPressureForce(result.pressureImpulse / demTime);
+    fluid_->checkPressureForce(result.pressureImpulse / demTime, totals);
     if (length_.isAdjustable())
     {
-        length_.choose(limits(phi), timeLeft);
+        length_.choose(limits(), timeLeft);
     }
-    return fluid_->particlesToFluid(result, length_.seconds());
+    return fluid_->particlesToFluid(result, length_.seconds(), totals);
 }
 
-void CouplingStep::fluidToParticles(
-    const SolvedStep& solved, const Foam::volVectorField& U, const Foam::volScalarField& p)
+void CouplingStep::fluidToParticles(const SolvedStep& solved, const Foam::volVectorField& U,
+    const Foam::surfaceScalarField& phi, const Foam::volScalarField& p, const AddToTotals& addMore)
 {
     fluid_->endStep(U, couplingTimeStep_);
     fluid_->fluidToParticles(solved.particles(), U, p);
-    solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()));
+    RankTotals totals;
+    solved.checkConservation(fluid_->semiImplicitMomentum(solved.particles()), totals);
+    courantNumber_.addTo(phi, couplingTimeStep_, totals);
+    if (addMore)
+    {
+        addMore(totals);
+    }
+    totals.reduce();
     removeParticlesThatLeft();
 }
 
-void CouplingStep::advance()
+void CouplingStep::advance(const AddToTotals& addMore)
 {
-    advanceDem();
+    RankTotals totals;
+    advanceDem(totals);
+    if (addMore)
+    {
+        addMore(totals);
+    }
+    totals.reduce();
     removeParticlesThatLeft();
 }
 
@@ -113,27 +131,28 @@ DemResult CouplingStep::takeDemResult(double timeStep)
     return clepsydra::takeDemResult(engine_.particles(), *forces_, timeStep);
 }
 
-std::vector<CouplingStepLimit> CouplingStep::limits(const Foam::surfaceScalarField& phi) const
+std::vector<CouplingStepLimit> CouplingStep::limits() const
 {
     const double courant = settings_.adjustableCouplingTimeStep()->largestCourantNumber;
-    const double throughCells =
-        0.5 * Foam::gMax(Foam::fvc::surfaceSum(Foam::mag(phi))().primitiveField() / phi.mesh().V().field());
     const ParticlesView particles = engine_.particles();
-    const double fastestHere = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff() : 0;
-    const double fastest = returnReduce(fastestHere, Foam::maxOp<double>());
-    return {{"Courant number of the fluid", courant / std::max(throughCells, Foam::VSMALL)},
-        {"Courant number of the particles", courant * lengthOfChange_ / std::max(fastest, Foam::VSMALL)}};
+    const double fastest = particles.size() > 0 ? particles.velocity.colwise().norm().maxCoeff() : 0;
+    // The drag of the next coupling step is distributed to the cells with its length.
+    const double fastestOfAll = RankTotals::of({{}, {fastest}}).maxima[0];
+    return {{"Courant number of the fluid", courant / std::max(courantNumber_.largestPerTime(), Foam::VSMALL)},
+        {"Courant number of the particles", courant * lengthOfChange_ / std::max(fastestOfAll, Foam::VSMALL)}};
 }
 
-void CouplingStep::advanceDem()
+void CouplingStep::advanceDem(RankTotals& totals)
 {
     const PhaseTimers::Scope timing = timers_.time("DEM");
     engine_.advance(length_.steps());
     const ParticlesView particles = engine_.particles();
-    const int highestBefore = conservation_.countParticles(particles);
-    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_, findOutsideMesh());
-    conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
-    conservation_.recordOutsideMesh(insertionAndRemoval_.outsideMesh(), insertionAndRemoval_.leftMesh());
+    const int highestBefore = conservation_.countParticles(particles, totals);
+    insertionAndRemoval_.advance(particles, highestBefore, couplingTimeStep_, findOutsideMesh(), totals);
+    totals.add({}, [this](const RankNumbers&) {
+        conservation_.recordNetInsertion(insertionAndRemoval_.netVolume());
+        conservation_.recordOutsideMesh(insertionAndRemoval_.outsideMesh(), insertionAndRemoval_.leftMesh());
+    });
 }
 
 FindOutsideMesh CouplingStep::findOutsideMesh()

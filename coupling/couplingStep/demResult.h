@@ -25,7 +25,7 @@ struct DemResult
     /// Impulse that the pressure gradient has given to this rank's particles [N s]; model A only.
     Vector3d pressureImpulse;
 
-    /// What all particles of all ranks have received. Collective.
+    /// What all particles of this rank have received.
     ExchangedMomentum receivedMomentum() const
     {
         Vector3d sum = Vector3d::Zero();
@@ -35,8 +35,7 @@ struct DemResult
             sum += ofParticle.impulse;
             sumOfMagnitudes += ofParticle.impulse.norm();
         }
-        return {returnReduce(toFoam(sum), Foam::sumOp<Foam::vector>()),
-            returnReduce(sumOfMagnitudes, Foam::sumOp<double>())};
+        return {toFoam(sum), sumOfMagnitudes};
     }
 };
 

@@ -1,5 +1,9 @@
 #include "couplingStep/dragTimeChecks.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <optional>
+
 namespace clepsydra
 {
 
@@ -26,52 +30,59 @@ double inertiaTime(const ParticlesView& particles, Eigen::Index particle, const 
 
 } // namespace
 
-void DragTimeChecks::check(const ParticlesView& particles, const DemResult& result)
+void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& result, RankTotals& totals)
 {
-    checkDemStep(particles, result);
-    if (!settings_.implicitCoupling() && !warnedOfExplicitCoupling_)
-    {
-        checkExplicitCoupling(particles, result);
-    }
-    if (settings_.ddtSmoothingTime() >= couplingStepsOfFilter * result.timeStep && !warnedOfFilter_)
-    {
-        checkFilter(particles, result);
-    }
-}
-
-void DragTimeChecks::checkDemStep(const ParticlesView& particles, const DemResult& result) const
-{
+    const bool checksExplicitCoupling = !settings_.implicitCoupling() && !warnedOfExplicitCoupling_;
+    const bool checksFilter =
+        settings_.ddtSmoothingTime() >= couplingStepsOfFilter * result.timeStep && !warnedOfFilter_;
+    std::optional<Unresolved> unresolved;
+    double fastestHere = 0;
+    double mostHere = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        const ReceivedImpulse& received = result.received[static_cast<std::size_t>(particle)];
+        const double drag = result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime;
         const double inertia = inertiaTime(particles, particle, result);
-        if (demTimeStep_ * received.implicitCoefficientTime > longest * inertia
-            && !result.changeOfVelocity.col(particle).isZero(0))
+        const FluidAtParticle& fluid = particles.state[particle].fluid;
+        const auto moves = [&] { return !result.changeOfVelocity.col(particle).isZero(0); };
+        if (!unresolved && demTimeStep_ * drag > longest * inertia && moves())
         {
-            const double relaxationTime = inertia / received.implicitCoefficientTime;
-            FatalErrorInFunction << "Drag brings particle " << particles.id[particle] << " with a diameter of "
-                                 << 2 * particles.radius[particle] << " m to the fluid's velocity in " << relaxationTime
-                                 << " s, but the DEM step is " << demTimeStep_ << " s; allowed: a timestep in "
-                                 << settings_.demDict().get<fileName>("script").c_str() << " of at most "
-                                 << longest * relaxationTime << " s, and better a fifth of that" << exit(FatalError);
+            unresolved = Unresolved{particles.id[particle], particles.radius[particle], inertia / drag};
+        }
+        if (checksExplicitCoupling)
+        {
+            fastestHere = std::max(
+                fastestHere, (1 - fluid.voidFraction) * (drag / result.timeStep)
+                                 / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
+        }
+        if (checksFilter && fluid.voidFraction < looseBed && moves())
+        {
+            mostHere = std::max(mostHere, result.timeStep * drag / inertia);
         }
     }
+    totals.add(
+        {{}, {fastestHere, mostHere}}, [this, unresolved, couplingTimeStep = result.timeStep](const RankNumbers& all) {
+            if (unresolved)
+            {
+                reportDemStep(*unresolved);
+            }
+            checkExplicitCoupling(all.maxima[0], couplingTimeStep);
+            checkFilter(all.maxima[1], couplingTimeStep);
+        });
 }
 
-void DragTimeChecks::checkExplicitCoupling(const ParticlesView& particles, const DemResult& result)
+void DragTimeChecks::reportDemStep(const Unresolved& particle) const
 {
-    double fastestHere = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        const FluidAtParticle& fluid = particles.state[particle].fluid;
-        const double coefficient =
-            result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime / result.timeStep;
-        const double solid = 1 - fluid.voidFraction;
-        fastestHere = std::max(fastestHere,
-            solid * coefficient / (sphereVolume(particles.radius[particle]) * fluidDensity_ * fluid.voidFraction));
-    }
-    const double fastest = returnReduce(fastestHere, maxOp<double>());
-    if (result.timeStep * fastest <= longest)
+    FatalErrorInFunction << "Drag brings particle " << particle.id << " with a diameter of " << 2 * particle.radius
+                         << " m to the fluid's velocity in " << particle.relaxationTime << " s, but the DEM step is "
+                         << demTimeStep_ << " s; allowed: a timestep in "
+                         << settings_.demDict().get<fileName>("script").c_str() << " of at most "
+                         << longest * particle.relaxationTime << " s, and better a fifth of that" << exit(FatalError);
+    std::abort();
+}
+
+void DragTimeChecks::checkExplicitCoupling(double fastest, double couplingTimeStep)
+{
+    if (couplingTimeStep * fastest <= longest)
     {
         return;
     }
@@ -82,24 +93,14 @@ void DragTimeChecks::checkExplicitCoupling(const ParticlesView& particles, const
             << "With momCoupleModels (explicitCouple) the fluid receives drag after the coupling step, and "
             << "the drag of the particles stops it in " << 1 / fastest
             << " s. Where the coupling step is longer than twice that time, errors grow from step to "
-            << "step, and it is " << result.timeStep
+            << "step, and it is " << couplingTimeStep
             << " s. Use implicitCouple, or a couplingTimeStep (and deltaT) of at most " << longest / fastest
             << " s. This warning is printed once" << endl;
     }
 }
 
-void DragTimeChecks::checkFilter(const ParticlesView& particles, const DemResult& result)
+void DragTimeChecks::checkFilter(double most, double couplingTimeStep)
 {
-    double mostHere = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        const double drag = result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime;
-        if (particles.state[particle].fluid.voidFraction < looseBed && !result.changeOfVelocity.col(particle).isZero(0))
-        {
-            mostHere = std::max(mostHere, result.timeStep * drag / inertiaTime(particles, particle, result));
-        }
-    }
-    const double most = returnReduce(mostHere, maxOp<double>());
     if (most <= longestWithFilter)
     {
         return;
@@ -108,12 +109,12 @@ void DragTimeChecks::checkFilter(const ParticlesView& particles, const DemResult
     if (Pstream::master())
     {
         WarningInFunction
-            << "The coupling step of " << result.timeStep << " s is " << most
+            << "The coupling step of " << couplingTimeStep << " s is " << most
             << " relaxation times of a particle in a dense bed, and the low-pass filter of d(eps)/dt has a "
             << "smoothingTime of " << settings_.ddtSmoothingTime()
             << " s. Where such a bed falls or rises as a whole, errors then grow from step to step. Leave "
             << "the filter out (useDDTvoidfractionProps), or use a couplingTimeStep (and deltaT) of at most "
-            << longestWithFilter * result.timeStep / most << " s. This warning is printed once" << endl;
+            << longestWithFilter * couplingTimeStep / most << " s. This warning is printed once" << endl;
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include "couplingStep/couplingSettings.h"
 #include "couplingStep/demResult.h"
+#include "rankTotals.h"
 
 namespace clepsydra
 {
@@ -21,13 +22,23 @@ public:
     /// that moves: its velocity then oscillates and grows. A warning, once, where the coupling step of `explicitCouple`
     /// is longer than twice the time in which the particles' drag stops the fluid. A warning, once, where the coupling
     /// step is so many relaxation times of particles in a dense bed that the low-pass filter lets errors grow, see
-    /// VoidFractionRate. Collective.
-    void check(const ParticlesView& particles, const DemResult& result);
+    /// VoidFractionRate. Local; errors and warnings come when the totals are reduced.
+    void addTo(const ParticlesView& particles, const DemResult& result, RankTotals& totals);
 
 private:
-    void checkDemStep(const ParticlesView& particles, const DemResult& result) const;
-    void checkExplicitCoupling(const ParticlesView& particles, const DemResult& result);
-    void checkFilter(const ParticlesView& particles, const DemResult& result);
+    /// A particle whose drag the DEM step does not resolve.
+    struct Unresolved
+    {
+        int id;
+        double radius;
+        double relaxationTime;
+    };
+
+    [[noreturn]] void reportDemStep(const Unresolved& particle) const;
+    /// \param fastest  rate at which drag stops the fluid, the largest of all particles [1/s]
+    void checkExplicitCoupling(double fastest, double couplingTimeStep);
+    /// \param most  relaxation times in the coupling step, of the particle in a dense bed that has the most
+    void checkFilter(double most, double couplingTimeStep);
 
     const CouplingSettings& settings_;
     const double fluidDensity_;

@@ -33,7 +33,9 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
 AnticipatedParticles FluidCoupling::start(bool resumed)
 {
     const ParticlesView particles = engine_.particles();
-    meanPressureGradient_.update(particles);
+    RankTotals totals;
+    meanPressureGradient_.addTo(particles, totals);
+    totals.reduce();
     Eigen::MatrixXd volumes(ContributionRows::solidVolume.end(), particles.size());
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -49,7 +51,8 @@ AnticipatedParticles FluidCoupling::start(bool resumed)
         sampling_.restore(particles);
         return located;
     }
-    fields_.voidFraction.update(solidFraction.row(0), particles, located);
+    fields_.voidFraction.update(solidFraction.row(0), particles, located, totals);
+    totals.reduce();
     updateSizes(located);
     // No equation has been solved yet in which drag transferred part of the pressure's impulse from the particles.
     fields_.pressure.updateFactor(voidFraction(), Eigen::RowVectorXd::Zero(mesh_.nCells()));
@@ -70,19 +73,33 @@ AnticipatedParticles FluidCoupling::subtractFirstDrag(DemResult oneStep, volVect
     return located;
 }
 
-ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double next)
+ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double next, const RankTotals& ofDem)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
-    dragTimes_.check(engine_.particles(), result);
-    meanPressureGradient_.update(engine_.particles());
-    AnticipatedParticles located = locate(result, next);
-    Eigen::MatrixXd density = densities(located, rows_.count);
-    // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
-    ContributionRows::motion.of(density) *= next / result.timeStep;
-    fields_.voidFraction.update(ContributionRows::solidVolume.of(density), engine_.particles(), located);
+    const ParticlesView particles = engine_.particles();
+    std::vector<AnticipatedMotion> motions = anticipate(result, next);
+    const Eigen::MatrixXd added = contributions(result, motions);
+    RankTotals ofParticles = ofDem;
+    dragTimes_.addTo(particles, result, ofParticles);
+    meanPressureGradient_.addTo(particles, ofParticles);
+    AnticipatedParticles located{mapping_.lastLocated(), std::move(motions), next};
+    Eigen::MatrixXd density;
+    // Which ranks receive particles and which cells are smoothed is assumed to be as in the last coupling step. The
+    // reduction of all checks confirms it; where it is not so, it has made new plans, and particles are distributed again.
+    bool asPlanned = false;
+    while (!asPlanned)
+    {
+        RankTotals totals = ofParticles;
+        mapping_.locateAsPlanned(particles, added, totals);
+        density = densities(located, rows_.count);
+        fields_.voidFraction.update(ContributionRows::solidVolume.of(density), particles, located, totals);
+        // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
+        ContributionRows::motion.of(density) *= next / result.timeStep;
+        fields_.rate.update(voidFraction(), ContributionRows::motion.of(density), result.timeStep, totals);
+        asPlanned = totals.reduce();
+    }
     updateSizes(located);
     fields_.pressure.updateFactor(voidFraction(), ContributionRows::velocityResponse.of(density));
-    fields_.rate.update(voidFraction(), ContributionRows::motion.of(density), result.timeStep);
     fields_.momentum.update(ContributionRows::momentum.of(density), result.timeStep);
     if (fields_.torque)
     {
@@ -257,8 +274,7 @@ ExchangedMomentum FluidCoupling::semiImplicitMomentum(const AnticipatedParticles
                       + motion.addedMass * (fluid.velocityInCells.norm() + motion.fluidVelocity.norm());
     }
     const Vector3d sumOfParticles = ofParticles.rowwise().sum();
-    return {returnReduce(toFoam(sumOfParticles), sumOp<vector>()) + gSum(inCells),
-        returnReduce(magnitudes, sumOp<scalar>())};
+    return {toFoam(sumOfParticles) + sum(inCells), magnitudes};
 }
 
 std::optional<double> FluidCoupling::partNearClearFluid() const

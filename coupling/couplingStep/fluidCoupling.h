@@ -32,10 +32,11 @@ public:
     AnticipatedParticles subtractFirstDrag(DemResult oneStep, Foam::volVectorField& U, double couplingTimeStep);
 
     /// Computes the void fraction and the sources of the fluid's equations from the particles' present positions and
-    /// from what they received. Collective.
+    /// from what they received. Collective; one reduction in most coupling steps.
     /// \param result  of the DEM steps of one coupling step, over which the fluid is solved next
     /// \param next  length of the coupling step after it, whose drag is in the semi-implicit source [s]
-    ParticlesInFluid particlesToFluid(const DemResult& result, double next);
+    /// \param ofDem  of the DEM steps; they are reduced and used before the void fraction is checked
+    ParticlesInFluid particlesToFluid(const DemResult& result, double next, const RankTotals& ofDem);
 
     /// Ends the fluid's step, before it is sampled for the next one: see FluidSampling.
     void endStep(const Foam::volVectorField& U, double couplingTimeStep)
@@ -52,16 +53,16 @@ public:
     void fluidToParticles(
         const AnticipatedParticles& particles, const Foam::volVectorField& U, const Foam::volScalarField& p);
 
-    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet. Its magnitudes
-    /// include those of the terms c U and c v of drag, whose difference is given. Collective.
+    /// Momentum that the fluid has given semi-implicitly and that the particles have not received yet, on this rank. Its
+    /// magnitudes include those of the terms c U and c v of drag, whose difference is given. Local.
     ExchangedMomentum semiImplicitMomentum(const AnticipatedParticles& anticipated) const;
 
-    /// Compares the force of the pressure gradient on the particles since the last sample() with its reaction.
-    /// Collective.
+    /// Compares the force of the pressure gradient on the particles since the last sample() with its reaction when the
+    /// totals are reduced. Local.
     /// \param onParticles  mean over the DEM steps, of this rank's particles [N]
-    void checkPressureForce(const Vector3d& onParticles) const
+    void checkPressureForce(const Vector3d& onParticles, RankTotals& totals) const
     {
-        fields_.pressure.check(onParticles);
+        fields_.pressure.check(onParticles, totals);
     }
 
     /// See bedEdge.h; of the particles of the last coupling step. Collective.

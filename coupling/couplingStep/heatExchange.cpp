@@ -65,8 +65,7 @@ tmp<fvScalarMatrix> HeatExchange::source(volScalarField& T) const
 
 double HeatExchange::pending() const
 {
-    return capacityPerVolume_
-           * gSum(scalarField(given_.mesh().V().field() * (given_.primitiveField() - deferred_.primitiveField())));
+    return capacityPerVolume_ * sum(given_.mesh().V().field() * (given_.primitiveField() - deferred_.primitiveField()));
 }
 
 HeatOfStep HeatExchange::exchange(
@@ -77,25 +76,21 @@ HeatOfStep HeatExchange::exchange(
     const scalarField& volumes = T.mesh().V().field();
     const scalarField sourceInCells(
         particleSource_.primitiveField() - coefficient_.primitiveField() * T.primitiveField());
-    heat.fluidLost = -timeStep_ * capacityPerVolume_ * gSum(scalarField(volumes * sourceInCells));
-    heat.magnitudes = timeStep_ * capacityPerVolume_
-                      * gSum(scalarField(volumes * mag(coefficient_.primitiveField() * T.primitiveField())));
+    heat.fluidLost = -timeStep_ * capacityPerVolume_ * sum(volumes * sourceInCells);
+    heat.magnitudes =
+        timeStep_ * capacityPerVolume_ * sum(volumes * mag(coefficient_.primitiveField() * T.primitiveField()));
 
     const Eigen::RowVectorXd ofFluid = located.sample(columns(T.primitiveField()));
     const Eigen::RowVectorXd assigned = coefficients_.cwiseProduct(ofFluid);
-    double received = 0;
-    double inParticles = 0;
     for (Eigen::Index particle = 0; particle < coefficients_.size(); ++particle)
     {
         double& temperature = temperatures.temperature[particle];
         const double capacity = temperatures.heatCapacity[particle];
         const double before = temperature;
         temperature += coefficients_[particle] * (ofFluid[particle] - temperature) / capacity;
-        received += capacity * (temperature - before);
-        inParticles += capacity * temperature;
+        heat.received += capacity * (temperature - before);
+        heat.inParticles += capacity * temperature;
     }
-    heat.received = returnReduce(received, sumOp<scalar>());
-    heat.inParticles = returnReduce(inParticles, sumOp<scalar>());
 
     given_.primitiveFieldRef() = timeStep_ * coefficient_.primitiveField() * T.primitiveField();
     given_.correctBoundaryConditions();

@@ -44,15 +44,15 @@ public:
     Foam::tmp<Foam::fvScalarMatrix> source(Foam::volScalarField& T) const;
 
     /// Gives the particles their heat and stores the deferred correction. Call once, when T has been solved for.
-    /// Collective.
+    /// Collective, but without a reduction.
     /// \param located  as in update()
-    /// \return the parts of the balance that concern the particles
+    /// \return the parts of the balance that concern the particles, on this rank
     HeatOfStep exchange(const LocatedParticles& located, TemperaturesView temperatures, const Foam::volScalarField& T);
 
 private:
     /// h A [W/K] of a particle, or of all particles of a parcel.
     double conductance(const ParticlesView& particles, Eigen::Index particle) const;
-    /// Heat that the fluid has given and that no particle has been assigned [J]. Collective.
+    /// Heat that the fluid of this rank has given and that no particle has been assigned [J].
     double pending() const;
 
     const FluidProperties fluid_;

@@ -5,7 +5,6 @@
 #include "runTimeSelection.h"
 #include "vectors.h"
 
-#include "PstreamReduceOps.H"
 #include "fvcGrad.H"
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -47,6 +46,7 @@ MeanPressureGradient::MeanPressureGradient(const dictionary& couplingProperties,
     : mesh_(mesh),
       periodic_(periodic),
       fluid_(fluid),
+      meshVolume_(gSum(mesh.V().field())),
       onFluidOnly_(modelType == ModelType::A && !actsOnParticles),
       hasBuoyancy_(hasBuoyancy(couplingProperties))
 {
@@ -97,27 +97,31 @@ MeanPressureGradient::MeanPressureGradient(const dictionary& couplingProperties,
     }
 }
 
-void MeanPressureGradient::update(const ParticlesView& particles)
+void MeanPressureGradient::addTo(const ParticlesView& particles, RankTotals& totals)
 {
     if (!balancesWeight_)
     {
         return;
     }
     Vector3d weight = Vector3d::Zero();
-    scalar solidVolume = 0;
+    double solidVolume = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const double displaced = volumeInFluid(particles, particle);
         weight += (particles.mass[particle] - (hasBuoyancy_ ? fluid_.density * displaced : 0)) * fluid_.gravity;
         solidVolume += displaced;
     }
-    const vector onAllRanks = returnReduce(toFoam(weight), sumOp<vector>());
-    const scalar volume = gSum(mesh_.V().field()) - (onFluidOnly_ ? returnReduce(solidVolume, sumOp<scalar>()) : 0);
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-    {
-        const auto component = static_cast<direction>(axis);
-        gradient_[component] = periodic_.isPeriodic(axis) ? onAllRanks[component] / volume : 0;
-    }
+    RankNumbers ofRank;
+    ofRank.addVector(weight);
+    ofRank.sums.push_back(solidVolume);
+    totals.add(ofRank, [this](const RankNumbers& all) {
+        const double volume = meshVolume_ - (onFluidOnly_ ? all.sums[3] : 0);
+        for (Eigen::Index axis = 0; axis < 3; ++axis)
+        {
+            gradient_[static_cast<direction>(axis)] =
+                periodic_.isPeriodic(axis) ? all.sums[static_cast<std::size_t>(axis)] / volume : 0;
+        }
+    });
 }
 
 tmp<volVectorField> MeanPressureGradient::gradient(const volScalarField& p) const

@@ -3,6 +3,7 @@
 #include "engine/periodicBox.h"
 #include "forces/fluidProperties.h"
 #include "forces/modelType.h"
+#include "rankTotals.h"
 
 #include "dimensionedVector.H"
 #include "fvMesh.H"
@@ -38,8 +39,8 @@ public:
         return balancesWeight_ || gradient_ != Foam::vector::zero;
     }
 
-    /// Computes it for the present particles. Collective.
-    void update(const ParticlesView& particles);
+    /// Adds what it depends on of the particles; it is that of these particles when the totals have been reduced. Local.
+    void addTo(const ParticlesView& particles, RankTotals& totals);
 
     /// Gradient of the kinematic pressure, that of its periodic part p and the mean [m/s2].
     Foam::tmp<Foam::volVectorField> gradient(const Foam::volScalarField& p) const;
@@ -57,6 +58,8 @@ private:
     const Foam::fvMesh& mesh_;
     const PeriodicBox periodic_;
     const FluidProperties fluid_;
+    /// Of the cells of all ranks [m3].
+    const double meshVolume_;
     /// Whether the fluid has the gradient in its own volume only, without that of the particles.
     const bool onFluidOnly_;
     bool balancesWeight_ = false;

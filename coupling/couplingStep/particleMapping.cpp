@@ -62,9 +62,8 @@ auto ParticleMapping::exchanged(const Communicate& communicate)
     return communicate();
 }
 
-Eigen::MatrixXd ParticleMapping::shareSums(const ParticlesView& particles, const Eigen::MatrixXd& contributions)
+Eigen::MatrixXd ParticleMapping::shareSums()
 {
-    exchanged([&] { exchange_.send(particles, contributions); });
     const Eigen::MatrixXd sharesHere = [&] {
         const PhaseTimers::Scope timing = timers_.time("locate");
         return distribution_.findCells(exchange_.ghosts());
@@ -74,7 +73,8 @@ Eigen::MatrixXd ParticleMapping::shareSums(const ParticlesView& particles, const
 
 std::vector<bool> ParticleMapping::areOutsideMesh(const ParticlesView& particles)
 {
-    const Eigen::MatrixXd shares = shareSums(particles, Eigen::MatrixXd(0, particles.size()));
+    exchanged([&] { exchange_.send(particles, Eigen::MatrixXd(0, particles.size())); });
+    const Eigen::MatrixXd shares = shareSums();
     std::vector<bool> outside;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -85,12 +85,26 @@ std::vector<bool> ParticleMapping::areOutsideMesh(const ParticlesView& particles
 
 LocatedParticles ParticleMapping::locate(const ParticlesView& particles, const Eigen::MatrixXd& contributions)
 {
-    const Eigen::MatrixXd shares = shareSums(particles, contributions);
-    requireWithinMesh(mesh_, couplingProperties_, particles, shares);
+    bool asPlanned = false;
+    while (!asPlanned)
+    {
+        RankTotals totals;
+        locateAsPlanned(particles, contributions, totals);
+        asPlanned = totals.reduce();
+    }
+    return lastLocated();
+}
+
+LocatedParticles ParticleMapping::locateAsPlanned(
+    const ParticlesView& particles, const Eigen::MatrixXd& contributions, RankTotals& totals)
+{
+    exchanged([&] { exchange_.sendAsPlanned(particles, contributions, totals); });
+    const Eigen::MatrixXd shares = shareSums();
+    requireWithinMesh(mesh_, couplingProperties_, particles, shares, totals);
     distribution_.normalise(exchanged([&] { return exchange_.toGhosts(shares); }));
     const PhaseTimers::Scope timing = timers_.time("smooth");
-    distribution_.smoothNearParticles();
-    return LocatedParticles(*this);
+    distribution_.smoothNearParticles(totals);
+    return lastLocated();
 }
 
 } // namespace clepsydra

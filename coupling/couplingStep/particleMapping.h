@@ -9,8 +9,8 @@ namespace clepsydra
 
 class ParticleMapping;
 
-/// Particles whose cells are known, with what they add to them. Only ParticleMapping::locate() makes one, so that nothing
-/// can be distributed or sampled before. Valid until the engine advances or the next locate(). All members are
+/// Particles whose cells are known, with what they add to them. Only ParticleMapping makes one, so that nothing can be
+/// distributed or sampled before. Valid until the engine advances or particles are located again. All members are
 /// collective.
 class LocatedParticles
 {
@@ -53,7 +53,13 @@ public:
     /// \param contributions  what each particle adds to its cells, a column per particle
     LocatedParticles locate(const ParticlesView& particles, const Eigen::MatrixXd& contributions);
 
-    /// The particles of the last locate().
+    /// As locate(), but what is to be confirmed by all ranks is left to the totals: whether all ghosts have been sent and
+    /// all cells near particles found, and whether each particle is in a cell. Where a condition of the totals does not
+    /// hold, the particles must be located again. Collective, but with few exceptions without a reduction.
+    LocatedParticles locateAsPlanned(
+        const ParticlesView& particles, const Eigen::MatrixXd& contributions, RankTotals& totals);
+
+    /// The particles that were located last.
     LocatedParticles lastLocated() const
     {
         return LocatedParticles(*this);
@@ -75,8 +81,9 @@ public:
 
 private:
     friend class LocatedParticles;
-    /// Sends the particles to the ranks of their cells. \return the sums of their shares over all ranks. Collective.
-    Eigen::MatrixXd shareSums(const ParticlesView& particles, const Eigen::MatrixXd& contributions);
+    /// Finds the cells of the ghosts that have been sent. \return the sums of the particles' shares over all ranks.
+    /// Collective.
+    Eigen::MatrixXd shareSums();
     /// What `communicate` returns; its time is that of the exchange.
     template<class Communicate>
     auto exchanged(const Communicate& communicate);

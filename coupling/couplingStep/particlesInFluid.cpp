@@ -36,6 +36,11 @@ void ParticlesInFluid::spreadImbalance(double outflow)
     conservation_.recordImbalance(couplingTimeStep_ * fields_.rate.spreadImbalance(outflow));
 }
 
+void ParticlesInFluid::spreadImbalance()
+{
+    conservation_.recordImbalance(couplingTimeStep_ * fields_.rate.spreadImbalance());
+}
+
 tmp<surfaceScalarField> ParticlesInFluid::pressureCoefficient(const surfaceScalarField& rAUf) const
 {
     return movingf_ * rAUf + fields_.rate.pressureResponse();
@@ -66,14 +71,27 @@ SolvedStep ParticlesInFluid::record(
         fields_.rate() + fvc::div(alphaPhi)};
 }
 
-void SolvedStep::checkConservation(const ExchangedMomentum& semiImplicit) const
+void SolvedStep::checkConservation(const ExchangedMomentum& semiImplicit, RankTotals& totals) const
 {
     ConservationCheck& conservation = particles_.conservation_;
+    if (particles_.heat_)
+    {
+        conservation.addHeat(*particles_.heat_, totals);
+    }
     const double timeStep = particles_.couplingTimeStep_;
-    conservation.recordMomentum(particles_.received_,
-        -particles_.fluidDensity_ * timeStep * returnReduce(sourceOfParticles_, sumOp<vector>()), semiImplicit);
-    conservation.recordContinuity(timeStep * continuityError_());
-    conservation.recordFilteredVolume(particles_.fields_.rate.filteredVolume());
+    const double impulsePerSource = -particles_.fluidDensity_ * timeStep;
+    RankNumbers ofRank;
+    particles_.received_.appendTo(ofRank);
+    semiImplicit.appendTo(ofRank);
+    ofRank.addVector(sourceOfParticles_);
+    totals.add(ofRank, [&conservation, impulsePerSource](const RankNumbers& all) {
+        conservation.recordMomentum(ExchangedMomentum::in(all, 0),
+            impulsePerSource * all.vectorAt<vector>(2 * ExchangedMomentum::size),
+            ExchangedMomentum::in(all, ExchangedMomentum::size));
+    });
+    conservation.addContinuity(timeStep * continuityError_(), totals);
+    totals.add({{particles_.fields_.rate.filteredVolume()}, {}},
+        [&conservation](const RankNumbers& all) { conservation.recordFilteredVolume(all.sums[0]); });
 }
 
 } // namespace clepsydra

@@ -11,6 +11,7 @@
 #include "surfaceFields.H"
 
 #include <memory>
+#include <optional>
 
 namespace clepsydra
 {
@@ -55,7 +56,7 @@ class SolvedStep;
 class ParticlesInFluid : public AnticipatedParticles
 {
 public:
-    /// \param received  what the particles received in the coupling step that is solved, over all ranks
+    /// \param received  what the particles of this rank received in the coupling step that is solved
     /// \param couplingTimeStep  its length [s]
     ParticlesInFluid(AnticipatedParticles anticipated, ParticleFields& fields, ConservationCheck& conservation,
         const ExchangedMomentum& received, double fluidDensity, double couplingTimeStep);
@@ -107,6 +108,9 @@ public:
     /// \param outflow  of fluid through the boundary of this rank without a correction of p [m3/s]
     void spreadImbalance(double outflow);
 
+    /// The same where nothing can pass the boundary of any rank. Local.
+    void spreadImbalance();
+
     /// \param rAUf  coefficient of grad p in U, on faces [s]
     Foam::tmp<Foam::surfaceScalarField> pressureCoefficient(const Foam::surfaceScalarField& rAUf) const;
 
@@ -125,10 +129,11 @@ public:
         return fields_.rate.integral();
     }
 
-    /// Records the heat of the coupling step in the conservation check. Collective.
-    void recordHeat(const HeatOfStep& heat) const
+    /// Sets the heat of the coupling step on this rank, which the conservation check then records. A step without a
+    /// temperature has none.
+    void setHeat(const HeatOfStep& ofRank)
     {
-        conservation_.recordHeat(heat);
+        heat_ = ofRank;
     }
 
     /// Ends the solution of the equations: completes d(eps)/dt. The result has what the conservation check compares, of
@@ -151,6 +156,7 @@ private:
     const Foam::surfaceScalarField movingf_;
     /// Flux of the implicit part of d(eps)/dt [m3/s].
     Foam::tmp<Foam::surfaceScalarField> anticipatedFlux_;
+    std::optional<HeatOfStep> heat_;
 };
 
 /// A coupling step whose fluid has been solved. Only ParticlesInFluid::record() makes one, and it refers to that object.
@@ -162,9 +168,11 @@ public:
         return particles_;
     }
 
-    /// Compares what the fluid lost with what the particles received. Collective.
-    /// \param semiImplicit  see ConservationCheck::recordMomentum()
-    void checkConservation(const ExchangedMomentum& semiImplicit) const;
+    /// Compares what the fluid lost with what the particles received, heat and momentum, and checks continuity, when the
+    /// totals are reduced.
+    /// Collective.
+    /// \param semiImplicit  of this rank, see ConservationCheck::recordMomentum()
+    void checkConservation(const ExchangedMomentum& semiImplicit, RankTotals& totals) const;
 
 private:
     friend class ParticlesInFluid;

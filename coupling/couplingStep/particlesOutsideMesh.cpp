@@ -72,7 +72,7 @@ string nearestPatch(const fvMesh& mesh, const point& position)
 } // namespace
 
 void requireWithinMesh(const fvMesh& mesh, const dictionary& couplingProperties, const ParticlesView& particles,
-    const Eigen::MatrixXd& shareSums)
+    const Eigen::MatrixXd& shareSums, RankTotals& totals)
 {
     label count = 0;
     label lowestId = labelMax;
@@ -84,11 +84,14 @@ void requireWithinMesh(const fvMesh& mesh, const dictionary& couplingProperties,
             lowestId = min(lowestId, label(particles.id[particle]));
         }
     }
-    reduce(count, sumOp<label>());
-    if (count > 0)
-    {
-        reportOutsideMesh(mesh, couplingProperties, particles, count, returnReduce(lowestId, minOp<label>()));
-    }
+    totals.add({{static_cast<double>(count)}, {-static_cast<double>(lowestId)}},
+        [&mesh, &couplingProperties, particles](const RankNumbers& all) {
+            if (all.sums[0] > 0)
+            {
+                reportOutsideMesh(mesh, couplingProperties, particles, static_cast<label>(all.sums[0]),
+                    static_cast<label>(-all.maxima[0]));
+            }
+        });
 }
 
 } // namespace clepsydra

@@ -44,29 +44,35 @@ Eigen::MatrixXd PressureOnParticles::gradient(const volScalarField& p, const sca
 {
     const tmp<volVectorField> gradient = mean_.gradient(p);
     const vectorField& inCells = gradient().primitiveField();
-    forceInFluid_ = -gSum(vectorField(fluidDensity_ * inCells * solidFraction * p.mesh().V().field()));
+    forceInFluid_ = -sum(fluidDensity_ * inCells * solidFraction * p.mesh().V().field());
     return modelType_ == ModelType::A ? Eigen::MatrixXd(fluidDensity_ * columns(inCells))
                                       : Eigen::MatrixXd::Zero(3, inCells.size());
 }
 
 void PressureOnParticles::sampledAt(const ParticlesView& particles)
 {
-    scalar sum = 0;
+    sumOfMagnitudes_ = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
-        sum += volumeInFluid(particles, particle) * particles.state[particle].fluid.pressureGradient.norm();
+        sumOfMagnitudes_ +=
+            volumeInFluid(particles, particle) * particles.state[particle].fluid.pressureGradient.norm();
     }
-    sumOfMagnitudes_ = returnReduce(sum, sumOp<scalar>());
 }
 
-void PressureOnParticles::check(const Vector3d& onParticles) const
+void PressureOnParticles::check(const Vector3d& onParticles, RankTotals& totals) const
 {
     // In model B grad p does not act on the particles, and the fluid's equation holds no reaction to it.
-    if (modelType_ == ModelType::A)
+    if (modelType_ != ModelType::A)
     {
-        conservation_.recordPressureForce(
-            returnReduce(toFoam(onParticles), sumOp<vector>()), forceInFluid_, sumOfMagnitudes_, !acts_);
+        return;
     }
+    RankNumbers ofRank;
+    ofRank.addVector(onParticles);
+    ofRank.addVector(forceInFluid_);
+    ofRank.sums.push_back(sumOfMagnitudes_);
+    totals.add(ofRank, [this](const RankNumbers& all) {
+        conservation_.recordPressureForce(all.vectorAt<vector>(0), all.vectorAt<vector>(3), all.sums[6], !acts_);
+    });
 }
 
 } // namespace clepsydra

@@ -48,15 +48,16 @@ public:
         const Foam::volScalarField& voidFraction, const Foam::volScalarField& p) const;
 
     /// Gradient of the pressure that acts on the particles [Pa/m], 3 x cells, not smoothed; zero in model B. Its force on
-    /// the solid fraction is what check() compares. Collective.
+    /// the solid fraction is what check() compares.
     Eigen::MatrixXd gradient(const Foam::volScalarField& p, const Foam::scalarField& solidFraction);
 
-    /// Sums up the magnitudes of the forces that the gradient at the particles amounts to. Collective.
+    /// Sums up the magnitudes of the forces that the gradient at the particles amounts to. Local.
     void sampledAt(const ParticlesView& particles);
 
-    /// Compares the force of the pressure gradient on the particles with its reaction in the fluid's equation. Collective.
+    /// Compares the force of the pressure gradient on the particles with its reaction in the fluid's equation when the
+    /// totals are reduced. Local.
     /// \param onParticles  mean since sampledAt(), of this rank's particles [N]
-    void check(const Vector3d& onParticles) const;
+    void check(const Vector3d& onParticles, RankTotals& totals) const;
 
 private:
     const ModelType modelType_;
@@ -66,7 +67,7 @@ private:
     ConservationCheck& conservation_;
     Foam::volScalarField factor_;
     /// Force whose reaction to the particles is in the fluid's equation, and the sum of the magnitudes of the forces on
-    /// the particles in the next coupling step, over all ranks [N]; model A only.
+    /// the particles in the next coupling step, of this rank [N]; model A only.
     Foam::vector forceInFluid_ = Foam::vector::zero;
     double sumOfMagnitudes_ = 0;
 };

@@ -3,6 +3,7 @@
 #include "couplingStep/couplingField.h"
 #include "vectors.h"
 
+#include "Pstream.H"
 #include "fvcDiv.H"
 #include "surfaceInterpolate.H"
 
@@ -34,6 +35,7 @@ void closeBoundary(GeometricField<Type, fvsPatchField, surfaceMesh>& field)
 VoidFractionRate::VoidFractionRate(const fvMesh& mesh, const CouplingSettings& settings)
     : used_(settings.ddtVoidFraction()),
       smoothingTime_(settings.ddtSmoothingTime()),
+      meshVolume_(gSum(mesh.V().field())),
       integral_(couplingField<scalar>("voidFractionInContinuity", mesh, dimless, 1)),
       explicitRate_(temporaryField<volScalarField>("explicitRate", mesh, dimless / dimTime)),
       velocityResponse_(temporaryField<surfaceScalarField>("velocityResponse", mesh, dimless)),
@@ -48,11 +50,12 @@ void VoidFractionRate::start(const volScalarField& voidFraction)
     integral_ == voidFraction;
 }
 
-void VoidFractionRate::update(
-    const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities, double couplingTimeStep)
+void VoidFractionRate::update(const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
+    double couplingTimeStep, RankTotals& totals)
 {
     couplingTimeStep_ = couplingTimeStep;
     spread_ = 0;
+    unspread_ = 0;
     if (!used_)
     {
         return;
@@ -78,16 +81,33 @@ void VoidFractionRate::update(
     explicitRate_ = fvc::div(flux);
     explicitRate_.primitiveFieldRef() +=
         approach / couplingTimeStep * (voidFraction.primitiveField() - integral_.primitiveField());
+    totals.add({{explicitRateHere()}, {}}, [this](const RankNumbers& all) { unspread_ = all.sums[0]; });
+}
+
+double VoidFractionRate::explicitRateHere() const
+{
+    return sum(explicitRate_.primitiveField() * rate_.mesh().V().field());
 }
 
 double VoidFractionRate::spreadImbalance(double outflow)
 {
-    const scalarField& cellVolumes = rate_.mesh().V().field();
-    const double imbalance =
-        returnReduce(sum(explicitRate_.primitiveField() * cellVolumes) + outflow, sumOp<scalar>()) / gSum(cellVolumes);
-    explicitRate_.primitiveFieldRef() -= imbalance;
-    spread_ += imbalance;
-    return imbalance;
+    // Needed at once, by the equation of the pressure.
+    return spread(RankTotals::of({{explicitRateHere() + outflow}, {}}).sums[0]);
+}
+
+double VoidFractionRate::spreadImbalance()
+{
+    // What rounding leaves of an imbalance that has been spread is no reason for a reduction.
+    return spread(Pstream::parRun() ? unspread_ : explicitRateHere());
+}
+
+double VoidFractionRate::spread(double imbalance)
+{
+    const double perVolume = imbalance / meshVolume_;
+    explicitRate_.primitiveFieldRef() -= perVolume;
+    spread_ += perVolume;
+    unspread_ = 0;
+    return perVolume;
 }
 
 void VoidFractionRate::close(const surfaceScalarField& flux)
@@ -100,7 +120,7 @@ void VoidFractionRate::close(const surfaceScalarField& flux)
 double VoidFractionRate::filteredVolume() const
 {
     const scalarField passed(couplingTimeStep_ * mag(rate_.primitiveField() + spread_));
-    return (1 / passed_ - 1) * gSum(scalarField(passed * rate_.mesh().V().field()));
+    return (1 / passed_ - 1) * sum(passed * rate_.mesh().V().field());
 }
 
 } // namespace clepsydra

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "couplingStep/couplingSettings.h"
+#include "rankTotals.h"
 
 #include "surfaceFields.H"
 #include "volFields.H"
@@ -33,7 +34,7 @@ namespace clepsydra
 class VoidFractionRate
 {
 public:
-    /// Reads the fields that an earlier process of this run has written.
+    /// Reads the fields that an earlier process of this run has written. Collective.
     VoidFractionRate(const Foam::fvMesh& mesh, const CouplingSettings& settings);
 
     void start(const Foam::volScalarField& voidFraction);
@@ -46,15 +47,20 @@ public:
     /// [-]; pressureResponse for the force of a kinematic pressure gradient [s]; (1 - velocityResponse) times the
     /// present velocity [m/s]
     /// \param couplingTimeStep  length of the step that is solved next [s]
+    /// \param totals  to be reduced before spreadImbalance()
     void update(const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
-        double couplingTimeStep);
+        double couplingTimeStep, RankTotals& totals);
 
     /// Makes the continuity equation of a closed tank solvable, where the rate's integral and the outflow must add up
     /// to zero. Subtracts their sum evenly from all cells, whereas a linear solver would put it into the reference
-    /// cell. Collective.
+    /// cell. Collective, one reduction.
     /// \param outflow  of fluid through the boundary of this rank [m3/s]
     /// \return the volume rate that was subtracted, divided by the tank's volume [1/s]
     double spreadImbalance(double outflow);
+
+    /// The same where nothing can pass the boundary of any rank: the integral of the rate is known since the totals of
+    /// update() were reduced. Local.
+    double spreadImbalance();
 
     /// Explicit part of the rate [1/s]; zero with `useDDTvoidfraction off`.
     const Foam::volScalarField& withoutImplicit() const
@@ -89,19 +95,28 @@ public:
         return rate_;
     }
 
-    /// Volume of particles whose motion the low-pass filter has not passed yet [m3], the integral over all cells of the
-    /// magnitude of the difference between the rate without the filter and with it, times the coupling step. It is zero
-    /// without a filter. \pre close() has been called. Collective.
+    /// Volume of particles whose motion the low-pass filter has not passed yet [m3], the integral over the cells of the
+    /// magnitude of the difference between the rate without the filter and with it, times the coupling step. Of this
+    /// rank's cells. It is zero without a filter. \pre close() has been called. Local.
     double filteredVolume() const;
 
 private:
+    /// Integral of the explicit rate over this rank's cells [m3/s].
+    double explicitRateHere() const;
+    /// Subtracts a volume rate of all ranks [m3/s] evenly. \return that rate, divided by the volume of the mesh [1/s]
+    double spread(double imbalance);
+
     const bool used_;
     const double smoothingTime_;
+    /// Of the cells of all ranks [m3].
+    const double meshVolume_;
     double couplingTimeStep_ = 0;
     /// Part of the change that the filter passes in this coupling step; 1 without a filter.
     double passed_ = 1;
     /// Sum of what spreadImbalance() has subtracted in this coupling step [1/s].
     double spread_ = 0;
+    /// Integral of the explicit rate over the cells of all ranks that has not been spread yet [m3/s].
+    double unspread_ = 0;
     /// Integral of the rate over time [-].
     Foam::volScalarField integral_;
     Foam::volScalarField explicitRate_;

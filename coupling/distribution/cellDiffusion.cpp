@@ -165,15 +165,31 @@ CellDiffusion::StiffestCell CellDiffusion::stiffestCell() const
     return found;
 }
 
-void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach)
+void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach, RankTotals& totals)
 {
-    // Where nearly all cells are near, a second list of them costs memory and saves no time.
-    constexpr double worthwhile = 0.8;
-    const std::vector<bool> taken = near(sources, reach);
-    const auto count = static_cast<scalar>(std::count(taken.begin(), taken.end(), true));
-    const bool some = returnReduce(count, sumOp<scalar>())
-                      < worthwhile * returnReduce(static_cast<scalar>(taken.size()), sumOp<scalar>());
-    part_ = some ? std::optional<Part>(partOf(taken)) : std::nullopt;
+    const Near found = near(sources, reach, planHolds_ ? rounds_ : 0);
+    const RankNumbers sizes{{static_cast<double>(std::count(found.taken.begin(), found.taken.end(), true)),
+                                static_cast<double>(found.taken.size())},
+        {found.isComplete ? 0.0 : 1.0}};
+    const auto isWorthwhile = [](const RankNumbers& all) {
+        // Where nearly all cells are near, a second list of them costs memory and saves no time.
+        constexpr double worthwhile = 0.8;
+        return all.sums[0] < worthwhile * all.sums[1];
+    };
+    if (planHolds_)
+    {
+        totals.require(sizes, [this, isWorthwhile](const RankNumbers& all) {
+            planHolds_ = all.maxima[0] == 0 && isWorthwhile(all) == isRestricted_;
+            return planHolds_;
+        });
+    }
+    else
+    {
+        rounds_ = std::max(rounds_, found.rounds);
+        isRestricted_ = isWorthwhile(RankTotals::of(sizes));
+        planHolds_ = true;
+    }
+    part_ = isRestricted_ ? std::optional<Part>(partOf(found.taken)) : std::nullopt;
 }
 
 double CellDiffusion::distanceSqr(const point& a, const point& b) const
@@ -181,7 +197,7 @@ double CellDiffusion::distanceSqr(const point& a, const point& b) const
     return periodic_.isPeriodic() ? periodic_.nearest(toEigen(a - b)).squaredNorm() : magSqr(a - b);
 }
 
-std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double reach) const
+CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, double reach, int rounds) const
 {
     // Each cell receives the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227,
     // 1980).
@@ -205,8 +221,13 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
     {
         offer(cell, centres[cell]);
     }
-    bool more = true;
-    while (more)
+    const auto taken = [&] {
+        std::vector<bool> found(nearest.size());
+        std::transform(
+            nearest.begin(), nearest.end(), found.begin(), [](const Nearest& n) { return n.distanceSqr < GREAT; });
+        return found;
+    };
+    for (int round = 1;; ++round)
     {
         std::size_t next = 0;
         while (next < changed.size())
@@ -224,6 +245,9 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
         }
         changed.clear();
         exchange(whole_, nearest);
+        // What this rank takes from its neighbours below is not known to them before the next exchange.
+        const bool isLast = round == rounds;
+        const std::vector<bool> knownToNeighbours = isLast ? taken() : std::vector<bool>();
         for (const Boundary& boundary : whole_.boundaries)
         {
             for (std::size_t face = 0; face < boundary.cells.size(); ++face)
@@ -235,12 +259,16 @@ std::vector<bool> CellDiffusion::near(const std::vector<label>& sources, double 
                 }
             }
         }
-        more = returnReduce(!changed.empty(), orOp<bool>());
+        const bool isComplete = changed.empty();
+        if (isLast)
+        {
+            return {knownToNeighbours, round, isComplete};
+        }
+        if (rounds == 0 && RankTotals::of({{}, {isComplete ? 0.0 : 1.0}}).maxima[0] == 0)
+        {
+            return {taken(), round, isComplete};
+        }
     }
-    std::vector<bool> taken(nearest.size());
-    std::transform(
-        nearest.begin(), nearest.end(), taken.begin(), [](const Nearest& n) { return n.distanceSqr < GREAT; });
-    return taken;
 }
 
 CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include "fvMesh.H"
+#include "rankTotals.h"
 
 #include <optional>
 #include <vector>
@@ -58,9 +59,14 @@ public:
     /// and nothing passes between the two regions. The operator is still conservative and self-adjoint, and it equals
     /// that on the whole mesh as long as nothing diffuses farther than `reach` and two cells. Distances are straight,
     /// but paths do not lead through walls. Collective.
+    ///
+    /// The cells are found in rounds, in each of which neighbouring ranks exchange a message. From the second call on,
+    /// as many rounds are made as before, and the part of the mesh is restricted where it was before. Whether more rounds
+    /// were needed, or whether it is now worthwhile to restrict it, is a condition of the totals: where it does not hold,
+    /// call again after they have been reduced.
     /// \param sources  cells of this rank
     /// \param reach  distance from the sources [m]
-    void restrictTo(const std::vector<Foam::label>& sources, double reach);
+    void restrictTo(const std::vector<Foam::label>& sources, double reach, RankTotals& totals);
 
 private:
     /// The cells at one boundary to another rank, and where the values of the cells behind it are stored.
@@ -88,8 +94,20 @@ private:
         std::vector<double> rate;
     };
 
-    /// For each column of the whole mesh, whether it is near a source. Collective.
-    std::vector<bool> near(const std::vector<Foam::label>& sources, double reach) const;
+    /// The cells near sources.
+    struct Near
+    {
+        /// For each column of the whole mesh; the same on the two ranks that have a cell and its copy behind a boundary.
+        std::vector<bool> taken;
+        /// Number of rounds in which they were found.
+        int rounds;
+        /// Whether a further round would find no more cells from this rank.
+        bool isComplete;
+    };
+
+    /// Collective.
+    /// \param rounds  number of rounds; 0 for as many as are needed, with a reduction after each
+    Near near(const std::vector<Foam::label>& sources, double reach, int rounds) const;
     /// Square of the shortest distance between images of two points [m2].
     double distanceSqr(const Foam::point& a, const Foam::point& b) const;
     Part partOf(const std::vector<bool>& taken) const;
@@ -107,6 +125,11 @@ private:
     Part whole_;
     /// The cells that are smoothed, where these are not all.
     std::optional<Part> part_;
+    // What restrictTo() assumes about all ranks, the same on all of them: the number of rounds that were needed so far,
+    // and whether it is worthwhile to leave out cells.
+    bool planHolds_ = false;
+    int rounds_ = 0;
+    bool isRestricted_ = false;
     double largestEigenvalue_;
     double meanEigenvalue_;
     /// The cell of this rank that determines largestEigenvalue(); -1 where it is on another rank.

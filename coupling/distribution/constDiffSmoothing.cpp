@@ -34,11 +34,11 @@ public:
         warnOfManySweeps();
     }
 
-    void nearTo(const std::vector<Foam::label>& cells) override
+    void nearTo(const std::vector<Foam::label>& cells, RankTotals& totals) override
     {
         // Beyond this reach the Gaussian holds less than 1e-6. On cells as wide as the bandwidth, where a step reaches
         // farther, the two additional cells of restrictTo() ensure the same.
-        diffusion_.restrictTo(cells, 4 * smoothingBandwidth_);
+        diffusion_.restrictTo(cells, 4 * smoothingBandwidth_, totals);
     }
 
     void smooth(Eigen::MatrixXd& densities) const override

@@ -126,7 +126,7 @@ void Distribution::normalise(const Eigen::MatrixXd& shareSums)
     normalisation_ = shareSums.row(0).transpose().unaryExpr([](double sum) { return sum > 0 ? 1 / sum : 0.0; });
 }
 
-void Distribution::smoothNearParticles()
+void Distribution::smoothNearParticles(RankTotals& totals)
 {
     std::vector<Foam::label> cells;
     cells.reserve(shares_.size());
@@ -134,7 +134,7 @@ void Distribution::smoothNearParticles()
     {
         cells.push_back(share.cell);
     }
-    smoothing_->nearTo(cells);
+    smoothing_->nearTo(cells, totals);
 }
 
 Eigen::MatrixXd Distribution::densities(const Eigen::MatrixXd& amounts) const

@@ -36,8 +36,9 @@ public:
     /// \return quantities x ghosts
     Eigen::MatrixXd sample(const Eigen::MatrixXd& cellValues) const;
 
-    /// Allows smooth() to leave out cells far from the particles of the last findCells(). Collective.
-    void smoothNearParticles();
+    /// Allows smooth() to leave out cells far from the particles of the last findCells(). To be repeated where a
+    /// condition of the totals does not hold, see SmoothingModel::nearTo(). Collective.
+    void smoothNearParticles(RankTotals& totals);
 
     /// Smooths densities, see SmoothingModel::smooth(). Collective.
     void smooth(Eigen::MatrixXd& densities) const

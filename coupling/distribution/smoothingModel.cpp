@@ -26,7 +26,7 @@ public:
     NoSmoothing(const Foam::dictionary&, const Foam::fvMesh&)
     {}
 
-    void nearTo(const std::vector<Foam::label>&) override
+    void nearTo(const std::vector<Foam::label>&, RankTotals&) override
     {}
 
     void smooth(Eigen::MatrixXd&) const override

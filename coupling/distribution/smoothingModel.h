@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "fvMesh.H"
+#include "rankTotals.h"
 #include "runTimeSelection.h"
 
 #include <vector>
@@ -28,9 +29,10 @@ public:
     virtual ~SmoothingModel() = default;
 
     /// Restricts later calls of smooth() to densities in these cells and around them; the result far from them is not
-    /// used. Collective.
+    /// used. Collective. What a model assumes about other ranks, so that it needs no reduction, is a condition of the
+    /// totals: where it does not hold, nearTo() is called again after the totals have been reduced.
     /// \param cells  of this rank; a cell may be listed twice
-    virtual void nearTo(const std::vector<Foam::label>& cells) = 0;
+    virtual void nearTo(const std::vector<Foam::label>& cells, RankTotals& totals) = 0;
 
     /// Smooths quantities per volume in one pass over the mesh. Collective.
     /// \param densities  quantities x cells of this rank

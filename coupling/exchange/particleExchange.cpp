@@ -106,20 +106,16 @@ void ParticleExchange::publishBounds(const Box& particles)
     }
 }
 
-void ParticleExchange::makePlan(const ParticlesView& particles)
+void ParticleExchange::listExports(const ParticlesView& particles)
 {
-    const Box around = boxAround(particles, commonReach_);
-    int anyLeft = publishedBounds_.contains(around) ? 0 : 1;
-    MPI_Allreduce(MPI_IN_PLACE, &anyLeft, 1, MPI_INT, MPI_MAX, communicator_);
-    if (anyLeft != 0)
+    exports_.resize(receivingRanks_.size());
+    for (std::size_t i = 0; i < exports_.size(); ++i)
     {
-        publishBounds(around);
-    }
-    exports_.clear();
-    for (const int receivingRank : receivingRanks_)
-    {
-        Exports leaving{receivingRank, {}, {}};
-        const Box& cells = subdomainBounds_[static_cast<std::size_t>(receivingRank)];
+        Exports& leaving = exports_[i];
+        leaving.rank = receivingRanks_[i];
+        leaving.particles.clear();
+        leaving.periods.clear();
+        const Box& cells = subdomainBounds_[static_cast<std::size_t>(leaving.rank)];
         for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
         {
             const SphereInFluid sphere = sphereInFluid(particles, particle);
@@ -129,100 +125,118 @@ void ParticleExchange::makePlan(const ParticlesView& particles)
                     leaving.periods.push_back(periods);
                 });
         }
-        exports_.push_back(std::move(leaving));
-    }
-    imports_.clear();
-    for (const int sendingRank : sendingRanks_)
-    {
-        imports_.push_back({sendingRank, 0, 0});
     }
 }
 
-std::vector<std::vector<double>> ParticleExchange::swap(const std::vector<int>& toRanks,
-    const std::vector<std::vector<double>>& out, const std::vector<int>& fromRanks) const
+void ParticleExchange::swap(const std::vector<int>& toRanks, const std::vector<int>& fromRanks) const
 {
-    std::vector<MPI_Request> requests;
-    const std::vector<double>* toSelf = nullptr;
+    requests_.clear();
+    std::vector<double>* toSelf = nullptr;
     for (std::size_t i = 0; i < toRanks.size(); ++i)
     {
+        std::vector<double>& message = outgoing_[i];
         if (toRanks[i] == rank_)
         {
-            toSelf = &out[i];
+            toSelf = &message;
             continue;
         }
-        requests.emplace_back();
-        MPI_Isend(out[i].data(), static_cast<int>(out[i].size()), MPI_DOUBLE, toRanks[i], messageTag, communicator_,
-            &requests.back());
-        bytesSent_ += out[i].size() * sizeof(double);
+        requests_.emplace_back();
+        MPI_Isend(message.data(), static_cast<int>(message.size()), MPI_DOUBLE, toRanks[i], messageTag, communicator_,
+            &requests_.back());
+        bytesSent_ += message.size() * sizeof(double);
     }
-    std::vector<std::vector<double>> in(fromRanks.size());
+    incoming_.resize(std::max(incoming_.size(), fromRanks.size()));
     for (std::size_t i = 0; i < fromRanks.size(); ++i)
     {
+        std::vector<double>& message = incoming_[i];
         if (fromRanks[i] == rank_)
         {
             // Such a message exists, because both lists of ranks compare the same two boxes of this rank.
-            in[i] = toSelf ? *toSelf : std::vector<double>();
+            message.clear();
+            if (toSelf)
+            {
+                message.swap(*toSelf);
+            }
             continue;
         }
         MPI_Status status;
         int count = 0;
         MPI_Probe(fromRanks[i], messageTag, communicator_, &status);
         MPI_Get_count(&status, MPI_DOUBLE, &count);
-        in[i].resize(static_cast<std::size_t>(count));
-        MPI_Recv(in[i].data(), count, MPI_DOUBLE, fromRanks[i], messageTag, communicator_, MPI_STATUS_IGNORE);
+        message.resize(static_cast<std::size_t>(count));
+        MPI_Recv(message.data(), count, MPI_DOUBLE, fromRanks[i], messageTag, communicator_, MPI_STATUS_IGNORE);
     }
-    MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
-    return in;
+    MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
 }
 
 void ParticleExchange::send(const ParticlesView& particles, const Eigen::MatrixXd& contributions)
 {
+    bool asPlanned = false;
+    while (!asPlanned)
+    {
+        RankTotals totals(communicator_);
+        sendAsPlanned(particles, contributions, totals);
+        asPlanned = totals.reduce();
+    }
+}
+
+void ParticleExchange::sendAsPlanned(
+    const ParticlesView& particles, const Eigen::MatrixXd& contributions, RankTotals& totals)
+{
     constexpr std::size_t ghostSize = sizeof(GhostParticle) / sizeof(double);
     static_assert(std::is_standard_layout_v<GhostParticle> && sizeof(GhostParticle) % sizeof(double) == 0);
-    const Eigen::Index rows = contributions.rows();
-    const std::size_t size = ghostSize + static_cast<std::size_t>(rows);
+    const std::size_t rows = static_cast<std::size_t>(contributions.rows());
+    const std::size_t size = ghostSize + rows;
 
     particleCount_ = particles.size();
-    makePlan(particles);
-
-    std::vector<int> toRanks;
-    std::vector<std::vector<double>> out;
-    for (const Exports& leaving : exports_)
+    const Box around = boxAround(particles, commonReach_);
+    if (!planHolds_)
     {
-        toRanks.push_back(leaving.rank);
-        std::vector<double>& message = out.emplace_back(leaving.particles.size() * size);
+        publishBounds(around);
+    }
+    totals.require({{}, {publishedBounds_.contains(around) ? 0.0 : 1.0}}, [this](const RankNumbers& all) {
+        planHolds_ = all.maxima[0] == 0;
+        return planHolds_;
+    });
+    listExports(particles);
+
+    outgoing_.resize(std::max(outgoing_.size(), exports_.size()));
+    for (std::size_t i = 0; i < exports_.size(); ++i)
+    {
+        const Exports& leaving = exports_[i];
+        std::vector<double>& message = outgoing_[i];
+        message.resize(leaving.particles.size() * size);
         double* place = message.data();
-        for (std::size_t i = 0; i < leaving.particles.size(); ++i)
+        for (std::size_t listed = 0; listed < leaving.particles.size(); ++listed)
         {
-            const Eigen::Index particle = leaving.particles[i];
-            const GhostParticle ghost = ghostOf(particles, particle, leaving.periods[i]);
+            const Eigen::Index particle = leaving.particles[listed];
+            const GhostParticle ghost = ghostOf(particles, particle, leaving.periods[listed]);
             place = std::copy_n(reinterpret_cast<const double*>(&ghost), ghostSize, place);
             place = std::copy_n(contributions.col(particle).data(), rows, place);
         }
     }
-    std::vector<int> fromRanks;
-    for (const Imports& arriving : imports_)
-    {
-        fromRanks.push_back(arriving.rank);
-    }
+    swap(receivingRanks_, sendingRanks_);
 
-    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
+    imports_.clear();
     std::size_t count = 0;
-    for (std::size_t i = 0; i < in.size(); ++i)
+    for (std::size_t i = 0; i < sendingRanks_.size(); ++i)
     {
-        imports_[i].first = static_cast<Eigen::Index>(count);
-        imports_[i].count = static_cast<Eigen::Index>(in[i].size() / size);
-        count += in[i].size() / size;
+        const std::size_t arrived = incoming_[i].size() / size;
+        imports_.push_back({sendingRanks_[i], static_cast<Eigen::Index>(count), static_cast<Eigen::Index>(arrived)});
+        count += arrived;
     }
     ghosts_.resize(count);
-    contributions_.resize(rows, static_cast<Eigen::Index>(count));
-    for (std::size_t i = 0; i < in.size(); ++i)
+    contributionRows_ = contributions.rows();
+    contributions_.resize(rows * count);
+    double* contribution = contributions_.data();
+    std::size_t ghost = 0;
+    for (std::size_t i = 0; i < imports_.size(); ++i)
     {
-        const double* place = in[i].data();
-        for (Eigen::Index ghost = imports_[i].first; ghost < imports_[i].first + imports_[i].count; ++ghost)
+        const double* place = incoming_[i].data();
+        for (Eigen::Index arrived = 0; arrived < imports_[i].count; ++arrived)
         {
-            std::copy_n(place, ghostSize, reinterpret_cast<double*>(&ghosts_[static_cast<std::size_t>(ghost)]));
-            std::copy_n(place + ghostSize, rows, contributions_.col(ghost).data());
+            std::copy_n(place, ghostSize, reinterpret_cast<double*>(&ghosts_[ghost++]));
+            contribution = std::copy_n(place + ghostSize, rows, contribution);
             place += size;
         }
     }
@@ -231,25 +245,18 @@ void ParticleExchange::send(const ParticlesView& particles, const Eigen::MatrixX
 Eigen::MatrixXd ParticleExchange::sumAtOwners(const Eigen::MatrixXd& perGhost) const
 {
     const Eigen::Index width = perGhost.rows();
-    std::vector<int> toRanks;
-    std::vector<std::vector<double>> out;
-    for (const Imports& received : imports_)
+    outgoing_.resize(std::max(outgoing_.size(), imports_.size()));
+    for (std::size_t i = 0; i < imports_.size(); ++i)
     {
-        toRanks.push_back(received.rank);
-        const double* first = perGhost.data() + received.first * width;
-        out.emplace_back(first, first + received.count * width);
+        const double* first = perGhost.data() + imports_[i].first * width;
+        outgoing_[i].assign(first, first + imports_[i].count * width);
     }
-    std::vector<int> fromRanks;
-    for (const Exports& sent : exports_)
-    {
-        fromRanks.push_back(sent.rank);
-    }
+    swap(sendingRanks_, receivingRanks_);
 
     Eigen::MatrixXd perParticle = Eigen::MatrixXd::Zero(width, particleCount_);
-    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
-    for (std::size_t i = 0; i < in.size(); ++i)
+    for (std::size_t i = 0; i < exports_.size(); ++i)
     {
-        const double* column = in[i].data();
+        const double* column = incoming_[i].data();
         for (const Eigen::Index particle : exports_[i].particles)
         {
             perParticle.col(particle) += Eigen::Map<const Eigen::VectorXd>(column, width);
@@ -262,30 +269,24 @@ Eigen::MatrixXd ParticleExchange::sumAtOwners(const Eigen::MatrixXd& perGhost) c
 Eigen::MatrixXd ParticleExchange::toGhosts(const Eigen::MatrixXd& perParticle) const
 {
     const Eigen::Index width = perParticle.rows();
-    std::vector<int> toRanks;
-    std::vector<std::vector<double>> out;
-    for (const Exports& sent : exports_)
+    outgoing_.resize(std::max(outgoing_.size(), exports_.size()));
+    for (std::size_t i = 0; i < exports_.size(); ++i)
     {
-        toRanks.push_back(sent.rank);
-        std::vector<double>& message = out.emplace_back();
-        message.reserve(sent.particles.size() * static_cast<std::size_t>(width));
-        for (const Eigen::Index particle : sent.particles)
+        std::vector<double>& message = outgoing_[i];
+        message.clear();
+        message.reserve(exports_[i].particles.size() * static_cast<std::size_t>(width));
+        for (const Eigen::Index particle : exports_[i].particles)
         {
             message.insert(message.end(), perParticle.col(particle).begin(), perParticle.col(particle).end());
         }
     }
-    std::vector<int> fromRanks;
-    for (const Imports& received : imports_)
-    {
-        fromRanks.push_back(received.rank);
-    }
+    swap(receivingRanks_, sendingRanks_);
 
     Eigen::MatrixXd perGhost(width, static_cast<Eigen::Index>(ghosts_.size()));
-    const std::vector<std::vector<double>> in = swap(toRanks, out, fromRanks);
-    for (std::size_t i = 0; i < in.size(); ++i)
+    for (std::size_t i = 0; i < imports_.size(); ++i)
     {
         perGhost.middleCols(imports_[i].first, imports_[i].count) =
-            Eigen::Map<const Eigen::MatrixXd>(in[i].data(), width, imports_[i].count);
+            Eigen::Map<const Eigen::MatrixXd>(incoming_[i].data(), width, imports_[i].count);
     }
     return perGhost;
 }

@@ -4,6 +4,7 @@
 #include "functionObjects/observedParticles.h"
 #include "modelLines.h"
 #include "openfoam/compatibility.h"
+#include "rankTotals.h"
 #include "vectors.h"
 #include "tokens/exactText.h"
 
@@ -178,18 +179,19 @@ void MassInHopper::sample()
 
     const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
     const ParticlesView particles = observed.particles();
-    scalar mass = 0;
-    label count = 0;
+    double massHere = 0;
+    double countHere = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         if (hopper_->contains(observed.positionInBox(particle)))
         {
-            mass += particles.mass[particle];
-            ++count;
+            massHere += particles.mass[particle];
+            ++countHere;
         }
     }
-    reduce(mass, sumOp<scalar>());
-    reduce(count, sumOp<label>());
+    const RankNumbers all = RankTotals::of({{massHere, countHere}, {}});
+    const scalar mass = all.sums[0];
+    const auto count = static_cast<label>(all.sums[1]);
 
     Ostream& os = file();
     writeCurrentTime(os);

@@ -3,6 +3,7 @@
 #include "functionObjects/observableTable.h"
 #include "functionObjects/observedParticles.h"
 #include "modelLines.h"
+#include "rankTotals.h"
 #include "tokens/exactText.h"
 
 #include "Time.H"
@@ -106,22 +107,22 @@ bool ParticleHeight::execute()
 void ParticleHeight::sample()
 {
     // Only the owning rank adds values, the others add zero.
-    scalar height = 0;
-    scalar velocity = 0;
-    bool found = false;
+    double heightHere = 0;
+    double velocityHere = 0;
+    double foundHere = 0;
     const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
     const ParticlesView particles = observed.particles();
     for (Eigen::Index i = 0; i < particles.size(); ++i)
     {
         if (particles.id[i] == particle_)
         {
-            height = axis_.dot(observed.unwrappedPosition(i));
-            velocity = axis_.dot(particles.velocity.col(i));
-            found = true;
+            heightHere = axis_.dot(observed.unwrappedPosition(i));
+            velocityHere = axis_.dot(particles.velocity.col(i));
+            foundHere = 1;
         }
     }
-    reduce(found, orOp<bool>());
-    if (!found)
+    const RankNumbers all = RankTotals::of({{heightHere, velocityHere, foundHere}, {}});
+    if (!(all.sums[2] > 0))
     {
         if (!hasLeft_)
         {
@@ -130,8 +131,8 @@ void ParticleHeight::sample()
         hasLeft_ = true;
         return;
     }
-    reduce(height, sumOp<scalar>());
-    reduce(velocity, sumOp<scalar>());
+    const scalar height = all.sums[0];
+    const scalar velocity = all.sums[1];
 
     Ostream& os = file();
     writeCurrentTime(os);

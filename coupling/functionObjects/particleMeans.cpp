@@ -4,11 +4,11 @@
 #include "functionObjects/observedParticles.h"
 #include "modelLines.h"
 #include "openfoam/objectFile.h"
+#include "rankTotals.h"
 #include "tokens/exactText.h"
 #include "vectors.h"
 
 #include "IOdictionary.H"
-#include "PstreamCombineReduceOps.H"
 #include "Time.H"
 #include "addToRunTimeSelectionTable.H"
 #include "fvMesh.H"
@@ -245,8 +245,9 @@ bool ParticleMeans::execute()
 
 void ParticleMeans::sample()
 {
-    scalarField here(sumCount * bins_->count(), 0);
-    Eigen::Map<Eigen::ArrayXXd> sumsHere(here.data(), sumCount, bins_->count());
+    RankNumbers here;
+    here.sums.resize(static_cast<std::size_t>(sumCount * bins_->count()));
+    Eigen::Map<Eigen::ArrayXXd> sumsHere(here.sums.data(), sumCount, bins_->count());
     const auto& observed = mesh_.lookupObject<ObservedParticles>(ObservedParticles::registryName);
     const ParticlesView particles = observed.particles();
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
@@ -265,8 +266,8 @@ void ParticleMeans::sample()
         sums[solidVolume] += sphereVolume(particles.radius[particle]);
     }
     // In each sample, so that the order of the sums does not depend on the times of checkpoints.
-    combineReduce(here, plusEqOp<scalarField>());
-    sums_ += sumsHere;
+    const RankNumbers all = RankTotals::of(here);
+    sums_ += Eigen::Map<const Eigen::ArrayXXd>(all.sums.data(), sumCount, bins_->count());
     ++sampledTimes_;
 }
 

@@ -38,11 +38,20 @@ double shareAfterRamp(double insertionRamp)
     return insertionRamp * insertionRamp * (3 - 2 * insertionRamp);
 }
 
-/// Sum over all ranks.
-ParticleTransfer sumOfRanks(const ParticleTransfer& ofRank)
+constexpr std::size_t numbersOfTransfer = 6;
+
+void append(RankNumbers& ofRank, const ParticleTransfer& transfer)
 {
-    return {returnReduce(ofRank.particles, sumOp<label>()), returnReduce(ofRank.mass, sumOp<scalar>()),
-        returnReduce(ofRank.momentum, sumOp<vector>()), returnReduce(ofRank.volume, sumOp<scalar>())};
+    ofRank.sums.insert(ofRank.sums.end(), {static_cast<double>(transfer.particles), transfer.mass, transfer.volume});
+    ofRank.addVector(transfer.momentum);
+}
+
+/// \param index  among those that were appended
+ParticleTransfer transferIn(const RankNumbers& totals, std::size_t index)
+{
+    const std::size_t first = index * numbersOfTransfer;
+    return {static_cast<label>(totals.sums[first]), totals.sums[first + 1], totals.vectorAt<vector>(first + 3),
+        totals.sums[first + 2]};
 }
 
 void addParticle(ParticleTransfer& to, double mass, const Vector3d& velocity)
@@ -64,7 +73,7 @@ InsertionAndRemoval::InsertionAndRemoval(
       lastDeparted_(static_cast<std::size_t>(outlets_.names().size()))
 {}
 
-void InsertionAndRemoval::findParts(
+label InsertionAndRemoval::findParts(
     const ParticlesView& particles, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh)
 {
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
@@ -73,7 +82,7 @@ void InsertionAndRemoval::findParts(
     }
     if (!findOutsideMesh)
     {
-        return;
+        return 0;
     }
     const std::vector<bool> outside = findOutsideMesh();
     label count = 0;
@@ -93,7 +102,7 @@ void InsertionAndRemoval::findParts(
             state.lastInMesh = position + state.part.shift;
         }
     }
-    outsideMesh_ = returnReduce(count, sumOp<label>());
+    return count;
 }
 
 double InsertionAndRemoval::start(
@@ -110,7 +119,7 @@ double InsertionAndRemoval::start(
             particles.insertionRamp[particle] = 1;
         }
     }
-    findParts(particles, couplingTimeStep_, findOutsideMesh);
+    outsideMesh_ = returnReduce(findParts(particles, couplingTimeStep_, findOutsideMesh), sumOp<label>());
     double inFluid = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
@@ -121,8 +130,8 @@ double InsertionAndRemoval::start(
     return returnReduce(inFluid, sumOp<scalar>());
 }
 
-void InsertionAndRemoval::advance(
-    const ParticlesView& particles, int newFrom, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh)
+void InsertionAndRemoval::advance(const ParticlesView& particles, int newFrom, double couplingTimeStep,
+    const FindOutsideMesh& findOutsideMesh, RankTotals& totals)
 {
     couplingTimeStep_ = couplingTimeStep;
     ParticleTransfer inserted;
@@ -145,7 +154,7 @@ void InsertionAndRemoval::advance(
         partsBefore.push_back(state.part);
         sharesBefore.push_back(shareAfterRamp(particles.insertionRamp[particle]));
     }
-    findParts(particles, couplingTimeStep, findOutsideMesh);
+    const label outsideHere = findParts(particles, couplingTimeStep, findOutsideMesh);
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         CouplingState& state = particles.state[particle];
@@ -183,24 +192,38 @@ void InsertionAndRemoval::advance(
                 {particles.id[particle], outlet, particles.mass[particle], particles.velocity.col(particle)});
         }
     }
-    lastInserted_ = sumOfRanks(inserted);
+    RankNumbers ofRank;
+    append(ofRank, inserted);
+    append(ofRank, outOfMesh);
+    for (const ParticleTransfer& throughOutlet : left)
+    {
+        append(ofRank, throughOutlet);
+    }
+    ofRank.sums.push_back(outsideHere);
+    ofRank.sums.push_back(static_cast<double>(departed_.size()));
+    totals.add(ofRank, [this](const RankNumbers& all) { record(all); });
+}
+
+void InsertionAndRemoval::record(const RankNumbers& totals)
+{
+    lastInserted_ = transferIn(totals, 0);
     netVolume_ += lastInserted_.volume;
-    for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
+    std::size_t index = 2;
+    for (ParticleTransfer& throughOutlet : lastDeparted_)
     {
-        lastDeparted_[outlet] = sumOfRanks(left[outlet]);
-        netVolume_ -= lastDeparted_[outlet].volume;
+        throughOutlet = transferIn(totals, index++);
+        netVolume_ -= throughOutlet.volume;
     }
-    if (findOutsideMesh)
-    {
-        outOfMesh = sumOfRanks(outOfMesh);
-        leftMesh_ += outOfMesh.particles;
-        netVolume_ -= outOfMesh.volume;
-    }
+    const ParticleTransfer outOfMesh = transferIn(totals, 1);
+    leftMesh_ += outOfMesh.particles;
+    netVolume_ -= outOfMesh.volume;
+    outsideMesh_ = static_cast<label>(totals.sums[index * numbersOfTransfer]);
+    departedCount_ = static_cast<label>(totals.sums[index * numbersOfTransfer + 1]);
 }
 
 label InsertionAndRemoval::removeDeparted(DemEngine& engine)
 {
-    const label count = returnReduce(static_cast<label>(departed_.size()), sumOp<label>());
+    const label count = departedCount_;
     if (count == 0)
     {
         return count;
@@ -212,11 +235,18 @@ label InsertionAndRemoval::removeDeparted(DemEngine& engine)
         ids.push_back(particle.id);
         addParticle(left[particle.outlet], particle.mass, particle.velocity);
     }
+    RankNumbers ofRank;
+    for (const ParticleTransfer& throughOutlet : left)
+    {
+        append(ofRank, throughOutlet);
+    }
+    const RankNumbers totals = RankTotals::of(ofRank);
     for (std::size_t outlet = 0; outlet < left.size(); ++outlet)
     {
-        lastDeparted_[outlet] += sumOfRanks(left[outlet]);
+        lastDeparted_[outlet] += transferIn(totals, outlet);
     }
     departed_.clear();
+    departedCount_ = 0;
     engine.remove(ids);
     return count;
 }

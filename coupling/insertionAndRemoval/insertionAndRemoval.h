@@ -3,6 +3,7 @@
 #include "engine/demEngine.h"
 #include "engine/periodicBox.h"
 #include "insertionAndRemoval/particleOutlets.h"
+#include "rankTotals.h"
 
 #include "regIOobject.H"
 
@@ -63,13 +64,15 @@ public:
     /// \return volume of the particles that is in the fluid, over all ranks [m3]
     double start(const ParticlesView& particles, bool freshStart, const FindOutsideMesh& findOutsideMesh = nullptr);
 
-    /// Updates the submerged fractions after the engine has advanced by one coupling step. Collective.
+    /// Updates the submerged fractions after the engine has advanced by one coupling step. The balances over all ranks
+    /// are updated when the totals are reduced. Local, but collective with `findOutsideMesh`.
     /// \param newFrom  particles with a higher id have been inserted in this coupling step
     /// \param findOutsideMesh  null where no particle may be outside the mesh
     void advance(const ParticlesView& particles, int newFrom, double couplingTimeStep,
-        const FindOutsideMesh& findOutsideMesh = nullptr);
+        const FindOutsideMesh& findOutsideMesh, RankTotals& totals);
 
-    /// Removes particles that are entirely beyond an outlet from the engine, and records them. Collective.
+    /// Removes particles that are entirely beyond an outlet from the engine, and records them. Collective where there are
+    /// such particles on any rank, otherwise local. \pre the totals of the last advance() have been reduced
     /// \return number of removed particles on all ranks. If it is not zero, views are invalid and DemEngine::prepare()
     /// must be called.
     Foam::label removeDeparted(DemEngine& engine);
@@ -125,9 +128,13 @@ private:
         Vector3d velocity;
     };
 
-    /// Sets the part of each particle on the fluid's side of the outlets and of the mesh. Collective.
-    void findParts(const ParticlesView& particles, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh);
+    /// Sets the part of each particle on the fluid's side of the outlets and of the mesh. Local, but collective with
+    /// `findOutsideMesh`. \return number of this rank's particles that are outside the mesh
+    Foam::label findParts(
+        const ParticlesView& particles, double couplingTimeStep, const FindOutsideMesh& findOutsideMesh);
     PartWithin partOf(const ParticlesView& particles, Eigen::Index particle, double couplingTimeStep) const;
+    /// Updates the balances over all ranks. \param totals  of the numbers that advance() adds
+    void record(const RankNumbers& totals);
 
     const ParticleOutlets outlets_;
     const PeriodicBox periodic_;
@@ -139,6 +146,8 @@ private:
     Foam::label outsideMesh_ = 0;
     Foam::label leftMesh_ = 0;
     std::vector<DepartedParticle> departed_;
+    /// Number of particles in `departed_` on all ranks.
+    Foam::label departedCount_ = 0;
 };
 
 } // namespace clepsydra

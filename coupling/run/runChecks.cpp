@@ -4,11 +4,9 @@
 #include "distribution/lengthOfChange.h"
 #include "openfoam/compatibility.h"
 
-#include "PstreamReduceOps.H"
-#include "fvcSurfaceIntegrate.H"
+#include "Pstream.H"
 #include "globalMeshData.H"
 #include "solverPerformance.H"
-#include "surfaceFields.H"
 
 #include <sstream>
 
@@ -41,12 +39,27 @@ RunChecks::RunChecks(const fvMesh& mesh, double smoothingBandwidth)
       lengthOfChange_(lengthOfChange(smoothingBandwidth, meanCellWidth(mesh)))
 {}
 
-void RunChecks::afterCouplingStep(const ParticlesView& particles)
+void RunChecks::addTo(const ParticlesView& particles, RankTotals& totals)
+{
+    fastestHere_ = Fastest();
+    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
+    {
+        const double speed = particles.velocity.col(particle).norm();
+        // Not one that is outside the mesh or beyond an outlet.
+        if (speed > fastestHere_.speed && particles.state[particle].part.share > 0)
+        {
+            fastestHere_ = {particles.id[particle], speed};
+        }
+    }
+    totals.add({{}, {fastestHere_.speed}}, [this](const RankNumbers& all) { largestSpeed_ = all.maxima[0]; });
+}
+
+void RunChecks::afterCouplingStep(const FluidCourantNumber& courantNumber)
 {
     ++couplingSteps_;
     checkConvergence();
-    checkTravel(particles);
-    checkCourantNumber();
+    checkTravel();
+    checkCourantNumber(courantNumber);
 }
 
 void RunChecks::checkConvergence()
@@ -79,20 +92,9 @@ void RunChecks::checkConvergence()
     }
 }
 
-void RunChecks::checkTravel(const ParticlesView& particles)
+void RunChecks::checkTravel()
 {
-    Eigen::Index fastest = 0;
-    double here = 0;
-    for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
-    {
-        const double ofParticle = particles.velocity.col(particle).norm();
-        if (ofParticle > here && !isOutsideMesh(particles.state[particle]))
-        {
-            here = ofParticle;
-            fastest = particle;
-        }
-    }
-    const double speed = returnReduce(here, maxOp<scalar>());
+    const double speed = largestSpeed_;
     const double timeStep = mesh_.time().deltaTValue();
     const double travel = speed * timeStep / lengthOfChange_;
     if (travel <= 1)
@@ -104,11 +106,10 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     text << "moves " << speed << " m/s, hence " << speed * timeStep << " m in a coupling step of " << timeStep
          << " s. That is " << travel << " times the length over which the fluid changes (smoothing bandwidth or cell), "
          << lengthOfChange_ << " m, but the fluid at a particle is frozen during a coupling step";
-    if (travel > farthestTravel && here == speed)
+    if (travel > farthestTravel && fastestHere_.speed == speed)
     {
-        FatalErrorInFunction << "Particle " << particles.id[fastest] << ' ' << text.str().c_str()
-                             << "; allowed: at most " << farthestTravel
-                             << " times, by a shorter couplingTimeStep (and deltaT), "
+        FatalErrorInFunction << "Particle " << fastestHere_.id << ' ' << text.str().c_str() << "; allowed: at most "
+                             << farthestTravel << " times, by a shorter couplingTimeStep (and deltaT), "
                              << farthestTravel * lengthOfChange_ / speed << " s here" << exit(FatalError);
     }
     if (fast_ == 1 && Pstream::master())
@@ -118,30 +119,23 @@ void RunChecks::checkTravel(const ParticlesView& particles)
     }
 }
 
-void RunChecks::checkCourantNumber()
+void RunChecks::checkCourantNumber(const FluidCourantNumber& courantNumber)
 {
-    const auto& phi = mesh_.lookupObject<surfaceScalarField>("phi");
-    const scalarField courantNumber(
-        0.5 * mesh_.time().deltaTValue() * fvc::surfaceSum(mag(phi))().primitiveField() / mesh_.V().field());
-    label fastCells = 0;
-    for (const scalar ofCell : courantNumber)
-    {
-        fastCells += ofCell > 1;
-    }
-    reduce(fastCells, sumOp<label>());
+    const label fastCells = courantNumber.cellsAboveOne();
     const label cells = mesh_.globalData().nTotalCells();
     if (fastCells <= mostFastCells * cells)
     {
         return;
     }
     ++fastFluid_;
-    const scalar largest = gMax(courantNumber);
+    const double timeStep = mesh_.time().deltaTValue();
+    const double largest = timeStep * courantNumber.largestPerTime();
     if (fastFluid_ == 1 && Pstream::master())
     {
-        WarningInFunction << "The fluid passes more than a cell in a coupling step of " << mesh_.time().deltaTValue()
-                          << " s in " << fastCells << " of " << cells << " cells, at most " << largest
+        WarningInFunction << "The fluid passes more than a cell in a coupling step of " << timeStep << " s in "
+                          << fastCells << " of " << cells << " cells, at most " << largest
                           << " cells (Courant number). The solution is stable, but smears what moves with the fluid; a "
-                          << "couplingTimeStep (and deltaT) of " << mesh_.time().deltaTValue() / largest
+                          << "couplingTimeStep (and deltaT) of " << timeStep / largest
                           << " s resolves it. This warning is printed once, and such steps are counted" << endl;
     }
 }

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "couplingStep/fluidCourantNumber.h"
 #include "engine/particles.h"
+#include "rankTotals.h"
 
 #include "fvMesh.H"
 
@@ -19,8 +21,12 @@ public:
     /// \param smoothingBandwidth  [m], 0 without smoothing
     RunChecks(const Foam::fvMesh& mesh, double smoothingBandwidth);
 
-    /// Call when the fluid has been solved. Collective.
-    void afterCouplingStep(const ParticlesView& particles);
+    /// Adds the largest velocity of a particle to the totals. Call when the fluid has been solved. Local.
+    void addTo(const ParticlesView& particles, RankTotals& totals);
+
+    /// Call when these totals have been reduced. Local.
+    /// \param courantNumber  at the end of this coupling step
+    void afterCouplingStep(const FluidCourantNumber& courantNumber);
 
     /// Warns where a large part of the particles in beds is so near to clear fluid that the smoothed void fraction is
     /// not that of the bed. \param partNearClearFluid  see bedEdge.h
@@ -31,8 +37,15 @@ public:
 
 private:
     void checkConvergence();
-    void checkTravel(const ParticlesView& particles);
-    void checkCourantNumber();
+    void checkTravel();
+    void checkCourantNumber(const FluidCourantNumber& courantNumber);
+
+    /// A particle and its velocity [m/s].
+    struct Fastest
+    {
+        int id = 0;
+        double speed = 0;
+    };
 
     const Foam::fvMesh& mesh_;
     const double smoothingBandwidth_;
@@ -43,6 +56,10 @@ private:
     long unconvergedInRow_ = 0;
     long fast_ = 0;
     long fastFluid_ = 0;
+    /// Of this rank's particles in the mesh.
+    Fastest fastestHere_;
+    /// Over all ranks [m/s].
+    double largestSpeed_ = 0;
 };
 
 } // namespace clepsydra

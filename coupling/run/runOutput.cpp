@@ -159,6 +159,7 @@ double RunOutput::estimate()
 
 void RunOutput::start()
 {
+    reductionsBefore_ = RankTotals::reductions();
     if (!checkpoints_.resumed())
     {
         reportUnreadFields(mesh_);
@@ -211,13 +212,35 @@ void RunOutput::checkBedOnce()
     }
 }
 
+void RunOutput::addTo(RankTotals& totals)
+{
+    if (runChecks_)
+    {
+        runChecks_->addTo(engine_.particles(), totals);
+    }
+    stopRequest_.addTo(totals);
+}
+
+void RunOutput::countReductions(bool atWriteTime)
+{
+    const long now = RankTotals::reductions();
+    if (countsReductions_ && !atWriteTime)
+    {
+        reductions_ += now - reductionsBefore_;
+        ++stepsWithCount_;
+    }
+    reductionsBefore_ = now;
+    // After a checkpoint the run restarts in place.
+    countsReductions_ = !atWriteTime;
+}
+
 bool RunOutput::afterCouplingStep()
 {
     const PhaseTimers::Scope timing = couplingStep_.timers().time("output");
     checkDemStepOnce();
     if (runChecks_)
     {
-        runChecks_->afterCouplingStep(engine_.particles());
+        runChecks_->afterCouplingStep(couplingStep_.courantNumber());
         if (isFirstStep_ || (!bedChecked_ && time_.writeTime()))
         {
             checkBedOnce();
@@ -258,6 +281,7 @@ bool RunOutput::afterCouplingStep()
         }
         couplingStep_.conservation().report();
     }
+    countReductions(atWriteTime);
     progress_.update(time_.value(), time_.endTime().value(), MassInHopper::lastCount(time_), wallLeft, atWriteTime);
     return atWriteTime;
 }
@@ -335,7 +359,11 @@ void RunOutput::finish()
         return;
     }
     const double sent = settings_.hasFluid() ? static_cast<double>(couplingStep_.fluid().mapping().bytesSent()) : 0;
-    couplingStep_.conservation().writeSummary(timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_);
+    const std::optional<double> reductionsPerStep =
+        stepsWithCount_ > 0 ? std::optional(static_cast<double>(reductions_) / static_cast<double>(stepsWithCount_))
+                            : std::nullopt;
+    couplingStep_.conservation().writeSummary(
+        timers, returnReduce(sent, sumOp<scalar>()), estimateOfRun_, reductionsPerStep);
 }
 
 } // namespace clepsydra

@@ -41,8 +41,11 @@ public:
         return progress_.isTerminal();
     }
 
-    /// Call after each coupling step, when the fluid has been solved. The state at the end of the run is a checkpoint,
-    /// too. Collective.
+    /// Adds what afterCouplingStep() needs of all ranks to the totals at the end of a coupling step. Local.
+    void addTo(RankTotals& totals);
+
+    /// Call after each coupling step, when these totals have been reduced. The state at the end of the run is a
+    /// checkpoint, too. Collective.
     /// \return true if a checkpoint was written; the run must then restart in place
     bool afterCouplingStep();
 
@@ -62,6 +65,8 @@ private:
     void requireTablesWritten() const;
     void writeCheckpoint();
     void writeParticles();
+    /// Counts the reductions of a coupling step, unless this one or the last one wrote a checkpoint.
+    void countReductions(bool atWriteTime);
     void printReport(const FluidProperties& fluid, const FluidModels* models, const std::optional<Energy>& energy);
     /// Updates the estimates of the run time after each coupling step. \return wall time that is left [s], negative
     /// where not known yet
@@ -88,6 +93,11 @@ private:
     CostModel processorCost_;
     std::optional<double> firstStepSeconds_;
     std::optional<EstimatedSeconds> estimateOfRun_;
+    /// Reductions of RankTotals: before the coupling step, and in all that are counted.
+    long reductionsBefore_ = 0;
+    long reductions_ = 0;
+    long stepsWithCount_ = 0;
+    bool countsReductions_ = true;
     double startTime_ = 0;
     double couplingStepCount_ = 0;
     /// False while there are no particles yet, as at the start of a filling.

@@ -51,6 +51,7 @@ ENTRIES = {
     "overYade": other_programs.over_yade,
     "flowRates": flow_rates.rates,
     "messagesPerInterval": messages.messages_per_interval,
+    "reductionsPerStep": messages.reductions_per_step,
     "bytesPerRank": messages.bytes_per_rank,
     "bytesPerParticle": memory.bytes_per_particle,
     "bytesPerCell": memory.bytes_per_cell,

@@ -61,13 +61,13 @@ void FluidTemperature::updateBuoyancy()
 }
 
 void FluidTemperature::solve(
-    const ParticlesInFluid& particles, const surfaceScalarField& alphaPhi, const FluidTurbulence* turbulence)
+    ParticlesInFluid& particles, const surfaceScalarField& alphaPhi, const FluidTurbulence* turbulence)
 {
     const double timeStep = mesh_.time().deltaTValue();
     const volScalarField& voidFraction = particles.voidFractionInContinuity();
     const scalarField& volumes = mesh_.V().field();
     const auto inFluid = [&](const volScalarField& eps, const volScalarField& T) {
-        return capacityPerVolume_ * gSum(scalarField(volumes * eps.primitiveField() * T.primitiveField()));
+        return capacityPerVolume_ * sum(volumes * eps.primitiveField() * T.primitiveField());
     };
     const double before = inFluid(voidFraction.oldTime(), T_.oldTime());
 
@@ -98,9 +98,9 @@ void FluidTemperature::solve(
     heat.inFluidBefore = before;
     heat.inFluid = inFluid(voidFraction, T_);
     heat.throughBoundary = throughBoundary(alphaPhi, diffusivity);
-    heat.ofContinuityError = timeStep * capacityPerVolume_
-                             * gSum(scalarField(volumes * continuityError.primitiveField() * T_.primitiveField()));
-    particles.recordHeat(heat);
+    heat.ofContinuityError =
+        timeStep * capacityPerVolume_ * sum(volumes * continuityError.primitiveField() * T_.primitiveField());
+    particles.setHeat(heat);
     updateBuoyancy();
 }
 
@@ -117,7 +117,7 @@ double FluidTemperature::throughBoundary(
                            - diffusivity.boundaryField()[patch] * onPatch.patch().magSf() * onPatch.snGrad());
         }
     }
-    return mesh_.time().deltaTValue() * capacityPerVolume_ * returnReduce(outflow, sumOp<scalar>());
+    return mesh_.time().deltaTValue() * capacityPerVolume_ * outflow;
 }
 
 } // namespace clepsydra

@@ -39,10 +39,10 @@ public:
     /// \param alphaPhi  flux of fluid in the continuity equation [m3/s]
     /// \param turbulence  null in laminar flow
     void solve(
-        const ParticlesInFluid& particles, const Foam::surfaceScalarField& alphaPhi, const FluidTurbulence* turbulence);
+        ParticlesInFluid& particles, const Foam::surfaceScalarField& alphaPhi, const FluidTurbulence* turbulence);
 
 private:
-    /// Heat that leaves the fluid through the boundary in the step [J]. Collective.
+    /// Heat that leaves the fluid through the boundary of this rank in the step [J].
     /// \param diffusivity  of T through the faces, times the void fraction [m2/s]
     double throughBoundary(const Foam::surfaceScalarField& alphaPhi, const Foam::surfaceScalarField& diffusivity) const;
     void updateBuoyancy();

@@ -121,13 +121,13 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
     {
         flow.setAcceleration(temperature->buoyancy());
     }
-    couplingStep.start(flow.U(), flow.p());
+    couplingStep.start(flow.U(), flow.phi(), flow.p());
     flow.updateAlphaPhi(couplingStep.fluid().voidFraction());
     output.start();
 
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        ParticlesInFluid particles = couplingStep.advanceParticles(flow.phi(), runTime.timeLeft());
+        ParticlesInFluid particles = couplingStep.advanceParticles(runTime.timeLeft());
         const SolvedStep solved = [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
@@ -139,7 +139,8 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
             const PhaseTimers::Scope timing = couplingStep.timers().time("heat");
             temperature->solve(particles, flow.alphaPhi(), models.viscousStress.turbulence());
         }
-        couplingStep.fluidToParticles(solved, flow.U(), flow.p());
+        couplingStep.fluidToParticles(
+            solved, flow.U(), flow.phi(), flow.p(), [&](RankTotals& totals) { output.addTo(totals); });
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace(flow.U(), flow.p());
@@ -152,7 +153,7 @@ void runDemOnly(RunTime& runTime, CouplingStep& couplingStep, RunOutput& output)
     output.start();
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
-        couplingStep.advance();
+        couplingStep.advance([&](RankTotals& totals) { output.addTo(totals); });
         if (output.afterCouplingStep())
         {
             couplingStep.restartInPlace();

@@ -5,7 +5,10 @@
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "emptyFvPatch.H"
 #include "fvCFD.H"
+#include "noSlipFvPatchVectorField.H"
+#include "zeroGradientFvPatchFields.H"
 
 namespace clepsydra
 {
@@ -42,6 +45,22 @@ surfaceScalarField readFlux(const volVectorField& U)
 IOobject readAndWritten(const word& name, const fvMesh& mesh)
 {
     return IOobject(name, mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+}
+
+/// Whether nothing can pass the boundary of any rank at any time, so that outflow() is zero on all ranks. This follows from
+/// the types of the conditions, which are the same on all ranks.
+bool isClosed(const volVectorField& U, const volScalarField& p)
+{
+    bool closed = true;
+    forAll (U.boundaryField(), patch)
+    {
+        const fvPatch& onPatch = U.boundaryField()[patch].patch();
+        closed = closed
+                 && (onPatch.coupled() || isA<emptyFvPatch>(onPatch)
+                     || (U.boundaryField()[patch].type() == noSlipFvPatchVectorField::typeName
+                         && p.boundaryField()[patch].type() == zeroGradientFvPatchScalarField::typeName));
+    }
+    return closed;
 }
 
 /// Outflow of fluid through the boundary of this rank [m3/s], where p has a prescribed gradient everywhere. A patch
@@ -171,7 +190,11 @@ void VoidFractionFlow::correctPressure(ParticlesInFluid& particles, const fvVect
 
     constrainPressure(p_, U_, phiHbyA, rAUf);
     particles.addMeanPressureGradient(phiHbyA, rAUf);
-    if (p_.needReference())
+    if (p_.needReference() && isClosed(U_, p_))
+    {
+        particles.spreadImbalance();
+    }
+    else if (p_.needReference())
     {
         particles.spreadImbalance(outflow(particles.voidFractionf(), phiHbyA, rAUf, p_));
     }

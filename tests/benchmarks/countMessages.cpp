@@ -150,6 +150,16 @@ extern "C"
         return all;
     }
 
+    double collectiveCallsSoFar()
+    {
+        double all = 0;
+        for (const auto& [phase, count] : counts)
+        {
+            all += count.collectives;
+        }
+        return all;
+    }
+
     int MPI_Finalize()
     {
         writeCounts();

@@ -22,7 +22,7 @@ public:
           inAllCells_(coefficients.get<word>("cells") == "all")
     {}
 
-    void nearTo(const std::vector<label>&) override
+    void nearTo(const std::vector<label>&, RankTotals&) override
     {}
 
     void smooth(Eigen::MatrixXd& densities) const override

@@ -108,7 +108,7 @@ public:
             dimensionedScalar("p", dimPressure / dimDensity, 0), "zeroGradient");
         p_->primitiveFieldRef() = setup.pressureGradient * mesh_->C().primitiveField().component(vector::Z);
         p_->correctBoundaryConditions();
-        couplingStep_->start(*U_, *p_);
+        couplingStep_->start(*U_, fvc::flux(*U_), *p_);
     }
 
     /// \param solved  what becomes of the particles' source before it is put into the equation
@@ -120,11 +120,11 @@ public:
         ++case_.time();
         U_->storeOldTime();
         const double timeLeft = nextSteps > 0 ? nextSteps * engine_.timeStep() : VGREAT;
-        ParticlesInFluid particles = couplingStep_->advanceParticles(fvc::flux(*U_), timeLeft);
+        ParticlesInFluid particles = couplingStep_->advanceParticles(timeLeft);
         fvVectorMatrix source(particles.momentumSource(*U_));
         solved(source);
         solve(fvm::ddt(particles.voidFraction(), *U_) == source + particles.sourceOfPressure(*p_));
-        couplingStep_->fluidToParticles(recordWithoutContinuity(particles, source, *U_, *p_), *U_, *p_);
+        couplingStep_->fluidToParticles(recordWithoutContinuity(particles, source, *U_, *p_), *U_, fvc::flux(*U_), *p_);
     }
 
     /// Between so many particles [kg].

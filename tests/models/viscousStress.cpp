@@ -7,6 +7,8 @@
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"
 
+#include "fvcFlux.H"
+
 #include <gtest/gtest.h>
 
 namespace clepsydra::tests
@@ -47,7 +49,7 @@ TEST(ViscousStress, OfAParticleIsThatOfTheEquationWhereDivergenceIsNotZero)
     PhaseTimers timers;
     FluidModels models(*mesh, settings, fluid, timers);
     CouplingStep interval(*mesh, settings, fluid, engine, &models, timers, false);
-    interval.start(U, p);
+    interval.start(U, fvc::flux(U), p);
     const Vector3d atParticle = engine.particles().state[0].fluid.viscousStressDivergence;
     EXPECT_NEAR(atParticle.x(), 8.0 / 3 * a * viscosity, 1e-9);
     EXPECT_NEAR(atParticle.tail<2>().norm(), 0, 1e-9);
@@ -169,7 +171,7 @@ TEST(ViscousStress, HasTheEddyViscosityInTheEquationAndOnAParticle)
     EXPECT_LT(gMax(mag(explicitly.primitiveField() - vector(a * c, 0, 0))()), 1e-12);
     EXPECT_LT(gMax(mag(implicitly.primitiveField() - vector(a * c, 0, 0))()), 1e-12);
 
-    step.start(U, p);
+    step.start(U, fvc::flux(U), p);
     const Vector3d atParticle = engine.particles().state[0].fluid.viscousStressDivergence;
     EXPECT_NEAR(atParticle.x(), density * a * c, 1e-9);
     EXPECT_NEAR(atParticle.tail<2>().norm(), 0, 1e-9);

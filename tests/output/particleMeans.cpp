@@ -9,7 +9,9 @@
 #include "support/fakeEngine.h"
 #include "support/temporaryCase.h"
 
+#include "IOdictionary.H"
 #include "IStringStream.H"
+#include "OStringStream.H"
 #include "functionObject.H"
 
 #include <gtest/gtest.h>
@@ -118,6 +120,18 @@ std::vector<Row> rows(const TemporaryCase& temporaryCase, const std::string& sta
     return all;
 }
 
+/// Each rank writes the sums of all ranks with its part of a checkpoint. A rank that keeps its own sums, or memory that it has
+/// given back, fails.
+void expectSameStateOnAllRanks(const Foam::Time& time)
+{
+    Foam::OStringStream here;
+    time.lookupObject<Foam::IOdictionary>("means").writeData(here);
+    EXPECT_THAT(here.str(), testing::HasSubstr("sampledTimes"));
+    Foam::string ofMaster = here.str();
+    Pstream::scatter(ofMaster);
+    EXPECT_EQ(here.str(), ofMaster) << "rank " << Pstream::myProcNo();
+}
+
 /// Bins of 0.4 x 2 x 0.25 m in a box of 1 x 0.5 x 0.5 m at (1, 0, 0): three, one and two; the last along x is 0.2 m wide.
 /// What a bin's number, centre or volume gets wrong shows in one of them; so does a point at a face or outside.
 TEST(ParticleBins, DivideABox)
@@ -155,6 +169,7 @@ TEST(ParticleMeans, AverageOverParticlesAndTime)
     cloud.add({0.3, 0.5, 0.5}, {0.9, 0, 1.2});
     cloud.add({0.7, 0.5, 0.5}, {0, -2, 0});
     run(temporaryCase.time(), cloud);
+    expectSameStateOnAllRanks(temporaryCase.time());
 
     const std::vector<Row> found = rows(temporaryCase, "0");
     if (Pstream::master())

@@ -53,6 +53,8 @@ struct Counts
     int sweeps = 0;
     /// The smallest of the files of their particles.
     double particlesFile = 0;
+    /// What the program says of itself.
+    nlohmann::json summary;
 
     double largest(const std::string& phase, const std::string& quantity) const
     {
@@ -94,6 +96,7 @@ Counts countsOn(int ranks, const std::string& boxes, double writeInterval)
         counts.particlesFile =
             std::min(counts.particlesFile, static_cast<double>(std::filesystem::file_size(test.path() / particles)));
     }
+    counts.summary = test.conservationSummary();
     std::smatch found;
     if (std::regex_search(outcome.output, found, std::regex("in ([0-9]+) sweeps")))
     {
@@ -146,6 +149,26 @@ TEST(Messages, OfARankDoNotGrowWithTheRanks)
         EXPECT_LT(eight.largest(phase, "bytes"), two.largest(phase, "bytes")) << phase;
     }
     EXPECT_LT(eight.largestMemory(), two.largestMemory());
+}
+
+/// In the phases of the coupling all ranks wait for each other once, after the particles have been distributed, however many
+/// ranks there are. The other reduction of a coupling step is at its end. The program itself counts these two, where there were about
+/// thirty when each number was reduced by itself.
+/// (OpenFOAM's reductions over so few ranks are messages, not collective calls: tests/scripts/collective_tests.py shows that
+/// none of them is left in a coupling step.)
+TEST(Messages, RanksWaitForEachOtherAFewTimesInACouplingStep)
+{
+    for (const auto& [ranks, boxes] : {std::pair(2, "(2 1 1)"), std::pair(4, "(2 2 1)")})
+    {
+        const Counts counts = countsOn(ranks, boxes, 4 * interval);
+        double calls = 0;
+        for (const char* phase : {"distribute", "exchange", "locate", "smooth"})
+        {
+            calls += counts.largest(phase, "collectives");
+        }
+        EXPECT_EQ(calls, 1);
+        EXPECT_EQ(counts.summary["reductionsPerStep"], 2);
+    }
 }
 
 /// With a checkpoint in every coupling step a rank hands on what lies at its border and the checksums of its files, not

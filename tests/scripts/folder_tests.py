@@ -23,6 +23,7 @@ ORDER = [
     "modelLines.h",
     "runTimeSelection.h",
     "ranks.h",
+    "rankTotals.h",
     "exchange",
     "distribution",
     "forces",

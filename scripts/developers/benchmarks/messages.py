@@ -23,6 +23,16 @@ def messages_per_interval(hopper: Hopper, repetitions: int) -> timing.Figure:
     )
 
 
+def reductions_per_step(hopper: Hopper, repetitions: int) -> timing.Figure:
+    """A count of the program itself: those of OpenFOAM's solvers and of LIGGGHTS are not in it."""
+    run = hopper.run("submerged", "reductions", INTERVALS * hopper.parameters["couplingTimeStep"], 2)
+    return timing.Figure(
+        [timing.timed(run).result["reductionsPerStep"]],
+        target="<= 5",
+        meaning="times in a coupling step that all ranks wait for each other in a reduction of the coupling",
+    )
+
+
 def bytes_per_rank(hopper: Hopper, repetitions: int) -> timing.Figure:
     return figure(hopper, "bytes of memory of the largest rank", lambda rank: rank["peakMemory"])
 
