@@ -11,7 +11,8 @@ namespace clepsydra
 ///
 /// Open MPI 4 gives such a program a folder in the temporary directory, and all of one user the same one
 /// (ompi.<host>.<user>/jf.0): of several that start at once, some find it removed by another that ends, and fail. A single
-/// process needs no such folder, and gets none. mpirun, whose ranks do need one, makes one for each of its runs.
+/// process needs no such folder, and gets none. Open MPI 5 ignores the setting; its folder has the number of the process.
+/// mpirun, whose ranks do need one, makes one for each of its runs.
 inline void initialiseMpi(int* argc, char*** argv)
 {
     constexpr const char* makesFolder = "OMPI_MCA_orte_create_session_dirs";

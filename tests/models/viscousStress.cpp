@@ -142,7 +142,7 @@ TEST(ViscousStress, HasTheEddyViscosityInTheEquationAndOnAParticle)
     const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
     readFromCase<fvSchemes>(*mesh);
     volVectorField U(IOobject("U", folder.time().timeName(), *mesh), *mesh,
-        dimensionedVector("U", dimVelocity, vector::zero), "calculated");
+        dimensionedVector("U", dimVelocity, vector::zero), "fixedValue");
     volScalarField nut(IOobject("nut", folder.time().timeName(), *mesh), *mesh,
         dimensionedScalar("nut", dimViscosity, 0), "calculated");
     U.primitiveFieldRef().replace(vector::X, a * mesh->C().primitiveField().component(vector::Z));

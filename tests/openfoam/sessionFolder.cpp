@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <mpi.h>
+#include <unistd.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -14,9 +17,9 @@ namespace
 {
 
 /// This program has started MPI, with a temporary directory of its own that holds nothing else: there is no folder of
-/// Open MPI in it. The folder would have the same name for all programs of a user, and one that ends takes it away from
-/// one that starts.
-TEST(SessionFolder, IsNotMadeForASingleProcess)
+/// Open MPI 4 in it. The folder would have the same name for all programs of a user, and one that ends takes it away from
+/// one that starts. Open MPI 5 makes a folder with the number of the process.
+TEST(SessionFolder, IsOfNoOtherProcess)
 {
     const char* const own = std::getenv("OWN_TMPDIR");
     if (own == nullptr)
@@ -24,9 +27,15 @@ TEST(SessionFolder, IsNotMadeForASingleProcess)
         GTEST_SKIP() << "in a temporary directory that others use, too";
     }
     EXPECT_EQ(std::filesystem::temp_directory_path(), own);
+    const bool numbered = OMPI_MAJOR_VERSION >= 5;
+    const std::string ofThis = "/jf.0/" + std::to_string(getpid());
     for (const auto& entry : std::filesystem::directory_iterator(own))
     {
-        EXPECT_NE(entry.path().filename().string().rfind("ompi", 0), 0U) << entry.path();
+        if (entry.path().filename().string().rfind("ompi", 0) == 0)
+        {
+            EXPECT_TRUE(numbered) << entry.path();
+            EXPECT_TRUE(std::filesystem::is_directory(entry.path().string() + ofThis)) << entry.path();
+        }
     }
     EXPECT_EQ(std::getenv("OMPI_MCA_orte_create_session_dirs"), nullptr) << "an mpirun would inherit it, and fail";
 }
