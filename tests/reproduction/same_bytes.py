@@ -12,11 +12,13 @@ import unittest
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 from numpy.core._multiarray_umath import __cpu_dispatch__ as numpy_features
 from numpy.core._multiarray_umath import __cpu_features__ as found
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 RESULTS = REPOSITORY / "cases" / "paper" / "results"
+PICTURES_ARE_OF = "3.6.3"  # the matplotlib of Debian 12; others draw some pixels otherwise
 OLD_PROCESSOR = {
     "NPY_DISABLE_CPU_FEATURES": " ".join(name for name in numpy_features if found[name]),
     "GLIBC_TUNABLES": "glibc.cpu.hwcaps=-AVX2,-AVX512F,-FMA,-FMA4",
@@ -43,6 +45,8 @@ class SameBytes(unittest.TestCase):
             )
             committed = {path.name: path for path in [*(RESULTS / "figures").iterdir(), RESULTS / "reproduction.json"]}
             self.assertEqual({path.name for path in made.iterdir()}, set(committed))
+            if matplotlib.__version__ != PICTURES_ARE_OF:
+                committed = {name: path for name, path in committed.items() if path.suffix != ".png"}
             different = [name for name, path in committed.items() if not filecmp.cmp(path, made / name, shallow=False)]
             self.assertEqual(different, [], "run scripts/reproduce/all and commit what it writes")
 
