@@ -409,6 +409,8 @@ TEST(BadInput, Temperatures)
     };
     expectInTransport("kappa", "-1", {transportProperties, "'kappa' is -1", "a number > 0"});
     expectInTransport("beta", "2e-4", {transportProperties, "'beta'", "'TRef'", "allowed: both"});
+    expectInTransport(
+        "Prt", "0.85", {transportProperties, "'Prt' has no effect in laminar flow", "turbulenceProperties"});
     expectWithEnergyRefused(
         [](TestCase& test) {
             test.transport().set("beta", "2e-4").set("TRef", "300");
