@@ -43,6 +43,10 @@ double relativeError(double error, double quantity)
 
 } // namespace
 
+const std::array<double HeatOfStep::*, 10> HeatOfStep::members = {&HeatOfStep::received, &HeatOfStep::fluidLost,
+    &HeatOfStep::pendingBefore, &HeatOfStep::pending, &HeatOfStep::magnitudes, &HeatOfStep::inParticles,
+    &HeatOfStep::inFluidBefore, &HeatOfStep::inFluid, &HeatOfStep::throughBoundary, &HeatOfStep::ofContinuityError};
+
 ConservationCheck::ConservationCheck(const dictionary& couplingProperties, const Time& time)
     : time_(time),
       tolerances_(couplingProperties.subOrEmptyDict("conservationCheck")),
@@ -201,14 +205,7 @@ void ConservationCheck::recordHeat(const HeatOfStep& heat)
 
 void ConservationCheck::addHeat(const HeatOfStep& ofRank, RankTotals& totals)
 {
-    totals.add({{ofRank.received, ofRank.fluidLost, ofRank.pendingBefore, ofRank.pending, ofRank.magnitudes,
-                    ofRank.inParticles, ofRank.inFluidBefore, ofRank.inFluid, ofRank.throughBoundary,
-                    ofRank.ofContinuityError},
-                   {}},
-        [this](const RankNumbers& all) {
-            const std::vector<double>& sums = all.sums;
-            recordHeat({sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8], sums[9]});
-        });
+    totals.add(ofRank.numbers(), [this](const RankNumbers& all) { recordHeat(HeatOfStep::in(all)); });
 }
 
 void ConservationCheck::addContinuity(const volScalarField& error, RankTotals& totals)

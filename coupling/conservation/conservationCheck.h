@@ -9,6 +9,7 @@
 #include "vector.H"
 #include "volFields.H"
 
+#include <array>
 #include <optional>
 #include <string>
 
@@ -57,6 +58,31 @@ struct HeatOfStep
     double throughBoundary = 0;
     /// That the continuity error of the flow creates, because a uniform temperature must remain uniform.
     double ofContinuityError = 0;
+
+    /// This rank's numbers, whose totals are needed.
+    RankNumbers numbers() const
+    {
+        RankNumbers ofRank;
+        for (const auto member : members)
+        {
+            ofRank.sums.push_back(this->*member);
+        }
+        return ofRank;
+    }
+
+    /// Over all ranks, from the totals of numbers().
+    static HeatOfStep in(const RankNumbers& totals)
+    {
+        HeatOfStep heat;
+        for (std::size_t i = 0; i < members.size(); ++i)
+        {
+            heat.*members[i] = totals.sums[i];
+        }
+        return heat;
+    }
+
+private:
+    static const std::array<double HeatOfStep::*, 10> members;
 };
 
 /// Heat since the start of this process, over all ranks [J], and the largest errors.

@@ -42,9 +42,9 @@ struct Energy
 /// Whether the case has temperatures. Without fluid the dictionary `energy` has no effect.
 bool hasEnergy(const CouplingSettings& settings);
 
-/// Reads the dictionary `energy`, and `Cp`, `kappa`, `Prt`, `beta` and `TRef` of transportProperties; empty where the case has no
-/// temperatures. FatalIOError that names the file, the entry and what is allowed where an entry is missing or wrong,
-/// or has no effect.
+/// Reads the dictionary `energy`, and `Cp`, `kappa`, `Prt`, `beta` and `TRef` of transportProperties; empty where the
+/// case has no temperatures. FatalIOError that names the file, the entry and what is allowed where an entry is missing
+/// or wrong, or has no effect.
 /// \param turbulent  whether the case has a turbulence model, without which `Prt` has no effect
 std::optional<Energy> readEnergy(
     const CouplingSettings& settings, const Foam::dictionary& transportProperties, bool turbulent);

@@ -11,8 +11,7 @@ namespace clepsydra
 {
 
 /// The models that couplingProperties selects, with their coefficients, and the stress of the fluid. They are created
-/// before the engine starts and
-/// before any file is written, so that a wrong entry leaves the case unchanged.
+/// before the engine starts and before any file is written, so that a wrong entry leaves the case unchanged.
 struct FluidModels
 {
     FluidModels(

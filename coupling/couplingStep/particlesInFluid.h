@@ -169,8 +169,7 @@ public:
     }
 
     /// Compares what the fluid lost with what the particles received, heat and momentum, and checks continuity, when the
-    /// totals are reduced.
-    /// Collective.
+    /// totals are reduced. Collective.
     /// \param semiImplicit  of this rank, see ConservationCheck::recordMomentum()
     void checkConservation(const ExchangedMomentum& semiImplicit, RankTotals& totals) const;
 

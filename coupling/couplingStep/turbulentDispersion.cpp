@@ -1,10 +1,9 @@
 #include "couplingStep/turbulentDispersion.h"
 
 #include "closures/discreteRandomWalk.h"
-#include "closures/parcelScaling.h"
-#include "closures/schillerNaumannDrag.h"
 #include "couplingStep/checkpointedState.h"
 #include "couplingState.h"
+#include "forces/relaxationTime.h"
 #include "runTimeSelection.h"
 
 #include <algorithm>
@@ -114,7 +113,7 @@ Vector3d TurbulentDispersion::velocity(
     }
     const double slip = (particles.state[particle].fluid.velocityInCells - particles.velocity.col(particle)).norm();
     const double size = closures::eddySize(k, dissipation);
-    const double relaxation = relaxationTime(particles, particle, slip);
+    const double relaxation = isolatedRelaxationTime(particles, particle, slip, fluid_, coarseGraining_);
     double time = timeStep;
     for (int entered = 0; time > 0 && entered < mostEddiesInStep; ++entered)
     {
@@ -132,13 +131,6 @@ Vector3d TurbulentDispersion::velocity(
         time -= inEddy;
     }
     return meanVelocity;
-}
-
-double TurbulentDispersion::relaxationTime(const ParticlesView& particles, Eigen::Index particle, double slip) const
-{
-    const auto inFluid = closures::makeParticleInFluid(2 * particles.radius[particle] / coarseGraining_, 1, slip,
-        fluid_.density, fluid_.viscosityAt(particles.position.col(particle)));
-    return particles.mass[particle] / closures::parcelDrag(closures::SchillerNaumannDrag(), inFluid, coarseGraining_);
 }
 
 } // namespace clepsydra

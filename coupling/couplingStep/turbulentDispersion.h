@@ -40,9 +40,6 @@ public:
         const ParticlesView& particles, Eigen::Index particle, double k, double dissipation, double timeStep) const;
 
 private:
-    /// That of the real particles where the DEM script's spheres are parcels.
-    double relaxationTime(const ParticlesView& particles, Eigen::Index particle, double slip) const;
-
     const FluidProperties fluid_;
     const double coarseGraining_;
     const bool active_;

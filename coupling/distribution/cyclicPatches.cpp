@@ -18,9 +18,6 @@ using namespace Foam;
 namespace
 {
 
-/// Relative to the mesh's length: files have points with few digits.
-constexpr double roundingOfMeshPoints = 1e-6;
-
 [[noreturn]] void refuse(const polyPatch& patch, const std::string& objection)
 {
     FatalErrorInFunction
@@ -120,12 +117,6 @@ private:
     scalar area_ = 0;
 };
 
-struct Periodicity
-{
-    PeriodicBox box;
-    std::array<std::string, 3> patches;
-};
-
 void addPair(const cyclicPolyPatch& patch, const boundBox& mesh, Periodicity& periodic)
 {
     if (patch.transform() == coupledPolyPatch::ROTATIONAL)
@@ -162,6 +153,8 @@ void addPair(const cyclicPolyPatch& patch, const boundBox& mesh, Periodicity& pe
     names += (names.empty() ? "'" : ", '") + patch.name() + "' and '" + patch.neighbPatch().name() + "'";
 }
 
+} // namespace
+
 Periodicity periodicityOf(const polyMesh& mesh)
 {
     Periodicity periodic;
@@ -185,18 +178,6 @@ Periodicity periodicityOf(const polyMesh& mesh)
         }
     }
     return periodic;
-}
-
-} // namespace
-
-PeriodicBox periodicBoxOf(const polyMesh& mesh)
-{
-    return periodicityOf(mesh).box;
-}
-
-std::array<std::string, 3> cyclicPatchesAlongAxes(const polyMesh& mesh)
-{
-    return periodicityOf(mesh).patches;
 }
 
 } // namespace clepsydra

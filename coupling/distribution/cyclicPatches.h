@@ -10,15 +10,28 @@
 namespace clepsydra
 {
 
-/// The directions in which cyclic patches make the mesh periodic. Particles have images there, so the patches of a pair
-/// must be planes perpendicular to an axis at the two ends of the mesh, and each a translation of the other.
+/// Of lengths of the mesh: files have points with few digits.
+constexpr double roundingOfMeshPoints = 1e-6;
+
+/// The directions in which cyclic patches make a mesh periodic.
+struct Periodicity
+{
+    PeriodicBox box;
+    /// The names of the patches at the ends along each axis, as "'left' and 'right'"; empty where it is not periodic.
+    std::array<std::string, 3> patches;
+};
+
+/// Particles have images in periodic directions, so the patches of a pair must be planes perpendicular to an axis at the
+/// two ends of the mesh, and each a translation of the other.
 ///
 /// FatalError that names the patch and what is allowed for any other patch that couples cells, except those between
 /// ranks. Collective.
-PeriodicBox periodicBoxOf(const Foam::polyMesh& mesh);
+Periodicity periodicityOf(const Foam::polyMesh& mesh);
 
-/// The names of the patches that make the mesh periodic along each axis, as "'left' and 'right'"; empty where it is not
-/// periodic. Otherwise as periodicBoxOf().
-std::array<std::string, 3> cyclicPatchesAlongAxes(const Foam::polyMesh& mesh);
+/// The box of periodicityOf(). Collective.
+inline PeriodicBox periodicBoxOf(const Foam::polyMesh& mesh)
+{
+    return periodicityOf(mesh).box;
+}
 
 } // namespace clepsydra

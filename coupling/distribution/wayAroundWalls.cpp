@@ -124,11 +124,10 @@ private:
     /// For each point at the high end along an axis, the one at the low end; -1 for any other point.
     static labelList imagesAlong(Eigen::Index axis, const Foam::pointField& points, const PeriodicBox& periodic)
     {
-        // Of the box: files have points with few digits.
-        constexpr double roundingOfPoints = 1e-6;
         const double length = periodic.length[axis];
+        const double rounding = roundingOfMeshPoints * length;
         const auto isAt = [&](label point, double height) {
-            return std::abs(toEigen(points[point])[axis] - periodic.low[axis] - height) <= roundingOfPoints * length;
+            return std::abs(toEigen(points[point])[axis] - periodic.low[axis] - height) <= rounding;
         };
         std::vector<label> atLowEnd;
         std::vector<Box> places;
@@ -146,7 +145,7 @@ private:
         {
             if (isAt(point, length))
             {
-                tree.forEachNear(toEigen(points[point]) - length * Vector3d::Unit(axis), roundingOfPoints * length,
+                tree.forEachNear(toEigen(points[point]) - length * Vector3d::Unit(axis), rounding,
                     [&](int found) { images[point] = atLowEnd[static_cast<std::size_t>(found)]; });
             }
         }

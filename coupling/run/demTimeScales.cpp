@@ -1,8 +1,7 @@
 #include "run/demTimeScales.h"
 
-#include "closures/parcelScaling.h"
-#include "closures/schillerNaumannDrag.h"
 #include "closures/timeScales.h"
+#include "forces/relaxationTime.h"
 
 #include "PstreamReduceOps.H"
 #include "surfaceFields.H"
@@ -33,16 +32,6 @@ public:
 private:
     Foam::scalar shortest_ = Foam::GREAT;
 };
-
-double relaxationTime(
-    const ParticlesView& particles, Eigen::Index particle, const FluidProperties& fluid, double coarseGraining)
-{
-    const double diameter = 2 * particles.radius[particle] / coarseGraining;
-    const auto inFluid = closures::makeParticleInFluid(diameter, 1.0, DemTimeScales::speed, fluid.density,
-        fluid.viscosityAt(particles.position.col(particle), diameter));
-    return closures::relaxationTime(particles.mass[particle] / closures::particlesPerParcel(coarseGraining),
-        closures::SchillerNaumannDrag{}(inFluid));
-}
 
 /// Uses the projected areas of the faces, as OpenFOAM's Courant number does. This is correct for flat cells and for
 /// cells with divided faces, where the cube root of the volume is not.
@@ -89,7 +78,7 @@ DemTimeScales demTimeScales(DemEngine& engine, double couplingTimeStep, const Fl
         }
         if (fluid != nullptr)
         {
-            relaxation.add(relaxationTime(particles, particle, *fluid, coarseGraining));
+            relaxation.add(isolatedRelaxationTime(particles, particle, DemTimeScales::speed, *fluid, coarseGraining));
         }
     }
     if (fluid != nullptr)

@@ -38,9 +38,3 @@ def wall_torque(particles: np.ndarray, radius: float, diameter: float) -> float:
     position, force = touching[:, 1:3], touching[:, 8:10]
     contact = radius * position / np.linalg.norm(position, axis=1)[:, None]
     return float(np.sum(contact[:, 0] * force[:, 1] - contact[:, 1] * force[:, 0]))
-
-
-def standard_error(values: np.ndarray, parts: int = 5) -> float:
-    """Of a mean over time, from means over its parts."""
-    means = [part.mean() for part in np.array_split(values, parts)]
-    return float(np.std(means, ddof=1) / np.sqrt(parts))

@@ -156,7 +156,8 @@ def set_values(path: str, *wishes: str) -> None:
 def merge(path: str, other: str) -> None:
     """The entries of a case on top of those of its template: other values, then entries that the template lacks. Those
     that look like a misspelt entry of the template are refused."""
-    known = [name for name, _, _ in entries(read(path), path)]
+    template = read(path)
+    known = [name for name, _, _ in entries(template, path)]
     wanted = {name: value for name, value, _ in entries(read(other), other)}
     added = {name: value for name, value in wanted.items() if name not in known}
     for name in added:
@@ -164,13 +165,15 @@ def merge(path: str, other: str) -> None:
             raise ParameterError(
                 f"{other}: the template {path} has no entry '{name}'{meant(name, known)}; it has: {', '.join(known)}"
             )
-    change(path, {name: value for name, value in wanted.items() if name not in added})
-    if added:
-        whole_files.write(path, read(path) + "".join(f"\n{name} {value};" for name, value in added.items()) + "\n")
+    changed = with_parameters(template, {name: wanted[name] for name in wanted if name in known}, path)
+    write(path, changed + "".join(f"\n{name} {value};\n" for name, value in added.items()))
 
 
 def change(path: Path | str, values: Mapping[str, str]) -> None:
-    text = with_parameters(read(path), values, path)
+    write(path, with_parameters(read(path), values, path))
+
+
+def write(path: Path | str, text: str) -> None:
     try:
         whole_files.write(path, text)
     except OSError as problem:

@@ -56,6 +56,11 @@ def standard_error(values: np.ndarray) -> float:
     return float(values.std(ddof=1) / len(values) ** 0.5)
 
 
+def error_by_parts(values: np.ndarray, parts: int = 5) -> float:
+    """Standard error of a mean over time, from the means over parts of it that are taken as independent."""
+    return standard_error(np.array([part.mean() for part in np.array_split(values, parts)]))
+
+
 def rises(time: np.ndarray, values: np.ndarray, depth: float) -> Any:
     """Times at which the values pass zero upwards from below -depth, reaching depth before they are below it again."""
     found: list[float] = []

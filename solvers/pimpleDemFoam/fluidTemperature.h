@@ -17,10 +17,9 @@ namespace clepsydra
 ///
 ///     d(eps rho Cp T)/dt + div(eps rho Cp U T) - div(eps kappa_eff grad T) = heat that the particles give
 ///
-/// with kappa_eff = kappa + rho Cp nu_t/Prt of the eddy viscosity nu_t,
-/// and the heat that they exchange. eps is the void fraction whose change the continuity equation holds, so that heat is
-/// conserved and a uniform temperature remains uniform. It differs from that of the particles' present positions by
-/// what VoidFractionRate anticipates.
+/// with kappa_eff = kappa + rho Cp nu_t/Prt of the eddy viscosity nu_t, and the heat that they exchange. eps is the void
+/// fraction whose change the continuity equation holds, so that heat is conserved and a uniform temperature remains
+/// uniform. It differs from that of the particles' present positions by what VoidFractionRate anticipates.
 class FluidTemperature
 {
 public:

@@ -158,14 +158,15 @@ void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, std::vector<Un
 /// Contact models of one command that are not known to be right between parcels.
 void addContactsOfParcels(const ScriptCommand& command, double coarseGraining, std::vector<Unknown>& unknown)
 {
-    std::istringstream tokens(command.text);
-    for (std::string word, value; tokens >> word;)
+    const std::vector<std::string> words = tokensOf(command.text);
+    for (std::size_t i = 0; i + 1 < words.size(); ++i)
     {
-        const auto known = contactsOfParcels.find(word);
-        if (known != contactsOfParcels.end() && tokens >> value && known->second.count(value) == 0)
+        const std::string& value = words[i + 1];
+        const auto known = contactsOfParcels.find(words[i]);
+        if (known != contactsOfParcels.end() && known->second.count(value) == 0)
         {
             std::ostringstream what;
-            what << "'" << word << ' ' << value << "' is not known to be right between parcels (coarseGraining "
+            what << "'" << words[i] << ' ' << value << "' is not known to be right between parcels (coarseGraining "
                  << coarseGraining << "): its coefficients would have to be those of parcels";
             unknown.push_back({placeOf(command), what.str(), value});
         }
@@ -256,8 +257,6 @@ void requireConstantDemStep(const dictionary& demDict, const ScriptFacts& facts)
 std::string objectionToBox(
     const ScriptFacts& facts, const PeriodicBox& mesh, const std::string& patches, Eigen::Index axis)
 {
-    // Of the length: files of meshes have points with few digits.
-    constexpr double roundingOfPoints = 1e-6;
     const char name = "xyz"[axis];
     std::ostringstream text;
     const auto range = [&text](double low, double length) { text << "from " << low << " to " << low + length << " m"; };
@@ -277,7 +276,7 @@ std::string objectionToBox(
     else if (mesh.isPeriodic(axis)
              && std::max(std::abs(facts.periodic.low[axis] - mesh.low[axis]),
                     std::abs(facts.periodic.length[axis] - mesh.length[axis]))
-                    > roundingOfPoints * mesh.length[axis])
+                    > roundingOfMeshPoints * mesh.length[axis])
     {
         text << placeOf(facts, "create_box") << "the periodic DEM box is ";
         range(facts.periodic.low[axis], facts.periodic.length[axis]);
@@ -292,8 +291,7 @@ std::string objectionToBox(
 
 void requireSamePeriodicBox(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh)
 {
-    const PeriodicBox periodic = periodicBoxOf(mesh);
-    const std::array<std::string, 3> patches = cyclicPatchesAlongAxes(mesh);
+    const auto [periodic, patches] = periodicityOf(mesh);
     std::string objections;
     for (Eigen::Index axis = 0; axis < 3; ++axis)
     {

@@ -16,6 +16,23 @@ namespace clepsydra::tests
 
 using namespace Foam;
 
+namespace
+{
+
+/// A box of fluid, 1 m wide, in which only the gradients of pressure and stress act on particles.
+auto boxWithViscousForce(TemporaryCase& folder, int cells)
+{
+    folder.writeDictionary("constant/couplingProperties",
+        "fluid incompressible; modelType A; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
+        "forceModels (noDrag gradPForce viscForce noBuoyancy); momCoupleModels (explicitCouple); "
+        "DEM { engine liggghts; script none; }");
+    auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
+    readFromCase<fvSchemes>(*mesh);
+    return mesh;
+}
+
+} // namespace
+
 // U = (a x2, 0, 0) has div U = 2 a x, so div(tau) = mu (2 a + 2 a - 2/3 2 a) = 8/3 a mu along x, of which the Laplacian of
 // U is 2 a mu only. Second differences have both exactly, away from the walls. A force without the transpose is off by a
 // quarter; one that does not reach the particle is zero.
@@ -26,12 +43,7 @@ TEST(ViscousStress, OfAParticleIsThatOfTheEquationWhereDivergenceIsNotZero)
     constexpr double a = 3;
     constexpr int cells = 12;
     TemporaryCase folder;
-    folder.writeDictionary("constant/couplingProperties",
-        "fluid incompressible; modelType A; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
-        "forceModels (noDrag gradPForce viscForce noBuoyancy); momCoupleModels (explicitCouple); "
-        "DEM { engine liggghts; script none; }");
-    const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
-    readFromCase<fvSchemes>(*mesh);
+    const auto mesh = boxWithViscousForce(folder, cells);
     volVectorField U(IOobject("U", folder.time().timeName(), *mesh), *mesh,
         dimensionedVector("U", dimVelocity, vector::zero), "zeroGradient");
     forAll (U, cell)
@@ -135,12 +147,7 @@ TEST(ViscousStress, HasTheEddyViscosityInTheEquationAndOnAParticle)
     constexpr double c = 0.02;
     constexpr int cells = 12;
     TemporaryCase folder;
-    folder.writeDictionary("constant/couplingProperties",
-        "fluid incompressible; modelType A; couplingTimeStep 0.01; voidFractionModel divided; smoothingModel off; "
-        "forceModels (noDrag gradPForce viscForce noBuoyancy); momCoupleModels (explicitCouple); "
-        "DEM { engine liggghts; script none; }");
-    const auto mesh = boxMesh(folder.time(), point::zero, point::one, {cells, cells, cells});
-    readFromCase<fvSchemes>(*mesh);
+    const auto mesh = boxWithViscousForce(folder, cells);
     volVectorField U(IOobject("U", folder.time().timeName(), *mesh), *mesh,
         dimensionedVector("U", dimVelocity, vector::zero), "fixedValue");
     volScalarField nut(IOobject("nut", folder.time().timeName(), *mesh), *mesh,

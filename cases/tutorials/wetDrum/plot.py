@@ -7,7 +7,8 @@ import matplotlib
 import numpy as np
 
 from clepsydra import parameter_file
-from clepsydra.drum import Drum, standard_error
+from clepsydra.drum import Drum
+from clepsydra.periods import error_by_parts
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -19,12 +20,12 @@ def main() -> None:
     drum = Drum(CASE)
     radius = 0.5 * parameter_file.parameters(CASE / "parameters")["drumDiameter"]
     torques, weights, angles = drum.torques[drum.steady], drum.weights[drum.steady], drum.angles[drum.steady]
-    error = standard_error(torques - weights)
+    error = error_by_parts(torques - weights)
     print(
         f"{drum.count} particles: torque of the drum {1e6 * torques.mean():.1f} ± {1e6 * error:.1f} uN m, "
         f"of the weight less buoyancy {1e6 * weights.mean():.1f} uN m"
     )
-    print(f"slope of the bed {angles.mean():.1f} ± {standard_error(angles):.1f} degrees")
+    print(f"slope of the bed {angles.mean():.1f} ± {error_by_parts(angles):.1f} degrees")
 
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 4), width_ratios=(3, 2))
     left.plot(drum.times, 1e6 * drum.torques, linewidth=0.5, label="torque of the drum on the particles")

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from clepsydra import closures, picture_style, validation
+from clepsydra import closures, periods, picture_style, validation
 from clepsydra.column import Column
 from clepsydra.picture_style import pyplot
 
@@ -120,8 +120,7 @@ class FreeBed:
 
 def mean_and_error(values: np.ndarray) -> tuple[float, float]:
     """Of a series whose values a tenth of its length apart are taken as independent."""
-    parts = [part.mean() for part in np.array_split(values, 10)]
-    return float(values.mean()), float(np.std(parts, ddof=1) / np.sqrt(len(parts)))
+    return float(values.mean()), periods.error_by_parts(values, 10)
 
 
 def free_rows(fine: FreeBed, coarse: FreeBed) -> list[dict[str, Any]]:

@@ -5,7 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from clepsydra import validation
-from clepsydra.drum import Drum, standard_error
+from clepsydra.drum import Drum
+from clepsydra.periods import error_by_parts
 
 BALANCE = "torque of the particles' weight less buoyancy"
 BALANCE_DRY = "torque of the particles' weight"
@@ -16,7 +17,7 @@ TOLERANCE = 4
 def balance(drum: Drum, name: str, source: str) -> dict[str, Any]:
     torques, weights = drum.torques[drum.steady], drum.weights[drum.steady]
     angles = drum.angles[drum.steady]
-    print(f"{name}: bed at {angles.mean():.2f} +- {standard_error(angles):.2f} degrees, {drum.count} particles")
+    print(f"{name}: bed at {angles.mean():.2f} +- {error_by_parts(angles):.2f} degrees, {drum.count} particles")
     return validation.row(
         f"torque of the drum, {name}",
         "N m",
@@ -24,7 +25,7 @@ def balance(drum: Drum, name: str, source: str) -> dict[str, Any]:
         source,
         "computed",
         float(torques.mean()),
-        standard_error(torques - weights),
+        error_by_parts(torques - weights),
         TOLERANCE,
     )
 

@@ -62,9 +62,9 @@ struct ScriptFacts
 /// Names that LIGGGHTS' own heat conduction uses.
 constexpr const char* temperatureName = "Temp";
 constexpr const char* specificHeatName = "thermalCapacity";
+
 /// The periodic directions of LIGGGHTS' box. Local.
 PeriodicBox periodicBoxOf(const LiggghtsProgram& program);
-
 
 /// \param commands  the script's that have been executed, each with the values of its variables
 /// Collective.
