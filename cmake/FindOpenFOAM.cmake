@@ -13,10 +13,6 @@
 #   OpenFOAM::surfaces        libfileFormats, libsurfMesh
 #   OpenFOAM::finiteVolume    libfiniteVolume, libmeshTools, and all above: enough for fvCFD.H
 #   OpenFOAM::incompressible  transport and turbulence models
-#   OpenFOAM::sampling        libsampling: sampled sets and surfaces
-#   OpenFOAM::dynamicMesh     libdynamicMesh, libdynamicFvMesh
-#   OpenFOAM::lagrangian      liblagrangian (basic particles)
-#   OpenFOAM::fvOptions       libfvOptions
 #   OpenFOAM::decomposition   libdecompositionMethods
 
 include(FindPackageHandleStandardArgs)
@@ -164,11 +160,6 @@ if(OpenFOAM_FOUND)
     )
     # Its headers include each other as <incompressible/...>, seen from src/transportModels.
     target_include_directories(OpenFOAM::incompressible SYSTEM INTERFACE "${OpenFOAM_ROOT}/src/transportModels")
-    _openfoam_target(sampling DEPENDS finiteVolume LIBRARIES sampling FOLDERS sampling)
-    _openfoam_target(dynamicMesh DEPENDS finiteVolume
-        LIBRARIES dynamicMesh dynamicFvMesh FOLDERS dynamicMesh dynamicFvMesh)
-    _openfoam_target(lagrangian DEPENDS finiteVolume LIBRARIES lagrangian FOLDERS lagrangian/basic)
-    _openfoam_target(fvOptions DEPENDS incompressible LIBRARIES fvOptions FOLDERS fvOptions)
     _openfoam_target(decomposition DEPENDS finiteVolume
         LIBRARIES decompositionMethods FOLDERS parallel/decompose/decompositionMethods)
 endif()

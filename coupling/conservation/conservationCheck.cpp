@@ -142,7 +142,7 @@ void ConservationCheck::recordMomentum(
     {
         FatalErrorInFunction << "In the last coupling step the particles received " << received.sum
                              << " N s from the fluid, and the fluid lost " << fluidLost
-                             << " N s. What it has given semi-implicitly changed from " << semiImplicit_.sum << " to "
+                             << " N s. The deferred correction of the drag changed from " << semiImplicit_.sum << " to "
                              << semiImplicit.sum << " N s: the relative error is " << momentumError_
                              << "; allowed: at most momentumTolerance, which is " << momentumTolerance_
                              << exit(FatalError);
@@ -185,8 +185,8 @@ void ConservationCheck::recordHeat(const HeatOfStep& heat)
     {
         FatalErrorInFunction << "In the last coupling step the particles received " << heat.received
                              << " J from the fluid, and the fluid lost " << heat.fluidLost
-                             << " J. What it has given semi-implicitly changed from " << heat.pendingBefore << " to "
-                             << heat.pending << " J: the relative error is " << heat_->exchangeError
+                             << " J. The deferred correction of the heat exchange changed from " << heat.pendingBefore
+                             << " to " << heat.pending << " J: the relative error is " << heat_->exchangeError
                              << "; allowed: at most heatTolerance, which is " << heatTolerance_ << exit(FatalError);
     }
     const double created =
@@ -244,7 +244,7 @@ void ConservationCheck::recordFilteredVolume(double volume)
     if (!isWithin(filteredVolume_, filteredVolumeTolerance_))
     {
         FatalErrorInFunction
-            << "The low-pass filter holds the motion of " << volume << " m3 of particles back from the "
+            << "The low-pass filter has not yet passed the motion of " << volume << " m3 of particles to the "
             << "fluid's continuity equation, which is " << filteredVolume_
             << " of the particles' largest volume so far; allowed: at most filteredVolumeTolerance, which is "
             << filteredVolumeTolerance_ << ". Decrease smoothingTime in useDDTvoidfractionProps" << exit(FatalError);
@@ -272,7 +272,8 @@ void ConservationCheck::report() const
          << " N s, of which semi-implicit " << semiImplicit_.sum << " N s (error " << momentumError_
          << "), pressure force error " << pressureForceError_ << ", continuity error local " << localContinuityError_
          << ", global " << globalContinuityError_ << ", cumulative " << cumulativeContinuityError_
-         << ", volume held back by the filter " << filteredVolume_ << ", imbalance of a closed tank " << imbalance_;
+         << ", volume whose motion the filter has not passed " << filteredVolume_ << ", imbalance of a closed tank "
+         << imbalance_;
     if (heat_)
     {
         Info << ", heat to particles " << heat_->toParticles << " J (error " << heat_->exchangeError

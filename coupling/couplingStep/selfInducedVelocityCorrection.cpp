@@ -41,8 +41,8 @@ bool readSelfInducedVelocityCorrection(const CouplingSettings& settings)
     }
     if (!settings.implicitCoupling())
     {
-        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen; allowed: with momCoupleModels "
-                                     << "(implicitCouple), whose coefficient measures how dense the neighbours are"
+        FatalIOErrorInFunction(dict) << "Entry '" << entry << "' is Oseen, which needs the drag coefficients of "
+                                     << "the neighbours; allowed: momCoupleModels (implicitCouple), which provides them"
                                      << exit(FatalIOError);
     }
     if (settings.coarseGraining() != 1)

@@ -70,9 +70,9 @@ void checkOptions(fv::options& options, const word& velocity)
         if (option.applyToField(velocity) < 0)
         {
             FatalIOErrorInFunction(dict) << "Option '" << option.name() << "' of type " << type
-                                         << " does not act on the field " << velocity << "; allowed: options of "
-                                         << velocity << ", because only the momentum equation has them"
-                                         << exit(FatalIOError);
+                                         << " does not act on the field " << velocity
+                                         << ", and options are added to the momentum equation only; allowed: options "
+                                         << "that act on " << velocity << exit(FatalIOError);
         }
         if (const std::string objection = objectionTo(type); !objection.empty())
         {

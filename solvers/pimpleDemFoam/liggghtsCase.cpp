@@ -44,9 +44,9 @@ void requireHeatStatedOnce(const dictionary& energy, const ScriptFacts& script)
         if (energy.found(entry) == inScript)
         {
             FatalIOErrorInFunction(energy)
-                << (inScript ? "Entry '" : "There is no entry '") << entry << "' in the dictionary 'energy' and "
-                << (inScript ? "a '" : "no '") << command << "' in the DEM script; allowed: one of both"
-                << exit(FatalIOError);
+                << "'" << entry << "' is given " << (inScript ? "both by the entry" : "neither by an entry")
+                << " in the dictionary 'energy' " << (inScript ? "and" : "nor") << " by '" << command
+                << "' in the DEM script; allowed: exactly one of the two" << exit(FatalIOError);
         }
     };
     requireOnce("particleTemperature", script.hasTemperature, "fix heat/gran' or 'fix property/atom Temp scalar");

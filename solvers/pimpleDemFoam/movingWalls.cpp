@@ -114,7 +114,9 @@ std::string differenceOf(const fvPatchVectorField& onPatch, const RigidMotion& m
     else if (found.across > normalTolerance * found.speed)
     {
         text << "the wall would move through it at " << found.across << " m/s of " << found.speed
-             << " m/s, because it is no surface of revolution about the axis, or not along the motion";
+             << " m/s, because the velocity has a component normal to it; possible are a surface of revolution about "
+                "the "
+                "axis and a surface along the velocity";
     }
     else
     {
@@ -162,8 +164,9 @@ std::string objectionTo(const WallMotion& wall, const volVectorField& U)
         }
         list += (list.empty() ? "" : "; ") + std::string("patch '") + onPatch.patch().name() + "': " + difference;
     }
-    return "the wall moves in the DEM only, " + textOf(wall.motion) + ", and no wall of the fluid moves alike ("
-           + (list.empty() ? "no patch of type wall prescribes a velocity" : list) + ')';
+    return "the wall moves in the DEM only, " + textOf(wall.motion) + ", and no wall of the fluid has this velocity ("
+           + (list.empty() ? "no patch of type wall prescribes a velocity" : list)
+           + "; fixedValue or rotatingWallVelocity in 0/U gives it one)";
 }
 
 } // namespace
@@ -202,10 +205,10 @@ void warnOfPatchesWithoutWall(const fvMesh& mesh, const std::vector<WallMotion>&
         }
         if (!found)
         {
-            WarningInFunction << "Patch '" << onPatch.patch().name()
-                              << "' moves, and no wall of the DEM script moves alike, "
-                              << "so that particles slide along a wall at rest; allowed for the same velocity: "
-                              << "'surface_vel', 'surface_ang_vel', 'shear' or fix 'move/mesh'" << endl;
+            WarningInFunction
+                << "Patch '" << onPatch.patch().name() << "' moves, and no wall of the DEM script has its velocity, "
+                << "so that particles slide along a wall at rest; a wall of the script gets a velocity by "
+                << "'surface_vel', 'surface_ang_vel', 'shear' or fix 'move/mesh'" << endl;
         }
     }
 }

@@ -344,7 +344,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     }
     FatalIOErrorInFunction(demDict)
         << "The DEM script " << demDict.get<fileName>("script").c_str()
-        << " holds what is not known to work with a fluid:\n"
+        << " contains commands that are not known to work with a fluid:\n"
         << text.c_str() << "allowed: a script without it; or, where you know that the results are right, the entry\n"
         << "    allowedInScript ( " << list.c_str() << ");\nin the dictionary DEM" << exit(FatalIOError);
 }

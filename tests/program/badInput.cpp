@@ -352,7 +352,7 @@ TEST(BadInput, FluidSources)
     };
     const std::string specific = " selectionMode all; volumeMode specific; injectionRateSuSp { ";
     expectRefused(with("heat { type scalarSemiImplicitSource;" + specific + "T (1 0); } }"),
-        {"constant/fvOptions", "'heat'", "scalarSemiImplicitSource", "allowed: options of U"}, SeenBy::engine);
+        {"constant/fvOptions", "'heat'", "scalarSemiImplicitSource", "allowed: options that act on U"}, SeenBy::engine);
     expectRefused(with("lift { type buoyancyForce; fields (U); }"), {"constant/fvOptions", "'lift'", "buoyancyForce"},
         SeenBy::engine);
     expectRefused(with("push { type vectorSource; }"), {"vectorSource", "vectorSemiImplicitSource"}, SeenBy::engine);
@@ -428,10 +428,11 @@ TEST(BadInput, Temperatures)
 
     // Beside the DEM script
     expectWithEnergyRefused([](TestCase& test) { test.coupling().remove("energy/particleCp"); },
-        {couplingProperties, "no entry 'particleCp'", "thermalCapacity"}, SeenBy::engine);
+        {couplingProperties, "'particleCp' is given neither", "thermalCapacity"}, SeenBy::engine);
     expectWithEnergyRefused(
         [](TestCase& test) { test.dem.more = "fix Temp all property/atom Temp scalar yes yes no 300"; },
-        {couplingProperties, "Entry 'particleTemperature'", "Temp scalar", "allowed: one of both"}, SeenBy::engine);
+        {couplingProperties, "'particleTemperature' is given", "Temp scalar", "allowed: exactly one of the two"},
+        SeenBy::engine);
     expectWithEnergyRefused(
         [](TestCase& test) {
             test.coupling().remove("energy/particleTemperature");

@@ -198,7 +198,7 @@ TEST(DemScripts, AWallMayMoveWithItsPatch)
     expectRefused(across, {"patch 'walls': the wall would move through it"});
     TestCase alone;
     slidingSides(alone, "", "uniform (0 0 0.01)");
-    expectRuns(alone, {"Patch 'walls' moves, and no wall of the DEM script moves alike"});
+    expectRuns(alone, {"Patch 'walls' moves, and no wall of the DEM script has its velocity"});
 }
 
 /// A drum about an oblique place of the origin, 4 cm wide: one that turns as its patch does is allowed, by `shear` and by a mesh
@@ -254,7 +254,7 @@ TEST(DemScripts, ADrumMayTurnWithItsPatch)
         {"fix turn has the style 'move/mesh'", "about (origin (0.01 0.01 0)) with the angular velocity (0 0 2.09"});
     expectRefusedWith(outcomeOf(shear + "2.", "(0.011 0.01 0)", 2), {"patch 'walls': velocity differs by 0.00"});
     expectRefusedWith(outcomeOf(shear + "2.", origin, 2, false),
-        {"patch 'walls': the wall would move through it", "no surface of revolution"});
+        {"patch 'walls': the wall would move through it", "a component normal to it"});
 }
 
 /// Spheres that are joined overlap, and buoyancy and solid volume were 18.5 % too large for two of them.

@@ -13,6 +13,7 @@ from clepsydra.picture_style import pyplot
 SINGLE_PARTICLE = "BrownLawlerDrag"
 ZONE = (0.25, 0.5)  # of the height: what neither the sediment nor the clear water reaches
 SETTLING = (0.11, 0.33)  # [s]: after the start, before the large particles have left the zone
+STEADY = 0.5  # of the run: after the layers have formed
 SLIPS = np.geomspace(1e-3, 1, 400)
 
 
@@ -202,23 +203,127 @@ COLLISIONS = (
 )
 
 
-def plot(settled: list[Settling]) -> None:
-    figure, axes = pyplot.subplots(figsize=(6, 4.5))
+# --- fluidised -----------------------------------------------------------------------------------
+
+
+class Fluidised:
+    def __init__(self, mixture: Mixture) -> None:
+        self.mixture = mixture
+        column = mixture.column
+        self.time, position, _ = column.particles()
+        self.heights = [of_size[:, :, 2] for of_size in mixture.sizes(position)]
+        late = self.time > STEADY * column["endTime"]
+        self.means = np.array([heights[late].mean() for heights in self.heights])
+        parts = [[part.mean() for part in np.array_split(heights[late].mean(axis=1), 5)] for heights in self.heights]
+        self.errors = np.std(parts, axis=1, ddof=1) / np.sqrt(5)
+        time, velocity = column.top_velocity()
+        self.velocity = velocity[time > STEADY * column["endTime"]].mean()
+
+    def stacked(self, void_fractions: np.ndarray) -> np.ndarray:
+        """Mean heights of two layers, the large particles below: Epstein's serial model."""
+        mixture = self.mixture
+        layers = mixture.count * mixture.volume / mixture.column.area / (1 - void_fractions)
+        return np.array([layers[0] / 2, layers[0] + layers[1] / 2])
+
+    def by_law(self) -> np.ndarray:
+        grid = np.linspace(0.36, 0.98, 125)
+        found = []
+        for size in (0, 1):
+            options = self.mixture.of_one_size(size, self.mixture.column["dragLaw"])
+            speeds = closures.values("hinderedSettlingVelocity", voidFraction=grid, **options)
+            found.append(np.interp(self.velocity, speeds, grid))
+        return np.array(found)
+
+    def by_measurements(self) -> np.ndarray:
+        return np.array(
+            [(self.velocity / self.mixture.terminal(size)) ** (1 / self.mixture.exponent(size)) for size in (0, 1)]
+        )
+
+    def rows(self) -> list[dict[str, Any]]:
+        law = self.mixture.law
+        own, measured = self.by_law(), self.by_measurements()
+        print(
+            f"fluidised, {law}: U {self.velocity:.4f} m/s; mean heights large and small"
+            f" {(1000 * self.means).round(2)} +- {(1000 * self.errors).round(2)} mm; void fractions of the layers by"
+            f" the law {own.round(3)}, by Richardson & Zaki {measured.round(3)}"
+        )
+        rows = []
+        for size, name in enumerate(("large", "small")):
+            ours, error = 1000 * self.means[size], 1000 * self.errors[size]
+            for void_fractions, source, kind, mark, tolerance in (
+                (own, f"{self.mixture.column['dragLaw']}, layers one above the other", "computed", "", 5),
+                (
+                    measured,
+                    f"Richardson & Zaki 1954 for each layer, formula, v_t by {SINGLE_PARTICLE}",
+                    "measured",
+                    " ",
+                    10,
+                ),
+            ):
+                rows.append(
+                    validation.row(
+                        f"mean height of the {name}, {law}{mark}",
+                        "mm",
+                        1000 * self.stacked(void_fractions)[size],
+                        source,
+                        kind,
+                        ours,
+                        error,
+                        tolerance,
+                        MIXED,
+                    )
+                )
+        apart = self.stacked(own)
+        rows.append(
+            validation.row(
+                f"segregation, {law}",
+                "1",
+                1,
+                "distance of the mean heights over that of two pure layers",
+                "computed",
+                (self.means[1] - self.means[0]) / (apart[1] - apart[0]),
+                np.hypot(*self.errors) / (apart[1] - apart[0]),
+                5,
+                MIXED,
+            )
+        )
+        return rows
+
+
+MIXED = (
+    "the layers are not pure and not uniform: waves of the lower layer carry particles across the interface, and the"
+    " smoothed void fraction changes over a bandwidth of 6 mm there"
+)
+
+
+def plot(settled: list[Settling], beds: list[Fluidised]) -> None:
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11, 4.5))
     for index, one in enumerate(settled):
-        axes.errorbar(one.by_laws(), one.velocity, one.error, fmt=f"C{index}o", label=one.mixture.law)
-        axes.plot(one.by_laws(), one.by_measurements(), f"C{index}x")
-    limits = [0, axes.get_xlim()[1]]
-    axes.plot(limits, limits, "k-", linewidth=0.5)
-    axes.set_xlabel("settling velocity by the laws in a uniform suspension [m/s]")
-    axes.set_ylabel("here (o), by Lockett & Al-Habbooby (x) [m/s]")
-    axes.legend(title="polydispersity")
+        left.errorbar(one.by_laws(), one.velocity, one.error, fmt=f"C{index}o", label=one.mixture.law)
+        left.plot(one.by_laws(), one.by_measurements(), f"C{index}x")
+    limits = [0, left.get_xlim()[1]]
+    left.plot(limits, limits, "k-", linewidth=0.5)
+    left.set_xlabel("settling velocity by the laws in a uniform suspension [m/s]")
+    left.set_ylabel("here (o), by Lockett & Al-Habbooby (x) [m/s]")
+    left.legend(title="polydispersity")
+    for index, bed in enumerate(beds):
+        for heights, style in zip(bed.heights, ("-", "--")):
+            right.plot(bed.time, 1000 * heights.mean(axis=1), f"C{index}{style}", label=bed.mixture.law)
+        for height in bed.stacked(bed.by_measurements()):
+            right.axhline(1000 * height, color="k", linestyle=":", linewidth=0.8)
+    right.set_xlabel("t [s]")
+    right.set_ylabel("mean height [mm]: large (-), small (--)")
+    right.set_title("dotted: pure layers by Richardson & Zaki", fontsize=9)
+    right.legend(fontsize=7)
     figure.tight_layout()
     figure.savefig("results/bidisperseBed.png", dpi=120)
 
 
 runs = {run.name: Mixture(run) for run in sorted(Path("runs").iterdir())}
 settled = [Settling(mixture) for name, mixture in runs.items() if name.startswith("settling")]
+beds = [Fluidised(mixture) for name, mixture in runs.items() if name.startswith("fluidised")]
 rows = [row for name, mixture in runs.items() if name.startswith("fixed") for row in fixed_rows(mixture)]
-validation.write(rows + [row for one in settled for row in one.rows()])
+rows += [row for one in settled for row in one.rows()] + [row for bed in beds for row in bed.rows()]
+validation.write(rows)
 if settled:
-    plot(settled)
+    plot(settled, beds)

@@ -59,7 +59,7 @@ void GroupChanger::apply(double elapsed)
             throw DemEngineError("Entry 'DEM/groupChanges/" + change_.name + "': particle "
                                  + std::to_string(atom.tag[particle]) + " is in " + (before ? "both" : "neither")
                                  + " of the groups '" + change_.from + "' and '" + change_.to
-                                 + "'; allowed: every particle in one of them");
+                                 + "'; allowed: each particle in exactly one of the two");
         }
         if (after || atom.x[particle][2] >= change_.below)
         {

@@ -165,12 +165,13 @@ void LiggghtsEngine::runSteps(int steps)
         // ParticleCensus names the missing ones.
         if (before > 0 && program->atom->nlocal == 0)
         {
-            throw DemEngineError("No particle is left of the " + std::to_string(before)
-                                 + " that were on a rank: " + lastParticleText(*program)
-                                 + ". The cause is a missing wall where it moves as a free particle does, and an "
-                                   "unstable force where it is much faster; allowed: a wall in the DEM script "
-                                   "wherever the fluid has one, and a DEM step and a coupling step that are short "
-                                   "enough");
+            throw DemEngineError(
+                "No particle is left of the " + std::to_string(before)
+                + " that were on a rank: " + lastParticleText(*program)
+                + ". If its speed is that of free fall, a wall is missing; if it is much larger, a time "
+                  "step is too long; allowed: a wall in the DEM script "
+                  "wherever the fluid has one, and a DEM step and a coupling step that are short "
+                  "enough");
         }
         throw;
     }

@@ -145,12 +145,14 @@ std::vector<ScriptCommand> readFile(
         if (name == "clear" || name == "partition" || name == "quit" || name == "write_restart_on_signal")
         {
             throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
-                                 + "', because the coupling holds LIGGGHTS' only program and ends it itself");
+                                 + "', because pimpleDemFoam starts and ends LIGGGHTS itself");
         }
         if (name == "run" || name == "run_time" || name == "rerun" || name == "minimize")
         {
-            throw DemEngineError(where + ": '" + text + "'; allowed: a script without '" + name
-                                 + "', because the coupling runs LIGGGHTS in every coupling step");
+            throw DemEngineError(
+                where + ": '" + text + "'; allowed: a script without '" + name
+                + "', because the coupling runs LIGGGHTS in every coupling step; particles can be filled in "
+                  "by a case of its own with 'fluid none;'");
         }
         if (name == "if")
         {

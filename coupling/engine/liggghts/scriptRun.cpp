@@ -118,8 +118,9 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
         {
             // After LIGGGHTS, which has its own message for a command that does not exist.
             throw DemEngineError(command.where + ": '" + command.text
-                                 + "'; allowed: commands of which this program knows whether a resumed run must "
-                                   "repeat them");
+                                 + "' is not supported, because it is not known whether a resumed run must repeat "
+                                   "it; allowed: the commands in docs/howTo/stopAndResume.md and those that set up the "
+                                   "contact law, walls, fixes and output");
         }
     }
     requireSpheres(program);
