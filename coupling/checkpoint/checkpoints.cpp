@@ -727,7 +727,7 @@ void Checkpoints::flushFolders(const fs::path& timeFolder) const
     }
     if (Pstream::master())
     {
-        flushTree(caseDirectory / folderName / time_.timeName());
+        flushTree(caseDirectory / folderName / time_.timeName().c_str());
         flushToDisk(caseDirectory / folderName);
         flushToDisk(caseDirectory);
     }

@@ -156,11 +156,15 @@ void ParticleForces::requireAllTerms(const Foam::dictionary& couplingProperties)
     {
         terms.insert(terms.end(), {ForceFamily::pressureGradient, ForceFamily::viscousStress});
     }
+    std::vector<ForceFamily> chosen;
+    for (const ForceModel& model : models_)
+    {
+        chosen.push_back(model.family());
+    }
     std::ostringstream faults;
     for (const ForceFamily term : terms)
     {
-        if (std::none_of(
-                models_.begin(), models_.end(), [term](const ForceModel& model) { return model.family() == term; }))
+        if (std::count(chosen.begin(), chosen.end(), term) == 0)
         {
             const ForceFamilyText& text = textOf(term);
             faults << "Entry 'forceModels' has no model of the " << text.name << ", " << text.term
