@@ -227,11 +227,10 @@ void MassInHopper::stopIfFlowStopped()
 
 label MassInHopper::lastCount(const Time& time)
 {
-    const dictionary results = functionObjectState(time).subOrEmptyDict("results");
-    for (const entry& object : results)
+    for (const entry& object : functionObjectState(time))
     {
         label count = -1;
-        if (object.isDict() && object.dict().subOrEmptyDict(pTraits<label>::typeName).readIfPresent(countEntry, count))
+        if (object.isDict() && object.dict().readIfPresent(countEntry, count))
         {
             return count;
         }
