@@ -216,7 +216,9 @@ class Fluidised:
         late = self.time > STEADY * column["endTime"]
         self.means = np.array([heights[late].mean() for heights in self.heights])
         self.errors = np.array([error_by_parts(heights[late].mean(axis=1)) for heights in self.heights])
-        self.purities = np.array([self.share_below(large, small) for large, small in zip(*(h[late] for h in self.heights))])
+        self.purities = np.array(
+            [self.share_below(large, small) for large, small in zip(*(h[late] for h in self.heights))]
+        )
         time, velocity = column.top_velocity()
         self.velocity = velocity[time > STEADY * column["endTime"]].mean()
 
