@@ -607,9 +607,8 @@ void Checkpoints::warnOfChanges(const Manifest& manifest) const
     const std::vector<std::string> changes = inputs_.changesOfFiles(manifest);
     if (!changes.empty())
     {
-        Info << "WARNING: inputs have changed since the checkpoint was written, so that the resumed run differs from "
-                "one "
-                "that never stopped:";
+        Info << "WARNING: inputs have changed since the checkpoint was written, so that the resumed run differs "
+                "from one that never stopped:";
         for (const std::string& change : changes)
         {
             Info << "\n    " << change.c_str();

@@ -787,7 +787,7 @@ TEST(BadInput, ParticlesAndFluidAtOdds)
         {"constant/g is (0 0 -9.81)", "fix gravity of the DEM script gives (0 0 -1.62)", "allowed: the same"},
         SeenBy::engine);
     expectRefused([](TestCase& test) { test.control().set("functions/massInHopper/patch", "hopper"); },
-        {controlDict, "'patch' is 'hopper'", "(walls)"}, SeenBy::engine);
+        {controlDict, "'patch' is 'hopper'", "not a patch of the mesh; allowed: ", "(walls)"}, SeenBy::engine);
 }
 
 /// LIGGGHTS' own errors, which it would print to its log and end the process with, reach the user with script and line.

@@ -68,6 +68,22 @@ class Mixture:
         return values[:, :large], values[:, large:]
 
 
+Reference = tuple[float, str, float, str]  # value, source, tolerance in percent, why it may be missed
+
+
+def beside_both(
+    title: str, unit: str, ours: tuple[float, float], by_law: Reference, by_measurements: Reference
+) -> list[dict[str, Any]]:
+    """Rows of one quantity, with its error, beside the drag law and beside a formula that was fitted to measurements."""
+    return [
+        validation.row(name, unit, reference, source, kind, *ours, tolerance, finding)
+        for name, kind, (reference, source, tolerance, finding) in (
+            (title, "computed", by_law),
+            (title + " ", "measured", by_measurements),
+        )
+    ]
+
+
 # --- fixed ---------------------------------------------------------------------------------------
 
 
@@ -168,32 +184,18 @@ class Settling:
         rows = []
         for size, name in enumerate(("large", "small")):
             ours, error = self.velocity[size], self.error[size]
-            rows.append(
-                validation.row(
-                    f"v of the {name}, settling, {law}",
-                    "m/s",
-                    laws[size],
-                    "the laws in a uniform suspension",
-                    "computed",
-                    ours,
-                    error,
-                    3,
-                    COLLISIONS,
-                )
-            )
-            rows.append(
-                validation.row(
-                    f"v of the {name}, settling, {law} ",
-                    "m/s",
+            rows += beside_both(
+                f"v of the {name}, settling, {law}",
+                "m/s",
+                (ours, error),
+                (laws[size], "the laws in a uniform suspension", 3, COLLISIONS),
+                (
                     measured[size],
                     f"Lockett & Al-Habbooby 1973, formula, v_t by {SINGLE_PARTICLE}",
-                    "measured",
-                    ours,
-                    error,
                     10,
                     f"the laws in a uniform suspension have {100 * (laws[size] / measured[size] - 1):+.1f} %; the"
                     " formula takes no account of the other size but for its volume",
-                )
+                ),
             )
         return rows
 
@@ -259,29 +261,23 @@ class Fluidised:
         rows = []
         for size, name in enumerate(("large", "small")):
             ours, error = 1000 * self.means[size], 1000 * self.errors[size]
-            for void_fractions, source, kind, mark, tolerance in (
-                (own, f"{self.mixture.column['dragLaw']}, layers one above the other", "computed", "", 5),
+            rows += beside_both(
+                f"mean height of the {name}, {law}",
+                "mm",
+                (ours, error),
                 (
-                    measured,
-                    f"Richardson & Zaki 1954 for each layer, formula, v_t by {SINGLE_PARTICLE}",
-                    "measured",
-                    " ",
-                    10,
+                    1000 * self.stacked(own)[size],
+                    f"{self.mixture.column['dragLaw']}, layers one above the other",
+                    5,
+                    DENSER,
                 ),
-            ):
-                rows.append(
-                    validation.row(
-                        f"mean height of the {name}, {law}{mark}",
-                        "mm",
-                        1000 * self.stacked(void_fractions)[size],
-                        source,
-                        kind,
-                        ours,
-                        error,
-                        tolerance,
-                        DENSER,
-                    )
-                )
+                (
+                    1000 * self.stacked(measured)[size],
+                    f"Richardson & Zaki 1954 for each layer, formula, v_t by {SINGLE_PARTICLE}",
+                    10,
+                    DENSER,
+                ),
+            )
         rows.append(
             validation.row(
                 f"share of the large in the lower half of the solids, {law}",
