@@ -74,7 +74,7 @@ Reference = tuple[float, str, float, str]  # value, source, tolerance in percent
 def beside_both(
     title: str, unit: str, ours: tuple[float, float], by_law: Reference, by_measurements: Reference
 ) -> list[dict[str, Any]]:
-    """Rows of one quantity, with its error, beside the drag law and beside a formula that was fitted to measurements."""
+    """Rows of one quantity, with its error, beside the drag law and beside a formula fitted to measurements."""
     return [
         validation.row(name, unit, reference, source, kind, *ours, tolerance, finding)
         for name, kind, (reference, source, tolerance, finding) in (
