@@ -1,0 +1,375 @@
+/// \file
+/// Whole runs in which the mesh of the fluid moves: the same physics seen by an observer who moves, a piston, a drum that
+/// turns with its mesh, and what is refused.
+
+#include "support/testCase.h"
+#include "tokens/exactText.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <functional>
+#include <iostream>
+#include <iterator>
+#include <limits>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+#include <vector>
+
+namespace clepsydra::tests
+{
+
+namespace
+{
+
+using Eigen::Vector3d;
+
+void solveTightly(TestCase& test)
+{
+    const std::string pressureSolver = "{ solver PCG; preconditioner DIC; tolerance 1e-14; relTol 0; maxIter 400; }";
+    test.solution()
+        .set("solvers/p", pressureSolver)
+        .set("solvers/pFinal", pressureSolver)
+        .set("solvers/\"U|UFinal\"", "{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; }");
+}
+
+/// The whole mesh moves at a constant velocity.
+void moveWholeMesh(TestCase& test, const Vector3d& velocity)
+{
+    test.extraFiles["constant/dynamicMeshDict"] = FoamFile()
+                                                      .set("dynamicFvMesh", "dynamicMotionSolverFvMesh")
+                                                      .set("motionSolver", "solidBody")
+                                                      .set("solidBodyMotionFunction", "linearMotion")
+                                                      .set("linearMotionCoeffs/velocity", vectorText(velocity))
+                                                      .text("dynamicMeshDict");
+    const std::string uniform = "uniform " + vectorText(velocity);
+    test.file("0/U")
+        .set("internalField", uniform)
+        .set("boundaryField/walls/type", "movingWallVelocity")
+        .set("boundaryField/walls/value", uniform);
+}
+
+/// Twelve particles that begin to settle in the middle of a closed box of water.
+void settlingSwarm(TestCase& test)
+{
+    test.cells = {6, 6, 12};
+    test.dem.particles = simpleLattice(Box{{0.006, 0.006, 0.018}, {0.014, 0.014, 0.030}}, {2, 2, 3});
+    jitter(test.dem.particles, 3e-4, 7);
+    test.dem.walls = false;
+    test.dem.dumpEvery = 40;
+    test.coupling()
+        .set("constDiffSmoothingProps/bandwidth", "4e-3")
+        .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce SaffmanLiftForce)");
+    solveTightly(test);
+    test.setTimes(0.03, 1e-3, 0.03);
+}
+
+/// A plane triangulated mesh perpendicular to z, somewhat larger than a square from the origin.
+std::string plateStl(double width, double height)
+{
+    const double low = -0.1 * width;
+    const double high = 1.1 * width;
+    std::ostringstream os;
+    os.precision(17);
+    os << "solid plate\n";
+    for (const bool second : {false, true})
+    {
+        os << "facet normal 0 0 1\nouter loop\n"
+           << "vertex " << low << ' ' << low << ' ' << height << '\n'
+           << "vertex " << high << ' ' << (second ? high : low) << ' ' << height << '\n'
+           << "vertex " << (second ? low : high) << ' ' << high << ' ' << height << '\n'
+           << "endloop\nendfacet\n";
+    }
+    os << "endsolid plate\n";
+    return os.str();
+}
+
+constexpr double pistonSpeed = 0.05;
+constexpr int facesOfPiston = 25;
+
+/// A piston comes down on water in which particles settle on a floor that lets the water through. The mesh between them is
+/// compressed.
+void pistonOverBed(TestCase& test)
+{
+    const double width = 0.02;
+    test.box.upper = {width, width, 0.04};
+    test.cells = {5, 5, 12};
+    test.dem.particles = simpleLattice(Box{{0.002, 0.002, 0.001}, {0.018, 0.018, 0.022}}, {6, 6, 6});
+    jitter(test.dem.particles, 2e-4, 3);
+    test.dem.dumpEvery = 100;
+    test.coupling().set("constDiffSmoothingProps/bandwidth", "4e-3");
+    const std::string down = vectorText({0, 0, -pistonSpeed});
+    test.dem.more = "fix piston all mesh/surface file DEM/piston.stl type 2\n"
+                    "fix pistonWall all wall/gran model hertz tangential history mesh n_meshes 1 meshes piston\n"
+                    "fix down all move/mesh mesh piston linear 0. 0. "
+                    + exactText(-pistonSpeed);
+    test.extraFiles["DEM/piston.stl"] = plateStl(width, 0.04);
+    test.extraFiles["system/blockMeshDict"] =
+        FoamFile().text("blockMeshDict")
+        + "scale 1; vertices ((0 0 0) (0.02 0 0) (0.02 0.02 0) (0 0.02 0) (0 0 0.04) (0.02 0 0.04) (0.02 0.02 0.04) "
+          "(0 0.02 0.04));\nblocks (hex (0 1 2 3 4 5 6 7) (5 5 12) simpleGrading (1 1 1));\nedges ();\nboundary (\n"
+          "sides { type wall; faces ((0 4 7 3) (1 2 6 5) (0 1 5 4) (3 7 6 2)); }\n"
+          "piston { type wall; faces ((4 5 6 7)); }\noutlet { type patch; faces ((0 3 2 1)); } );\n";
+    test.file("0/U")
+        .remove("boundaryField/walls")
+        .set("boundaryField/sides/type", "slip")
+        .set("boundaryField/piston/type", "movingWallVelocity")
+        .set("boundaryField/piston/value", "uniform (0 0 0)")
+        .set("boundaryField/outlet/type", "zeroGradient");
+    test.file("0/p")
+        .remove("boundaryField/walls")
+        .set("boundaryField/\"sides|piston\"/type", "zeroGradient")
+        .set("boundaryField/outlet/type", "fixedValue")
+        .set("boundaryField/outlet/value", "uniform 0");
+    FoamFile displacement("pointVectorField");
+    displacement.set("dimensions", "[0 1 0 0 0 0 0]")
+        .set("internalField", "uniform (0 0 0)")
+        .set("boundaryField/sides/type", "zeroGradient")
+        .set("boundaryField/outlet/type", "uniformFixedValue")
+        .set("boundaryField/outlet/uniformValue", "(0 0 0)")
+        .set("boundaryField/piston/type", "uniformFixedValue")
+        .set("boundaryField/piston/uniformValue", "table ((0 (0 0 0)) (1 " + down + "))");
+    test.extraFiles["0/pointDisplacement"] = displacement.text("pointDisplacement");
+    test.extraFiles["constant/dynamicMeshDict"] = FoamFile()
+                                                      .set("dynamicFvMesh", "dynamicMotionSolverFvMesh")
+                                                      .set("motionSolverLibs", "(fvMotionSolvers)")
+                                                      .set("motionSolver", "displacementLaplacian")
+                                                      .set("displacementLaplacianCoeffs/diffusivity", "uniform")
+                                                      .text("dynamicMeshDict");
+    const std::string motionSolver = "{ solver PCG; preconditioner DIC; tolerance 1e-14; relTol 0; }";
+    test.solution().set("solvers/cellDisplacement", motionSolver);
+    solveTightly(test);
+    test.control().set("writeFormat", "binary");
+    test.setTimes(0.06, 1e-3, 0.03);
+}
+
+/// Sum of the values of a surface field on a patch that has as many faces as the piston.
+double sumOnPatch(const TestCase& test, const std::string& time, const std::string& field, const std::string& patch)
+{
+    std::ifstream is(test.path() / time / field);
+    const std::string text{std::istreambuf_iterator<char>(is), std::istreambuf_iterator<char>()};
+    const std::size_t at = text.find('\n' + std::string(4, ' ') + patch + '\n');
+    std::smatch found;
+    const std::string after = text.substr(std::min(at, text.size()));
+    if (!std::regex_search(after, found, std::regex("value +(uniform|nonuniform List<scalar>) *([0-9]*)")))
+    {
+        throw std::runtime_error("no values of " + field + " on " + patch);
+    }
+    std::istringstream values(after.substr(static_cast<std::size_t>(found.position() + found.length())));
+    if (found[1] == "uniform")
+    {
+        double value = 0;
+        values >> value;
+        return facesOfPiston * value;
+    }
+    values.ignore(std::numeric_limits<std::streamsize>::max(), '(');
+    double sum = 0;
+    for (int count = std::stoi(found[2]); count > 0; --count)
+    {
+        double value = 0;
+        values >> value;
+        sum += value;
+    }
+    return sum;
+}
+
+} // namespace
+
+// Where mesh, fluid, walls and particles move at the same constant velocity, everything happens as where they are at rest.
+// Without the mesh's part of a flux, of the rate of the void fraction, or of the fluid's acceleration, or with cells where
+// they were, particles and fluid differ by far more than rounding: they move by a cell and a half.
+TEST(MeshMotion, IsTheSameForAnObserverWhoMoves)
+{
+    const Vector3d velocity(0.1, -0.05, 0.08);
+    TestCase atRest;
+    settlingSwarm(atRest);
+    const Outcome first = atRest.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+
+    TestCase moving;
+    settlingSwarm(moving);
+    moveWholeMesh(moving, velocity);
+    moving.dem.more = "velocity all set 0.1 -0.05 0.08";
+    moving.coupling().set("patchesWithoutDemWall", "(walls)");
+    const Outcome second = moving.run();
+    ASSERT_TRUE(second.succeeded()) << second.output;
+
+    const auto positions = [](const TestCase& test) { return test.particleHistory().back(); };
+    const Vector3d way = 0.03 * velocity;
+    const double apart =
+        ((positions(moving).position.colwise() - way) - positions(atRest).position).cwiseAbs().maxCoeff();
+    const double fallen =
+        (positions(atRest).position - atRest.particleHistory().front().position).cwiseAbs().maxCoeff();
+    std::cout << "particles fall by " << fallen << " m and differ by " << apart << " m" << std::endl;
+    EXPECT_GT(fallen, 1e-3);
+    EXPECT_LT(apart, 1e-9);
+
+    const Eigen::MatrixXd flow = atRest.field("U", "0.03");
+    const double differenceOfFlow =
+        ((moving.field("U", "0.03").colwise() - velocity) - flow).cwiseAbs().maxCoeff() / flow.cwiseAbs().maxCoeff();
+    const auto difference = [&](const char* field) {
+        const Eigen::MatrixXd of = atRest.field(field, "0.03");
+        return (moving.field(field, "0.03") - of).cwiseAbs().maxCoeff() / of.cwiseAbs().maxCoeff();
+    };
+    std::cout << "differences relative to the largest value: U " << differenceOfFlow << ", p " << difference("p")
+              << ", voidFraction " << difference("voidFraction") << std::endl;
+    EXPECT_LT(differenceOfFlow, 1e-7);
+    EXPECT_LT(difference("p"), 1e-7);
+    EXPECT_LT(difference("voidFraction"), 1e-9);
+}
+
+// All that the piston displaces leaves through the open side, whatever the particles do, and in each coupling step fluid and
+// particles are conserved in each cell. Were the change of the cells' volumes left out, nothing would leave; were the
+// particles not kept in cells that become smaller, their motion and the outflow would differ by the solid fraction.
+TEST(MeshMotion, PistonDisplacesItsVolume)
+{
+    TestCase test;
+    pistonOverBed(test);
+    test.control().set("writeFormat", "ascii");
+    const Outcome outcome = test.run();
+    ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+
+    const nlohmann::json summary = test.conservationSummary();
+    for (const char* error : {"continuityError", "solidVolumeError", "momentumError", "pressureForceError"})
+    {
+        std::cout << error << ' ' << summary[error] << std::endl;
+    }
+    EXPECT_LT(summary["continuityError"], 1e-12);
+    EXPECT_LT(summary["solidVolumeError"], 1e-12);
+    EXPECT_LT(summary["momentumError"], 1e-9);
+
+    const double displaced = pistonSpeed * 0.02 * 0.02;
+    for (const char* time : {"0.03", "0.06"})
+    {
+        const double outflow = sumOnPatch(test, time, "alphaPhi", "outlet");
+        std::cout << "outflow " << outflow << " m3/s of " << displaced << std::endl;
+        EXPECT_NEAR(outflow, displaced, 1e-9 * displaced) << time;
+        // The piston itself takes the fluid along.
+        EXPECT_LT(std::abs(sumOnPatch(test, time, "alphaPhi", "piston")), 1e-12 * displaced) << time;
+    }
+    // The top of the mesh is where the piston is, and the particles stayed below.
+    const Outcome mesh = test.runCommand("checkMesh -latestTime | grep 'Overall domain bounding box'");
+    EXPECT_TRUE(mesh.says("0.02 0.02 0.037")) << mesh.output;
+    EXPECT_GT(test.particleHistory().back().position.row(2).minCoeff(), 0);
+}
+
+// A run that is stopped and resumed is the run that was never stopped, with points, fluxes and particles where they were.
+TEST(MeshMotion, IsResumedToTheLastDigit)
+{
+    TestCase through;
+    pistonOverBed(through);
+    const Outcome whole = through.run();
+    ASSERT_TRUE(whole.succeeded()) << whole.output;
+
+    TestCase stopped;
+    pistonOverBed(stopped);
+    stopped.setTimes(0.03, 1e-3, 0.03);
+    const Outcome first = stopped.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    const Outcome second = stopped.runCommand("echo \"endTime 0.06;\" >> system/controlDict && $SOLVER");
+    ASSERT_TRUE(second.succeeded()) << second.output;
+    EXPECT_TRUE(second.says("Resuming from the checkpoint of time 0.03")) << second.output;
+    EXPECT_FALSE(second.says("inputs are others")) << second.output;
+    for (const char* file : {"U", "Uf", "p", "phi", "alphaPhi", "voidFraction", "voidFractionInContinuity",
+             "pointDisplacement", "polyMesh/points"})
+    {
+        EXPECT_TRUE(
+            through.runCommand("cmp 0.06/" + std::string(file) + ' ' + (stopped.path() / "0.06" / file).string())
+                .succeeded())
+            << file;
+    }
+    EXPECT_EQ(through.particleHistory().back().position, stopped.particleHistory().back().position);
+}
+
+// Two ranks compute what one does, with particles and cells that pass from one to the other's box while the mesh moves.
+TEST(MeshMotion, IsTheSameOnTwoRanks)
+{
+    TestCase serial;
+    pistonOverBed(serial);
+    serial.control().set("writeFormat", "ascii");
+    serial.setTimes(0.03, 1e-3, 0.03);
+    const Outcome one = serial.run();
+    ASSERT_TRUE(one.succeeded()) << one.output;
+    TestCase parallel;
+    pistonOverBed(parallel);
+    parallel.control().set("writeFormat", "ascii");
+    parallel.setTimes(0.03, 1e-3, 0.03);
+    const Outcome two = parallel.run(2);
+    ASSERT_TRUE(two.succeeded()) << two.output;
+    for (const char* field : {"U", "p", "voidFraction"})
+    {
+        const Eigen::MatrixXd of = serial.field(field, "0.03");
+        const double difference =
+            (parallel.field(field, "0.03") - of).cwiseAbs().maxCoeff() / of.cwiseAbs().maxCoeff();
+        std::cout << field << " differs by " << difference << std::endl;
+        EXPECT_LT(difference, 1e-7) << field;
+    }
+}
+
+// What moves for fluid or particles only is refused in the first coupling step, and what the solver does not know at the
+// start.
+TEST(MeshMotion, RefusesWhatDoesNotFit)
+{
+    using Change = std::function<void(TestCase&)>;
+    struct Refused
+    {
+        Change change;
+        std::vector<std::string> words;
+    };
+    const std::vector<Refused> all = {
+        // The piston of the particles is at rest, is too slow, or goes the other way.
+        {[](TestCase& test) {
+             test.dem.more = std::regex_replace(test.dem.more, std::regex("fix down.*"), "");
+         },
+            {"'piston'", "no wall of the DEM script moves with it", "do not exist", "patchesWithoutDemWall ( piston );"}},
+        {[](TestCase& test) {
+             test.dem.more = std::regex_replace(test.dem.more, std::regex("-0.05"), "-0.045");
+         },
+            {"'piston'", "differ by 10", "fix move/mesh"}},
+        // That of the fluid is at rest, or the fluid passes it.
+        {[](TestCase& test) {
+             std::string& text = test.extraFiles["0/pointDisplacement"];
+             text = std::regex_replace(text, std::regex("-0.05"), "0");
+             test.file("0/U").set("boundaryField/piston/type", "noSlip").remove("boundaryField/piston/value");
+         },
+            {"The wall 'piston' of the DEM script moves (move/mesh)", "no patch of type wall of the fluid moves with it",
+                "allowedInScript ( \"move/mesh\" )"}},
+        {[](TestCase& test) {
+             test.file("0/U").set("boundaryField/piston/type", "noSlip").remove("boundaryField/piston/value");
+         },
+            {"'piston'", "m3/s of fluid would pass it", "movingWallVelocity"}},
+        {[](TestCase& test) { test.coupling().set("useDDTvoidfraction", "off"); },
+            {"The mesh moves", "'useDDTvoidfraction'", "allowed: on"}},
+        {[](TestCase& test) { test.file("system/fvSchemes").set("ddtSchemes/default", "backward"); },
+            {"ddt(voidFraction,U)", "backward", "Euler"}},
+        {[](TestCase& test) { test.solution().set("PIMPLE/moveMeshOuterCorrectors", "on"); },
+            {"'moveMeshOuterCorrectors'", "allowed: off"}},
+        {[](TestCase& test) { test.coupling().set("patchesWithoutDemWall", "(pston)"); }, {"'pston'", "did you mean"}},
+        {[](TestCase& test) {
+             std::string& text = test.extraFiles["constant/dynamicMeshDict"];
+             text = std::regex_replace(text, std::regex("dynamicMotionSolverFvMesh"), "dynamicRefineFvMesh");
+         },
+            {"'dynamicFvMesh'", "dynamicRefineFvMesh", "allowed: dynamicMotionSolverFvMesh"}},
+        {[](TestCase& test) {
+             std::string& text = test.extraFiles["constant/dynamicMeshDict"];
+             text = std::regex_replace(text, std::regex("displacementLaplacian;"), "velocityLaplacian;");
+         },
+            {"'motionSolver'", "velocityLaplacian", "allowed: solidBody and displacementLaplacian"}},
+    };
+    for (const Refused& refused : all)
+    {
+        TestCase test;
+        pistonOverBed(test);
+        test.setTimes(0.002, 1e-3, 0.002);
+        refused.change(test);
+        const Outcome outcome = test.run();
+        EXPECT_FALSE(outcome.succeeded()) << refused.words.front();
+        for (const std::string& word : refused.words)
+        {
+            EXPECT_TRUE(outcome.says(word)) << word << "\n" << outcome.output;
+        }
+    }
+}
+
+} // namespace clepsydra::tests
