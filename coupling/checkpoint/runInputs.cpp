@@ -82,8 +82,8 @@ std::string digestOf(const polyMesh& mesh, const pointField& points)
 /// The points with which the faces of a mesh have been written, from which its points move.
 pointField pointsAtBeginning(const polyMesh& mesh)
 {
-    return pointIOField(IOobject("points", mesh.facesInstance(), polyMesh::meshSubDir, mesh, IOobject::MUST_READ,
-        IOobject::NO_WRITE, false));
+    return pointIOField(IOobject(
+        "points", mesh.facesInstance(), polyMesh::meshSubDir, mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false));
 }
 
 /// Of a mesh that moves, the number of cells only.
@@ -132,14 +132,14 @@ bool isMesh(const Manifest::File& input)
 
 } // namespace
 
-RunInputs::RunInputs(
-    const fvMesh& mesh, bool meshMoves, const std::vector<std::filesystem::path>& scriptFiles)
+RunInputs::RunInputs(const fvMesh& mesh, bool meshMoves, const std::vector<std::filesystem::path>& scriptFiles)
     : sums_(sumsOf(mesh, meshMoves))
 {
     const std::string part =
         Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
-    meshOfThisRank_ = {part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()),
-                                                      digestOf(mesh, meshMoves ? pointsAtBeginning(mesh) : mesh.points())}};
+    meshOfThisRank_ = {
+        part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()),
+                                        digestOf(mesh, meshMoves ? pointsAtBeginning(mesh) : mesh.points())}};
     for (const char* name : {"constant/couplingProperties", "constant/transportProperties", "constant/g",
              "constant/turbulenceProperties", "constant/dynamicMeshDict", "constant/fvOptions", "system/fvOptions"})
     {

@@ -42,7 +42,7 @@ public:
         return length_.seconds();
     }
 
-    /// Computes anew what depends on the points of the mesh, after they have moved. Call before advanceParticles() of the
+    /// Recomputes what depends on the points of the mesh, after they have moved. Call before advanceParticles() of the
     /// coupling step at whose end they are there. Collective.
     void meshMoved();
 

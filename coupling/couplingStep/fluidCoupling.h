@@ -31,7 +31,7 @@ public:
     /// \param oneStep  the forces of one DEM step, in which the particles have not moved
     AnticipatedParticles subtractFirstDrag(DemResult oneStep, Foam::volVectorField& U, double couplingTimeStep);
 
-    /// Computes anew what depends on the points of the mesh, after they have moved, and lets each cell keep what it holds of
+    /// Recomputes what depends on the points of the mesh, after they have moved, and lets each cell keep what it holds of
     /// particles. Call at the beginning of a coupling step. Collective.
     void meshMoved();
 

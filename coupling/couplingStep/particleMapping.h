@@ -59,7 +59,7 @@ public:
     LocatedParticles locateAsPlanned(
         const ParticlesView& particles, const Eigen::MatrixXd& contributions, RankTotals& totals);
 
-    /// Computes anew what depends on the points of the mesh, after they have moved. Particles that were located before are
+    /// Recomputes what depends on the points of the mesh, after they have moved. Particles that were located before are
     /// no longer valid. Collective.
     void meshMoved();
 

@@ -46,7 +46,7 @@ public:
         smoothing_->smooth(densities);
     }
 
-    /// Computes anew what depends on the points of the mesh, after they have moved. Collective.
+    /// Recomputes what depends on the points of the mesh, after they have moved. Collective.
     void meshMoved();
 
     /// The directions in which the mesh is periodic.

@@ -41,7 +41,7 @@ public:
     /// Bandwidth b of the Gaussian exp(-r2/b2) that the smoothing approximates [m]; 0 without smoothing.
     virtual double bandwidth() const = 0;
 
-    /// Computes anew what depends on the points of the mesh, after they have moved. Collective.
+    /// Recomputes what depends on the points of the mesh, after they have moved. Collective.
     virtual void meshMoved()
     {}
 

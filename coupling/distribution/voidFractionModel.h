@@ -40,7 +40,7 @@ public:
     /// Share of the particle in a cell, not normalised, >= 0.
     virtual double share(Foam::label cell, const GhostParticle& particle) const = 0;
 
-    /// Computes anew what depends on the points of the mesh, after they have moved; the cells have been told. Collective.
+    /// Recomputes what depends on the points of the mesh, after they have moved and the cells are new. Collective.
     virtual void meshMoved()
     {}
 

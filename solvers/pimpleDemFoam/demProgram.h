@@ -37,8 +37,8 @@ public:
     /// fit to the case. Collective.
     /// \param meshMoves  whether checkMovedWalls() will be called, so that nothing is known of the walls' motion yet
     /// \param fluid  null for DEM only
-    virtual DemEngine& start(const Checkpoints& checkpoints, const Foam::fvMesh& mesh, bool meshMoves,
-        const FluidProperties* fluid) = 0;
+    virtual DemEngine& start(
+        const Checkpoints& checkpoints, const Foam::fvMesh& mesh, bool meshMoves, const FluidProperties* fluid) = 0;
 
     /// Compares the walls of the program with those of the fluid, when both have moved by a coupling step. FatalError or
     /// FatalIOError where they do not move alike. Collective.

@@ -33,10 +33,11 @@ bool readsMotion(const Time& time)
     }
     if (type != "dynamicMotionSolverFvMesh")
     {
-        FatalIOErrorInFunction(dict) << "Entry 'dynamicFvMesh' of constant/" << dictName << " is " << type
-                                     << "; allowed: dynamicMotionSolverFvMesh, whose points move, and staticFvMesh, or no "
-                                     << "such file, because cells that are made, refined or removed during the run would "
-                                     << "not hold the particles that the old ones have held" << exit(FatalIOError);
+        FatalIOErrorInFunction(dict)
+            << "Entry 'dynamicFvMesh' of constant/" << dictName << " is " << type
+            << "; allowed: dynamicMotionSolverFvMesh, whose points move, and staticFvMesh, or no "
+            << "such file, because cells that are made, refined or removed during the run would "
+            << "not hold the particles that the old ones have held" << exit(FatalIOError);
     }
     const word solver = dict.getCompat<word>("motionSolver", {{"solver", -1612}});
     if (solver != "solidBody" && solver != "displacementLaplacian")
@@ -55,7 +56,8 @@ void requireEuler(const fvMesh& mesh)
         const token first(mesh.ddtScheme(name));
         if (!first.isWord() || first.wordToken() != "Euler")
         {
-            FatalErrorInFunction << "The scheme '" << name << "' in system/fvSchemes is " << first << "; allowed while the "
+            FatalErrorInFunction << "The scheme '" << name << "' in system/fvSchemes is " << first
+                                 << "; allowed while the "
                                  << "mesh moves: Euler, because a resumed run has the volumes of one step only"
                                  << exit(FatalError);
         }
@@ -93,31 +95,35 @@ void FluidMesh::requireCaseForMotion(const CouplingSettings& settings, const Flu
     {
         if (const word entry = "patchesWithoutDemWall"; settings.dict().found(entry))
         {
-            FatalIOErrorInFunction(settings.dict()) << "Entry '" << entry << "' has no effect on a mesh at rest; allowed: "
-                                                    << "together with a motion in constant/" << dictName
-                                                    << exit(FatalIOError);
+            FatalIOErrorInFunction(settings.dict())
+                << "Entry '" << entry << "' has no effect on a mesh at rest; allowed: "
+                << "together with a motion in constant/" << dictName << exit(FatalIOError);
         }
         return;
     }
     const fvMesh& mesh = *mesh_;
-    const dictionary& dict = mesh.lookupObject<IOdictionary>(dictName);
+    const IOdictionary dict(
+        IOobject(dictName, mesh.time().constant(), mesh.time(), IOobject::MUST_READ, IOobject::NO_WRITE, false));
     const auto refuse = [&](const std::string& objection) {
         FatalIOErrorInFunction(dict) << "The mesh moves, " << objection.c_str() << exit(FatalIOError);
     };
     if (!settings.hasFluid())
     {
-        refuse("but entry 'fluid' of constant/couplingProperties is none; allowed: staticFvMesh, or no such file, because "
-               "particles alone have no mesh");
+        refuse(
+            "but entry 'fluid' of constant/couplingProperties is none; allowed: staticFvMesh, or no such file, because "
+            "particles alone have no mesh");
     }
     if (!settings.ddtVoidFraction())
     {
-        refuse("and entry 'useDDTvoidfraction' of constant/couplingProperties is off; allowed: on, because the volume of "
-               "the cells changes with their void fraction");
+        refuse(
+            "and entry 'useDDTvoidfraction' of constant/couplingProperties is off; allowed: on, because the volume of "
+            "the cells changes with their void fraction");
     }
     if (fluid.stratification.isThere())
     {
-        refuse("and constant/transportProperties has a stratified liquid; allowed: one of them, because the layers do not "
-               "move with the mesh");
+        refuse(
+            "and constant/transportProperties has a stratified liquid; allowed: one of them, because the layers do not "
+            "move with the mesh");
     }
     const Periodicity periodic = periodicityOf(mesh);
     for (const std::string& patches : periodic.patches)
@@ -131,9 +137,10 @@ void FluidMesh::requireCaseForMotion(const CouplingSettings& settings, const Flu
     const dictionary& pimple = mesh.solutionDict().subOrEmptyDict("PIMPLE");
     if (pimple.getOrDefault<Switch>("moveMeshOuterCorrectors", false))
     {
-        FatalIOErrorInFunction(pimple) << "Entry 'moveMeshOuterCorrectors' of PIMPLE in system/fvSolution is on; allowed: "
-                                       << "off, because the particles are located once in a coupling step, after the mesh "
-                                       << "has moved" << exit(FatalIOError);
+        FatalIOErrorInFunction(pimple)
+            << "Entry 'moveMeshOuterCorrectors' of PIMPLE in system/fvSolution is on; allowed: "
+            << "off, because the particles are located once in a coupling step, after the mesh "
+            << "has moved" << exit(FatalIOError);
     }
     requireEuler(mesh);
 }

@@ -113,8 +113,9 @@ private:
 };
 
 /// \param temperature  null where the case has none
-void runWithFluid(RunTime& runTime, FluidMesh& mesh, DemProgram& demProgram, const FluidProperties& fluid, ModelType modelType,
-    FluidModels& models, FluidTemperature* temperature, CouplingStep& couplingStep, RunOutput& output, bool resumed)
+void runWithFluid(RunTime& runTime, FluidMesh& mesh, DemProgram& demProgram, const FluidProperties& fluid,
+    ModelType modelType, FluidModels& models, FluidTemperature* temperature, CouplingStep& couplingStep,
+    RunOutput& output, bool resumed)
 {
     VoidFractionFlow flow(*mesh, mesh.moves(), fluid, modelType, models.viscousStress, couplingStep.timers());
     flow.addTurbulence(fluid, couplingStep.fluid().voidFraction(), resumed);
@@ -258,8 +259,8 @@ int main(int argc, char* argv[])
 
         if (models)
         {
-            runWithFluid(runTime, fluidMesh, *demProgram, fluid, settings.modelType(), *models, temperature ? &*temperature : nullptr,
-                couplingStep, output, checkpoints.resumed());
+            runWithFluid(runTime, fluidMesh, *demProgram, fluid, settings.modelType(), *models,
+                temperature ? &*temperature : nullptr, couplingStep, output, checkpoints.resumed());
         }
         else
         {

@@ -320,8 +320,7 @@ void requireSamePeriodicBox(const CouplingSettings& settings, const ScriptFacts&
     }
 }
 
-void requireKnownScript(
-    const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves)
+void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves)
 {
     const dictionary& demDict = settings.demDict();
     requireConstantDemStep(demDict, facts);

@@ -5,6 +5,7 @@
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "ddtScheme.H"
 #include "emptyFvPatch.H"
 #include "fvCFD.H"
 #include "noSlipFvPatchVectorField.H"
@@ -117,7 +118,8 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, bool meshMoves, const FluidProp
     mesh_.setFluxRequired(p_.name());
     if (meshMoves)
     {
-        Uf_ = std::make_unique<surfaceVectorField>(readFaceVelocity(U_));
+        // Not by make_unique(), which would make a copy that is not written.
+        Uf_.reset(new surfaceVectorField(readFaceVelocity(U_)));
         Uf_->oldTime();
     }
 }

@@ -28,6 +28,8 @@ constexpr double toleranceAlongPatch = 1e-3;
 constexpr double toleranceAcrossPatch = 0.05;
 /// Largest flux of fluid through a wall, relative to the area times the velocity.
 constexpr double toleranceOfFlux = 1e-3;
+/// Of velocities, relative to that of the fastest patch.
+constexpr double rounding = 1e-9;
 /// Widths of a face within which a triangle is beside it.
 constexpr double besideFace = 2;
 
@@ -110,10 +112,9 @@ public:
                 walls_.push_back(name.first);
                 moving_.push_back(false);
             }
-            moving_[moved.wall] =
-                moving_[moved.wall] || std::any_of(moved.velocities.begin(), moved.velocities.end(), [](const Vector3d& v) {
-                    return v.squaredNorm() > 0;
-                });
+            moving_[moved.wall] = moving_[moved.wall]
+                                  || std::any_of(moved.velocities.begin(), moved.velocities.end(),
+                                      [](const Vector3d& v) { return v.squaredNorm() > 0; });
             triangles_.push_back(moved);
             boxes.push_back(around);
         }
@@ -207,11 +208,6 @@ struct PatchSums
     }
 };
 
-bool isWall(const fvPatchVectorField& onPatch)
-{
-    return isA<wallFvPatch>(onPatch.patch());
-}
-
 PatchSums sumsOf(const fvPatchVectorField& onPatch, const fvMesh& mesh, const std::vector<WallMotion>& alongItself,
     const MovedTriangles& triangles)
 {
@@ -228,8 +224,7 @@ PatchSums sumsOf(const fvPatchVectorField& onPatch, const fvMesh& mesh, const st
         sums.speed += area * magSqr(ofWall);
         sums.flux += mag((onPatch[face] & patch.Sf()[face]) - meshFlux[face]);
         sums.largestFlux += area * std::max(mag(ofMesh), mag(onPatch[face]));
-        const MovedTriangles::Nearest near =
-            triangles.nearest(toEigen(patch.Cf()[face]), besideFace * std::sqrt(area));
+        const MovedTriangles::Nearest near = triangles.nearest(toEigen(patch.Cf()[face]), besideFace * std::sqrt(area));
         sums.fromTriangles += area * magSqr(toFoam(near.velocity) - ofWall);
         if (near.wall < sums.facesNear.size())
         {
@@ -343,28 +338,40 @@ void WallsOfMovingMesh::check(const volVectorField& U)
     Triangles now = triangles();
     const MovedTriangles moved(before_, now, mesh_.time().deltaTValue());
     before_ = std::move(now);
+    // All ranks have the same walls in the same order.
+    std::vector<word> patches;
     std::vector<PatchSums> sums;
     for (const fvPatchVectorField& onPatch : U.boundaryField())
     {
-        sums.push_back(isWall(onPatch) ? sumsOf(onPatch, mesh_, alongItself_, moved) : PatchSums(0, 0));
+        if (isA<wallFvPatch>(onPatch.patch()))
+        {
+            patches.push_back(onPatch.patch().name());
+            sums.push_back(sumsOf(onPatch, mesh_, alongItself_, moved));
+        }
     }
     addOverRanks(sums);
+    double fastest = 0;
+    for (const PatchSums& patch : sums)
+    {
+        fastest = std::max(fastest, patch.speed);
+    }
 
     const wordRes allowed = settings_.dict().getOrDefault<wordRes>(patchesEntry, {});
     std::set<std::string> matched;
     std::vector<bool> matchedAlongItself(alongItself_.size(), false);
-    forAll (U.boundaryField(), index)
+    for (std::size_t index = 0; index < patches.size(); ++index)
     {
-        const word& name = mesh_.boundary()[index].name();
-        const PatchSums& patch = sums[static_cast<std::size_t>(index)];
+        const word& name = patches[index];
+        const PatchSums& patch = sums[index];
         if (patch.flux > toleranceOfFlux * patch.largestFlux)
         {
-            FatalErrorInFunction << "The patch '" << name << "' of type wall moves with the mesh, but U there does not: "
-                                 << patch.flux << " m3/s of fluid would pass it; allowed: the condition "
+            FatalErrorInFunction << "The patch '" << name
+                                 << "' of type wall moves with the mesh, but U there does not: " << patch.flux
+                                 << " m3/s of fluid would pass it; allowed: the condition "
                                  << "movingWallVelocity in the file U, or another one with the velocity of the mesh "
                                  << "across the patch" << exit(FatalError);
         }
-        if (!(patch.speed > 0))
+        if (patch.speed <= sqr(rounding) * fastest)
         {
             continue;
         }
@@ -428,7 +435,8 @@ void WallsOfMovingMesh::requirePatchFor(const std::string& wall, const std::stri
         return;
     }
     FatalIOErrorInFunction(demDict) << "The wall '" << wall.c_str() << "' of the DEM script moves (" << kind.c_str()
-                                    << ") at time " << mesh_.time().timeName() << " s, and no patch of type wall of the "
+                                    << ") at time " << mesh_.time().timeName()
+                                    << " s, and no patch of type wall of the "
                                     << "fluid moves with it; allowed: the same motion in constant/dynamicMeshDict, or "
                                     << "as the velocity in the file U where the wall moves along itself; or, where you "
                                     << "know that the results are right, the entry\n    allowedInScript ( \""

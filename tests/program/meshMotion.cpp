@@ -300,8 +300,7 @@ TEST(MeshMotion, IsTheSameOnTwoRanks)
     for (const char* field : {"U", "p", "voidFraction"})
     {
         const Eigen::MatrixXd of = serial.field(field, "0.03");
-        const double difference =
-            (parallel.field(field, "0.03") - of).cwiseAbs().maxCoeff() / of.cwiseAbs().maxCoeff();
+        const double difference = (parallel.field(field, "0.03") - of).cwiseAbs().maxCoeff() / of.cwiseAbs().maxCoeff();
         std::cout << field << " differs by " << difference << std::endl;
         EXPECT_LT(difference, 1e-7) << field;
     }
@@ -319,13 +318,10 @@ TEST(MeshMotion, RefusesWhatDoesNotFit)
     };
     const std::vector<Refused> all = {
         // The piston of the particles is at rest, is too slow, or goes the other way.
-        {[](TestCase& test) {
-             test.dem.more = std::regex_replace(test.dem.more, std::regex("fix down.*"), "");
-         },
-            {"'piston'", "no wall of the DEM script moves with it", "do not exist", "patchesWithoutDemWall ( piston );"}},
-        {[](TestCase& test) {
-             test.dem.more = std::regex_replace(test.dem.more, std::regex("-0.05"), "-0.045");
-         },
+        {[](TestCase& test) { test.dem.more = std::regex_replace(test.dem.more, std::regex("fix down.*"), ""); },
+            {"'piston'", "no wall of the DEM script moves with it", "do not exist",
+                "patchesWithoutDemWall ( piston );"}},
+        {[](TestCase& test) { test.dem.more = std::regex_replace(test.dem.more, std::regex("-0.05"), "-0.045"); },
             {"'piston'", "differ by 10", "fix move/mesh"}},
         // That of the fluid is at rest, or the fluid passes it.
         {[](TestCase& test) {
@@ -333,8 +329,8 @@ TEST(MeshMotion, RefusesWhatDoesNotFit)
              text = std::regex_replace(text, std::regex("-0.05"), "0");
              test.file("0/U").set("boundaryField/piston/type", "noSlip").remove("boundaryField/piston/value");
          },
-            {"The wall 'piston' of the DEM script moves (move/mesh)", "no patch of type wall of the fluid moves with it",
-                "allowedInScript ( \"move/mesh\" )"}},
+            {"The wall 'piston' of the DEM script moves (move/mesh)",
+                "no patch of type wall of the fluid moves with it", "allowedInScript ( \"move/mesh\" )"}},
         {[](TestCase& test) {
              test.file("0/U").set("boundaryField/piston/type", "noSlip").remove("boundaryField/piston/value");
          },
