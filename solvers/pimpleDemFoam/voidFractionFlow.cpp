@@ -121,6 +121,8 @@ VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, bool meshMoves, const FluidProp
         // Not by make_unique(), which would make a copy that is not written.
         Uf_.reset(new surfaceVectorField(readFaceVelocity(U_)));
         Uf_->oldTime();
+        // Before the motion of the mesh first changes the values at its walls.
+        U_.oldTime();
     }
 }
 

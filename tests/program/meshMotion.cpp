@@ -34,6 +34,56 @@ void solveTightly(TestCase& test)
         .set("solvers/\"U|UFinal\"", "{ solver smoothSolver; smoother symGaussSeidel; tolerance 1e-14; relTol 0; }");
 }
 
+/// Warm particles in water that is heated through one patch.
+void addHeat(TestCase& test, const std::string& patch, const std::string& otherPatches)
+{
+    FoamFile temperature("volScalarField");
+    temperature.set("dimensions", "[0 0 0 1 0 0 0]").set("internalField", "uniform 293");
+    if (!otherPatches.empty())
+    {
+        temperature.set("boundaryField/\"" + otherPatches + "\"/type", "zeroGradient");
+    }
+    temperature.set("boundaryField/" + patch + "/type", "fixedValue")
+        .set("boundaryField/" + patch + "/value", "uniform 350");
+    test.extraFiles["0/T"] = temperature.text("T");
+    test.transport().set("Cp", "4180").set("kappa", "0.6").set("beta", "2e-4").set("TRef", "293");
+    test.coupling()
+        .set("energy/heatTransferModel", "Gunn")
+        .set("energy/particleCp", "840")
+        .set("energy/particleTemperature", "320");
+    test.solution().set(
+        "solvers/\"T|TFinal\"", "{ solver PBiCGStab; preconditioner DILU; tolerance 1e-14; relTol 0; }");
+    test.file("system/fvSchemes").set("divSchemes/div(phi,T)", "Gauss upwind");
+}
+
+void addTurbulence(TestCase& test)
+{
+    const auto field = [&](const std::string& name, const std::string& dimensions, const std::string& value,
+                           const std::string& atWalls) {
+        test.extraFiles["0/" + name] = FoamFile("volScalarField")
+                                           .set("dimensions", dimensions)
+                                           .set("internalField", "uniform " + value)
+                                           .set("boundaryField/walls/type", atWalls)
+                                           .set("boundaryField/walls/value", "uniform " + value)
+                                           .text(name);
+    };
+    field("k", "[0 2 -2 0 0 0 0]", "1e-4", "kqRWallFunction");
+    field("epsilon", "[0 2 -3 0 0 0 0]", "1e-4", "epsilonWallFunction");
+    field("nut", "[0 2 -1 0 0 0 0]", "0", "nutkWallFunction");
+    test.extraFiles["constant/turbulenceProperties"] = FoamFile()
+                                                           .set("simulationType", "RAS")
+                                                           .set("RAS/RASModel", "kEpsilon")
+                                                           .set("RAS/turbulence", "on")
+                                                           .set("RAS/printCoeffs", "off")
+                                                           .text("turbulenceProperties");
+    test.solution().set("solvers/\"k|kFinal|epsilon|epsilonFinal\"",
+        "{ solver PBiCGStab; preconditioner DILU; tolerance 1e-14; relTol 0; }");
+    test.file("system/fvSchemes")
+        .set("divSchemes/div(phi,k)", "Gauss upwind")
+        .set("divSchemes/div(phi,epsilon)", "Gauss upwind")
+        .set("wallDist/method", "meshWave");
+}
+
 /// The whole mesh moves at a constant velocity.
 void moveWholeMesh(TestCase& test, const Vector3d& velocity)
 {
@@ -50,7 +100,7 @@ void moveWholeMesh(TestCase& test, const Vector3d& velocity)
         .set("boundaryField/walls/value", uniform);
 }
 
-/// Twelve particles that begin to settle in the middle of a closed box of water.
+/// Twelve particles that begin to settle in the middle of a closed box of turbulent water whose walls are warm.
 void settlingSwarm(TestCase& test)
 {
     test.cells = {6, 6, 12};
@@ -62,6 +112,8 @@ void settlingSwarm(TestCase& test)
         .set("constDiffSmoothingProps/bandwidth", "4e-3")
         .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce SaffmanLiftForce)");
     solveTightly(test);
+    addHeat(test, "walls", "");
+    addTurbulence(test);
     test.setTimes(0.03, 1e-3, 0.03);
 }
 
@@ -217,6 +269,11 @@ TEST(MeshMotion, IsTheSameForAnObserverWhoMoves)
     EXPECT_LT(differenceOfFlow, 1e-7);
     EXPECT_LT(difference("p"), 1e-7);
     EXPECT_LT(difference("voidFraction"), 1e-9);
+    for (const char* field : {"T", "k", "epsilon", "nut"})
+    {
+        std::cout << field << " differs by " << difference(field) << std::endl;
+        EXPECT_LT(difference(field), 1e-9) << field;
+    }
 }
 
 // All that the piston displaces leaves through the open side, whatever the particles do, and in each coupling step fluid and
@@ -226,18 +283,22 @@ TEST(MeshMotion, PistonDisplacesItsVolume)
 {
     TestCase test;
     pistonOverBed(test);
+    addHeat(test, "piston", "sides|outlet");
     test.control().set("writeFormat", "ascii");
     const Outcome outcome = test.run();
     ASSERT_TRUE(outcome.succeeded()) << outcome.output;
 
     const nlohmann::json summary = test.conservationSummary();
-    for (const char* error : {"continuityError", "solidVolumeError", "momentumError", "pressureForceError"})
+    for (const char* error :
+        {"continuityError", "solidVolumeError", "momentumError", "pressureForceError", "heatError", "heatErrorOfFluid"})
     {
         std::cout << error << ' ' << summary[error] << std::endl;
     }
     EXPECT_LT(summary["continuityError"], 1e-12);
     EXPECT_LT(summary["solidVolumeError"], 1e-12);
     EXPECT_LT(summary["momentumError"], 1e-9);
+    EXPECT_LT(summary["heatError"], 1e-9);
+    EXPECT_LT(summary["heatErrorOfFluid"], 1e-12);
 
     const double displaced = pistonSpeed * 0.02 * 0.02;
     for (const char* time : {"0.03", "0.06"})
