@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 #include <iostream>
@@ -15,6 +16,7 @@
 #include <regex>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace clepsydra::tests
@@ -196,6 +198,90 @@ void pistonOverBed(TestCase& test)
     test.setTimes(0.06, 1e-3, 0.03);
 }
 
+constexpr double drumSpeed = 2;
+
+/// A drum about the x axis, half filled with particles in water, that turns. Its wall is primitive for the particles.
+void turningDrum(TestCase& test, bool withMesh)
+{
+    const double radius = 0.02;
+    const double length = 0.008;
+    const double spacing = 2.1e-3;
+    test.box.lower = {0, -radius, -radius};
+    test.box.upper = {length, radius, radius};
+    for (const Vector3d& place : simpleLattice(Box{{0.2e-3, -radius, -radius}, {6.5e-3, radius, -0.1e-3}},
+             {3, static_cast<int>(2 * radius / spacing), static_cast<int>(radius / spacing)}))
+    {
+        if (std::hypot(place.y(), place.z()) < radius - 0.55 * test.dem.diameter)
+        {
+            test.dem.particles.push_back(place);
+        }
+    }
+    jitter(test.dem.particles, 2e-5, 5);
+    test.dem.friction = 0.5;
+    test.dem.wallFriction = 0.9;
+    test.dem.walls = false;
+    const std::string wall = " all wall/gran model hertz tangential history primitive type 2 ";
+    test.dem.more = "fix drum" + wall + "xcylinder " + exactText(radius) + " 0 0 shear y " + exactText(drumSpeed)
+                    + "\nfix low" + wall + "xplane 0\nfix high" + wall + "xplane " + exactText(length);
+    test.dem.dumpEvery = 400;
+
+    std::string vertices;
+    for (const double x : {0.0, length})
+    {
+        for (const double corner : {0.5 * radius, radius / std::sqrt(2)})
+        {
+            for (const auto& [y, z] : {std::pair(1, 1), std::pair(-1, 1), std::pair(-1, -1), std::pair(1, -1)})
+            {
+                vertices += vectorText({x, y * corner, z * corner});
+            }
+        }
+    }
+    const auto at = [&](double x, double y, double z) { return vectorText({x, y * radius, z * radius}); };
+    test.extraFiles["system/blockMeshDict"] =
+        FoamFile().text("blockMeshDict") + "scale 1; vertices (" + vertices
+        + ");\nblocks (hex (2 3 0 1 10 11 8 9) (6 6 3) simpleGrading (1 1 1)\n"
+          "hex (0 4 5 1 8 12 13 9) (3 6 3) simpleGrading (1 1 1) hex (1 5 6 2 9 13 14 10) (3 6 3) simpleGrading (1 1 "
+          "1)\n"
+          "hex (2 6 7 3 10 14 15 11) (3 6 3) simpleGrading (1 1 1) hex (3 7 4 0 11 15 12 8) (3 6 3) simpleGrading (1 1 "
+          "1)"
+          ");\nedges (arc 4 5 "
+        + at(0, 0, 1) + "arc 5 6 " + at(0, -1, 0) + "arc 6 7 " + at(0, 0, -1) + "arc 7 4 " + at(0, 1, 0) + "arc 12 13 "
+        + at(length, 0, 1) + "arc 13 14 " + at(length, -1, 0) + "arc 14 15 " + at(length, 0, -1) + "arc 15 12 "
+        + at(length, 1, 0)
+        + ");\nboundary ( drum { type wall; faces ((4 12 13 5) (5 13 14 6) (6 14 15 7) (7 15 12 4)); }\n"
+          "ends { type wall; faces ((0 1 2 3) (0 4 5 1) (1 5 6 2) (2 6 7 3) (3 7 4 0)\n"
+          "(8 9 10 11) (8 12 13 9) (9 13 14 10) (10 14 15 11) (11 15 12 8)); } );\n";
+    test.file("0/U")
+        .remove("boundaryField/walls")
+        .set("boundaryField/ends/type", "slip")
+        .set("boundaryField/drum/value", "uniform (0 0 0)");
+    test.file("0/p").remove("boundaryField/walls").set("boundaryField/\".*\"/type", "zeroGradient");
+    if (withMesh)
+    {
+        test.file("0/U").set("boundaryField/drum/type", "movingWallVelocity");
+        test.extraFiles["constant/dynamicMeshDict"] = FoamFile()
+                                                          .set("dynamicFvMesh", "dynamicMotionSolverFvMesh")
+                                                          .set("motionSolver", "solidBody")
+                                                          .set("solidBodyMotionFunction", "rotatingMotion")
+                                                          .set("rotatingMotionCoeffs/origin", "(0 0 0)")
+                                                          .set("rotatingMotionCoeffs/axis", "(1 0 0)")
+                                                          .set("rotatingMotionCoeffs/omega", drumSpeed)
+                                                          .text("dynamicMeshDict");
+    }
+    else
+    {
+        test.file("0/U")
+            .set("boundaryField/drum/type", "rotatingWallVelocity")
+            .set("boundaryField/drum/origin", "(0 0 0)")
+            .set("boundaryField/drum/axis", "(1 0 0)")
+            .set("boundaryField/drum/omega", drumSpeed);
+    }
+    test.coupling()
+        .set("constDiffSmoothingProps/bandwidth", "4.5e-3")
+        .set("forceModels", "(DiFeliceDrag gradPForce viscForce Archimedes virtualMassForce)");
+    test.setTimes(0.4, 2e-3, 0.4);
+}
+
 /// Sum of the values of a surface field on a patch that has as many faces as the piston.
 double sumOnPatch(const TestCase& test, const std::string& time, const std::string& field, const std::string& patch)
 {
@@ -313,6 +399,41 @@ TEST(MeshMotion, PistonDisplacesItsVolume)
     const Outcome mesh = test.runCommand("checkMesh -latestTime | grep 'Overall domain bounding box'");
     EXPECT_TRUE(mesh.says("0.02 0.02 0.037")) << mesh.output;
     EXPECT_GT(test.particleHistory().back().position.row(2).minCoeff(), 0);
+}
+
+// A drum may turn with its mesh or beside a mesh at rest whose wall has the same velocity. The bed climbs alike, until
+// avalanches make each run its own: its torque is that of its weight. Without the wall's velocity relative to the cells, or
+// with particles in cells where they were, the water would hold the bed back or carry it along.
+TEST(MeshMotion, DrumTurnsWithItsMeshOrBesideIt)
+{
+    TestCase beside;
+    turningDrum(beside, false);
+    const Outcome first = beside.run();
+    ASSERT_TRUE(first.succeeded()) << first.output;
+    TestCase with;
+    turningDrum(with, true);
+    const Outcome second = with.run();
+    ASSERT_TRUE(second.succeeded()) << second.output;
+
+    // The mean distance of the particles from the axis, to which the torque is proportional, from 0.2 s on.
+    const auto lever = [](const TestCase& test) {
+        double sum = 0;
+        int count = 0;
+        for (const ParticleSnapshot& snapshot : test.particleHistory())
+        {
+            if (snapshot.step >= 8000)
+            {
+                sum += snapshot.position.row(1).mean();
+                ++count;
+            }
+        }
+        return sum / count;
+    };
+    std::cout << "lever of the bed " << lever(beside) << " m beside the mesh, " << lever(with) << " m with it"
+              << std::endl;
+    EXPECT_GT(std::abs(lever(beside)), 2e-3);
+    EXPECT_NEAR(lever(with) / lever(beside), 1, 0.03);
+    EXPECT_LT(with.conservationSummary()["continuityError"], 1e-9);
 }
 
 // A run that is stopped and resumed is the run that was never stopped, with points, fluxes and particles where they were.
