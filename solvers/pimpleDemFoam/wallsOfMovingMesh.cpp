@@ -183,6 +183,8 @@ struct PatchSums
     /// Times the area: square of the velocity that the wall must have, and of its difference from the nearest triangles.
     double speed = 0;
     double fromTriangles = 0;
+    /// Times the area: square of the velocity of the mesh or the fluid, the larger one.
+    double fastest = 0;
     /// Flux through the patch, and that of its speed [m3/s].
     double flux = 0;
     double largestFlux = 0;
@@ -197,7 +199,7 @@ struct PatchSums
     template<class Act>
     void forEach(const Act& act)
     {
-        for (double* const number : {&speed, &fromTriangles, &flux, &largestFlux})
+        for (double* const number : {&speed, &fromTriangles, &fastest, &flux, &largestFlux})
         {
             act(*number);
         }
@@ -222,8 +224,10 @@ PatchSums sumsOf(const fvPatchVectorField& onPatch, const fvMesh& mesh, const st
         const vector ofMesh = (patch.Cf()[face] - patch.patch()[face].centre(mesh.oldPoints())) / timeStep;
         const vector ofWall = onPatch.fixesValue() ? onPatch[face] : meshFlux[face] / area * normal;
         sums.speed += area * magSqr(ofWall);
+        const double fastest = std::max(mag(ofMesh), mag(onPatch[face]));
+        sums.fastest += area * sqr(fastest);
         sums.flux += mag((onPatch[face] & patch.Sf()[face]) - meshFlux[face]);
-        sums.largestFlux += area * std::max(mag(ofMesh), mag(onPatch[face]));
+        sums.largestFlux += area * fastest;
         const MovedTriangles::Nearest near = triangles.nearest(toEigen(patch.Cf()[face]), besideFace * std::sqrt(area));
         sums.fromTriangles += area * magSqr(toFoam(near.velocity) - ofWall);
         if (near.wall < sums.facesNear.size())
@@ -353,7 +357,7 @@ void WallsOfMovingMesh::check(const volVectorField& U)
     double fastest = 0;
     for (const PatchSums& patch : sums)
     {
-        fastest = std::max(fastest, patch.speed);
+        fastest = std::max(fastest, patch.fastest);
     }
 
     const wordRes allowed = settings_.dict().getOrDefault<wordRes>(patchesEntry, {});
