@@ -290,17 +290,15 @@ double sumOnPatch(const TestCase& test, const std::string& time, const std::stri
     const std::size_t at = text.find('\n' + std::string(4, ' ') + patch + '\n');
     std::smatch found;
     const std::string after = text.substr(std::min(at, text.size()));
-    if (!std::regex_search(after, found, std::regex("value +(uniform|nonuniform List<scalar>) *([0-9]*)")))
+    if (!std::regex_search(after, found, std::regex("value\\s+(uniform|nonuniform List<scalar>)\\s+([-+.0-9eE]+)")))
     {
         throw std::runtime_error("no values of " + field + " on " + patch);
     }
-    std::istringstream values(after.substr(static_cast<std::size_t>(found.position() + found.length())));
     if (found[1] == "uniform")
     {
-        double value = 0;
-        values >> value;
-        return facesOfPiston * value;
+        return facesOfPiston * std::stod(found[2]);
     }
+    std::istringstream values(after.substr(static_cast<std::size_t>(found.position() + found.length())));
     values.ignore(std::numeric_limits<std::streamsize>::max(), '(');
     double sum = 0;
     for (int count = std::stoi(found[2]); count > 0; --count)
