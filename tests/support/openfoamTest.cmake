@@ -30,8 +30,10 @@ function(clepsydra_openfoam_test target)
             add_test(NAME ${name} COMMAND ${environment} $<TARGET_FILE:${target}>)
         else()
             set(name ${target}.${ranks}ranks)
+            # By its name: with its path, Open MPI puts its own prefix (/usr/lib) before the libraries of another OpenFOAM.
+            get_filename_component(mpiexec ${MPIEXEC_EXECUTABLE} NAME)
             add_test(NAME ${name} COMMAND ${environment}
-                ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${target}> -parallel)
+                ${mpiexec} ${MPIEXEC_NUMPROC_FLAG} ${ranks} $<TARGET_FILE:${target}> -parallel)
         endif()
         set_tests_properties(${name} PROPERTIES PROCESSORS ${ranks} TIMEOUT ${arg_TIMEOUT})
     endforeach()
