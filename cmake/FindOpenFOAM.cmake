@@ -13,6 +13,7 @@
 #   OpenFOAM::surfaces        libfileFormats, libsurfMesh
 #   OpenFOAM::finiteVolume    libfiniteVolume, libmeshTools, and all above: enough for fvCFD.H
 #   OpenFOAM::incompressible  transport and turbulence models
+#   OpenFOAM::dynamicMesh     libdynamicMesh, libdynamicFvMesh
 #   OpenFOAM::decomposition   libdecompositionMethods
 
 include(FindPackageHandleStandardArgs)
@@ -160,6 +161,8 @@ if(OpenFOAM_FOUND)
     )
     # Its headers include each other as <incompressible/...>, seen from src/transportModels.
     target_include_directories(OpenFOAM::incompressible SYSTEM INTERFACE "${OpenFOAM_ROOT}/src/transportModels")
+    _openfoam_target(dynamicMesh DEPENDS finiteVolume
+        LIBRARIES dynamicMesh dynamicFvMesh FOLDERS dynamicMesh dynamicFvMesh)
     _openfoam_target(decomposition DEPENDS finiteVolume
         LIBRARIES decompositionMethods FOLDERS parallel/decompose/decompositionMethods)
 endif()

@@ -6,6 +6,7 @@
 #include "IFstream.H"
 #include "OSspecific.H"
 #include "StringStream.H"
+#include "pointIOField.H"
 
 #include <algorithm>
 #include <cmath>
@@ -54,10 +55,10 @@ private:
 };
 
 /// Digest of the mesh as it is in memory, because the format of the files (binary, ASCII, one or many) means nothing.
-std::string digestOf(const polyMesh& mesh)
+std::string digestOf(const polyMesh& mesh, const pointField& points)
 {
     Digest digest;
-    for (const point& corner : mesh.points())
+    for (const point& corner : points)
     {
         digest.add(corner.cdata(), sizeof corner);
     }
@@ -78,8 +79,20 @@ std::string digestOf(const polyMesh& mesh)
     return digest.text();
 }
 
-MeshSums sumsOf(const fvMesh& mesh)
+/// The points with which the faces of a mesh have been written, from which its points move.
+pointField pointsAtBeginning(const polyMesh& mesh)
 {
+    return pointIOField(IOobject(
+        "points", mesh.facesInstance(), polyMesh::meshSubDir, mesh, IOobject::MUST_READ, IOobject::NO_WRITE, false));
+}
+
+/// Of a mesh that moves, the number of cells only.
+MeshSums sumsOf(const fvMesh& mesh, bool meshMoves)
+{
+    if (meshMoves)
+    {
+        return {returnReduce(mesh.nCells(), sumOp<label>()), 0, 0};
+    }
     scalar volume = 0;
     scalar squaredVolume = 0;
     for (const scalar cell : mesh.V().field())
@@ -119,14 +132,16 @@ bool isMesh(const Manifest::File& input)
 
 } // namespace
 
-RunInputs::RunInputs(const fvMesh& mesh, const std::vector<std::filesystem::path>& scriptFiles)
-    : sums_(sumsOf(mesh))
+RunInputs::RunInputs(const fvMesh& mesh, bool meshMoves, const std::vector<std::filesystem::path>& scriptFiles)
+    : sums_(sumsOf(mesh, meshMoves))
 {
     const std::string part =
         Pstream::parRun() ? "processor" + std::to_string(Pstream::myProcNo()) + '/' : std::string();
-    meshOfThisRank_ = {part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()), digestOf(mesh)}};
+    meshOfThisRank_ = {
+        part + "constant/polyMesh", {static_cast<std::uintmax_t>(mesh.nCells()),
+                                        digestOf(mesh, meshMoves ? pointsAtBeginning(mesh) : mesh.points())}};
     for (const char* name : {"constant/couplingProperties", "constant/transportProperties", "constant/g",
-             "constant/turbulenceProperties", "constant/fvOptions", "system/fvOptions"})
+             "constant/turbulenceProperties", "constant/dynamicMeshDict", "constant/fvOptions", "system/fvOptions"})
     {
         // On all ranks, because the file handlers collated and masterUncollated read included files collectively.
         const fileName file = mesh.time().globalPath() / name;

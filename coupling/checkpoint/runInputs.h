@@ -18,8 +18,10 @@ class RunInputs
 {
 public:
     /// Collective.
+    /// \param meshMoves  whether the points move during the run. They are then part of each checkpoint, and those from which
+    /// the run began count as its input.
     /// \param scriptFiles  relative to the case: the DEM script and the files that it includes or reads
-    RunInputs(const Foam::fvMesh& mesh, const std::vector<std::filesystem::path>& scriptFiles);
+    RunInputs(const Foam::fvMesh& mesh, bool meshMoves, const std::vector<std::filesystem::path>& scriptFiles);
 
     const MeshSums& mesh() const
     {

@@ -216,8 +216,15 @@ public:
 
     /// Adds the continuity error of one coupling step to the totals, d(eps)/dt + div(eps U) times the coupling step [-]:
     /// the volume of fluid that was created or lost per volume, as OpenFOAM's solvers report it. It is recorded when
-    /// the totals are reduced. Collective at the first call, which sums up the cells' volumes.
+    /// the totals are reduced. Collective at the first call, and after the mesh has moved, which sums up
+    /// the cells' volumes.
     void addContinuity(const Foam::volScalarField& error, RankTotals& totals);
+
+    /// Forgets the volume of the mesh, which has moved.
+    void meshMoved()
+    {
+        meshVolume_.reset();
+    }
 
     /// Records the difference between the void fraction of the particles and that whose change the fluid's continuity
     /// equation has seen, in volume over all ranks [m3]; see VoidFractionRate::filteredVolume().

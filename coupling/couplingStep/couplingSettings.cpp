@@ -59,7 +59,8 @@ CouplingSettings::CouplingSettings(const Time& time)
         {"fluid", "couplingTimeStep", "adjustableCouplingTimeStep", "maxCo", "minCouplingTimeStep",
             "maxCouplingTimeStep", "modelType", "voidFractionModel", "smoothingModel", "selfInducedVelocityCorrection",
             "turbulentDispersion", "forceModels", "momCoupleModels", "useDDTvoidfraction", "particleOutlets",
-            "insertionTime", "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient"},
+            "insertionTime", "allowParticlesOutsideMesh", "coarseGraining", "meanPressureGradient",
+            "patchesWithoutDemWall"},
         coefficientsOfModels({"useDDTvoidfractionProps", "turbulentDispersionProps", "DEM", "energy", "particleOutput",
             "conservationCheck"}));
     requireKnownEntries(dict_.subDict("DEM"),

@@ -11,7 +11,8 @@ namespace clepsydra
 
 CouplingStep::CouplingStep(const Foam::fvMesh& mesh, const CouplingSettings& settings, const FluidProperties& fluid,
     DemEngine& engine, FluidModels* models, PhaseTimers& timers, bool resumed)
-    : settings_(settings),
+    : mesh_(mesh),
+      settings_(settings),
       engine_(engine),
       length_(settings, mesh.time(), engine.timeStep(), resumed),
       couplingTimeStep_(length_.seconds()),
@@ -66,6 +67,17 @@ void CouplingStep::start(Foam::volVectorField& U, const Foam::surfaceScalarField
         [this](const RankNumbers& all) { conservation_.setInitialMomentum(ExchangedMomentum::in(all, 0)); });
     courantNumber_.addTo(phi, couplingTimeStep_, totals);
     totals.reduce();
+}
+
+void CouplingStep::meshMoved()
+{
+    fluid_->meshMoved();
+    insertionAndRemoval_.meshMoved(mesh_);
+    if (settings_.adjustableCouplingTimeStep())
+    {
+        lengthOfChange_ =
+            lengthOfChange(fluid_->mapping().distribution().smoothingModel().bandwidth(), smallestCellWidth(mesh_));
+    }
 }
 
 ParticlesInFluid CouplingStep::advanceParticles(double timeLeft)

@@ -42,6 +42,10 @@ public:
         return length_.seconds();
     }
 
+    /// Recomputes what depends on the points of the mesh, after they have moved. Call before advanceParticles() of the
+    /// coupling step at whose end they are there. Collective.
+    void meshMoved();
+
     /// Advances the particles of a run with fluid by one coupling step. Collective.
     /// \param timeLeft  from the end of this coupling step to the next time that must be hit [s], VGREAT for none
     /// \return what the fluid's equations over this coupling step contain of the particles
@@ -101,6 +105,7 @@ private:
     /// Upper limits of the next coupling step, one line for each reason. Collective.
     std::vector<CouplingStepLimit> limits() const;
 
+    const Foam::fvMesh& mesh_;
     const CouplingSettings& settings_;
     DemEngine& engine_;
     /// Length of the next coupling step. After `advanceParticles()`: of the step after that.

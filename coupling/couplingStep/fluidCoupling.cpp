@@ -73,6 +73,15 @@ AnticipatedParticles FluidCoupling::subtractFirstDrag(DemResult oneStep, volVect
     return located;
 }
 
+void FluidCoupling::meshMoved()
+{
+    mapping_.meshMoved();
+    fields_.rate.meshMoved();
+    fields_.momentum.meshMoved();
+    sampling_.meshMoved();
+    conservation_.meshMoved();
+}
+
 ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double next, const RankTotals& ofDem)
 {
     const PhaseTimers::Scope timing = timers_.time("distribute");
@@ -95,7 +104,9 @@ ParticlesInFluid FluidCoupling::particlesToFluid(const DemResult& result, double
         fields_.voidFraction.update(ContributionRows::solidVolume.of(density), particles, located, totals);
         // Motion of the particles over the next coupling step, divided by the length of the step that is solved.
         ContributionRows::motion.of(density) *= next / result.timeStep;
-        fields_.rate.update(voidFraction(), ContributionRows::motion.of(density), result.timeStep, totals);
+        const double anticipated = settings_.implicitCoupling() ? next / result.timeStep : 0;
+        fields_.rate.update(voidFraction(), ContributionRows::motion.of(density),
+            anticipated * ContributionRows::solidVolume.of(density), result.timeStep, totals);
         asPlanned = totals.reduce();
     }
     updateSizes(located);

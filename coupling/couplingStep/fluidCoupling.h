@@ -31,6 +31,10 @@ public:
     /// \param oneStep  the forces of one DEM step, in which the particles have not moved
     AnticipatedParticles subtractFirstDrag(DemResult oneStep, Foam::volVectorField& U, double couplingTimeStep);
 
+    /// Recomputes what depends on the points of the mesh, after they have moved, and lets each cell keep what it holds of
+    /// particles. Call at the beginning of a coupling step. Collective.
+    void meshMoved();
+
     /// Computes the void fraction and the sources of the fluid's equations from the particles' present positions and
     /// from what they received. Collective; one reduction in most coupling steps.
     /// \param result  of the DEM steps of one coupling step, over which the fluid is solved next

@@ -28,6 +28,7 @@ FluidSampling::FluidSampling(const fvMesh& mesh, const CouplingSettings& setting
     {
         acceleration_.reset(
             new volVectorField(couplingField<vector>("fluidAcceleration", mesh, dimAcceleration, vector::zero)));
+        centres_ = mesh.cellCentres();
     }
     if (selfInducedVelocityCorrection_.isActive())
     {
@@ -43,7 +44,22 @@ void FluidSampling::updateAcceleration(const volVectorField& U, double couplingT
         const tmp<volTensorField> gradient = fvc::grad(U);
         acceleration_->primitiveFieldRef() = (U.primitiveField() - U.oldTime().primitiveField()) / couplingTimeStep
                                              + (U.primitiveField() & gradient().primitiveField());
+        if (!meshVelocity_.empty())
+        {
+            // The change in time is that in a cell, which moves.
+            acceleration_->primitiveFieldRef() -= meshVelocity_ & gradient().primitiveField();
+        }
         acceleration_->correctBoundaryConditions();
+    }
+}
+
+void FluidSampling::meshMoved()
+{
+    if (needs_.acceleration)
+    {
+        const fvMesh& mesh = acceleration_->mesh();
+        meshVelocity_ = (mesh.cellCentres() - centres_) / mesh.time().deltaTValue();
+        centres_ = mesh.cellCentres();
     }
 }
 

@@ -32,6 +32,9 @@ public:
     /// so that a resumed run has it too.
     void updateAcceleration(const Foam::volVectorField& U, double couplingTimeStep);
 
+    /// Computes the mesh's velocity, relative to which DU/Dt is that of the fluid. Call when the mesh has moved. Local.
+    void meshMoved();
+
     /// Lets the particles go on through the eddies with the next sample(), where turbulent dispersion is selected.
     void endWalks(const ParticlesView& particles) const
     {
@@ -73,6 +76,10 @@ private:
     Foam::autoPtr<Foam::volScalarField> resistance_;
     /// DU/Dt [m/s2]; null where no force needs it.
     Foam::autoPtr<Foam::volVectorField> acceleration_;
+    /// Centres of the cells, and their velocity in the last coupling step [m/s]; the latter is empty where the mesh has not
+    /// moved. Both are empty where no force needs the acceleration.
+    Foam::vectorField centres_;
+    Foam::vectorField meshVelocity_;
     /// See setSizes(); without columns where no force needs the Sauter mean diameter.
     Eigen::Matrix2Xd sizes_;
 };

@@ -63,6 +63,17 @@ tmp<fvScalarMatrix> HeatExchange::source(volScalarField& T) const
     return particleSource_ - fvm::Sp(coefficient_, T);
 }
 
+void HeatExchange::meshMoved()
+{
+    const fvMesh& mesh = given_.mesh();
+    const scalarField ratio(mesh.V0().field() / mesh.V().field());
+    for (volScalarField* const held : {&given_, &deferred_})
+    {
+        held->primitiveFieldRef() *= ratio;
+        held->correctBoundaryConditions();
+    }
+}
+
 double HeatExchange::pending() const
 {
     return capacityPerVolume_ * sum(given_.mesh().V().field() * (given_.primitiveField() - deferred_.primitiveField()));

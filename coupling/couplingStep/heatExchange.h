@@ -39,6 +39,10 @@ public:
     void update(const LocatedParticles& located, const ParticlesView& particles, const TemperaturesView& temperatures,
         double timeStep);
 
+    /// Lets each cell keep the heat that it holds while its volume changes. Call when the mesh has moved, before update().
+    /// Local.
+    void meshMoved();
+
     /// The particles' source in the equation of the temperature [K/s times volume], divided by the heat capacity of the
     /// fluid's volume.
     Foam::tmp<Foam::fvScalarMatrix> source(Foam::volScalarField& T) const;

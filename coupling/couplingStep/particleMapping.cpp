@@ -55,6 +55,12 @@ ParticleMapping::ParticleMapping(const Foam::fvMesh& mesh, const Foam::dictionar
           distribution.periodicBox())
 {}
 
+void ParticleMapping::meshMoved()
+{
+    distribution_.meshMoved();
+    exchange_.setCells(distribution_.cells().box());
+}
+
 template<class Communicate>
 auto ParticleMapping::exchanged(const Communicate& communicate)
 {

@@ -59,6 +59,10 @@ public:
     LocatedParticles locateAsPlanned(
         const ParticlesView& particles, const Eigen::MatrixXd& contributions, RankTotals& totals);
 
+    /// Recomputes what depends on the points of the mesh, after they have moved. Particles that were located before are
+    /// no longer valid. Collective.
+    void meshMoved();
+
     /// The particles that were located last.
     LocatedParticles lastLocated() const
     {

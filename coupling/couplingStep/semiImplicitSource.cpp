@@ -47,6 +47,15 @@ void SemiImplicitSource::defer(
     columns(deferred_.primitiveFieldRef()) = densities / fluidDensity_;
 }
 
+void SemiImplicitSource::meshMoved()
+{
+    const fvMesh& mesh = given_.mesh();
+    const scalarField ratio(mesh.V0().field() / mesh.V().field());
+    given_.primitiveFieldRef() *= ratio;
+    given_.correctBoundaryConditions();
+    deferred_.primitiveFieldRef() *= ratio;
+}
+
 void SemiImplicitSource::subtractFirstDrag(volVectorField& U, const volScalarField& voidFraction) const
 {
     const scalarField& fluid = voidFraction.primitiveField();

@@ -64,6 +64,10 @@ public:
     void defer(const Foam::volVectorField& U, const Foam::volVectorField& sourceOfPressure,
         const Eigen::Ref<const Eigen::MatrixXd>& densities);
 
+    /// Lets each cell keep the momentum that it holds while its volume changes. Call when the mesh has moved, before
+    /// addDeferred(). Local.
+    void meshMoved();
+
     /// Before the first coupling step: subtracts the semi-implicit impulse from the fluid's velocity.
     void subtractFirstDrag(Foam::volVectorField& U, const Foam::volScalarField& voidFraction) const;
 

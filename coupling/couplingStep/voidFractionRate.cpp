@@ -50,8 +50,19 @@ void VoidFractionRate::start(const volScalarField& voidFraction)
     integral_ == voidFraction;
 }
 
+void VoidFractionRate::meshMoved()
+{
+    const fvMesh& mesh = integral_.mesh();
+    const scalarField& before = mesh.V0().field();
+    const scalarField& now = mesh.V().field();
+    meshVolume_ = gSum(now);
+    scalarField& integral = integral_.primitiveFieldRef();
+    integral = 1 - (1 - integral) * before / now;
+    expansion_ = (1 - before / now) / mesh.time().deltaTValue();
+}
+
 void VoidFractionRate::update(const volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
-    double couplingTimeStep, RankTotals& totals)
+    const Eigen::Ref<const Eigen::RowVectorXd>& anticipated, double couplingTimeStep, RankTotals& totals)
 {
     couplingTimeStep_ = couplingTimeStep;
     spread_ = 0;
@@ -63,24 +74,33 @@ void VoidFractionRate::update(const volScalarField& voidFraction, const Eigen::R
     const fvMesh& mesh = voidFraction.mesh();
     const double approach = smoothingTime_ > 0 ? -std::expm1(-couplingTimeStep / smoothingTime_) : 1;
     passed_ = approach;
-    const auto inCells = [&](Eigen::Index row, const dimensionSet& dimensions) {
+    const auto inCells = [&](const Eigen::Ref<const Eigen::RowVectorXd>& density, const dimensionSet& dimensions) {
         auto field = temporaryField<volScalarField>("ofParticles", mesh, dimensions);
-        columns(field.primitiveFieldRef()) = approach * densities.row(row);
+        columns(field.primitiveFieldRef()) = approach * density;
         field.correctBoundaryConditions();
         return field;
     };
-    velocityResponse_ = fvc::interpolate(inCells(0, dimless));
-    pressureResponse_ = fvc::interpolate(inCells(1, dimTime));
+    velocityResponse_ = fvc::interpolate(inCells(densities.row(0), dimless));
+    pressureResponse_ = fvc::interpolate(inCells(densities.row(1), dimTime));
     auto particleFlux = temporaryField<volVectorField>("particleFlux", mesh, dimVelocity);
     columns(particleFlux.primitiveFieldRef()) = approach * densities.bottomRows<3>();
     particleFlux.correctBoundaryConditions();
     surfaceScalarField flux(fvc::interpolate(particleFlux) & mesh.Sf());
+    if (mesh.moving())
+    {
+        // That of the implicit part is relative to the mesh with the flux of U.
+        flux -= fvc::interpolate(inCells(anticipated - densities.row(0), dimless)) * mesh.phi();
+    }
     closeBoundary(velocityResponse_);
     closeBoundary(pressureResponse_);
     closeBoundary(flux);
     explicitRate_ = fvc::div(flux);
     explicitRate_.primitiveFieldRef() +=
         approach / couplingTimeStep * (voidFraction.primitiveField() - integral_.primitiveField());
+    if (!expansion_.empty())
+    {
+        explicitRate_.primitiveFieldRef() += expansion_;
+    }
     totals.add({{explicitRateHere()}, {}}, [this](const RankNumbers& all) { unspread_ = all.sums[0]; });
 }
 
@@ -115,11 +135,20 @@ void VoidFractionRate::close(const surfaceScalarField& flux)
     rate_ = explicitRate_ + fvc::div(flux);
     // The imbalance that was distributed does not remain as an error to be corrected.
     integral_.primitiveFieldRef() += couplingTimeStep_ * (rate_.primitiveField() + spread_);
+    if (!expansion_.empty())
+    {
+        integral_.primitiveFieldRef() -= couplingTimeStep_ * expansion_;
+    }
 }
 
 double VoidFractionRate::filteredVolume() const
 {
-    const scalarField passed(couplingTimeStep_ * mag(rate_.primitiveField() + spread_));
+    scalarField ofParticles(rate_.primitiveField() + spread_);
+    if (!expansion_.empty())
+    {
+        ofParticles -= expansion_;
+    }
+    const scalarField passed(couplingTimeStep_ * mag(ofParticles));
     return (1 / passed_ - 1) * sum(passed * rate_.mesh().V().field());
 }
 

@@ -31,6 +31,10 @@ namespace clepsydra
 /// converges. In a dense bed (solid fraction above 0.5) that falls or rises at its terminal velocity, with coupling
 /// steps of three relaxation times or more, a filter over many coupling steps makes errors grow again, by a factor of
 /// up to 1.15 per coupling step. Do not use the filter with coupling steps of that length.
+///
+/// Where the mesh moves, all fluxes are relative to it, a cell keeps its particles while its points move, and the rate is
+/// that of the fluid in the cell, d(eps V)/dt / V. The filter does not concern the change of the volume V. The motion of the
+/// particles is anticipated relative to a mesh that goes on as it has moved in this coupling step.
 class VoidFractionRate
 {
 public:
@@ -39,6 +43,10 @@ public:
 
     void start(const Foam::volScalarField& voidFraction);
 
+    /// Lets each cell keep the particles that it holds in the continuity equation while its volume changes. Call when the
+    /// mesh has moved, before update(). Collective.
+    void meshMoved();
+
     /// Number of rows of the densities that update() takes.
     static constexpr Eigen::Index rowCount = 5;
 
@@ -46,10 +54,12 @@ public:
     /// \param densities  rowCount x cells, per volume, sums over the particles of their volume times: velocityResponse
     /// [-]; pressureResponse for the force of a kinematic pressure gradient [s]; (1 - velocityResponse) times the
     /// present velocity [m/s]
+    /// \param anticipated  cells: density of the volume of the particles whose motion is anticipated, times that of the
+    /// rows above to the present one [-]; it counts where the mesh moves only
     /// \param couplingTimeStep  length of the step that is solved next [s]
     /// \param totals  to be reduced before spreadImbalance()
     void update(const Foam::volScalarField& voidFraction, const Eigen::Ref<const Eigen::MatrixXd>& densities,
-        double couplingTimeStep, RankTotals& totals);
+        const Eigen::Ref<const Eigen::RowVectorXd>& anticipated, double couplingTimeStep, RankTotals& totals);
 
     /// Makes the continuity equation of a closed tank solvable, where the rate's integral and the outflow must add up
     /// to zero. Subtracts their sum evenly from all cells, whereas a linear solver would put it into the reference
@@ -109,7 +119,7 @@ private:
     const bool used_;
     const double smoothingTime_;
     /// Of the cells of all ranks [m3].
-    const double meshVolume_;
+    double meshVolume_;
     double couplingTimeStep_ = 0;
     /// Part of the change that the filter passes in this coupling step; 1 without a filter.
     double passed_ = 1;
@@ -123,6 +133,8 @@ private:
     Foam::surfaceScalarField velocityResponse_;
     Foam::surfaceScalarField pressureResponse_;
     Foam::volScalarField rate_;
+    /// Relative change of each cell's volume in this coupling step, per time [1/s]; empty where the mesh has not moved.
+    Foam::scalarField expansion_;
 };
 
 } // namespace clepsydra

@@ -42,11 +42,19 @@ bool isWallFace(const Foam::polyMesh& mesh, label face)
 CellSlabs::CellSlabs(const Foam::fvMesh& mesh)
     : mesh_(mesh)
 {
+    meshMoved();
+}
+
+void CellSlabs::meshMoved()
+{
+    planes_.clear();
+    slabs_.clear();
+    bricks_.clear();
+    firstSlab_.assign(1, 0);
     std::vector<Box> boxes;
-    firstSlab_.push_back(0);
-    for (label cell = 0; cell < mesh.nCells(); ++cell)
+    for (label cell = 0; cell < mesh_.nCells(); ++cell)
     {
-        boxes.push_back(addCell(mesh, cell));
+        boxes.push_back(addCell(mesh_, cell));
         firstSlab_.push_back(static_cast<int>(slabs_.size()));
     }
     cellBoxes_ = BoxTree(std::move(boxes));

@@ -39,6 +39,9 @@ public:
 
     explicit CellSlabs(const Foam::fvMesh& mesh);
 
+    /// Computes the slabs of the mesh as it is now, after its points have moved. Local.
+    void meshMoved();
+
     const Foam::fvMesh& mesh() const
     {
         return mesh_;

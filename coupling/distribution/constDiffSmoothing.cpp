@@ -4,6 +4,9 @@
 
 #include "addToRunTimeSelectionTable.H"
 
+#include <optional>
+#include <utility>
+
 namespace clepsydra
 {
 
@@ -27,8 +30,9 @@ public:
 
     ConstDiffSmoothing(const dictionary& coefficients, const fvMesh& mesh)
         : smoothingBandwidth_(positiveEntry(coefficients, "bandwidth")),
-          diffusion_(mesh),
-          series_(seriesFor(diffusion_.largestEigenvalue()))
+          mesh_(mesh),
+          diffusion_(std::in_place, mesh),
+          series_(seriesFor(diffusion_->largestEigenvalue()))
     {
         requireKnownEntries(coefficients, {"bandwidth"});
         warnOfManySweeps();
@@ -38,12 +42,18 @@ public:
     {
         // Beyond this reach the Gaussian holds less than 1e-6. On cells as wide as the bandwidth, where a step reaches
         // farther, the two additional cells of restrictTo() ensure the same.
-        diffusion_.restrictTo(cells, 4 * smoothingBandwidth_, totals);
+        diffusion_->restrictTo(cells, 4 * smoothingBandwidth_, totals);
     }
 
     void smooth(Eigen::MatrixXd& densities) const override
     {
-        diffusion_.applyChebyshev(series_, densities);
+        diffusion_->applyChebyshev(series_, densities);
+    }
+
+    void meshMoved() override
+    {
+        diffusion_.emplace(mesh_);
+        series_ = seriesFor(diffusion_->largestEigenvalue());
     }
 
     double bandwidth() const override
@@ -74,12 +84,12 @@ private:
     void warnOfManySweeps() const
     {
         const std::size_t sweeps = series_.size() - 1;
-        const std::size_t ofMeanCells = seriesFor(diffusion_.meanEigenvalue()).size() - 1;
+        const std::size_t ofMeanCells = seriesFor(diffusion_->meanEigenvalue()).size() - 1;
         if (sweeps <= manySweeps || sweeps <= timesAsMany * ofMeanCells)
         {
             return;
         }
-        const CellDiffusion::StiffestCell thinnest = diffusion_.stiffestCell();
+        const CellDiffusion::StiffestCell thinnest = diffusion_->stiffestCell();
         if (Pstream::master())
         {
             WarningInFunction << "Smoothing over a bandwidth of " << smoothingBandwidth_ << " m takes " << label(sweeps)
@@ -92,8 +102,9 @@ private:
     }
 
     const double smoothingBandwidth_;
-    CellDiffusion diffusion_;
-    const std::vector<double> series_;
+    const fvMesh& mesh_;
+    std::optional<CellDiffusion> diffusion_;
+    std::vector<double> series_;
 };
 
 defineTypeNameAndDebug(ConstDiffSmoothing, 0);

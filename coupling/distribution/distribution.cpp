@@ -50,6 +50,15 @@ Distribution::Distribution(const Foam::dictionary& couplingProperties, const Foa
       smoothing_(SmoothingModel::New(couplingProperties, mesh))
 {}
 
+void Distribution::meshMoved()
+{
+    cells_.meshMoved();
+    voidFraction_->meshMoved();
+    smoothing_->meshMoved();
+    // The cells near a particle are others, and one that has not moved is cut by other planes.
+    cache_.clear();
+}
+
 Eigen::MatrixXd Distribution::findCells(const std::vector<GhostParticle>& ghosts)
 {
     ++call_;

@@ -46,6 +46,9 @@ public:
         smoothing_->smooth(densities);
     }
 
+    /// Recomputes what depends on the points of the mesh, after they have moved. Collective.
+    void meshMoved();
+
     /// The directions in which the mesh is periodic.
     const PeriodicBox& periodicBox() const
     {

@@ -3,6 +3,8 @@
 #include "addToRunTimeSelectionTable.H"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace clepsydra
 {
@@ -28,7 +30,7 @@ public:
     Gaussian(const Foam::dictionary& coefficients, const CellSlabs& cells)
         : VoidFractionModel(cells),
           bandwidth_(positiveEntry(coefficients, "bandwidth")),
-          aroundWalls_(cells.mesh())
+          aroundWalls_(std::in_place, cells.mesh())
     {
         requireKnownEntries(coefficients, {"bandwidth", "alphaMin"});
     }
@@ -46,7 +48,12 @@ public:
 
     double share(Foam::label cell, const GhostParticle& particle) const override
     {
-        return cells().gaussianShare(cell, particle.position, bandwidth_, particle.radius, aroundWalls_);
+        return cells().gaussianShare(cell, particle.position, bandwidth_, particle.radius, *aroundWalls_);
+    }
+
+    void meshMoved() override
+    {
+        aroundWalls_.emplace(cells().mesh());
     }
 
     Foam::string description() const override
@@ -56,7 +63,7 @@ public:
 
 private:
     const double bandwidth_;
-    const WayAroundWalls aroundWalls_;
+    std::optional<WayAroundWalls> aroundWalls_;
 };
 
 defineTypeNameAndDebug(Gaussian, 0);

@@ -41,6 +41,10 @@ public:
     /// Bandwidth b of the Gaussian exp(-r2/b2) that the smoothing approximates [m]; 0 without smoothing.
     virtual double bandwidth() const = 0;
 
+    /// Recomputes what depends on the points of the mesh, after they have moved. Collective.
+    virtual void meshMoved()
+    {}
+
     /// One line for the report at the start of the log.
     virtual Foam::string description() const = 0;
 };

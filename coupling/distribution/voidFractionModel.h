@@ -40,6 +40,10 @@ public:
     /// Share of the particle in a cell, not normalised, >= 0.
     virtual double share(Foam::label cell, const GhostParticle& particle) const = 0;
 
+    /// Recomputes what depends on the points of the mesh, after they have moved and the cells are new. Collective.
+    virtual void meshMoved()
+    {}
+
     /// One line for the report at the start of the log.
     virtual Foam::string description() const = 0;
 

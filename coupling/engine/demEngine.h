@@ -3,6 +3,7 @@
 #include "engine/periodicBox.h"
 
 #include <cstdint>
+#include <array>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -37,6 +38,14 @@ struct ContactMaterial
 {
     double youngsModulus;
     double poissonRatio;
+};
+
+/// A triangle of a wall that the engine moves.
+struct WallTriangle
+{
+    std::string wall; ///< name of the wall
+    int id;           ///< within the wall
+    std::array<Vector3d, 3> corners;
 };
 
 /// A file to which the engine appends while it runs.
@@ -121,6 +130,12 @@ public:
     virtual Vector3d unwrappedPosition(Eigen::Index particle)
     {
         return particles().position.col(particle);
+    }
+
+    /// The triangles of this rank of all walls that the engine moves, where they are now. Each triangle is on one rank. Local.
+    virtual std::vector<WallTriangle> movingWalls() const
+    {
+        return {};
     }
 
     /// Contact materials; empty where the script states none. Local.

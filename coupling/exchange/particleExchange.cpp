@@ -67,6 +67,13 @@ ParticleExchange::ParticleExchange(
     MPI_Comm_rank(communicator_, &rank_);
 }
 
+void ParticleExchange::setCells(const Box& cells)
+{
+    cells_ = cells;
+    subdomainBounds_ = subdomainBounds(communicator_, cells);
+    planHolds_ = false;
+}
+
 GhostParticle ParticleExchange::ghostOf(
     const ParticlesView& particles, Eigen::Index particle, const Eigen::Vector3i& periods) const
 {

@@ -36,10 +36,13 @@ class ParticleExchange
 {
 public:
     /// Collective.
-    /// \param cells  box around this rank's cells; the mesh does not move
+    /// \param cells  box around this rank's cells
     /// \param commonReach  distance from its centre over which every particle acts, where that is larger than its
     /// radius [m]
     ParticleExchange(MPI_Comm communicator, const Box& cells, double commonReach = 0, const PeriodicBox& periodic = {});
+
+    /// Sets the box around this rank's cells after the mesh has moved. Collective.
+    void setCells(const Box& cells);
 
     /// Sends every particle to each rank whose box of cells intersects the cube around the particle's sphere or reach.
     /// Collective.

@@ -64,6 +64,12 @@ public:
     /// \return volume of the particles that is in the fluid, over all ranks [m3]
     double start(const ParticlesView& particles, bool freshStart, const FindOutsideMesh& findOutsideMesh = nullptr);
 
+    /// Moves the outlets with the patches of the mesh. Collective where there are outlets.
+    void meshMoved(const Foam::fvMesh& mesh)
+    {
+        outlets_.meshMoved(mesh);
+    }
+
     /// Updates the submerged fractions after the engine has advanced by one coupling step. The balances over all ranks
     /// are updated when the totals are reduced. Local, but collective with `findOutsideMesh`.
     /// \param newFrom  particles with a higher id have been inserted in this coupling step
@@ -136,7 +142,7 @@ private:
     /// Updates the balances over all ranks. \param totals  of the numbers that advance() adds
     void record(const RankNumbers& totals);
 
-    const ParticleOutlets outlets_;
+    ParticleOutlets outlets_;
     const PeriodicBox periodic_;
     const double insertionTime_;
     double couplingTimeStep_;

@@ -38,6 +38,11 @@ Segment segmentWithin(double beyond)
 ParticleOutlets::ParticleOutlets(const dictionary& couplingProperties, const fvMesh& mesh)
 {
     readNames(couplingProperties, mesh);
+    meshMoved(mesh);
+}
+
+void ParticleOutlets::meshMoved(const fvMesh& mesh)
+{
     if (!names_.empty())
     {
         gatherFaces(mesh);
@@ -110,6 +115,7 @@ void ParticleOutlets::gatherFaces(const fvMesh& mesh)
         triangles[triangle] = labelledTri(3 * triangle, 3 * triangle + 1, 3 * triangle + 2, regions[triangle]);
     }
     bounds_ = boundBox(points, false);
+    search_.reset(); // It refers to the surface.
     surface_ = std::make_unique<triSurface>(triangles, points);
     search_ = std::make_unique<triSurfaceSearch>(*surface_);
 }

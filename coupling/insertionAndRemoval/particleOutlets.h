@@ -27,6 +27,9 @@ class ParticleOutlets
 public:
     ParticleOutlets(const Foam::dictionary& couplingProperties, const Foam::fvMesh& mesh);
 
+    /// Takes the faces as they are now, after the points of the mesh have moved. Collective where there are outlets.
+    void meshMoved(const Foam::fvMesh& mesh);
+
     const Foam::wordList& names() const
     {
         return names_;

@@ -6,6 +6,8 @@
 #include "forces/fluidProperties.h"
 #include "runTimeSelection.h"
 
+#include "volFields.H"
+
 #include <filesystem>
 #include <vector>
 
@@ -33,9 +35,14 @@ public:
 
     /// Starts the engine, from the checkpoint where the run is resumed. FatalError or FatalIOError where its input does not
     /// fit to the case. Collective.
+    /// \param meshMoves  whether checkMovedWalls() will be called, so that nothing is known of the walls' motion yet
     /// \param fluid  null for DEM only
     virtual DemEngine& start(
-        const Checkpoints& checkpoints, const Foam::fvMesh& mesh, const FluidProperties* fluid) = 0;
+        const Checkpoints& checkpoints, const Foam::fvMesh& mesh, bool meshMoves, const FluidProperties* fluid) = 0;
+
+    /// Compares the walls of the program with those of the fluid, when both have moved by a coupling step. FatalError or
+    /// FatalIOError where they do not move alike. Collective.
+    virtual void checkMovedWalls(const Foam::volVectorField& U) = 0;
 
     /// Warns of input that has no effect. Collective. \pre the engine is initialised
     virtual void warnOfUnreadInput() const = 0;

@@ -66,10 +66,11 @@ void FluidTemperature::solve(
     const double timeStep = mesh_.time().deltaTValue();
     const volScalarField& voidFraction = particles.voidFractionInContinuity();
     const scalarField& volumes = mesh_.V().field();
-    const auto inFluid = [&](const volScalarField& eps, const volScalarField& T) {
-        return capacityPerVolume_ * sum(volumes * eps.primitiveField() * T.primitiveField());
+    const auto inFluid = [&](const scalarField& volumeOfCells, const volScalarField& eps, const volScalarField& T) {
+        return capacityPerVolume_ * sum(volumeOfCells * eps.primitiveField() * T.primitiveField());
     };
-    const double before = inFluid(voidFraction.oldTime(), T_.oldTime());
+    const scalarField& volumesBefore = mesh_.moving() ? mesh_.V0().field() : volumes;
+    const double before = inFluid(volumesBefore, voidFraction.oldTime(), T_.oldTime());
 
     const dimensionedScalar diffusivityOfFluid("diffusivity", dimViscosity, thermal_.conductivity / capacityPerVolume_);
     surfaceScalarField diffusivity("kappa", diffusivityOfFluid * particles.voidFractionf());
@@ -96,12 +97,17 @@ void FluidTemperature::solve(
 
     HeatOfStep heat = exchange_.exchange(particles, temperatures_.temperatures(), T_);
     heat.inFluidBefore = before;
-    heat.inFluid = inFluid(voidFraction, T_);
+    heat.inFluid = inFluid(volumes, voidFraction, T_);
     heat.throughBoundary = throughBoundary(alphaPhi, diffusivity);
     heat.ofContinuityError =
         timeStep * capacityPerVolume_ * sum(volumes * continuityError.primitiveField() * T_.primitiveField());
     particles.setHeat(heat);
     updateBuoyancy();
+}
+
+void FluidTemperature::meshMoved()
+{
+    exchange_.meshMoved();
 }
 
 double FluidTemperature::throughBoundary(

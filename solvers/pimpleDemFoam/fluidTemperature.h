@@ -40,6 +40,9 @@ public:
     void solve(
         ParticlesInFluid& particles, const Foam::surfaceScalarField& alphaPhi, const FluidTurbulence* turbulence);
 
+    /// Lets each cell keep the heat that it holds of particles while its volume changes. Call when the mesh has moved.
+    void meshMoved();
+
 private:
     /// Heat that leaves the fluid through the boundary of this rank in the step [J].
     /// \param diffusivity  of T through the faces, times the void fraction [m2/s]

@@ -1,31 +1,13 @@
 #include "ignoredInputs.h"
 
-#include "openfoam/compatibility.h"
 #include "tokens/renamed.h"
 
-#include "IOdictionary.H"
+#include "Time.H"
 
 namespace clepsydra
 {
 
 using namespace Foam;
-
-void refuseMovingMesh(const Time& time)
-{
-    IOobject file("dynamicMeshDict", time.constant(), time, IOobject::MUST_READ, IOobject::NO_WRITE, false);
-    if (clepsydra::typeFilePath<IOdictionary>(file).empty())
-    {
-        return;
-    }
-    const IOdictionary dict(file);
-    const word type = dict.getOrDefault<word>("dynamicFvMesh", "none");
-    if (type != "staticFvMesh")
-    {
-        FatalIOErrorInFunction(dict) << "Entry 'dynamicFvMesh' of constant/dynamicMeshDict is " << type
-                                     << "; allowed: staticFvMesh, or no such file, because the mesh does not move"
-                                     << exit(FatalIOError);
-    }
-}
 
 void refuseRenamedFunctionObjects(const Time& time)
 {

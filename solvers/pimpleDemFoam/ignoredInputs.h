@@ -8,9 +8,6 @@
 namespace clepsydra
 {
 
-/// FatalIOError where constant/dynamicMeshDict asks for a mesh that moves or changes.
-void refuseMovingMesh(const Foam::Time& time);
-
 /// FatalIOError where a function object has a type under its name of an earlier version; it names the new one. OpenFOAM
 /// itself would only warn of an unknown type and run without it.
 void refuseRenamedFunctionObjects(const Foam::Time& time);

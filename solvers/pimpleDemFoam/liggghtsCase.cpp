@@ -5,6 +5,7 @@
 #include "liggghtsSetup.h"
 #include "movingWalls.h"
 #include "scriptRules.h"
+#include "wallsOfMovingMesh.h"
 
 #include "addToRunTimeSelectionTable.H"
 
@@ -76,7 +77,8 @@ public:
         return filesOfScript(setup_.script, setup_.variables);
     }
 
-    DemEngine& start(const Checkpoints& checkpoints, const fvMesh& mesh, const FluidProperties* fluid) override
+    DemEngine& start(
+        const Checkpoints& checkpoints, const fvMesh& mesh, bool meshMoves, const FluidProperties* fluid) override
     {
         if (checkpoints.resumed())
         {
@@ -84,7 +86,7 @@ public:
         }
         engine_ = std::make_unique<LiggghtsEngine>(setup_);
         const ScriptFacts script = engine_->scriptFacts();
-        requireKnownScript(settings_, script, mesh);
+        requireKnownScript(settings_, script, mesh, meshMoves);
         if (hasEnergy(settings_))
         {
             requireHeatStatedOnce(settings_.dict().subDict("energy"), script);
@@ -93,9 +95,21 @@ public:
         {
             requireSameGravity(*fluid, *engine_, script);
             requireSamePeriodicBox(settings_, script, mesh);
-            warnOfPatchesWithoutWall(mesh, wallMotions(script));
+            if (meshMoves)
+            {
+                walls_ = std::make_unique<WallsOfMovingMesh>(mesh, settings_, *engine_, wallMotions(script));
+            }
+            else
+            {
+                warnOfPatchesWithoutWall(mesh, wallMotions(script));
+            }
         }
         return *engine_;
+    }
+
+    void checkMovedWalls(const volVectorField& U) override
+    {
+        walls_->check(U);
     }
 
     void warnOfUnreadInput() const override
@@ -107,6 +121,8 @@ private:
     const CouplingSettings& settings_;
     LiggghtsSetup setup_;
     std::unique_ptr<LiggghtsEngine> engine_;
+    /// Null where the mesh of the fluid is at rest.
+    std::unique_ptr<WallsOfMovingMesh> walls_;
 };
 
 defineTypeNameAndDebug(LiggghtsCase, 0);

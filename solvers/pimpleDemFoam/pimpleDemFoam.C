@@ -9,6 +9,7 @@
 #include "couplingStep/couplingStep.h"
 #include "demProgram.h"
 #include "ignoredInputs.h"
+#include "fluidMesh.h"
 #include "fluidSources.h"
 #include "fluidTemperature.h"
 #include "modelLines.h"
@@ -112,10 +113,11 @@ private:
 };
 
 /// \param temperature  null where the case has none
-void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
-    FluidModels& models, FluidTemperature* temperature, CouplingStep& couplingStep, RunOutput& output, bool resumed)
+void runWithFluid(RunTime& runTime, FluidMesh& mesh, DemProgram& demProgram, const FluidProperties& fluid,
+    ModelType modelType, FluidModels& models, FluidTemperature* temperature, CouplingStep& couplingStep,
+    RunOutput& output, bool resumed)
 {
-    VoidFractionFlow flow(mesh, fluid, modelType, models.viscousStress, couplingStep.timers());
+    VoidFractionFlow flow(*mesh, mesh.moves(), fluid, modelType, models.viscousStress, couplingStep.timers());
     flow.addTurbulence(fluid, couplingStep.fluid().voidFraction(), resumed);
     if (temperature)
     {
@@ -127,7 +129,23 @@ void runWithFluid(RunTime& runTime, fvMesh& mesh, const FluidProperties& fluid, 
 
     while (runTime.loop(couplingStep.lengthWithin(runTime.timeLeft())))
     {
+        if (mesh.moves())
+        {
+            const PhaseTimers::Scope timing = couplingStep.timers().time("mesh");
+            const QuietOnTerminal quiet(output);
+            mesh.move();
+            couplingStep.meshMoved();
+            flow.meshMoved();
+            if (temperature)
+            {
+                temperature->meshMoved();
+            }
+        }
         ParticlesInFluid particles = couplingStep.advanceParticles(runTime.timeLeft());
+        if (mesh.moves())
+        {
+            demProgram.checkMovedWalls(flow.U());
+        }
         const SolvedStep solved = [&] {
             const QuietOnTerminal quiet(output);
             Info << "Time = " << runTime.timeName() << nl;
@@ -202,13 +220,14 @@ int main(int argc, char* argv[])
 
     RunTime runTime = start.empty() ? RunTime(args) : RunTime(args, start);
     refuseRenamedFunctionObjects(runTime);
-    refuseMovingMesh(runTime);
-#include "createMesh.H"
+    FluidMesh fluidMesh(args, runTime);
+    fvMesh& mesh = *fluidMesh;
 
     const CouplingSettings settings(runTime);
     requireParticlesWithinMesh(settings.demDict().subOrEmptyDict("variables"), mesh.bounds());
     const Fluid input = settings.hasFluid() ? readFluid(runTime, mesh.bounds(), settings) : Fluid{};
     const FluidProperties& fluid = input.properties;
+    fluidMesh.requireCaseForMotion(settings, fluid);
     if (settings.hasFluid())
     {
         checkScalarTransport(mesh);
@@ -222,12 +241,12 @@ int main(int argc, char* argv[])
     try
     {
         autoPtr<DemProgram> demProgram = DemProgram::New(settings, dryRun);
-        const Checkpoints checkpoints(runTime, RunInputs(mesh, demProgram->inputs()), !dryRun);
+        const Checkpoints checkpoints(runTime, RunInputs(mesh, fluidMesh.moves(), demProgram->inputs()), !dryRun);
         if (checkpoints.resumed())
         {
             runTime.resume(checkpoints.beginning());
         }
-        DemEngine& engine = demProgram->start(checkpoints, mesh, models ? &fluid : nullptr);
+        DemEngine& engine = demProgram->start(checkpoints, mesh, fluidMesh.moves(), models ? &fluid : nullptr);
         std::optional<FluidTemperature> temperature;
         if (input.energy)
         {
@@ -240,8 +259,8 @@ int main(int argc, char* argv[])
 
         if (models)
         {
-            runWithFluid(runTime, mesh, fluid, settings.modelType(), *models, temperature ? &*temperature : nullptr,
-                couplingStep, output, checkpoints.resumed());
+            runWithFluid(runTime, fluidMesh, *demProgram, fluid, settings.modelType(), *models,
+                temperature ? &*temperature : nullptr, couplingStep, output, checkpoints.resumed());
         }
         else
         {

@@ -144,9 +144,17 @@ void addFixes(const ScriptFacts& facts, bool hasEnergy, std::vector<Unknown>& un
     }
 }
 
-void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, std::vector<Unknown>& unknown)
+/// \param meshMoves  whether WallsOfMovingMesh compares all walls whose motion is known
+void addMovingWalls(const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves, std::vector<Unknown>& unknown)
 {
-    for (const auto& [wall, reason] : wallsWithoutPatch(wallMotions(facts), mesh))
+    std::vector<WallMotion> walls = wallMotions(facts);
+    if (meshMoves)
+    {
+        walls.erase(std::remove_if(walls.begin(), walls.end(),
+                        [](const WallMotion& wall) { return wall.kind == "move/mesh" || wall.unknownBecause.empty(); }),
+            walls.end());
+    }
+    for (const auto& [wall, reason] : wallsWithoutPatch(walls, mesh))
     {
         unknown.push_back({placeOf(wall.command),
             "fix " + wall.fix + (wall.kind == "move/mesh" ? " has the style '" : " has the word '") + wall.kind
@@ -196,7 +204,7 @@ void addContactsOfParcels(const ScriptFacts& facts, double coarseGraining, std::
 }
 
 std::vector<Unknown> unknownWithFluid(
-    const ScriptFacts& facts, const fvMesh& mesh, double coarseGraining, bool hasEnergy)
+    const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves, double coarseGraining, bool hasEnergy)
 {
     std::vector<Unknown> unknown;
     const auto requireOneOf = [&](const std::string& command, const std::string& style,
@@ -211,7 +219,7 @@ std::vector<Unknown> unknownWithFluid(
     requireOneOf("pair_style", facts.pairStyle, {"gran", "none"});
     requireOneOf("run_style", facts.runStyle, {"verlet"});
     addFixes(facts, hasEnergy, unknown);
-    addMovingWalls(facts, mesh, unknown);
+    addMovingWalls(facts, mesh, meshMoves, unknown);
     if (coarseGraining != 1)
     {
         addContactsOfParcels(facts, coarseGraining, unknown);
@@ -312,7 +320,7 @@ void requireSamePeriodicBox(const CouplingSettings& settings, const ScriptFacts&
     }
 }
 
-void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh)
+void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const fvMesh& mesh, bool meshMoves)
 {
     const dictionary& demDict = settings.demDict();
     requireConstantDemStep(demDict, facts);
@@ -325,7 +333,7 @@ void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& fac
     std::string text;
     std::set<std::string> names;
     for (const auto& [place, what, name] :
-        unknownWithFluid(facts, mesh, settings.coarseGraining(), clepsydra::hasEnergy(settings)))
+        unknownWithFluid(facts, mesh, meshMoves, settings.coarseGraining(), clepsydra::hasEnergy(settings)))
     {
         if (!allowed.match(name))
         {

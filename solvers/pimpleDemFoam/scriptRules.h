@@ -12,7 +12,8 @@ namespace clepsydra
 /// names the line of the script and the word by which the entry `allowedInScript` of DEM allows it. Without fluid only
 /// a change of the DEM step is refused. Walls may move where the fluid's walls move alike, see wallsWithoutPatch().
 /// Collective.
-void requireKnownScript(const CouplingSettings& settings, const ScriptFacts& facts, const Foam::fvMesh& mesh);
+void requireKnownScript(
+    const CouplingSettings& settings, const ScriptFacts& facts, const Foam::fvMesh& mesh, bool meshMoves);
 
 /// Requires that the particles' space is periodic exactly where cyclic patches make the mesh periodic, with the same
 /// box. FatalIOError that names the lines of the script, the patches, both boxes and what is allowed. Collective.

@@ -5,6 +5,7 @@
 
 #include "constrainHbyA.H"
 #include "constrainPressure.H"
+#include "ddtScheme.H"
 #include "emptyFvPatch.H"
 #include "fvCFD.H"
 #include "noSlipFvPatchVectorField.H"
@@ -40,6 +41,19 @@ surfaceScalarField readFlux(const volVectorField& U)
     }
     file.readOpt() = IOobject::READ_IF_PRESENT;
     return surfaceScalarField(file, fvc::flux(U));
+}
+
+/// The velocity on the faces, which a run on a moving mesh has written.
+surfaceVectorField readFaceVelocity(const volVectorField& U)
+{
+    const fvMesh& mesh = U.mesh();
+    IOobject file("Uf", mesh.time().timeName(), mesh, IOobject::MUST_READ, IOobject::AUTO_WRITE);
+    if (hasFile<surfaceVectorField>(file))
+    {
+        return surfaceVectorField(file, mesh);
+    }
+    file.readOpt() = IOobject::READ_IF_PRESENT;
+    return surfaceVectorField(file, fvc::interpolate(U));
 }
 
 IOobject readAndWritten(const word& name, const fvMesh& mesh)
@@ -84,8 +98,8 @@ scalar outflow(const surfaceScalarField& voidFractionf, const surfaceScalarField
 
 } // namespace
 
-VoidFractionFlow::VoidFractionFlow(
-    fvMesh& mesh, const FluidProperties& fluid, ModelType modelType, ViscousStress& viscousStress, PhaseTimers& timers)
+VoidFractionFlow::VoidFractionFlow(fvMesh& mesh, bool meshMoves, const FluidProperties& fluid, ModelType modelType,
+    ViscousStress& viscousStress, PhaseTimers& timers)
     : mesh_(mesh),
       timers_(timers),
       pimple_(mesh),
@@ -102,6 +116,14 @@ VoidFractionFlow::VoidFractionFlow(
     requireDimensions(phi_, dimVolume / dimTime, "a flux of volume");
     setRefCell(p_, pimple_.dict(), pRefCell_, pRefValue_);
     mesh_.setFluxRequired(p_.name());
+    if (meshMoves)
+    {
+        // Not by make_unique(), which would make a copy that is not written.
+        Uf_.reset(new surfaceVectorField(readFaceVelocity(U_)));
+        Uf_->oldTime();
+        // Before the motion of the mesh first changes the values at its walls.
+        U_.oldTime();
+    }
 }
 
 void VoidFractionFlow::addTurbulence(const FluidProperties& fluid, const volScalarField& voidFraction, bool resumed)
@@ -116,6 +138,42 @@ void VoidFractionFlow::addTurbulence(const FluidProperties& fluid, const volScal
 void VoidFractionFlow::updateAlphaPhi(const volScalarField& voidFraction)
 {
     alphaPhi_ = fvc::interpolate(voidFraction) * phi_;
+}
+
+void VoidFractionFlow::meshMoved()
+{
+    phi_ = mesh_.Sf() & *Uf_;
+    forAll (U_.boundaryField(), patch)
+    {
+        if (const fvPatchVectorField& onPatch = U_.boundaryField()[patch]; onPatch.fixesValue())
+        {
+            phi_.boundaryFieldRef()[patch] == (onPatch.patch().Sf() & onPatch);
+        }
+    }
+    phi_ -= mesh_.phi();
+}
+
+void VoidFractionFlow::updateFaceVelocity()
+{
+    const surfaceVectorField normal(mesh_.Sf() / mesh_.magSf());
+    *Uf_ = fvc::interpolate(U_);
+    *Uf_ += normal * ((phi_ + mesh_.phi()) / mesh_.magSf() - (normal & *Uf_));
+}
+
+tmp<surfaceScalarField> VoidFractionFlow::fluxCorrection() const
+{
+    if (!Uf_)
+    {
+        return fvc::ddtCorr(U_, phi_);
+    }
+    const surfaceScalarField flux(mesh_.Sf() & Uf_->oldTime());
+    const surfaceScalarField correction(flux - fvc::dotInterpolate(mesh_.Sf(), U_.oldTime()));
+    // OpenFOAM's own ddtCorr() of a moving mesh compares the correction with the flux through faces at rest, so that it would
+    // depend on the velocity of the observer.
+    return fv::ddtScheme<vector>::New(mesh_, mesh_.ddtScheme("ddt(" + U_.name() + ')'))
+               .ref()
+               .fvcDdtPhiCoeff(U_, flux - mesh_.phi(), correction)
+           * correction / mesh_.time().deltaT();
 }
 
 SolvedStep VoidFractionFlow::solve(ParticlesInFluid& particles)
@@ -135,6 +193,10 @@ SolvedStep VoidFractionFlow::solve(ParticlesInFluid& particles)
             const PhaseTimers::Scope timing = timers_.time("turbulence");
             turbulence_->correct(particles.voidFractionf() * phi_);
         }
+    }
+    if (Uf_)
+    {
+        updateFaceVelocity();
     }
     alphaPhi_ = particles.voidFractionf() * phi_;
     return particles.record(particleSource(), U_, p_, alphaPhi_);
@@ -186,9 +248,13 @@ void VoidFractionFlow::correctPressure(ParticlesInFluid& particles, const fvVect
     const surfaceScalarField rAUf("rAUf", fvc::interpolate(pressureFactor)*rAf);
 
     volVectorField HbyA(constrainHbyA(rAU*UEqn.H(), U_, p_));
-    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + particles.voidFractionf()*rAf*fvc::ddtCorr(U_, phi_));
+    surfaceScalarField phiHbyA("phiHbyA", fvc::flux(HbyA) + particles.voidFractionf()*rAf*fluxCorrection());
 
     constrainPressure(p_, U_, phiHbyA, rAUf);
+    if (Uf_)
+    {
+        phiHbyA -= mesh_.phi();
+    }
     particles.addMeanPressureGradient(phiHbyA, rAUf);
     if (p_.needReference() && isClosed(U_, p_))
     {

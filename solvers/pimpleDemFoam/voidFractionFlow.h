@@ -17,7 +17,8 @@ class VoidFractionFlow
 public:
     /// Reads p and U, where the run was stopped also phi, and the sources. FatalError that names the file where a field
     /// has wrong dimensions.
-    VoidFractionFlow(Foam::fvMesh& mesh, const FluidProperties& fluid, ModelType modelType,
+    /// \param meshMoves  whether meshMoved() will be called
+    VoidFractionFlow(Foam::fvMesh& mesh, bool meshMoves, const FluidProperties& fluid, ModelType modelType,
         ViscousStress& viscousStress, PhaseTimers& timers);
 
     /// Creates the turbulence model, where the fluid has one, and adds it to the stress. Call before CouplingStep::start(),
@@ -36,7 +37,7 @@ public:
         return p_;
     }
 
-    /// Flux of U [m3/s].
+    /// Flux of U, relative to the mesh where it moves [m3/s].
     const Foam::surfaceScalarField& phi() const
     {
         return phi_;
@@ -45,6 +46,11 @@ public:
     /// Sets the registered field alphaPhi, the flux of fluid through the faces as a volume per time [m3/s], to that of the
     /// present phi. Call before the first step; solve() does so after each.
     void updateAlphaPhi(const Foam::volScalarField& voidFraction);
+
+    /// Takes the velocity on the faces as flux through the faces of the mesh as it is now. Call when the mesh has moved,
+    /// before solve(). phi is relative to the mesh from then on. OpenFOAM's `correctPhi` is not needed: the momentum equation
+    /// subtracts the continuity error of this flux, and the pressure equation of the same step replaces it.
+    void meshMoved();
 
     /// The flux of fluid of the last updateAlphaPhi() or solve() [m3/s].
     const Foam::surfaceScalarField& alphaPhi() const
@@ -63,6 +69,11 @@ public:
     SolvedStep solve(ParticlesInFluid& particles);
 
 private:
+    /// The part of the velocity on the faces at the end of the last step that is lost in its interpolation between cells, as a
+    /// flux per time [m3/s2].
+    Foam::tmp<Foam::surfaceScalarField> fluxCorrection() const;
+    /// Stores the velocity on the faces, which is not known from phi when the faces have turned.
+    void updateFaceVelocity();
     Foam::fvVectorMatrix momentumEquation(
         const ParticlesInFluid& particles, const Foam::fvVectorMatrix& particleSource);
     void correctPressure(ParticlesInFluid& particles, const Foam::fvVectorMatrix& UEqn);
@@ -74,6 +85,8 @@ private:
     Foam::volVectorField U_;
     Foam::surfaceScalarField phi_;
     Foam::surfaceScalarField alphaPhi_;
+    /// Velocity on the faces, with the flux phi [m/s]; null where the mesh is at rest.
+    std::unique_ptr<Foam::surfaceVectorField> Uf_;
     Foam::label pRefCell_ = 0;
     Foam::scalar pRefValue_ = 0;
     ViscousStress& viscousStress_;

@@ -42,7 +42,8 @@ protected:
     void update()
     {
         RankTotals totals;
-        rate_->update(*voidFraction_, Eigen::MatrixXd::Zero(VoidFractionRate::rowCount, cellCount), interval, totals);
+        rate_->update(*voidFraction_, Eigen::MatrixXd::Zero(VoidFractionRate::rowCount, cellCount),
+            Eigen::RowVectorXd::Zero(cellCount), interval, totals);
         totals.reduce();
     }
 

@@ -307,7 +307,7 @@ TEST(BadInput, Wedges)
     expectRefused(makeWedge, {"'front'", "polyMesh/boundary", "wedge", "allowed:"}, SeenBy::dictionaries);
 }
 
-/// The mesh does not move: ignored, the file would leave walls where they are.
+/// Cells that are made or removed during a run would not hold the particles of the old ones.
 TEST(BadInput, MovingMesh)
 {
     const auto meshOf = [](const std::string& type) {
@@ -317,8 +317,9 @@ TEST(BadInput, MovingMesh)
     };
     for (const int ranks : {1, 2})
     {
-        expectRefused(meshOf("dynamicMotionSolverFvMesh"),
-            {"constant/dynamicMeshDict", "'dynamicFvMesh'", "dynamicMotionSolverFvMesh", "allowed: staticFvMesh"},
+        expectRefused(meshOf("dynamicRefineFvMesh"),
+            {"constant/dynamicMeshDict", "'dynamicFvMesh'", "dynamicRefineFvMesh",
+                "allowed: dynamicMotionSolverFvMesh"},
             SeenBy::dictionaries, ranks);
     }
     TestCase still;

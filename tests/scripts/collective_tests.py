@@ -25,13 +25,13 @@ OTHERS = {
     "coupling/checkpoint/caseLock.cpp": (1, START),
     "coupling/checkpoint/checkpoints.cpp": (13, f"{START} and {WRITE}"),
     "coupling/checkpoint/partsOfCase.cpp": (2, START),
-    "coupling/checkpoint/runInputs.cpp": (5, START),
+    "coupling/checkpoint/runInputs.cpp": (6, START),
     "coupling/conservation/conservationCheck.cpp": (2, f"{ERROR}; the volume of the mesh, once"),
     "coupling/conservation/particleCensus.cpp": (2, ERROR),
     "coupling/couplingStep/bedEdge.cpp": (2, "once, at the first write time with a bed"),
     "coupling/couplingStep/meanPressureGradient.cpp": (1, START),
     "coupling/couplingStep/particlesOutsideMesh.cpp": (4, ERROR),
-    "coupling/couplingStep/voidFractionRate.cpp": (1, START),
+    "coupling/couplingStep/voidFractionRate.cpp": (2, f"{START}; where the mesh has moved"),
     "coupling/distribution/cellDiffusion.cpp": (5, START),
     "coupling/distribution/cyclicPatches.cpp": (6, START),
     "coupling/distribution/lengthOfChange.h": (2, START),
@@ -53,6 +53,7 @@ OTHERS = {
     "coupling/run/demTimeScales.cpp": (2, START),
     "coupling/run/runOutput.cpp": (2, "at the end"),
     "solvers/pimpleDemFoam/movingWalls.cpp": (3, START),
+    "solvers/pimpleDemFoam/wallsOfMovingMesh.cpp": (8, "where the mesh has moved"),
 }
 
 # Reductions of RankTotals by file, and when they are made in a coupling step.

@@ -6,6 +6,7 @@
 #include "engine/liggghts/lastForces.h"
 #include "engine/liggghts/liggghtsParticles.h"
 #include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/meshWalls.h"
 #include "engine/liggghts/outputFiles.h"
 #include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/removal.h"
@@ -213,6 +214,11 @@ PeriodicBox LiggghtsEngine::periodicBox() const
 Vector3d LiggghtsEngine::unwrappedPosition(Eigen::Index particle)
 {
     return parts_->particles.unwrappedPosition(particle);
+}
+
+std::vector<WallTriangle> LiggghtsEngine::movingWalls() const
+{
+    return trianglesOfMovingMeshes(parts_->program);
 }
 
 std::vector<ContactMaterial> LiggghtsEngine::contactMaterials() const

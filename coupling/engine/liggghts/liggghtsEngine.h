@@ -42,6 +42,7 @@ public:
     Vector3d gravity() const override;
     PeriodicBox periodicBox() const override;
     Vector3d unwrappedPosition(Eigen::Index particle) override;
+    std::vector<WallTriangle> movingWalls() const override;
     std::vector<ContactMaterial> contactMaterials() const override;
     std::vector<std::filesystem::path> writeCheckpoint(const std::filesystem::path& name) override;
     std::vector<EngineOutput> outputs() override;
