@@ -508,7 +508,7 @@ TEST(MeshMotion, RefusesWhatDoesNotFit)
         // That of the fluid is at rest, or the fluid passes it.
         {[](TestCase& test) {
              std::string& text = test.extraFiles["0/pointDisplacement"];
-             text = std::regex_replace(text, std::regex("-0.05"), "0");
+             text = std::regex_replace(text, std::regex("-0[.]05[0-9]*"), "0");
              test.file("0/U").set("boundaryField/piston/type", "noSlip").remove("boundaryField/piston/value");
          },
             {"The wall 'piston' of the DEM script moves (move/mesh)",

@@ -480,7 +480,9 @@ class Import:
                     path.name == "dynamicMeshDict"
                     and self.read(where).is_read().text("dynamicFvMesh") != "staticFvMesh"
                 ):
-                    self.report.error(where, path.name, "the motion of the mesh is not converted; allowed: staticFvMesh")
+                    self.report.error(
+                        where, path.name, "the motion of the mesh is not converted; allowed: staticFvMesh"
+                    )
                 elif folder == "system" and path.name not in known:
                     self.files[f"system/{path.name}"] = path
                     self.report.left_out(where, path.name, "is copied; neither Allrun nor pimpleDemFoam reads it")
