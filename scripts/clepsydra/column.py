@@ -24,7 +24,8 @@ class Column:
 
     @property
     def area(self) -> float:
-        return self["width"] ** 2
+        """Of the cross-section, a square unless the run has a depth [m2]."""
+        return float(self["width"] * self.parameters.get("depth", self["width"]))
 
     @property
     def particle_volume(self) -> float:
