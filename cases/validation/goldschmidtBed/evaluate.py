@@ -17,6 +17,7 @@ WINDOW = 0.01  # [s] over which the pressure is averaged: DPMFoam's jumps from s
 # Equations, drag and contacts are the same: means within some percent. Swings and frequencies are of a few periods.
 TOLERANCES = {"mean": 5, "deviation": 30, "frequency": 25}
 NOT_TRACED = "one packing, one mesh; not traced"
+SMOOTHED = "smoothing over three diameters blurs the ends of a bed of some twenty: without smoothing -0.6 % at rest"
 
 
 class OurBed(Ours):
@@ -90,11 +91,12 @@ def beside_weight(code: Ours, drop: tuple[float, float]) -> dict[str, Any]:
 
 def rows_of_means(ours: Ours, theirs: Ours) -> list[dict[str, Any]]:
     of_run = f"U {ours.column['superficialVelocity']:g} m/s"
+    tolerance = TOLERANCES["mean"]
+    heights = [late(*code.mean_height()) for code in (ours, theirs)]
+    drops = [late(*code.pressure_drop()) for code in (ours, theirs)]
     return [
-        compare(
-            f"height of the centre of mass, {of_run}", "m", late(*ours.mean_height()), late(*theirs.mean_height()), 5
-        ),
-        compare(f"pressure drop, {of_run}", "Pa", late(*ours.pressure_drop()), late(*theirs.pressure_drop()), 5),
+        compare(f"height of the centre of mass, {of_run}", "m", heights[0], heights[1], tolerance),
+        compare(f"pressure drop, {of_run}", "Pa", drops[0], drops[1], tolerance, SMOOTHED),
     ]
 
 
