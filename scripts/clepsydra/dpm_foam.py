@@ -98,8 +98,9 @@ def compare(
     theirs: tuple[float, float],
     tolerance: float,
     finding: str | None = None,
+    spread: float = 0,
 ) -> dict[str, Any]:
-    """Each a value and its standard error."""
+    """Each a value and its standard error. spread: of packings, relative; both codes begin with the same one."""
     (value, error), (reference, reference_error) = ours, theirs
     return validation.row(
         quantity,
@@ -111,7 +112,7 @@ def compare(
         float(np.hypot(error, reference_error)),
         at_least_scatter(tolerance, theirs),
         finding,
-        error,
+        float(np.hypot(error, spread * value)),
     )
 
 
