@@ -4,6 +4,7 @@
 #include "vectors.h"
 
 #include "surfaceFields.H"
+#include "triPointRef.H"
 #include "wallFvPatch.H"
 
 #include <algorithm>
@@ -34,54 +35,6 @@ constexpr double rounding = 1e-9;
 constexpr double besideFace = 2;
 
 const word patchesEntry("patchesWithoutDemWall");
-
-/// Point of a triangle that is nearest to another point, as weights of the corners (Ericson, Real-Time Collision Detection,
-/// 2005, section 5.1.5).
-Vector3d nearestWeights(const std::array<Vector3d, 3>& corners, const Vector3d& point)
-{
-    const auto& [a, b, c] = corners;
-    const Vector3d ab = b - a;
-    const Vector3d ac = c - a;
-    const auto along = [](double part, double whole) { return whole > 0 ? part / whole : 0; };
-    const double d1 = ab.dot(point - a);
-    const double d2 = ac.dot(point - a);
-    if (d1 <= 0 && d2 <= 0)
-    {
-        return Vector3d::UnitX();
-    }
-    const double d3 = ab.dot(point - b);
-    const double d4 = ac.dot(point - b);
-    if (d3 >= 0 && d4 <= d3)
-    {
-        return Vector3d::UnitY();
-    }
-    const double d5 = ab.dot(point - c);
-    const double d6 = ac.dot(point - c);
-    if (d6 >= 0 && d5 <= d6)
-    {
-        return Vector3d::UnitZ();
-    }
-    const double ofC = d1 * d4 - d3 * d2;
-    if (ofC <= 0 && d1 >= 0 && d3 <= 0)
-    {
-        const double t = along(d1, d1 - d3);
-        return {1 - t, t, 0};
-    }
-    const double ofB = d5 * d2 - d1 * d6;
-    if (ofB <= 0 && d2 >= 0 && d6 <= 0)
-    {
-        const double t = along(d2, d2 - d6);
-        return {1 - t, 0, t};
-    }
-    const double ofA = d3 * d6 - d5 * d4;
-    if (ofA <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0)
-    {
-        const double t = along(d4 - d3, d4 - d3 + d5 - d6);
-        return {0, 1 - t, t};
-    }
-    const double all = ofA + ofB + ofC;
-    return {ofA / all, ofB / all, ofC / all};
-}
 
 /// Triangles where they are now, with their velocities over the last coupling step.
 class MovedTriangles
@@ -143,15 +96,19 @@ public:
         Nearest found;
         double shortest = within;
         boxes_.forEachNear(point, within, [&](int index) {
-            const Moved& triangle = triangles_[static_cast<std::size_t>(index)];
-            const Vector3d weights = nearestWeights(triangle.corners, point);
-            const auto mean = [&](const std::array<Vector3d, 3>& values) {
-                return Vector3d(weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]);
-            };
-            if (const double distance = (mean(triangle.corners) - point).norm(); distance < shortest)
+            const Moved& moved = triangles_[static_cast<std::size_t>(index)];
+            const Foam::point a = toFoam(moved.corners[0]);
+            const Foam::point b = toFoam(moved.corners[1]);
+            const Foam::point c = toFoam(moved.corners[2]);
+            const triPointRef triangle(a, b, c);
+            const pointHit there = triangle.nearestPoint(toFoam(point));
+            if (there.distance() < shortest)
             {
-                shortest = distance;
-                found = {mean(triangle.velocities), triangle.wall};
+                shortest = there.distance();
+                const barycentric2D weights = triangle.pointToBarycentric(there.rawPoint());
+                found = {weights[0] * moved.velocities[0] + weights[1] * moved.velocities[1]
+                             + weights[2] * moved.velocities[2],
+                    moved.wall};
             }
         });
         return found;
@@ -275,13 +232,13 @@ WallsOfMovingMesh::WallsOfMovingMesh(const fvMesh& mesh, const CouplingSettings&
     : mesh_(mesh),
       settings_(settings),
       engine_(engine),
+      allowed_(settings.dict().getOrDefault<wordRes>(patchesEntry, {})),
       before_(triangles())
 {
     std::copy_if(motions.begin(), motions.end(), std::back_inserter(alongItself_),
         [](const WallMotion& wall) { return wall.kind != "move/mesh" && wall.unknownBecause.empty(); });
     const wordList patches = mesh.boundaryMesh().names();
-    const wordRes allowed = settings.dict().getOrDefault<wordRes>(patchesEntry, {});
-    for (const wordRe& name : allowed)
+    for (const wordRe& name : allowed_)
     {
         if (std::none_of(patches.begin(), patches.end(), [&](const word& patch) { return name.match(patch); }))
         {
@@ -360,7 +317,6 @@ void WallsOfMovingMesh::check(const volVectorField& U)
         fastest = std::max(fastest, patch.fastest);
     }
 
-    const wordRes allowed = settings_.dict().getOrDefault<wordRes>(patchesEntry, {});
     std::set<std::string> matched;
     std::vector<bool> matchedAlongItself(alongItself_.size(), false);
     for (std::size_t index = 0; index < patches.size(); ++index)
@@ -375,11 +331,11 @@ void WallsOfMovingMesh::check(const volVectorField& U)
                                  << "movingWallVelocity in the file U, or another one with the velocity of the mesh "
                                  << "across the patch" << exit(FatalError);
         }
-        if (patch.speed <= sqr(rounding) * fastest)
+        if (isSmall(patch.speed, rounding, fastest))
         {
             continue;
         }
-        bool isMatched = isSmall(patch.fromTriangles, 1, sqr(toleranceOfTriangles) * patch.speed);
+        bool isMatched = isSmall(patch.fromTriangles, toleranceOfTriangles, patch.speed);
         for (std::size_t wall = 0; isMatched && wall < moved.walls().size(); ++wall)
         {
             if (patch.facesNear[wall] > 0)
@@ -396,7 +352,7 @@ void WallsOfMovingMesh::check(const volVectorField& U)
                 matchedAlongItself[i] = true;
             }
         }
-        if (!isMatched && !allowed.match(name))
+        if (!isMatched && !allowed_.match(name))
         {
             const double relative = std::sqrt(patch.fromTriangles / patch.speed);
             std::ostringstream text;

@@ -48,6 +48,8 @@ private:
     const DemEngine& engine_;
     /// Of walls whose geometry remains.
     std::vector<WallMotion> alongItself_;
+    /// Patches beside which there need not be a wall.
+    const Foam::wordRes allowed_;
     Triangles before_;
 };
 

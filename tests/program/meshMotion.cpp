@@ -456,10 +456,7 @@ TEST(MeshMotion, IsResumedToTheLastDigit)
     for (const char* file : {"U", "Uf", "p", "phi", "alphaPhi", "voidFraction", "voidFractionInContinuity",
              "pointDisplacement", "polyMesh/points"})
     {
-        EXPECT_TRUE(
-            through.runCommand("cmp 0.06/" + std::string(file) + ' ' + (stopped.path() / "0.06" / file).string())
-                .succeeded())
-            << file;
+        EXPECT_TRUE(through.runCommand(TestCase::sameFile("0.06/" + std::string(file), stopped)).succeeded()) << file;
     }
     EXPECT_EQ(through.particleHistory().back().position, stopped.particleHistory().back().position);
 }

@@ -224,6 +224,11 @@ void TestCase::write()
     written_ = true;
 }
 
+std::string TestCase::sameFile(const std::string& file, const TestCase& other)
+{
+    return "cmp " + quoted(file) + ' ' + quoted((other.path() / file).string());
+}
+
 std::string TestCase::sameCheckpoint(const std::string& time, const TestCase& other)
 {
     const std::string manifest = "checkpoints/" + time + "/complete";

@@ -145,6 +145,9 @@ public:
     /// Components x cells; cells in blockMesh's order, x fastest, then y, then z.
     Eigen::MatrixXd field(const std::string& name, const std::string& time) const;
 
+    /// A shell condition that a file of the folder in which it is evaluated is that of another case, to the last bit.
+    static std::string sameFile(const std::string& file, const TestCase& other);
+
     /// A shell condition that the folder in which it is evaluated, this case or a copy, has a checkpoint of a time with the
     /// same contents as that of another case, to the last bit. Only the random identifiers and the inputs may differ.
     static std::string sameCheckpoint(const std::string& time, const TestCase& other);
