@@ -140,6 +140,7 @@ def link_build(folder: Path, build: Any) -> None:
     )
     (folder / "build.ninja").write_text("build all: phony\nbuild programs: phony\n")
     (folder / "CTestTestfile.cmake").write_text(f'subdirs("{build}")\n')
+    (folder / "cmake_install.cmake").touch()  # CMake writes it last: scripts/setup configures where it is missing
 
 
 def works(command: Any, row: Any, kind: Any, home: Path, page: Any) -> bool:
