@@ -31,8 +31,9 @@ def rows(run: Any) -> Any:
             compare("settling velocity, void fraction .9", "m/s", settling_velocity(ours), settling_velocity(theirs), 5)
         ]
     finding = (
-        f"DPMFoam loses {theirs.lost_particles()} of {theirs.column['particleCount']:.0f} particles, and its"
-        f" pressure jumps by {theirs.pressure_drop()[1].std():.0f} Pa from step to step"
+        "DPMFoam's pressure drop is less than the weight of its bed, and jumps by"
+        f" {theirs.pressure_drop()[1].std():.0f} Pa from step to step; its bed does not accelerate, so that the rest"
+        " is carried by the floor or is not returned to the fluid (not traced)"
     )
     found = [
         compare(
@@ -55,7 +56,8 @@ def rows(run: Any) -> Any:
         )
     )
     if run.name == "fluidised":
-        for code, tolerance in (ours, 2), (theirs, at_least_scatter(2, late(*theirs.pressure_drop()))):
+        scatter = at_least_scatter(2, late(*theirs.pressure_drop()))
+        for code, tolerance, found_in_it in (ours, 2, None), (theirs, scatter, finding):
             found.append(
                 validation.row(
                     f"dp of {code.name} against the weight",
@@ -65,6 +67,7 @@ def rows(run: Any) -> Any:
                     "computed",
                     *late(*code.pressure_drop()),
                     tolerance,
+                    found_in_it,
                 )
             )
     return found
