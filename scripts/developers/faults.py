@@ -50,6 +50,8 @@ def main() -> int:
     enter_namespace()
     environment.load()
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
+    # A shell starts what runs in the background with SIGINT ignored, and the runs would inherit that.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     folder = Path(tempfile.mkdtemp(prefix="clepsydraFaults."))
     bench = Bench(folder, options.quick, may_mount=bool(os.environ[IN_NAMESPACE]))
     rows = []
