@@ -12,6 +12,7 @@ from developers.fault_kinds.kinds import Skipped, Wrong, fault
 # What the program says of a disk that takes nothing more, or fails: the system's words, or that a file has no end.
 OF_DISK = (
     "has no room for the new directory",  # OpenFOAM
+    "Couldn't create directory",  # OpenFOAM, of errors that it does not know, with the folder's name
     "No space left on device",
     "Input/output error",
     "Read-only file system",
