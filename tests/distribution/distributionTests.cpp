@@ -908,7 +908,7 @@ TEST(ConstDiffSmoothing, LeavesOutCellsOnceParticlesHaveGathered)
 // that keeps the number of rounds leaves out cells of the other rank.
 TEST(ConstDiffSmoothing, FindsCellsOfAnotherRankOnceParticlesAreNearIt)
 {
-    expectFollowed({gatheredAt(0.002, 0.003), gatheredAt(0.006, 0.003)}, 0.25 * diameter);
+    expectFollowed({gatheredAt(0.0015, 0.003), gatheredAt(0.0055, 0.003)}, 0.25 * diameter);
 }
 
 // Quantities that pass the mesh together do not touch one another, however many they are.
