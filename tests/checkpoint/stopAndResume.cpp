@@ -390,6 +390,20 @@ TEST(StoppedBetweenWriteTimes, KeepsTimesAndWindows)
     }
 }
 
+// Stopped one coupling step before a write time: the next step is written. A run that counts this write time as passed has
+// none before the end.
+TEST(StoppedBetweenWriteTimes, ByOneCouplingStep)
+{
+    TestCase test;
+    test.coupling().set("fluid", "none");
+    test.dem.particles = {{0.0101, 0.0099, 0.02}};
+    test.setTimes(0.006, interval, 0.002);
+    const Outcome outcome = runInTwo(test, "0.003");
+    ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    EXPECT_TRUE(outcome.says("Resuming from the checkpoint of time 0.003")) << outcome.output;
+    EXPECT_EQ(test.times(), (std::vector<std::string>{"0.002", "0.003", "0.004", "0.006"}));
+}
+
 // Coupling steps have become shorter than controlDict's deltaT, 1 ms: stopped .4 ms before a write time and again
 // before the end, the run writes both. One that takes half of deltaT for near enough ends without.
 TEST(StoppedBetweenWriteTimes, ByLessThanTheFirstInterval)
