@@ -257,11 +257,9 @@ std::string damageOf(
 /// Times after the fresh start that a run has written, the latest first. Collective; the same on all ranks.
 wordList writtenTimes(const fileName& caseDirectory, scalar beginning)
 {
-    wordList names;
-    if (Pstream::master())
-    {
-        std::set<std::pair<scalar, word>> times;
-        for (const fileName& part : partsOf(caseDirectory))
+    std::set<std::pair<scalar, word>> times;
+    const std::string problem = problemOfRanks([&] {
+        for (const fileName& part : Pstream::master() ? partsOf(caseDirectory) : fileNameList())
         {
             for (const TimeFolder& folder : timeFolders(std::string(part)))
             {
@@ -271,8 +269,13 @@ wordList writtenTimes(const fileName& caseDirectory, scalar beginning)
                 }
             }
         }
-        std::for_each(times.rbegin(), times.rend(), [&](const auto& time) { names.append(time.second); });
+    });
+    if (!problem.empty())
+    {
+        FatalErrorInFunction << problem.c_str() << exit(FatalError);
     }
+    wordList names;
+    std::for_each(times.rbegin(), times.rend(), [&](const auto& time) { names.append(time.second); });
     Pstream::scatter(names);
     return names;
 }

@@ -2,7 +2,6 @@
 
 #include "tokens/exactText.h"
 
-#include <fstream>
 #include <sstream>
 
 namespace clepsydra
@@ -101,14 +100,11 @@ std::string Manifest::text(const std::string& lines) const
 
 Manifest Manifest::read(const std::filesystem::path& file)
 {
-    std::ifstream input(file);
-    std::ostringstream all;
-    all << input.rdbuf();
-    if (!input)
+    const std::string text = textOf(file);
+    if (text.empty())
     {
-        throw FileError(file.string() + " cannot be read, or is empty");
+        throw FileError(file.string() + " is empty");
     }
-    const std::string text = all.str();
     const std::size_t end = text.rfind('\n' + lastWord);
     const std::string body = end == std::string::npos ? "" : text.substr(0, end + 1);
     if (body.empty() || text != body + lastWord + sha256(body) + '\n')

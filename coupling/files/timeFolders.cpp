@@ -1,5 +1,7 @@
 #include "files/timeFolders.h"
 
+#include "files/wholeFile.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -24,8 +26,13 @@ std::optional<double> timeOf(const std::string& name)
 std::vector<TimeFolder> timeFolders(const std::filesystem::path& folder)
 {
     std::vector<TimeFolder> found;
-    std::error_code missing;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, missing))
+    std::error_code problem;
+    const std::filesystem::directory_iterator entries(folder, problem);
+    if (problem && problem != std::errc::no_such_file_or_directory && problem != std::errc::not_a_directory)
+    {
+        throw FileError("Cannot read " + folder.string() + ": " + problem.message());
+    }
+    for (const auto& entry : entries)
     {
         const std::string name = entry.path().filename().string();
         std::error_code unreadable;

@@ -101,6 +101,25 @@ int writeAll(int descriptor, const char* bytes, std::size_t count)
     return 0;
 }
 
+/// Hands a file's bytes to an action, part by part. \throws FileError
+template<class Action>
+void readAll(const std::filesystem::path& file, const Action& use)
+{
+    const OpenFile input(file, O_RDONLY);
+    std::string buffer(bufferSize, '\0');
+    for (ssize_t count; (count = read(input.descriptor(), buffer.data(), buffer.size())) != 0;)
+    {
+        if (count > 0)
+        {
+            use(buffer.data(), static_cast<std::size_t>(count));
+        }
+        else if (errno != EINTR)
+        {
+            throw FileError::ofSystem("Cannot read", file);
+        }
+    }
+}
+
 std::filesystem::path withEnding(std::filesystem::path file, const char* ending)
 {
     file += ending;
@@ -125,25 +144,21 @@ FileError FileError::ofSystem(const std::string& action, const std::filesystem::
 
 FileContents contentsOf(const std::filesystem::path& file)
 {
-    const OpenFile input(file, O_RDONLY);
     FileContents contents;
     Sha256 digest;
-    std::string buffer(bufferSize, '\0');
-    for (ssize_t count; (count = read(input.descriptor(), buffer.data(), buffer.size())) != 0;)
-    {
-        if (count < 0)
-        {
-            if (errno == EINTR)
-            {
-                continue;
-            }
-            throw FileError::ofSystem("Cannot read", file);
-        }
-        digest.add(buffer.data(), static_cast<std::size_t>(count));
+    readAll(file, [&](const char* bytes, std::size_t count) {
+        digest.add(bytes, count);
         contents.size += static_cast<std::uintmax_t>(count);
-    }
+    });
     contents.sha256 = digest.hexadecimal();
     return contents;
+}
+
+std::string textOf(const std::filesystem::path& file)
+{
+    std::string text;
+    readAll(file, [&](const char* bytes, std::size_t count) { text.append(bytes, count); });
+    return text;
 }
 
 std::string sha256(const std::string& text)

@@ -34,6 +34,9 @@ struct FileContents
 /// Reads the whole file. \throws FileError where that fails
 FileContents contentsOf(const std::filesystem::path& file);
 
+/// \throws FileError where the file cannot be read
+std::string textOf(const std::filesystem::path& file);
+
 std::string sha256(const std::string& text);
 
 /// Waits until a file or folder is on the disk; only then is it certain that the disk was not full. \throws FileError

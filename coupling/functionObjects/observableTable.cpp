@@ -1,6 +1,7 @@
 #include "functionObjects/observableTable.h"
 
 #include "files/timeFolders.h"
+#include "files/wholeFile.h"
 
 #include "IFstream.H"
 #include "OSspecific.H"
@@ -85,7 +86,16 @@ label makeRoomFrom(scalar startTime, const fileName& folder, const word& table)
     {
         return stayed;
     }
-    for (const TimeFolder& start : timeFolders(std::string(folder)))
+    std::vector<TimeFolder> starts;
+    try
+    {
+        starts = timeFolders(std::string(folder));
+    }
+    catch (const FileError& error)
+    {
+        FatalIOErrorInFunction(IFstream(folder)) << error.what() << exit(FatalIOError);
+    }
+    for (const TimeFolder& start : starts)
     {
         const fileName file = folder / start.name / table;
         if (!isFile(file))

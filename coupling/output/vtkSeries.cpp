@@ -40,8 +40,8 @@ VtkSeries::VtkSeries(std::filesystem::path file, double startTime)
 void VtkSeries::read(double startTime)
 {
     vtkNew<vtkXMLDataParser> parser;
-    parser->SetFileName(file_.c_str());
-    if (parser->Parse() != 1 || parser->GetRootElement() == nullptr)
+    const std::string text = textOf(file_);
+    if (parser->Parse(text.c_str()) != 1 || parser->GetRootElement() == nullptr)
     {
         throw std::runtime_error(
             file_.string() + " is not a ParaView collection; allowed: a collection, or no file of this name");

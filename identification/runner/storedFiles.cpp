@@ -1,8 +1,6 @@
 #include "runner/storedFiles.h"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 #include <vector>
 
 namespace clepsydra::identification
@@ -42,19 +40,6 @@ std::string sha256OfPath(const fs::path& path, const std::string& leaveOut)
         all += line + '\n';
     }
     return sha256(all);
-}
-
-std::string textOf(const fs::path& file)
-{
-    std::ifstream in(file, std::ios::binary);
-    std::ostringstream all;
-    all << in.rdbuf();
-    // An empty file sets the output stream's failbit too, which is no error.
-    if (!in || (all.fail() && (!fs::is_regular_file(file) || fs::file_size(file) > 0)))
-    {
-        throw FileError::ofSystem("Cannot read", file);
-    }
-    return all.str();
 }
 
 void renameWhole(const fs::path& folder, const fs::path& name)

@@ -15,8 +15,7 @@ namespace clepsydra::identification
 /// \throws FileError if a file cannot be read
 std::string sha256OfPath(const std::filesystem::path& path, const std::string& leaveOut = "");
 
-/// Content of a file. \throws FileError if it cannot be read to its end
-std::string textOf(const std::filesystem::path& file);
+using clepsydra::textOf; // of a file, beside those of numbers
 
 /// Gives a completely written folder its final name. An older folder of that name is replaced.
 /// \throws FileError if it cannot be renamed

@@ -3,6 +3,7 @@
 
 #include "checkpoint/pilingParticles.h"
 #include "files/fileSystemProbe.h"
+#include "files/timeFolders.h"
 #include "files/wholeFile.h"
 #include "support/smallDisk.h"
 
@@ -49,6 +50,17 @@ protected:
     std::filesystem::path file_;
     static constexpr rlim_t room = 1000;
 };
+
+// A folder that cannot be read is not one without tables of earlier starts: a resumed run would begin its table anew. Here it
+// is a link to itself, which root cannot read either.
+TEST_F(WholeFile, TimesOfAFolderThatCannotBeReadAreAnError)
+{
+    std::filesystem::create_directory(folder_ / "0.2");
+    EXPECT_EQ(timeFolders(folder_).size(), 1U);
+    EXPECT_TRUE(timeFolders(folder_ / "missing").empty());
+    std::filesystem::create_symlink("loop", folder_ / "loop");
+    EXPECT_THROW(timeFolders(folder_ / "loop"), FileError);
+}
 
 } // namespace
 

@@ -1,25 +1,19 @@
 // First: OpenFOAM's `Log` is a macro, GoogleMock's a function.
 #include <gmock/gmock.h>
 
+#include "files/wholeFile.h"
 #include "output/vtkSeries.h"
 #include "support/temporaryCase.h"
 
 #include <gtest/gtest.h>
 
-#include <sstream>
+#include <fstream>
 
 namespace clepsydra::tests
 {
 
 namespace
 {
-
-std::string textOf(const std::filesystem::path& file)
-{
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
 
 std::string entry(const std::string& time, const std::string& file)
 {
