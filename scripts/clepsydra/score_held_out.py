@@ -2,8 +2,8 @@
 """Scores a study on a blind test set: the measured files of candidate conditions are entered as held-out conditions,
 and the study is run again from its stored runs. The answer is written before the files are read.
 
-Writes report.json and report.html into results/heldOut in the study's folder, or into the folder of --output. An existing
-report is not overwritten. The study file is not changed. """
+Writes report.json and report.html into results/heldOut in the study's folder, or into the folder of --output. An
+existing report is not overwritten. The study file is not changed. """
 
 import argparse
 import glob
@@ -47,7 +47,9 @@ def score() -> None:
     study = with_files(yaml.safe_load(original.read_text()), dict(one.split("=", 1) for one in given.files))
     output = given.output or original.parent / "results/heldOut"
     if (output / "report.json").exists():
-        raise SystemExit(f"{output / 'report.json'} exists already and is not overwritten; --output chooses another folder")
+        raise SystemExit(
+            f"{output / 'report.json'} exists already and is not overwritten; --output chooses another folder"
+        )
     # beside the original, so that its relative paths and stored runs are found
     scored = original.with_name(f".scored.{original.name}")
     scored.write_text(yaml.safe_dump(study, sort_keys=False))

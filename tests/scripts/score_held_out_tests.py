@@ -72,7 +72,9 @@ class Scored(unittest.TestCase):
 
     def test_a_stop_is_no_traceback(self) -> None:
         """SIGINT while the program runs: the program gets it too and is waited for."""
-        self.program('trap \'sleep 0.3; touch "${0%/*}/ended"; exit 1\' INT; touch "${0%/*}/begun"; while :; do sleep 0.05; done')
+        self.program(
+            'trap \'sleep 0.3; touch "${0%/*}/ended"; exit 1\' INT; touch "${0%/*}/begun"; while :; do sleep 0.05; done'
+        )
         running = self.start()
         while not (self.folder / "bin/begun").exists():
             time.sleep(0.02)
