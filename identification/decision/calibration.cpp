@@ -1,5 +1,6 @@
 #include "decision/calibration.h"
 
+#include "emulator/distributions.h"
 #include "lists.h"
 
 #include <Eigen/Cholesky>
@@ -73,6 +74,14 @@ double chiSquareLimit(const std::vector<double>& draws, double sds)
     return std::pow(roots.mean() + sds * sd, 3);
 }
 
+double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random)
+{
+    std::normal_distribution<double> normal;
+    return effect.isSwitch ? 1.0
+                           : std::clamp(distribution.mean + distribution.sd * normal(random), effect.bounds.lower,
+                               effect.bounds.upper);
+}
+
 Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
 {
     const Eigen::Index count = evidences.effects.size();
@@ -91,7 +100,8 @@ Odds oddsOf(const Study& study, const Evidences& evidences, std::size_t without)
     all(count) = peaks(count) = evidences.other;
     const double sum = logSumExp(all);
     return {sum - evidences.null, logSumExp(peaks) - evidences.null, (all.head(count).array() - sum).matrix(),
-        all(count) - sum, evidences.chiSquares, evidences.scatterChiSquares, evidences.chanceOfChiSquare};
+        all(count) - sum, evidences.chiSquares, evidences.scatterChiSquares, evidences.chanceOfChiSquare,
+        evidences.peaks.array() - evidences.null};
 }
 
 bool areVariants(const Study& study, std::size_t one, std::size_t other)
@@ -113,11 +123,29 @@ double marginOf(const Study& study, const Odds& odds, std::size_t effect)
     return std::log(std::max(inVariants, least)) - std::log(std::max(outside, least));
 }
 
+double leastGain(const Study& study)
+{
+    const double sds = normalQuantile(1.0 - study.settings.level / 2.0);
+    return 0.5 * sds * sds;
+}
+
+std::string exclusionOf(const Calibration& calibration, const Odds& odds, std::size_t effect)
+{
+    return !std::isfinite(odds.effects(effect))         ? "its runs have failed"
+           : odds.gains(effect) < calibration.leastGain ? "it fits no better than no effect"
+           : odds.chiSquares(effect) > calibration.chiSquares(effect)
+               ? "it does not fit: its chi-square is " + textOf(std::round(odds.chiSquares(effect)))
+                     + ", and where it is the cause " + "it is below "
+                     + textOf(std::ceil(calibration.chiSquares(effect)))
+           : odds.scatterChiSquares(effect) > calibration.scatterChiSquares(effect)
+               ? "the scatter of the repeats is not the one that it causes"
+               : "";
+}
+
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds)
 {
     auto members = numbersWhere(static_cast<std::size_t>(odds.effects.size()), [&](std::size_t e) {
-        return odds.effects(e) >= calibration.membership(e) && odds.chiSquares(e) <= calibration.chiSquares(e)
-               && odds.scatterChiSquares(e) <= calibration.scatterChiSquares(e) && std::isfinite(odds.effects(e));
+        return odds.effects(e) >= calibration.membership(e) && exclusionOf(calibration, odds, e).empty();
     });
     std::sort(members.begin(), members.end(),
         [&](std::size_t a, std::size_t b) { return odds.effects(a) > odds.effects(b); });
@@ -188,6 +216,7 @@ Calibrator::Calibrator(
 
 Calibration Calibrator::calibrate()
 {
+    calibration_.leastGain = leastGain(study_);
     drawNull();
     drawEffects();
     drawOther();
@@ -231,7 +260,9 @@ void Calibrator::drawEffects()
         int found = 0;
         for (int i = 0; i < mostDraws && found < wantedDraws; ++i)
         {
-            const double amplitude = amplitudes[static_cast<std::size_t>(i) % amplitudes.size()];
+            const double amplitude = study_.effects[e].measured
+                                         ? drawnAmplitude(study_.effects[e], *study_.effects[e].measured, random_)
+                                         : amplitudes[static_cast<std::size_t>(i) % amplitudes.size()];
             const auto [data, judge] = replicas_.draw({{e, amplitude}}, around(fit, random_), random_);
             const Evidences evidences = judge(data);
             const Odds odds = oddsOf(study_, evidences);

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace clepsydra::identification
@@ -22,6 +23,7 @@ struct Odds
     Eigen::VectorXd chiSquares; // of each effect at its most likely amplitude, as in `Evidences`
     Eigen::VectorXd scatterChiSquares;
     std::optional<double> chanceOfChiSquare; // as in `Evidences`
+    Eigen::VectorXd gains; // log likelihood of each effect at its most likely amplitude over that of no effect
 };
 
 /// Thresholds of the decision. They come from synthetic data with the numbers of repeats of this data set (`Replicas`),
@@ -30,6 +32,9 @@ struct Calibration
 {
     std::vector<double> nullStatistics; // of draws without effects, ascending
     double critical = 0.0;              // critical value of the statistic at the study's level
+    /// Smallest gain (as in `Odds`) of an effect in the set: one more free number gains as much by chance at the study's
+    /// level.
+    double leastGain = 0.0;
     // By effect:
     Eigen::VectorXd membership; // log probability that the share `coverage` of its detected draws reaches
     Eigen::VectorXd widths;     // factors on the fit's intervals that give them their nominal coverage
@@ -61,6 +66,9 @@ constexpr double negligibleLogOdds = 8.0;
 
 /// Parameters drawn from a fit [prior standard deviations].
 Eigen::VectorXd around(const Fit& fit, std::mt19937_64& random);
+
+/// Amplitude drawn from a distribution and clipped to the effect's range; 1 for a switch.
+double drawnAmplitude(const Effect& effect, const Normal& distribution, std::mt19937_64& random);
 
 /// The quantile of draws; the observed data count as one more draw.
 double upperQuantile(std::vector<double> values, double share);
@@ -108,6 +116,13 @@ bool areVariants(const Study& study, std::size_t one, std::size_t other);
 
 /// Log odds of an effect with all its variants against all other causes.
 double marginOf(const Study& study, const Odds& odds, std::size_t effect);
+
+/// Smallest gain in log likelihood of an explanation that fits better than no effect, at the study's level: that of one
+/// more free number (Wilks, Ann. Math. Stat. 9, 60 (1938)).
+double leastGain(const Study& study);
+
+/// Why an effect does not belong to the set, whatever its probability is; empty if nothing but its probability decides.
+std::string exclusionOf(const Calibration& calibration, const Odds& odds, std::size_t effect);
 
 /// Effects that belong to the set, most probable first.
 std::vector<std::size_t> membersOf(const Calibration& calibration, const Odds& odds);

@@ -39,6 +39,11 @@ constexpr double smallestDecrease = 1e-3;
 /// Number of iterations for the fit of an effect if the emulator is not a polynomial.
 constexpr int refinements = 3;
 
+/// Largest number of nodes that are added for one explanation, and difference between the interpolated and the evaluated
+/// log likelihood that needs one more.
+constexpr int mostAdded = 24;
+constexpr double tolerance = 1.0;
+
 /// Sum of the logs of positive numbers. Groups of numbers are multiplied first, since the logarithm is slow.
 double logProduct(const Eigen::ArrayXd& values)
 {
@@ -49,6 +54,20 @@ double logProduct(const Eigen::ArrayXd& values)
         sum += std::log(values.segment(first, std::min(atOnce, values.size() - first)).prod());
     }
     return sum;
+}
+
+/// Log of the prior density of amplitudes within an effect's range.
+Eigen::ArrayXd logDensity(const Effect& effect, const Eigen::VectorXd& amplitudes, bool usesMeasurement)
+{
+    const auto [lower, upper] = effect.bounds;
+    if (!effect.measured || !usesMeasurement)
+    {
+        return Eigen::ArrayXd::Constant(amplitudes.size(), -std::log(upper - lower));
+    }
+    const auto [mean, sd] = *effect.measured;
+    const double inRange = probabilityBeyondNormal((lower - mean) / sd) - probabilityBeyondNormal((upper - mean) / sd);
+    constexpr double halfLogTwoPi = 0.9189385332046727;
+    return -0.5 * ((amplitudes.array() - mean) / sd).square() - (halfLogTwoPi + std::log(sd * inRange));
 }
 
 } // namespace
@@ -149,7 +168,48 @@ void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& m
     for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
     {
         const Fit found = fits(explanationOf(effects), measured).front();
-        places_[effects] = {found.parameters, found.chiSquare};
+        places_[effects] = {found.parameters, found.chiSquare, {}};
+    }
+    addNodes(effects, measured);
+}
+
+/// Where a feature jumps, as at a bounce that begins to reach a level, the chi-square of two neighbouring nodes may
+/// differ by orders of magnitude, and the cubic through them falls far below both. If runs scatter, the emulator is a
+/// polynomial, which has no jumps.
+void Evidence::addNodes(const std::vector<std::size_t>& effects, const Measured& measured)
+{
+    for (int count = 0; isExact() && count < mostAdded; ++count)
+    {
+        const Explanation explanation = explanationOf(effects);
+        const Judgement found = judge(explanation, measured);
+        std::vector<Present> present;
+        for (std::size_t k = 0; k < effects.size(); ++k)
+        {
+            present.push_back({effects[k], found.amplitudes[k]});
+        }
+        const Node node = nodeAt(present);
+        const Spread spread = spreadOf(node, measured);
+        const Solution there = solve(node, spread.factor, measured);
+        if (found.peak <= logLikelihood(there.chiSquare, there.logVolume) + spread.logLikelihood + tolerance)
+        {
+            return;
+        }
+        auto& added = places_[effects].added;
+        added.resize(effects.size());
+        bool isNew = false;
+        for (std::size_t k = 0; k < effects.size(); ++k)
+        {
+            const Eigen::ArrayXd distances = (explanation.grids[k].amplitudes().array() - found.amplitudes[k]).abs();
+            if (distances.minCoeff() > 1e-9 * study_.effects[effects[k]].bounds.reach())
+            {
+                added[k].push_back(found.amplitudes[k]);
+                isNew = true;
+            }
+        }
+        if (!isNew)
+        {
+            return;
+        }
     }
 }
 
@@ -237,9 +297,12 @@ Evidence::Explanation Evidence::explanationOf(const std::vector<std::size_t>& ef
 {
     Explanation explanation{effects, {}, {}};
     std::vector<std::vector<Present>> settings(1);
-    for (const auto e : effects)
+    const auto place = places_.find(effects);
+    const bool hasAdded = place != places_.end() && !place->second.added.empty();
+    for (std::size_t k = 0; k < effects.size(); ++k)
     {
-        explanation.grids.emplace_back(study_.effects[e]);
+        const std::size_t e = effects[k];
+        explanation.grids.emplace_back(study_.effects[e], hasAdded ? place->second.added[k] : std::vector<double>{});
         const auto before = std::exchange(settings, {});
         for (const auto& setting : before)
         {
@@ -409,7 +472,7 @@ Evidence::Posterior Evidence::over(
 {
     Posterior posterior;
     auto& weights = posterior.weights;
-    double logCell = 0.0;
+    std::vector<Eigen::VectorXd> priors; // log probability of each cell of amplitudes, by effect
     for (std::size_t k = 0; k < looked.size(); ++k)
     {
         const Effect& effect = study_.effects[explanation.effects[k]];
@@ -423,7 +486,11 @@ Evidence::Posterior Evidence::over(
         {
             weights.back().row(i) = explanation.grids[k].weightsAt(posterior.amplitudes.back()(i));
         }
-        logCell += effect.isSwitch ? 0.0 : std::log(cell / (effect.bounds.upper - effect.bounds.lower));
+        priors.push_back(
+            effect.isSwitch
+                ? Eigen::VectorXd::Zero(1)
+                : Eigen::VectorXd(
+                    logDensity(effect, posterior.amplitudes.back(), explanation.usesMeasurements) + std::log(cell)));
     }
     // The chi-square is interpolated, since it is nearly a parabola in the amplitude; the likelihood may have a peak
     // that is narrower than the distance between nodes.
@@ -432,13 +499,24 @@ Evidence::Posterior Evidence::over(
     posterior.logs.resize(chiSquare.rows(), chiSquare.cols());
     for (Eigen::Index i = 0; i < chiSquare.size(); ++i)
     {
-        posterior.logs(i) = logCell + logLikelihood(std::max(0.0, chiSquare(i)), volume(i));
+        posterior.logs(i) = logLikelihood(std::max(0.0, chiSquare(i)), volume(i));
+    }
+    posterior.logs.colwise() += priors.front();
+    if (priors.size() > 1)
+    {
+        posterior.logs.rowwise() += priors.back().transpose();
     }
     Eigen::Index row = 0;
     Eigen::Index column = 0;
     const double highest = posterior.logs.maxCoeff(&row, &column);
     posterior.judgement = {logSumExp(posterior.logs.reshaped()), chiSquare(row, column),
-        posterior.interpolated(nodes.scatterChiSquares)(row, column), highest - logCell};
+        posterior.interpolated(nodes.scatterChiSquares)(row, column), highest - priors.front()(row),
+        {posterior.amplitudes.front()(row)}};
+    if (priors.size() > 1)
+    {
+        posterior.judgement.peak -= priors.back()(column);
+        posterior.judgement.amplitudes.push_back(posterior.amplitudes.back()(column));
+    }
     return posterior;
 }
 

@@ -14,7 +14,7 @@ namespace clepsydra::identification
 {
 
 /// Log evidence of each explanation: the likelihood averaged over the parameters (normal prior), the amplitude (uniform
-/// prior in its range) and the emulator's error.
+/// prior in its range, or its measurement cut off there) and the emulator's error.
 struct Evidences
 {
     double null = 0.0;
@@ -74,7 +74,8 @@ public:
     Evidence(const Evidence& like, const Emulator& emulator);
 
     /// Evaluates the emulator for each effect (or for several at once) near the parameters that fit best with it, which
-    /// may be far from those of the null fit.
+    /// may be far from those of the null fit. Where the chi-square that is interpolated between the nodes has a minimum
+    /// that is not there when it is evaluated, nodes are added.
     void refine(const Measured& measured);
     void refine(const std::vector<std::size_t>& effects, const Measured& measured);
 
@@ -100,13 +101,16 @@ public:
     /// Best fit without effects, and with one effect.
     Fit fitNull(const Measured& measured) const;
     Fit fit(std::size_t effect, const Measured& measured) const;
+    /// The same without the independent measurement of the amplitude.
+    Fit fitAlone(std::size_t effect, const Measured& measured) const;
 
     /// One or two effects, with nodes at amplitudes over their ranges.
     struct Explanation
     {
         std::vector<std::size_t> effects;
-        std::vector<Grid> grids; // by effect
-        std::vector<Node> nodes; // the last effect's amplitude varies fastest
+        std::vector<Grid> grids;      // by effect
+        std::vector<Node> nodes;      // the last effect's amplitude varies fastest
+        bool usesMeasurements = true; // of amplitudes, as their priors
     };
     Explanation explanationOf(const std::vector<std::size_t>& effects) const;
 
@@ -115,13 +119,14 @@ public:
         double logEvidence = 0.0;
         double chiSquare = 0.0; // at the most likely amplitudes, as in `Evidences`
         double scatterChiSquare = 0.0;
-        double peak = 0.0; // log likelihood at the most likely amplitudes
+        double peak = 0.0;              // log likelihood at the most likely amplitudes
+        std::vector<double> amplitudes; // the most likely ones, by effect
     };
     Judgement judge(const Explanation& explanation, const Measured& measured) const;
     /// Fits of the explanation's effects, by effect. Their parameters are equal.
     std::vector<Fit> fits(const Explanation& explanation, const Measured& measured) const;
 
-    /// Amplitudes of the nodes of an effect; empty if all its runs have failed.
+    /// Equidistant amplitudes over the range of an effect; empty if all its runs have failed.
     std::vector<double> amplitudes(std::size_t effect) const;
 
     Node nodeAt(const std::vector<Present>& present) const;
@@ -176,6 +181,7 @@ private:
     {
         Eigen::VectorXd parameters;
         double chiSquare = 0.0;
+        std::vector<std::vector<double>> added; // amplitudes of nodes beside the equidistant ones, by effect
     };
 
     struct Discrepancy
@@ -186,6 +192,7 @@ private:
 
     void prepare();
     void prepareOther();
+    void addNodes(const std::vector<std::size_t>& effects, const Measured& measured);
     Spread spreadOf(const Node& node, const Measured& measured) const;
     double otherSpread(const Measured& measured) const;
     Solution solve(const Node& node, double factor, const Measured& measured) const;

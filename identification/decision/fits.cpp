@@ -1,7 +1,5 @@
 #include "decision/evidence.h"
 
-#include "lists.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -44,7 +42,12 @@ Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
 
 std::vector<double> Evidence::amplitudes(std::size_t effect) const
 {
-    return mapped(effects_[effect].nodes, [](const Node& node) { return node.present.front().amplitude; });
+    if (effects_[effect].nodes.empty())
+    {
+        return {};
+    }
+    const Grid grid(study_.effects[effect]);
+    return {grid.amplitudes().begin(), grid.amplitudes().end()};
 }
 
 Fit Evidence::fitNull(const Measured& measured) const
@@ -67,6 +70,13 @@ void Evidence::fitParameters(const Node& node, const Measured& measured, Fit& fi
 Fit Evidence::fit(std::size_t effect, const Measured& measured) const
 {
     return effects_[effect].nodes.empty() ? Fit{} : fits(effects_[effect], measured).front();
+}
+
+Fit Evidence::fitAlone(std::size_t effect, const Measured& measured) const
+{
+    Explanation explanation = effects_[effect];
+    explanation.usesMeasurements = false;
+    return explanation.nodes.empty() ? Fit{} : fits(explanation, measured).front();
 }
 
 std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& measured) const

@@ -82,14 +82,11 @@ private:
 /// Amplitudes drawn from a pair's fit, clipped to their ranges.
 std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt19937_64& random)
 {
-    std::normal_distribution<double> normal;
     std::vector<Present> present;
     for (std::size_t k = 0; k < pair.effects.size(); ++k)
     {
-        const Effect& effect = study.effects[pair.effects[k]];
-        const double amplitude = pair.fits[k].amplitude + pair.fits[k].sd * normal(random);
-        present.push_back(
-            {pair.effects[k], effect.isSwitch ? 1.0 : std::clamp(amplitude, effect.bounds.lower, effect.bounds.upper)});
+        const Normal fitted{pair.fits[k].amplitude, pair.fits[k].sd};
+        present.push_back({pair.effects[k], drawnAmplitude(study.effects[pair.effects[k]], fitted, random)});
     }
     return present;
 }
@@ -195,6 +192,7 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
     const Measured& measured, std::mt19937_64& random)
 {
     const auto verdict = PairJudge(study, evidence, pairs)(measured);
+    const double null = evidence(measured).null;
     std::map<const Evidence*, PairJudge> judges;
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
@@ -216,7 +214,7 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
                    <= std::min(chiSquareLimit(chiSquares, sds), evidence.largestChiSquare(sds));
         };
         pair.probability = verdict.probabilities(i);
-        pair.inSet = fitsWithin(meansStillFit)
+        pair.inSet = verdict.judgements[i].peak - null >= leastGain(study) && fitsWithin(meansStillFit)
                      && verdict.judgements[i].scatterChiSquare <= chiSquareLimit(scatterChiSquares, scatterStillFits)
                      && 1.0 - pair.probability <= std::max(
                             study.settings.coverage, upperQuantile(improbabilities, study.settings.coverage));

@@ -14,7 +14,7 @@ constexpr double steps = 8.0;
 
 } // namespace
 
-Grid::Grid(const Effect& effect)
+Grid::Grid(const Effect& effect, const std::vector<double>& added)
 {
     if (effect.isSwitch)
     {
@@ -22,19 +22,23 @@ Grid::Grid(const Effect& effect)
         return;
     }
     const auto [lower, upper] = effect.bounds;
-    step_ = std::max(upper, -lower) / steps;
-    const double below = std::ceil(-lower / step_ - 1e-9);
-    const double above = std::ceil(upper / step_ - 1e-9);
-    amplitudes_ =
-        Eigen::VectorXd::LinSpaced(static_cast<Eigen::Index>(below + above) + 1, -below * step_, above * step_);
+    const double step = std::max(upper, -lower) / steps;
+    const double below = std::ceil(-lower / step - 1e-9);
+    const double above = std::ceil(upper / step - 1e-9);
+    const auto equidistant = static_cast<Eigen::Index>(below + above) + 1;
+    amplitudes_.resize(equidistant + static_cast<Eigen::Index>(added.size()));
+    amplitudes_.head(equidistant) = Eigen::VectorXd::LinSpaced(equidistant, -below * step, above * step);
+    std::copy(added.begin(), added.end(), amplitudes_.begin() + equidistant);
+    std::sort(amplitudes_.begin(), amplitudes_.end());
 }
 
 Eigen::RowVectorXd Grid::weightsAt(double amplitude) const
 {
     const Eigen::Index nodes = amplitudes_.size();
-    const double x = (amplitude - amplitudes_(0)) / step_;
     const Eigen::Index count = std::min<Eigen::Index>(4, nodes);
-    const Eigen::Index first = std::clamp<Eigen::Index>(static_cast<Eigen::Index>(std::floor(x)) - 1, 0, nodes - count);
+    const Eigen::Index above =
+        std::upper_bound(amplitudes_.begin(), amplitudes_.end(), amplitude) - amplitudes_.begin();
+    const Eigen::Index first = std::clamp<Eigen::Index>(above - 2, 0, nodes - count);
     Eigen::RowVectorXd weights = Eigen::RowVectorXd::Zero(nodes);
     for (Eigen::Index i = first; i < first + count; ++i)
     {
@@ -43,7 +47,7 @@ Eigen::RowVectorXd Grid::weightsAt(double amplitude) const
         {
             if (j != i)
             {
-                weight *= (x - static_cast<double>(j)) / static_cast<double>(i - j);
+                weight *= (amplitude - amplitudes_(j)) / (amplitudes_(i) - amplitudes_(j));
             }
         }
         weights(i) = weight;

@@ -4,15 +4,18 @@
 
 #include <Eigen/Core>
 
+#include <vector>
+
 namespace clepsydra::identification
 {
 
-/// Equidistant amplitudes over the range of an effect, 0 among them. A switch has the single amplitude 1.
+/// Amplitudes over the range of an effect: equidistant, 0 among them, and those that were added. A switch has the single
+/// amplitude 1.
 class Grid
 {
 public:
     Grid() = default;
-    explicit Grid(const Effect& effect);
+    explicit Grid(const Effect& effect, const std::vector<double>& added = {});
 
     const Eigen::VectorXd& amplitudes() const
     {
@@ -23,8 +26,7 @@ public:
     Eigen::RowVectorXd weightsAt(double amplitude) const;
 
 private:
-    Eigen::VectorXd amplitudes_;
-    double step_ = 1.0;
+    Eigen::VectorXd amplitudes_; // ascending
 };
 
 } // namespace clepsydra::identification

@@ -1,6 +1,6 @@
 #include "features/features.h"
 
-#include "features/lines.h"
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
@@ -32,19 +32,23 @@ double meanRate(const Curve& curve, double from, double to)
     return (from - to) * fill / (end - start);
 }
 
-/// A parabola through m(t) gives the rate and its change at the window's middle; by the chain rule
-/// d(ln W)/d(m/m0) = m0 W'/(W m') = 2 c2 m0/c1^2.
-double rateSlope(const Curve& curve, const Parameters& p)
+/// Slope of the least-squares line between two times; NaN with fewer than three points.
+double slopeBetween(const Curve& curve, double from, double to)
 {
-    const double fill = curve.value.front();
-    const double start = timeAtLevel(curve, p.at("from") * fill);
-    const double end = timeAtLevel(curve, p.at("to") * fill);
-    if (!(end > start))
+    const auto begin = std::lower_bound(curve.time.begin(), curve.time.end(), from);
+    const auto end = std::upper_bound(begin, curve.time.end(), to);
+    const Eigen::Index count = end - begin;
+    if (count < 3)
     {
         return none;
     }
-    const Parabola fit = parabolaBetween(curve, start, end);
-    return 2.0 * fit.c2 * fill / (fit.c1 * fit.c1);
+    const std::size_t first = begin - curve.time.begin();
+    const Eigen::Map<const Eigen::ArrayXd> time(&curve.time[first], count);
+    const Eigen::Map<const Eigen::VectorXd> value(&curve.value[first], count);
+    Eigen::MatrixXd line(count, 2);
+    line.col(0).setOnes();
+    line.col(1) = (time - (from + to) / 2) / ((to - from) / 2);
+    return line.colPivHouseholderQr().solve(value)(1) / ((to - from) / 2);
 }
 
 //--- Positions of a particle ----------------------------------------------------------------------------------------
@@ -77,15 +81,6 @@ double logMeanSpeed(const Curve& curve, const Parameters& p)
     const double start = timeAtSeenLevel(curve, p.at("from"), p.at("gap"));
     const double end = timeAtSeenLevel(curve, p.at("to"), p.at("gap"));
     return logOfPositive(std::abs(p.at("to") - p.at("from")) / (end - start));
-}
-
-/// Log of the ratio of the speeds in the second and the first half of the way: zero for a particle at terminal
-/// velocity.
-double logSpeedRatio(const Curve& curve, const Parameters& p)
-{
-    const double middle = (p.at("from") + p.at("to")) / 2;
-    return logOfPositive(
-        speedBetweenLevels(curve, middle, p.at("to")) / speedBetweenLevels(curve, p.at("from"), middle));
 }
 
 /// Rows of all contacts. A contact is a minimum of the gap between two maxima; the curve is not smoothed.
@@ -208,8 +203,6 @@ std::map<std::string, FeatureKind> makeKinds()
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
             }},
-        {"rateSlope", "d(log rate)/d(share of the first value), from a parabola between two shares", {from, to},
-            rateSlope},
         {"logTimeToDischarge", "log of the time until a share has left", {{"share", 0.95, "of the first value"}},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(
@@ -223,12 +216,6 @@ std::map<std::string, FeatureKind> makeKinds()
             }},
         {"logMeanSpeed", "log of the distance between two positions divided by the time between them",
             {start, end, {"gap", 1e30, "largest distance of the two rows around a position, SI units"}}, logMeanSpeed},
-        {"logSpeedRatio", "log of the ratio of the speeds in the second and first half of the way", {start, end},
-            logSpeedRatio},
-        {"logTimeToLevel", "log of the time until a position is reached", {{"level", none, "position, SI units"}},
-            [](const Curve& curve, const Parameters& p) {
-                return logOfPositive(timeAtLevel(curve, p.at("level")) - curve.time.front());
-            }},
         {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight},
         {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration},
         {"logImpactSpeed", "log of the speed before the first contact",
@@ -239,12 +226,6 @@ std::map<std::string, FeatureKind> makeKinds()
             {level, {"from", none, "beginning of the fitted part, after the contact [s]"},
                 {"after", none, "its end, after the contact [s]"}},
             logReboundSpeed},
-        {"logValueAtTime", "log of the value at a time of the record", {{"time", none, "[s]"}},
-            [](const Curve& curve, const Parameters& p) {
-                const double time = p.at("time");
-                return time < curve.time.front() || time > curve.time.back() ? none
-                                                                             : logOfPositive(valueAt(curve, time));
-            }},
         {"logMaximum", "log of the largest value", {},
             [](const Curve& curve, const Parameters& /*unused*/) {
                 return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));

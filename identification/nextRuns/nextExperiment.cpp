@@ -1,6 +1,7 @@
 #include "nextRuns/nextExperiment.h"
 
 #include "emulator/settings.h"
+#include "lists.h"
 
 #include <Eigen/Cholesky>
 
@@ -29,13 +30,9 @@ Setting drawn(const Study& study, const Explanation& explanation, std::mt19937_6
     }
     for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
-        const Effect& effect = study.effects[explanation.effects[k]];
-        if (!effect.isSwitch)
-        {
-            const Fit& fit = explanation.fits[k];
-            setting.amplitudes(explanation.effects[k]) =
-                std::clamp(fit.amplitude + fit.sd * normal(random), effect.bounds.lower, effect.bounds.upper);
-        }
+        const Fit& fit = explanation.fits[k];
+        setting.amplitudes(explanation.effects[k]) =
+            drawnAmplitude(study.effects[explanation.effects[k]], {fit.amplitude, fit.sd}, random);
     }
     return setting;
 }
@@ -61,11 +58,8 @@ std::vector<NextExperiment> nextExperiments(
 {
     const Study& study = studySimulator.study();
     std::vector<Explanation> left = answer.set;
-    if (left.size() < 2)
-    {
-        left.push_back(answer.null);
-    }
-    if (left.size() < 2)
+    append(left, answer.rivals);
+    if (left.empty())
     {
         return {};
     }

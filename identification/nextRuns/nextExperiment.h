@@ -34,8 +34,8 @@ struct NextExperiment
 double divergence(const PredictedOutcome& a, const PredictedOutcome& b);
 
 /// Simulates each candidate condition with each explanation of the set, with parameters and amplitudes drawn from the
-/// fits, and sorts the conditions by separation per cost, best first. If the set has fewer than two members, the null
-/// fit is compared with the single member; an empty set gives no candidates.
+/// fits, and sorts the conditions by separation per cost, best first. A single member is compared with its rival; without
+/// one, its predictions stand alone, and the separation is 0. An empty set gives no candidates.
 std::vector<NextExperiment> nextExperiments(
     StudySimulator& studySimulator, const Answer& answer, std::mt19937_64& random);
 

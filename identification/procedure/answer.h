@@ -4,7 +4,9 @@
 #include "emulator/library.h"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clepsydra::identification
@@ -30,6 +32,8 @@ struct EffectFinding
     double threshold = 0.0;     // smallest probability at which it belongs to the set
     bool known = true;          // false if all its runs have failed
     bool inSet = false;
+    std::string notInSetBecause; // of an effect whose probability is large enough for the set
+    std::optional<Fit> alone;    // without the independent measurement of its amplitude, if there is one
 };
 
 /// One explanation: no effect, one or two effects, with the setting that fits best.
@@ -56,10 +60,13 @@ struct Answer
     std::string family;              // common family of all members, if there is one
     double pValue = 1.0;
     double logOdds = 0.0;          // of any cause against no effect
-    double otherProbability = 0.0; // of an unlisted cause beside single effects
-    double otherBesideSet = 0.0;   // of an unlisted cause beside the kind of the set's members: single effects or pairs
-    double otherThreshold = 0.0;   // smallest probability at which an unlisted cause belongs to the set
-    Explanation null;              // null fit: no effect
+    double otherProbability = 0.0; // of an unlisted cause beside the kind of the set's members: single effects or pairs
+    double otherThreshold = 0.0;   // smallest probability at which it belongs to the set; NaN beside pairs
+    /// Log odds of a set's only member against all other causes, and those that a name needs.
+    std::optional<std::pair<double, double>> oddsOfName;
+    std::vector<Explanation> rivals;    // beside a set of one member: the next probable effect that nothing excludes
+    Explanation null;                   // null fit: no effect
+    std::optional<Explanation> nearest; // the single effect of the smallest chi-square, if none explains the residual
     std::vector<EffectFinding> effects; // in the study's sequence
     Calibration calibration;
     Visibility visibility; // effects that these data could have shown
@@ -68,5 +75,18 @@ struct Answer
     Measured measured;
     std::vector<std::string> remarks; // features and effects that were left out, and why
 };
+
+/// The most probable explanation of the set, or the nearest effect where none explains the residual; null if there is
+/// neither.
+inline const Explanation* bestOf(const Answer& answer)
+{
+    return !answer.set.empty() ? &answer.set.front() : answer.nearest ? &*answer.nearest : nullptr;
+}
+
+/// Share of the chi-square without an effect that an explanation takes away.
+inline double shareTaken(const Answer& answer, const Explanation& explanation)
+{
+    return 1.0 - explanation.chiSquare / answer.null.chiSquare;
+}
 
 } // namespace clepsydra::identification

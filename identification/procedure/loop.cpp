@@ -7,12 +7,14 @@
 #include "procedure/trace.h"
 #include "report/html.h"
 #include "report/json.h"
+#include "report/numbers.h"
 #include "report/planReport.h"
 #include "runner/caseSimulator.h"
 #include "runner/runProgress.h"
 #include "study/readStudy.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -75,6 +77,39 @@ int runsPerDataSet(const Study& study, int rounds, int ofPairs)
            + count(Role::candidate) * outcomes;
 }
 
+/// What the answer will rest on. \param training  measurements, by condition of the study
+void sayContents(const Study& study, const std::vector<MeasuredCondition>& training, std::ostream& out)
+{
+    Eigen::Index numbers = 0;
+    std::size_t notMeasured = 0;
+    for (const auto c : study.conditionsOf(Role::training))
+    {
+        const auto& features = training[c].features;
+        notMeasured += features.rows() == 0 ? 1 : 0;
+        numbers += features.rows() == 0 ? study.featureCount() : meanFeatures(features).array().isFinite().count();
+    }
+    const auto counted = [](std::size_t count, const std::string& what) {
+        return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
+    };
+    std::string names;
+    for (const auto& parameter : study.parameters)
+    {
+        names += (names.empty() ? " (" : ", ") + parameter.name;
+    }
+    out << counted(study.conditionsOf(Role::training).size(), "training condition") << " with "
+        << counted(numbers, "number") << (notMeasured > 0 ? ", some not measured yet" : "") << "; "
+        << counted(study.parameters.size(), "fitted parameter") << names << (names.empty() ? "" : ")") << "; "
+        << counted(study.effects.size(), "effect") << '\n';
+    const auto heldOut = study.conditionsOf(Role::heldOut).size();
+    out << (heldOut > 0 ? counted(heldOut, "condition") + " held out to test the answer"
+                        : "nothing is held out, so the answer will be tested on no prediction")
+        << '\n';
+    if (numbers <= static_cast<Eigen::Index>(study.parameters.size()) + 1)
+    {
+        out << "so few numbers cannot tell an effect from the parameters\n";
+    }
+}
+
 void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
 {
     const auto orders = libraryOrders(studySimulator);
@@ -82,11 +117,15 @@ void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& study
     const double seconds = simulator.secondsPerRun();
     const int usual = runsPerDataSet(study, 2, 0);
     const int most = runsPerDataSet(study, 8, 4);
+    const int atOnce = simulator.atOnce();
+    const auto wall = [&](int runs) { return std::ceil(static_cast<double>(runs) / std::max(1, atOnce)) * seconds; };
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
-        << clockTime(missing * seconds) << " of computing time (" << textOf(seconds) << " s per run"
+        << "about " << clockTime(wall(missing)) << " of wall-clock time with " << atOnce
+        << (atOnce == 1 ? " run" : " runs") << " at a time and nothing else running (" << textOf(seconds)
+        << " s per run"
         << (simulator.measuredSecondsPerRun() ? "" : ", an assumption: 'traceResidual plan --time' measures it")
         << ")\n"
-        << "each data set: about " << usual << " further runs, " << clockTime(usual * seconds)
+        << "each data set: about " << usual << " further runs, " << clockTime(wall(usual)) << " of wall-clock time"
         << (most > usual ? ", up to about " + std::to_string(most) + " if no single effect explains the data" : "")
         << '\n'
         << "budget: " << study.settings.budget << " runs" << std::endl;
@@ -132,6 +171,7 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
     checkMeasurements(study, out);
     const auto measured = measurementsOf(study, Role::training);
     requireNoise(study, measured);
+    sayContents(study, measured, out);
     CaseSimulator simulator(study, out);
     StudySimulator studySimulator(study, simulator);
     if (time && !simulator.measuredSecondsPerRun())
@@ -168,6 +208,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     checkMeasurements(study, progress);
     const auto training = measurementsOf(study, Role::training);
     requireNoise(study, training);
+    sayContents(study, training, progress);
     CaseSimulator simulator(study, progress);
     StudySimulator studySimulator(study, simulator);
     sayCost(study, simulator, studySimulator, progress);
@@ -180,7 +221,7 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     const auto next = nextExperiments(studySimulator, answer, random);
     Findings findings{&study, &answer, nullptr, &next, &studySimulator, &training, nullptr};
     writeWhole(folder / "answer.json", jsonOf(findings).dump(1) + '\n');
-    progress << "decision: " << nameOf(answer.decision) << ", p = " << textOf(answer.pValue) << "; written to "
+    progress << "decision: " << nameOf(answer.decision) << ", " << pValueText(answer.pValue) << "; written to "
              << (folder / "answer.json").string() << "; the held-out measurements are read now" << std::endl;
 
     const auto heldOutData = measurementsOf(study, Role::heldOut);

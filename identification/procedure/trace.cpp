@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -64,6 +65,10 @@ public:
         if (answer_.decision == Decision::unknown)
         {
             tryPairs(around);
+        }
+        if (answer_.decision == Decision::unknown)
+        {
+            findNearest();
         }
         return std::move(answer_);
     }
@@ -232,7 +237,7 @@ private:
         Evidence evidence = evidenceNear(around, isExact);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
-        answer_.otherBesideSet = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
+        const double other = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
         for (auto& pair : pairs)
         {
             if (!pair.inSet)
@@ -259,6 +264,8 @@ private:
             const bool isName = mayBeNamed(study_, pairs);
             answer_.decision = isName ? Decision::named : Decision::set;
             answer_.unlistedCauseInSet = !isName;
+            answer_.otherProbability = other;
+            answer_.otherThreshold = std::numeric_limits<double>::quiet_NaN();
             answer_.family = isName && answer_.set.size() > 1 ? sharedName(study_, pairs) : "";
         }
     }
@@ -289,7 +296,7 @@ private:
         answer_.logOdds = odds.logOdds;
         const Fit null = evidence.fitNull(measured);
         answer_.pValue = calibration.pValue(odds);
-        answer_.otherProbability = answer_.otherBesideSet = std::exp(odds.other);
+        answer_.otherProbability = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
         answer_.null = explanation({}, {null}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
@@ -298,6 +305,10 @@ private:
             finding.known = answer_.emulator->knows(e);
             finding.fit = evidence.fit(e, measured);
             finding.fit = calibration.widened(e, std::move(finding.fit), study_.effects[e].bounds);
+            if (study_.effects[e].measured && finding.known)
+            {
+                finding.alone = evidence.fitAlone(e, measured);
+            }
             finding.parameters = settingOf({}, finding.fit.parameters).parameters;
             finding.probability = std::exp(odds.effects(e));
             finding.logOdds = odds.effects(e) + odds.logOdds;
@@ -315,14 +326,21 @@ private:
         {
             return;
         }
-        for (const auto e : membersOf(calibration, odds))
+        for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
             EffectFinding& finding = answer_.effects[e];
-            finding.inSet = true;
-            answer_.set.push_back(
-                explanation({{e, finding.fit.amplitude}}, {finding.fit}, finding.logOdds, finding.probability));
+            finding.notInSetBecause = finding.probability >= finding.threshold ? exclusionOf(calibration, odds, e) : "";
+        }
+        for (const auto e : membersOf(calibration, odds))
+        {
+            answer_.effects[e].inSet = true;
+            answer_.set.push_back(explanationBy(e));
         }
         answer_.unlistedCauseInSet = odds.other >= calibration.otherMembership;
+        if (answer_.set.size() == 1)
+        {
+            addRival(calibration, odds);
+        }
         const auto sole = soleMember(study_, calibration, odds);
         if (answer_.set.empty())
         {
@@ -338,7 +356,44 @@ private:
         {
             answer_.decision = Decision::set;
             // A single member that may not be named: an unlisted cause cannot be excluded.
-            answer_.unlistedCauseInSet = answer_.unlistedCauseInSet || sole.has_value();
+            answer_.unlistedCauseInSet = answer_.unlistedCauseInSet || sole || answer_.set.size() == 1;
+            if (sole)
+            {
+                answer_.oddsOfName = {marginOf(study_, odds, *sole), calibration.naming(*sole)};
+            }
+        }
+    }
+
+    void findNearest()
+    {
+        const auto known = numbersWhere(study_.effects.size(), [&](std::size_t e) { return answer_.effects[e].known; });
+        const auto nearest = std::min_element(known.begin(), known.end(), [&](std::size_t a, std::size_t b) {
+            return answer_.effects[a].fit.chiSquare < answer_.effects[b].fit.chiSquare;
+        });
+        if (nearest != known.end())
+        {
+            answer_.nearest = explanationBy(*nearest);
+        }
+    }
+
+    /// One effect alone, as it was found.
+    Explanation explanationBy(std::size_t effect) const
+    {
+        const EffectFinding& finding = answer_.effects[effect];
+        return explanation({{effect, finding.fit.amplitude}}, {finding.fit}, finding.logOdds, finding.probability);
+    }
+
+    void addRival(const Calibration& calibration, const Odds& odds)
+    {
+        const auto others = numbersWhere(study_.effects.size(), [&](std::size_t e) {
+            return !answer_.effects[e].inSet && exclusionOf(calibration, odds, e).empty()
+                   && odds.effects(e) > odds.effects(answer_.set.front().effects.front()) - negligibleLogOdds;
+        });
+        const auto rival = std::max_element(others.begin(), others.end(),
+            [&](std::size_t a, std::size_t b) { return odds.effects(a) < odds.effects(b); });
+        if (rival != others.end())
+        {
+            answer_.rivals.push_back(explanationBy(*rival));
         }
     }
 

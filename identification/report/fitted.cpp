@@ -3,6 +3,7 @@
 #include "effects/measuringChain.h"
 #include "report/numbers.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace clepsydra::identification
@@ -91,23 +92,23 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
     const Explanation& null = findings.answer->null;
     const Explanation* best = findings.answer->set.empty() ? nullptr : &findings.answer->set.front();
     std::vector<FittedNumber> all;
-    const auto add = [&](const std::string& name, const std::string& unit, const std::optional<Estimate>& independent,
-                         auto estimateAt) {
-        all.push_back({name, unit, independent, estimateAt(null), {}});
+    const auto add = [&](const std::string& name, const std::string& unit, const std::optional<Estimate>& prior,
+                         const std::string& from, auto estimateAt) {
+        all.push_back({name, unit, prior, from, estimateAt(null), {}});
         if (best != nullptr)
         {
             all.back().after = estimateAt(*best);
         }
     };
     const auto addEntry = [&](const std::string& entry, const Effect* effect) {
-        add(entry, "", {}, [&](const Explanation& explanation) {
+        add(entry, "", {}, "", [&](const Explanation& explanation) {
             return entryAt(*findings.studySimulator, shownCondition(study, effect), entry, explanation);
         });
     };
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         const Parameter& parameter = study.parameters[p];
-        add(parameter.name, parameter.unit, Estimate{parameter.mean, parameter.sd},
+        add(parameter.name, parameter.unit, Estimate{parameter.mean, parameter.sd}, nameOf(parameter.from),
             [&](const Explanation& explanation) {
                 return Estimate{explanation.setting.parameters(p), parameterErrors(study, explanation)(p)};
             });
@@ -127,13 +128,62 @@ std::vector<FittedNumber> fittedNumbers(const Findings& findings)
             const double amplitude = best->setting.amplitudes(best->effects[k]);
             const double size = sizeOfChain(effect, amplitude);
             const double moved = sizeOfChain(effect, movedInwards(amplitude, best->fits[k].sd));
-            all.push_back({effect.chainOperation, chainOperations().at(effect.chainOperation).unit, {}, {0.0, 0.0},
+            all.push_back({effect.chainOperation, chainOperations().at(effect.chainOperation).unit, {}, "", {0.0, 0.0},
                 Estimate{size, std::abs(moved - size)}});
         }
         for (const auto& [entry, formula] : effect.entries)
         {
             addEntry(entry, &effect);
         }
+    }
+    return all;
+}
+
+std::string endOfRange(double value, double error, const Bounds& range)
+{
+    constexpr double errors = 1.2;
+    const double near = std::max(errors * error, 1e-6 * (range.upper - range.lower));
+    // An interval as wide as the range says nothing of an end.
+    return 2.0 * near >= range.upper - range.lower ? ""
+           : value <= range.lower + near           ? "lower"
+           : value >= range.upper - near           ? "upper"
+                                                   : "";
+}
+
+std::vector<std::string> valuesAtEnds(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    std::vector<std::string> all;
+    const auto look = [&](const std::string& name, double value, double error, const Bounds& range,
+                          const std::string& where) {
+        const std::string end = endOfRange(value, error, range);
+        // An amplitude near 0, where its range may begin, is small and nothing else.
+        if (!end.empty() && !(error > 0.0 && end == "lower" && range.lower == 0.0))
+        {
+            all.push_back(name + " lies at the " + end + " end of its range, " + rounded(range.lower) + " to "
+                          + rounded(range.upper) + ", in the fit " + where);
+        }
+    };
+    const auto lookAt = [&](const Explanation& explanation, const std::string& where) {
+        for (std::size_t p = 0; p < study.parameters.size(); ++p)
+        {
+            const Parameter& parameter = study.parameters[p];
+            look(parameter.name, explanation.setting.parameters(p), 0.0, {parameter.lower, parameter.upper}, where);
+        }
+        for (std::size_t k = 0; k < explanation.effects.size(); ++k)
+        {
+            const Effect& effect = study.effects[explanation.effects[k]];
+            if (!effect.isSwitch)
+            {
+                look("the size of " + effect.name, explanation.setting.amplitudes(explanation.effects[k]),
+                    explanation.fits[k].sd, effect.bounds, where);
+            }
+        }
+    };
+    lookAt(findings.answer->null, "without an effect");
+    for (const auto& each : findings.answer->set)
+    {
+        lookAt(each, "with " + nameOf(study, each.effects));
     }
     return all;
 }
@@ -161,10 +211,11 @@ std::string describeSize(const Findings& findings, const Explanation& explanatio
     std::string text;
     for (const auto& [entry, formula] : effect.entries)
     {
+        constexpr double least = 1e-4;
         const double share = after.at(entry) / before.at(entry) - 1.0;
+        const std::string size = std::abs(share) < least ? "less than 0.01" : rounded(100.0 * std::abs(share));
         text += (text.empty() ? "" : ", ") + entry + ' '
-                + (std::isfinite(share) ? rounded(100.0 * std::abs(share)) + (share < 0.0 ? " % smaller" : " % larger")
-                                        : rounded(after.at(entry)));
+                + (std::isfinite(share) ? size + (share < 0.0 ? " % smaller" : " % larger") : rounded(after.at(entry)));
     }
     return text;
 }

@@ -13,16 +13,24 @@ namespace clepsydra::identification
 /// A quantity fitted to the measurements, in the units of the user's case.
 struct FittedNumber
 {
-    std::string name;                    // of a parameter, an entry of the case, or an operation of the measuring chain
-    std::string unit;                    // empty if it is not known
-    std::optional<Estimate> independent; // independent measurement: the prior of a parameter
-    Estimate before;                     // without an effect
-    std::optional<Estimate> after;       // with the best explanation
+    std::string name;              // of a parameter, an entry of the case, or an operation of the measuring chain
+    std::string unit;              // empty if it is not known
+    std::optional<Estimate> prior; // of a parameter
+    std::string from;              // origin of the prior: measured, handbook or guess
+    Estimate before;               // without an effect
+    std::optional<Estimate> after; // with the best explanation
 };
 
 /// The parameters, the entries that follow from them by a formula, and the entries that the best explanation sets in
 /// the first condition in which it acts.
 std::vector<FittedNumber> fittedNumbers(const Findings& findings);
+
+/// Which end of its range a fitted value has reached: "lower", "upper", or empty.
+/// \param error  standard error; a value that is bounded by the range lies about one of it away from the end
+std::string endOfRange(double value, double error, const Bounds& range);
+
+/// Values at the ends of their ranges, in words: parameters without an effect, and what the explanations in the set fit.
+std::vector<std::string> valuesAtEnds(const Findings& findings);
 
 /// Size of a fitted effect as text: "particleDiameter 3 % larger"; empty for a switch.
 std::string describeSize(const Findings& findings, const Explanation& explanation);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -106,19 +107,10 @@ Bundle bundleOf(const std::vector<Simulation>& simulations, std::size_t conditio
     return bundle;
 }
 
-void draw(Plot& plot, const Bundle& bundle, const char* line, const char* band, const std::string& label)
-{
-    if (!bundle.time.empty())
-    {
-        plot.band(bundle.time, bundle.lower, bundle.upper, band);
-        plot.line(bundle.time, bundle.mean, line, label);
-    }
-}
-
 /// Plot of one condition: measured curves, and simulated curves without an effect and with the best explanation. Empty
 /// if there are no curves.
 std::string curvePlot(const Study& study, std::size_t condition, const std::vector<Simulation>& before,
-    const std::vector<Simulation>& after, const std::vector<Curve>& measured)
+    const std::vector<Simulation>& after, const std::string& afterName, const std::vector<Curve>& measured)
 {
     const Bundle without = bundleOf(before, condition);
     const Bundle with = bundleOf(after, condition);
@@ -126,25 +118,43 @@ std::string curvePlot(const Study& study, std::size_t condition, const std::vect
     {
         return "";
     }
-    Plot plot(study.conditions[condition].name, "time [s]", study.valueColumn);
+    const ColumnSpecification& time = study.conditions[condition].measured.time;
+    const ColumnSpecification& value = study.conditions[condition].measured.value;
+    const auto label = [](const std::string& name, const ColumnSpecification& column) {
+        return name + (column.unit.empty() ? "" : " [" + column.unit + ']');
+    };
+    const auto in = [](std::vector<double> values, const ColumnSpecification& column) {
+        std::for_each(values.begin(), values.end(), [&](double& one) { one /= column.siUnits; });
+        return values;
+    };
+    Plot plot(study.conditions[condition].name, time.unit.empty() ? "time [s]" : label("time", time),
+        label(study.valueColumn, value));
     // The measured curves are drawn first, so that they do not cover the simulated ones.
     for (std::size_t i = 0; i < measured.size(); ++i)
     {
-        plot.line(measured[i].time, measured[i].value, measuredStyle, i == 0 ? "measured" : "");
+        plot.line(in(measured[i].time, time), in(measured[i].value, value), measuredStyle, i == 0 ? "measured" : "");
     }
-    draw(plot, without, beforeStyle, beforeBand, "without effect");
-    draw(plot, with, afterStyle, afterBand, "with effect");
+    const auto draw = [&](const Bundle& bundle, const char* line, const char* band, const std::string& name) {
+        if (!bundle.time.empty())
+        {
+            const auto times = in(bundle.time, time);
+            plot.band(times, in(bundle.lower, value), in(bundle.upper, value), band);
+            plot.line(times, in(bundle.mean, value), line, name);
+        }
+    };
+    draw(without, beforeStyle, beforeBand, "without effect");
+    draw(with, afterStyle, afterBand, afterName);
     return plot.svg();
 }
 
 std::string curvePlots(const Study& study, const std::vector<std::size_t>& conditions,
-    const std::vector<Simulation>& before, const std::vector<Simulation>& after,
+    const std::vector<Simulation>& before, const std::vector<Simulation>& after, const std::string& afterName,
     const std::vector<MeasuredCondition>& measured)
 {
     std::string html = "<div class=\"plots\">";
     for (const auto c : conditions)
     {
-        html += curvePlot(study, c, before, after, measured[c].curves);
+        html += curvePlot(study, c, before, after, afterName, measured[c].curves);
     }
     return html + "</div>\n";
 }
@@ -154,19 +164,64 @@ std::string trainingCurves(const Findings& findings)
     const auto simulationsOf = [](const Explanation& explanation) {
         return mapped(explanation.runs, [](const Run& run) { return run.simulation; });
     };
-    const auto& set = findings.answer->set;
-    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training),
-        simulationsOf(findings.answer->null), simulationsOf(set.empty() ? Explanation{} : set.front()), *findings.data);
+    const Answer& answer = *findings.answer;
+    const Explanation* best = bestOf(answer);
+    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training), simulationsOf(answer.null),
+        simulationsOf(best == nullptr ? Explanation{} : *best),
+        answer.nearest ? "with the nearest effect" : "with effect", *findings.data);
 }
 
 std::string heldOutCurves(const Findings& findings)
 {
     const HeldOutResult& heldOut = *findings.heldOut;
     return curvePlots(*findings.study, heldOut.conditions, heldOut.simulations.front(),
-        heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, *findings.heldOutData);
+        heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, "with effect", *findings.heldOutData);
 }
 
 //--- Tables ---------------------------------------------------------------------------------------------------------
+
+/// Measured and predicted numbers, one chart for each feature, in the units in which they were measured.
+std::string numberCharts(const Json& report, const Json& numbers, const std::string& after)
+{
+    const Json units = report.value("units", Json::object());
+    std::vector<std::string> features;
+    std::map<std::string, DotChart> charts;
+    for (const auto& row : numbers)
+    {
+        const std::string feature = row.at("feature").get<std::string>();
+        const Json unit = units.value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
+        const auto dot = [&](const char* key) {
+            constexpr double deviations = 1.96;
+            const double si = unit.at("si").get<double>();
+            const Json& value = row.at(key);
+            return value.is_object() && value.at("value").is_number() ? Dot{value.at("value").get<double>() / si,
+                       value.at("standardError").is_number() ? deviations * value.at("standardError").get<double>() / si
+                                                             : 0.0}
+                                                                      : Dot{std::numeric_limits<double>::quiet_NaN(),
+                                                                          0.0};
+        };
+        auto& chart = charts[feature];
+        if (chart.rows.empty())
+        {
+            features.push_back(feature);
+            chart.title = feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals";
+            chart.series = {{"measured", "#000"}, {"without effect", "#c0392b"}};
+            if (row.at("after").is_object())
+            {
+                chart.series.emplace_back(after, "#2a6fa8");
+            }
+        }
+        std::vector<Dot> dots = {dot("measured"), dot("before"), dot("after")};
+        dots.resize(chart.series.size());
+        chart.rows.emplace_back(row.at("condition").get<std::string>(), std::move(dots));
+    }
+    std::string html = "<div class=\"plots numbers\">";
+    for (const auto& feature : features)
+    {
+        html += charts.at(feature).svg();
+    }
+    return html + "</div>\n";
+}
 
 std::string residualTable(const Json& report)
 {
@@ -202,6 +257,13 @@ std::string meaningOf(const Json& effect)
                             : meaning + " <span class=\"small\">" + shown(effect.at("name")) + "</span>");
 }
 
+/// Why a probable effect is not in the set.
+std::string reasonOf(const Json& effect)
+{
+    const Json& reason = effect.value("notInSetBecause", Json());
+    return reason.is_string() ? " <span class=\"small\">" + shown(reason) + "</span>" : "";
+}
+
 std::string effectTable(const Json& report)
 {
     std::ostringstream html;
@@ -216,7 +278,7 @@ std::string effectTable(const Json& report)
                                   + shown(effect.at("interval95").at(1), 2) + ")"
                             : "its runs have failed",
                     true)
-             << cell(judged ? share(effect.at("probability")) : "-", true)
+             << cell((judged ? share(effect.at("probability")) : "-") + reasonOf(effect), true)
              << cell(share(effect.at("probabilityNeeded")), true) << cell(inRange(effect, "smallestDetectable"), true)
              << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
     }
@@ -257,15 +319,16 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
     const auto isThere = [](const Json& value) {
         return value.is_object() || (value.is_string() && !value.get<std::string>().empty());
     };
+    const auto at = [](const Json& row, const std::string& key) { return row.value(key, Json()); };
     std::vector<std::string> kept;
     std::string html = "<table><tr>";
     for (const auto& column : columns)
     {
         const auto& key = column.first;
-        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(row.at(key)); }))
+        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(at(row, key)); }))
         {
             kept.push_back(key);
-            html += (rows.front().at(key).is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
+            html += (at(rows.front(), key).is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
         }
     }
     html += "</tr>\n";
@@ -274,11 +337,23 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
         html += "<tr>";
         for (const auto& key : kept)
         {
-            html += row.at(key).is_string() ? cell(shown(row.at(key))) : cell(estimateText(row.at(key)), true);
+            const Json value = at(row, key);
+            html += value.is_string() ? cell(shown(value)) : cell(estimateText(value), true);
         }
         html += "</tr>\n";
     }
     return html + "</table>\n";
+}
+
+std::string notScoredOf(const Json& heldOut)
+{
+    std::string html;
+    for (const auto& one : heldOut.value("notScored", Json::array()))
+    {
+        html += "<li>" + shown(one.at("feature")) + " of " + shown(one.at("condition")) + ": "
+                + shown(one.at("because")) + "</li>\n";
+    }
+    return html.empty() ? "" : "<p>These features do not enter the error:</p><ul>" + html + "</ul>\n";
 }
 
 /// Measured and predicted features of the held-out conditions.
@@ -290,14 +365,15 @@ std::string heldOutTable(const Json& heldOut)
            + "<p class=\"small\">Instead of logarithms, the quantities themselves are shown, in SI units. Noise alone "
              "gives an error of "
            + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %; in 1 % of the cases it is larger than "
-           + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n";
+           + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n" + notScoredOf(heldOut);
 }
 
 std::string heldOutSection(const std::string& curves, const Json& report)
 {
     const Json& heldOut = report.at("heldOut");
     return heldOut.at("before").is_object()
-               ? curves + heldOutBars(heldOut) + heldOutTable(heldOut)
+               ? curves + numberCharts(report, heldOut.at("numbers"), "with effect") + heldOutBars(heldOut)
+                     + heldOutTable(heldOut)
                : "<p>No condition was held out, so the prediction has not been tested.</p>\n";
 }
 
@@ -309,7 +385,8 @@ std::string fittedTable(const Json& report)
     }
     return numberTable(report.at("fitted"),
                {{"name", "quantity"}, {"unit", "unit"}, {"withEffect", "with the effect"},
-                   {"withoutEffect", "without an effect"}, {"independent", "measured independently"}})
+                   {"withoutEffect", "without an effect"}, {"independent", "measured independently"},
+                   {"assumed", "expected before"}, {"from", "origin of that"}})
            + "<p class=\"small\">Quantities without a unit have that of the case's entry.</p>\n";
 }
 
@@ -355,9 +432,9 @@ std::string runsSection(const Json& report)
 {
     const Json& runs = report.at("runs");
     std::string html = "<p>The answer rests on " + shown(runs.at("used")) + " runs. Of these, "
-                       + shown(runs.at("executed")) + " were made now (" + shown(runs.at("seconds"))
-                       + " s); the others were stored (" + shown(runs.at("secondsOfStored"))
-                       + " s when they were made).</p>\n<table>";
+                       + shown(runs.at("executed")) + " were made now and took " + shown(runs.at("seconds"))
+                       + " s of wall-clock time, summed over the runs; the others were stored and took "
+                       + shown(runs.at("secondsOfStored")) + " s when they were made.</p>\n<table>";
     for (const auto& [purpose, count] : runs.at("byPurpose").items())
     {
         html += "<tr>" + cell(escaped(purpose)) + cell(shown(count), true) + "</tr>\n";
@@ -417,7 +494,10 @@ std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
     html += "<h2>What to measure next</h2>\n" + nextSection(report);
     html += "<h2>Evidence</h2>\n" + effectTable(report);
     html += "<h2>Indistinguishable effects</h2>\n" + lookAlikesOf(report);
-    html += "<h2>Training conditions, measured and simulated</h2>\n" + plots.fitted + residualTable(report);
+    html += "<h2>Training conditions, measured and simulated</h2>\n" + plots.fitted
+            + numberCharts(report, report.value("numbers", Json::array()),
+                report.value("nearest", Json()).is_object() ? "with the nearest effect" : "with effect")
+            + residualTable(report);
     html += "<h2>Runs</h2>\n" + runsSection(report);
     html += "<h2>Assumptions</h2>\n" + listOf(report.at("assumptions"));
     if (!report.at("remarks").empty())

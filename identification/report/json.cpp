@@ -71,7 +71,41 @@ Json explanationJson(const Study& study, const Explanation& explanation)
     }
     return {{"name", nameOf(study, explanation.effects)}, {"amplitudes", amplitudes},
         {"parameters", parametersOf(study, explanation.setting.parameters)}, {"logOdds", explanation.logOdds},
-        {"chiSquare", explanation.chiSquare}, {"simulated", !explanation.runs.empty()}};
+        {"probability", explanation.probability}, {"chiSquare", explanation.chiSquare},
+        {"simulated", !explanation.runs.empty()}};
+}
+
+Json textOrNull(const std::string& text)
+{
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
+/// The independent measurement of an amplitude, the fit without it, and whether the two agree within two standard
+/// deviations; null for an effect that was not measured.
+Json measuredJson(const Effect& effect, const EffectFinding& finding)
+{
+    if (!effect.measured || !finding.alone)
+    {
+        return nullptr;
+    }
+    const auto& [mean, sd] = *effect.measured;
+    const Estimate fitted{finding.alone->amplitude, finding.alone->sd};
+    return {{"mean", mean}, {"sd", sd}, {"fittedWithout", estimate(fitted)},
+        {"agrees", std::abs(fitted.value - mean) <= 2.0 * std::hypot(fitted.standardError, sd)}};
+}
+
+/// The nearest effect of a residual that none explains.
+Json nearestJson(const Findings& findings)
+{
+    const auto& nearest = findings.answer->nearest;
+    if (!nearest)
+    {
+        return nullptr;
+    }
+    Json json = explanationJson(*findings.study, *nearest);
+    json["takes"] = shareTaken(*findings.answer, *nearest);
+    json["left"] = 1.0 - shareTaken(*findings.answer, *nearest);
+    return json;
 }
 
 /// Entries or operation of an effect at an amplitude; formulas are given as text.
@@ -109,7 +143,12 @@ Json effectsJson(const Findings& findings)
             {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
             {"chiSquare", number(finding.fit.chiSquare)}, {"logOdds", number(finding.logOdds)},
             {"probability", number(finding.probability)}, {"probabilityNeeded", number(finding.threshold)},
-            {"judged", finding.known}, {"parameters", parametersOf(study, finding.parameters)},
+            {"notInSetBecause", textOrNull(finding.notInSetBecause)},
+            {"atEndOfRange", textOrNull(effect.isSwitch || !finding.known
+                                            ? ""
+                                            : endOfRange(finding.fit.amplitude, finding.fit.sd, effect.bounds))},
+            {"measured", measuredJson(effect, finding)}, {"judged", finding.known},
+            {"parameters", parametersOf(study, finding.parameters)},
             {"smallestDetectable", number(answer.visibility.detected(e))},
             {"smallestNamed", number(answer.visibility.named(e))}, {"howToMeasure", effect.hint}});
     }
@@ -122,7 +161,7 @@ Json residualJson(const Findings& findings)
 {
     const Study& study = *findings.study;
     Json list = Json::array();
-    for (const auto& residual : residualsOf(findings))
+    for (const auto& residual : residualsOf(findings, findings.answer->null.setting))
     {
         const std::string& condition = study.conditions[residual.condition].name;
         if (list.empty() || list.back()["condition"] != condition)
@@ -134,10 +173,52 @@ Json residualJson(const Findings& findings)
     return list;
 }
 
+/// An estimate of a feature as the quantity itself, where the feature is a logarithm.
+Json quantity(const Feature& feature, const Estimate& value)
+{
+    return feature.kind->isLog() ? estimate({std::exp(value.value), std::exp(value.value) * value.standardError})
+                                 : estimate(value);
+}
+
+/// Measured and predicted features of the training conditions, by the emulator.
+Json trainingNumbers(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Explanation* best = bestOf(*findings.answer);
+    const auto before = residualsOf(findings, findings.answer->null.setting);
+    const auto after = best == nullptr ? std::vector<Residual>{} : residualsOf(findings, best->setting);
+    Json list = Json::array();
+    for (std::size_t i = 0; i < before.size(); ++i)
+    {
+        const Feature& feature = study.features[before[i].feature];
+        list.push_back({{"condition", study.conditions[before[i].condition].name}, {"feature", feature.name},
+            {"measured", quantity(feature, before[i].measured)}, {"before", quantity(feature, before[i].predicted)},
+            {"after", after.empty() ? Json(nullptr) : quantity(feature, after[i].predicted)}});
+    }
+    return list;
+}
+
+/// Units in which features were measured, and their sizes in SI units.
+Json unitsJson(const Study& study)
+{
+    Json units = Json::object();
+    for (const auto& condition : study.conditions)
+    {
+        for (const auto& number : condition.measured.numbers)
+        {
+            units[study.features[number.feature].name] = {{"unit", number.unit}, {"si", number.siUnits}};
+        }
+    }
+    return units;
+}
+
 Json fittedJson(const Findings& findings)
 {
     return mapped(fittedNumbers(findings), [](const FittedNumber& number) -> Json {
-        return {{"name", number.name}, {"unit", number.unit}, {"independent", estimateOrNull(number.independent)},
+        const bool isMeasured = number.from == nameOf(Origin::measured);
+        return {{"name", number.name}, {"unit", number.unit},
+            {"independent", isMeasured ? estimateOrNull(number.prior) : Json(nullptr)},
+            {"assumed", isMeasured ? Json(nullptr) : estimateOrNull(number.prior)}, {"from", textOrNull(number.from)},
             {"withoutEffect", estimate(number.before)}, {"withEffect", estimateOrNull(number.after)}};
     });
 }
@@ -175,6 +256,34 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
     return list;
 }
 
+/// Features of held-out conditions that do not enter the error, and why.
+Json notScored(const Study& study, const HeldOutResult& result)
+{
+    const bool anyLog =
+        std::any_of(study.features.begin(), study.features.end(), [](const Feature& one) { return one.kind->isLog(); });
+    Json list = Json::array();
+    for (std::size_t i = 0; i < result.conditions.size(); ++i)
+    {
+        const Eigen::VectorXd measured = meanFeatures(result.data[i].features);
+        for (std::size_t f = 0; f < study.features.size(); ++f)
+        {
+            const auto isPredicted = [&](const Prediction& one) { return std::isfinite(one.mean(f)); };
+            const char* because =
+                !std::isfinite(measured(f))                              ? "it was not measured"
+                : !isPredicted(result.predictedBefore[i])                ? "no effect has no prediction"
+                : result.after && !isPredicted(result.predictedAfter[i]) ? "the effect has no prediction"
+                : anyLog && !study.features[f].kind->isLog() ? "it is no logarithm, so its error is no percentage"
+                                                             : nullptr;
+            if (because != nullptr)
+            {
+                list.push_back({{"condition", study.conditions[result.conditions[i]].name},
+                    {"feature", study.features[f].name}, {"because", because}});
+            }
+        }
+    }
+    return list;
+}
+
 Json heldOutJson(const Findings& findings)
 {
     if (findings.heldOut == nullptr)
@@ -203,7 +312,7 @@ Json heldOutJson(const Findings& findings)
         {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", estimate(result.overOneMore)},
         {"noiseFloor", result.noiseFloor}, {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
         {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
-        {"numbers", heldOutNumbers(study, result)}};
+        {"numbers", heldOutNumbers(study, result)}, {"notScored", notScored(study, result)}};
 }
 
 Json runsJson(const StudySimulator& studySimulator)
@@ -306,13 +415,19 @@ Json jsonOf(const Findings& findings)
     json["somethingElseInSet"] = answer.unlistedCauseInSet;
     json["somethingElse"] = {
         {"probability", answer.decision == Decision::unknown ? Json(nullptr) : Json(answer.otherProbability)},
-        {"probabilityNeeded", answer.otherThreshold}};
+        {"probabilityNeeded", number(answer.otherThreshold)}};
+    json["oddsOfName"] = answer.oddsOfName ? Json{{"logOdds", number(answer.oddsOfName->first)},
+                             {"needed", number(answer.oddsOfName->second)}}
+                                           : Json(nullptr);
+    json["nearest"] = nearestJson(findings);
     json["pValue"] = answer.pValue;
     json["logOdds"] = number(answer.logOdds);
     json["null"] = explanationJson(study, answer.null);
     json["null"]["parameterSds"] = numbers(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
     json["residual"] = residualJson(findings);
+    json["numbers"] = trainingNumbers(findings);
+    json["units"] = unitsJson(study);
     json["heldOut"] = heldOutJson(findings);
     json["calibration"] = calibrationJson(findings);
     json["nextExperiment"] = nextJson(findings);

@@ -56,6 +56,12 @@ std::string percent(double share)
     return share < least ? "<1 %" : share > 1.0 - least ? ">99 %" : std::to_string(std::lround(100.0 * share)) + " %";
 }
 
+std::string pValueText(double pValue)
+{
+    constexpr double least = 1e-6;
+    return pValue < least ? "p below 1e-6" : "p = " + rounded(pValue, pValue < 0.1 ? 1 : 2);
+}
+
 std::string withError(const Estimate& estimate)
 {
     constexpr int exact = 4;

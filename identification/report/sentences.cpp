@@ -6,7 +6,9 @@
 #include "report/residual.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 
 namespace clepsydra::identification
 {
@@ -135,7 +137,15 @@ std::string howToDistinguish(const Findings& findings)
     return "; these measurements cannot distinguish them";
 }
 
-/// Parameters that the null fit moves far from their independent measurements: "friction 5.9 standard deviations".
+/// "its independent measurement", which only a measured prior is called
+std::string nameOfPrior(Origin from)
+{
+    return from == Origin::measured   ? "the independent measurement"
+           : from == Origin::handbook ? "the handbook's value"
+                                      : "the guess";
+}
+
+/// Parameters that the null fit moves far from their priors: "friction 5.9 standard deviations from the guess".
 std::vector<std::string> strainedParameters(const Findings& findings)
 {
     constexpr double far = 3.0; // standard deviations
@@ -148,7 +158,8 @@ std::vector<std::string> strainedParameters(const Findings& findings)
         const double sds = std::abs(value - parameter.mean) / parameter.sd;
         if (sds > far)
         {
-            names.push_back(parameter.name + ' ' + rounded(sds) + " standard deviations");
+            names.push_back(
+                parameter.name + ' ' + rounded(sds) + " standard deviations from " + nameOfPrior(parameter.from));
         }
     }
     return names;
@@ -156,8 +167,8 @@ std::vector<std::string> strainedParameters(const Findings& findings)
 
 std::string chanceSentence(const Answer& answer)
 {
-    return "Noise alone gives a residual as large as this in " + percent(answer.pValue)
-           + " of such data (p = " + rounded(answer.pValue, answer.pValue < 0.1 ? 1 : 2) + ").";
+    return "Noise alone gives a residual as large as this in " + percent(answer.pValue) + " of such data ("
+           + pValueText(answer.pValue) + ").";
 }
 
 std::string probabilitySentence(const Findings& findings)
@@ -165,7 +176,7 @@ std::string probabilitySentence(const Findings& findings)
     const Answer& answer = *findings.answer;
     auto shares = mapped(answer.set,
         [&](const Explanation& each) { return meaningOf(findings, each) + ' ' + percent(each.probability); });
-    shares.push_back(std::string(unlistedCause) + ' ' + percent(answer.otherBesideSet));
+    shares.push_back(std::string(unlistedCause) + ' ' + percent(answer.otherProbability));
     return "The probabilities are: " + joined(shares, ", ") + '.';
 }
 
@@ -181,6 +192,180 @@ std::string heldOutSentence(const Findings& findings)
     }
     return text + "and " + errorOf(study, heldOut.oneMoreParameter)
            + " with one more free parameter instead; noise alone gives " + scaleOf(study)(heldOut.noiseFloor) + '.';
+}
+
+/// "condition wet, feature 'late': measured minus simulated is 12 ± 2 %", of the most significant residual
+std::string largestOf(const Study& study, const std::vector<Residual>& residuals)
+{
+    const auto inErrors = [](const Residual& one) { return std::abs(one.estimate.value) / one.estimate.standardError; };
+    const auto largest = std::max_element(residuals.begin(), residuals.end(),
+        [&](const Residual& a, const Residual& b) { return inErrors(a) < inErrors(b); });
+    const Feature& feature = study.features[largest->feature];
+    return "condition " + study.conditions[largest->condition].name + ", feature '" + feature.name
+           + "': measured minus simulated is " + Scale(feature.kind->isLog())(largest->estimate);
+}
+
+/// How much the nearest effect takes of a residual that none explains, and what is left.
+std::string nearestSentence(const Findings& findings, const Explanation& nearest)
+{
+    const Answer& answer = *findings.answer;
+    return "Nearest is " + meaningOf(findings, nearest) + ": it takes " + percent(shareTaken(answer, nearest))
+           + " of the residual (chi-square " + rounded(answer.null.chiSquare, 3) + " without, "
+           + rounded(nearest.chiSquare, 3) + " with it, in " + std::to_string(answer.measured.mean.size())
+           + " numbers). Most of what is left is in "
+           + largestOf(*findings.study, residualsOf(findings, nearest.setting)) + '.';
+}
+
+std::string capitalised(std::string text)
+{
+    text.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(text.front())));
+    return text;
+}
+
+/// "friction and viscosity"
+std::string parametersOf(const Study& study)
+{
+    return joined(mapped(study.parameters, [](const Parameter& one) { return one.name; }), " and ");
+}
+
+std::string inErrors(const std::vector<Residual>& residuals)
+{
+    return rounded(rmsInErrors(residuals));
+}
+
+/// The condition whose residual the explanation reduces most, in units of the standard errors.
+std::string decidingSentence(const Findings& findings, const Explanation& best)
+{
+    const Study& study = *findings.study;
+    const auto without = residualsOf(findings, findings.answer->null.setting);
+    const auto with = residualsOf(findings, best.setting);
+    std::map<std::size_t, std::pair<std::vector<Residual>, std::vector<Residual>>> byCondition;
+    for (std::size_t i = 0; i < without.size(); ++i)
+    {
+        byCondition[without[i].condition].first.push_back(without[i]);
+        byCondition[without[i].condition].second.push_back(with[i]);
+    }
+    const auto fall = [](const auto& one) {
+        const auto& [before, after] = one.second;
+        return (std::pow(rmsInErrors(before), 2) - std::pow(rmsInErrors(after), 2))
+               * static_cast<double>(before.size());
+    };
+    const auto decides = std::max_element(
+        byCondition.begin(), byCondition.end(), [&](const auto& a, const auto& b) { return fall(a) < fall(b); });
+    if (decides == byCondition.end() || byCondition.size() < 2)
+    {
+        return "";
+    }
+    const auto& [before, after] = decides->second;
+    return "Condition " + study.conditions[decides->first].name + " decides most: there, " + nameOf(study, best.effects)
+           + " takes the residual from " + inErrors(before) + " to " + inErrors(after)
+           + " standard errors (root mean square).";
+}
+
+/// What the fit of the parameters alone does to the residual.
+std::string parametersSentence(const Findings& findings, const Explanation* best)
+{
+    const Study& study = *findings.study;
+    Setting prior = findings.answer->null.setting;
+    for (std::size_t p = 0; p < study.parameters.size(); ++p)
+    {
+        prior.parameters(p) = study.parameters[p].mean;
+    }
+    return capitalised(parametersOf(study)) + " alone can take the residual from "
+           + inErrors(residualsOf(findings, prior)) + " to "
+           + inErrors(residualsOf(findings, findings.answer->null.setting)) + " standard errors (root mean square)"
+           + (best == nullptr ? ""
+                              : "; with " + nameOf(study, best->effects) + " it is "
+                                    + inErrors(residualsOf(findings, best->setting)))
+           + '.';
+}
+
+/// A measured size outside of the fitted interval would refute an effect.
+std::string refutingSentence(const Findings& findings, const Explanation& best)
+{
+    const Study& study = *findings.study;
+    const std::size_t e = best.effects.front();
+    const Effect& effect = study.effects[e];
+    const Fit& fit = best.fits.front();
+    std::string text = nameOf(study, best.effects) + " is refuted ";
+    if (effect.isSwitch || best.effects.size() > 1)
+    {
+        return effect.hint.empty() ? "" : capitalised(text) + "if a direct test does not show it: " + effect.hint + '.';
+    }
+    const auto at = [&](double amplitude) {
+        Explanation end = best;
+        end.setting.amplitudes(e) = amplitude;
+        return describeSize(findings, end);
+    };
+    return capitalised(text) + "if a direct measurement does not lie between " + at(fit.lower) + " and " + at(fit.upper)
+           + " (95 %)" + (effect.hint.empty() ? "" : ": " + effect.hint) + '.';
+}
+
+/// Which condition decided, what the parameters alone could do, and what would refute the answer.
+std::vector<std::string> reasonsOf(const Findings& findings)
+{
+    const Answer& answer = *findings.answer;
+    const Explanation* best = bestOf(answer);
+    std::vector<std::string> all;
+    if (answer.nearest)
+    {
+        all.push_back(nearestSentence(findings, *answer.nearest));
+    }
+    if (best != nullptr)
+    {
+        all.push_back(decidingSentence(findings, *best));
+    }
+    if (!findings.study->parameters.empty())
+    {
+        all.push_back(parametersSentence(findings, best));
+    }
+    if (!answer.set.empty())
+    {
+        all.push_back(refutingSentence(findings, *best));
+    }
+    all.erase(std::remove(all.begin(), all.end(), ""), all.end());
+    return all;
+}
+
+/// Why no name is given, and why probable effects are not in the set.
+std::vector<std::string> doubtsOf(const Findings& findings)
+{
+    const Study& study = *findings.study;
+    const Answer& answer = *findings.answer;
+    std::vector<std::string> all;
+    if (answer.decision == Decision::set && answer.oddsOfName)
+    {
+        const auto [odds, needed] = *answer.oddsOfName;
+        all.push_back("No name is given: the log odds of " + nameOf(study, answer.set.front().effects)
+                      + " against all other causes are " + rounded(odds)
+                      + (std::isfinite(needed) ? ", and a name needs " + rounded(needed)
+                                               : ", and decoys look like it at any odds")
+                      + '.');
+    }
+    for (std::size_t e = 0; e < answer.effects.size(); ++e)
+    {
+        const EffectFinding& finding = answer.effects[e];
+        if (!finding.notInSetBecause.empty())
+        {
+            all.push_back(capitalised(study.effects[e].name) + " is no candidate in spite of its probability, "
+                          + percent(finding.probability) + ": " + finding.notInSetBecause + '.');
+        }
+        if (finding.inSet && !study.effects[e].isSwitch && finding.fit.lower < 0.0 && finding.fit.upper > 0.0)
+        {
+            all.push_back("The 95 % interval of the size of " + study.effects[e].name + " contains 0.");
+        }
+        if (finding.inSet && finding.alone)
+        {
+            const auto& measured = *study.effects[e].measured;
+            const double error = std::hypot(measured.sd, finding.alone->sd);
+            all.push_back("Without its independent measurement, " + withError({measured.mean, measured.sd})
+                          + ", the size of " + study.effects[e].name + " would be "
+                          + withError({finding.alone->amplitude, finding.alone->sd}) + ": the two "
+                          + (std::abs(measured.mean - finding.alone->amplitude) <= 2.0 * error ? "agree" : "disagree")
+                          + " (within two standard deviations).");
+        }
+    }
+    return all;
 }
 
 } // namespace
@@ -199,8 +384,7 @@ std::string sentenceOf(const Findings& findings)
             return (strainedParameters(findings).empty()
                            ? "The model agrees with these measurements within their noise"
                            : "The model fits, but only with " + joined(strainedParameters(findings), " and ")
-                                 + " from the independent measurement: either that measurement is wrong, or the fit "
-                                   "compensates for a missing effect")
+                                 + ": either that value is wrong, or the fit compensates for a missing effect")
                    + errorWithout(findings) + '.';
         case Decision::unknown:
             return "The residual has " + std::string(unlistedCause) + ": none of its "
@@ -229,11 +413,15 @@ std::vector<std::string> detailsOf(const Findings& findings)
 {
     const Answer& answer = *findings.answer;
     const HeldOutResult* heldOut = findings.heldOut;
-    std::vector<std::string> all = {chanceSentence(answer)};
+    std::vector<std::string> all = reasonsOf(findings);
+    all.push_back(chanceSentence(answer));
+    for (const auto& value : valuesAtEnds(findings))
+    {
+        all.push_back(capitalised(value) + '.');
+    }
     if (answer.decision != Decision::noResidual && !strainedParameters(findings).empty())
     {
-        all.push_back("Without an effect the fit moves " + joined(strainedParameters(findings), " and ")
-                      + " from the independent measurement.");
+        all.push_back("Without an effect the fit moves " + joined(strainedParameters(findings), " and ") + '.');
     }
     if (answer.decision == Decision::noResidual)
     {
@@ -244,6 +432,7 @@ std::vector<std::string> detailsOf(const Findings& findings)
     {
         // If no explanation fits, their relative probabilities mean nothing.
         all.push_back(probabilitySentence(findings));
+        append(all, doubtsOf(findings));
     }
     if (!isHeldOut(heldOut))
     {
@@ -264,7 +453,21 @@ std::vector<std::string> nextOf(const Findings& findings)
 {
     const Study& study = *findings.study;
     std::vector<std::string> all;
-    if (const Condition* candidate = bestCandidate(findings))
+    const Condition* candidate = bestCandidate(findings);
+    if (candidate != nullptr && findings.next->front().outcomes.size() == 1)
+    {
+        const auto& outcome = findings.next->front().outcomes.front();
+        const auto numbers = mapped(
+            numbersWhere(study.features.size(), [&](std::size_t f) { return std::isfinite(outcome.features(f)); }),
+            [&](std::size_t f) {
+                const bool isLog = study.features[f].kind->isLog();
+                const double value = isLog ? std::exp(outcome.features(f)) : outcome.features(f);
+                return '\'' + study.features[f].name + "' " + withError({value, (isLog ? value : 1.0) * outcome.sd(f)});
+            });
+        all.push_back("A measurement of " + candidate->name + " would test " + outcome.name + ", which predicts "
+                      + joined(numbers, " and ") + " there (SI units).");
+    }
+    else if (candidate != nullptr)
     {
         const auto& outcomes = findings.next->front().outcomes;
         // The feature in which the two most likely explanations differ most.
@@ -282,16 +485,8 @@ std::vector<std::string> nextOf(const Findings& findings)
     }
     if (findings.answer->decision == Decision::unknown)
     {
-        const auto residuals = residualsOf(findings);
-        const auto largest =
-            std::max_element(residuals.begin(), residuals.end(), [](const Residual& a, const Residual& b) {
-                return std::abs(a.estimate.value) / a.estimate.standardError
-                       < std::abs(b.estimate.value) / b.estimate.standardError;
-            });
-        const Feature& feature = study.features[largest->feature];
-        all.push_back("The residual is most significant in condition " + study.conditions[largest->condition].name
-                      + ", feature '" + feature.name + "': measured minus simulated is "
-                      + Scale(feature.kind->isLog())(largest->estimate) + '.');
+        all.push_back("The residual is most significant in "
+                      + largestOf(study, residualsOf(findings, findings.answer->null.setting)) + '.');
     }
     for (const auto& explanation : findings.answer->set)
     {
@@ -313,13 +508,15 @@ std::vector<std::string> assumptionsOf(const Findings& findings)
     std::vector<std::string> all = study.assumptions;
     for (const auto& parameter : study.parameters)
     {
-        all.push_back("Parameter " + parameter.name
-                      + " has one value in all conditions; an independent measurement gave " + textOf(parameter.mean)
-                      + " with a standard deviation of " + textOf(parameter.sd) + ".");
+        all.push_back("Parameter " + parameter.name + " has one value in all conditions; "
+                      + (parameter.from == Origin::measured    ? "an independent measurement gave "
+                          : parameter.from == Origin::handbook ? "a handbook gives "
+                                                               : "before the fit it was guessed to be ")
+                      + textOf(parameter.mean) + " with a standard deviation of " + textOf(parameter.sd) + ".");
     }
     all.push_back("Only the " + std::to_string(study.effects.size())
                   + " effects of the study can be named, with amplitudes within their stated ranges; a priori, all "
-                    "amplitudes within a range are equally likely.");
+                    "amplitudes within a range are equally likely, except for effects whose amplitude was measured.");
     all.emplace_back(
         answer.emulator->scatters()
             ? "Measurements scatter like simulations of the same setting, up to a common factor near 1, and their "

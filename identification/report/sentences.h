@@ -11,7 +11,8 @@ namespace clepsydra::identification
 /// The answer in one sentence, for readers who do not know the procedure.
 std::string sentenceOf(const Findings& findings);
 
-/// Sentences on how certain the answer is, how well it predicts, and whether the effect may enter the model.
+/// Sentences on which condition decided, what the parameters alone could do, what would refute the answer, how certain it
+/// is, how well it predicts, and whether the effect may enter the model.
 std::vector<std::string> detailsOf(const Findings& findings);
 
 /// Sentences on what to measure next, and which result is expected.

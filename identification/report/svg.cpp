@@ -17,7 +17,7 @@ constexpr double width = 460;
 constexpr double height = 280;
 constexpr double left = 62;
 constexpr double right = 12;
-constexpr double top = 26;
+constexpr double top = 40;
 constexpr double bottom = 42;
 
 std::string shown(double value)
@@ -65,6 +65,23 @@ struct Range
         }
     }
 };
+
+/// Legend in one line above the plot, where there are no data. \param style  of a line of each label
+std::string legendOf(const std::vector<std::pair<std::string, std::string>>& labels, double from)
+{
+    constexpr double perLetter = 5.6;
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1);
+    double x = from;
+    for (const auto& [label, style] : labels)
+    {
+        text << R"(<line style=")" << style << R"(;stroke-width:3" x1=")" << x << R"(" x2=")" << x + 16
+             << R"(" y1="29" y2="29"/><text class="tick" x=")" << x + 20 << R"(" y="32">)" << escaped(label)
+             << "</text>\n";
+        x += 34 + perLetter * static_cast<double>(label.size());
+    }
+    return text.str();
+}
 
 } // namespace
 
@@ -136,7 +153,7 @@ std::string Plot::svg() const
              << R"(" y2=")" << py(y) << R"("/><text class="tick" text-anchor="end" x=")" << left - 5 << R"(" y=")"
              << py(y) + 3 << R"(">)" << shown(y) << "</text>\n";
     }
-    double legend = top + 12;
+    std::vector<std::pair<std::string, std::string>> labels;
     for (const auto& shape : shapes_)
     {
         text << "<" << (shape.closed ? "polygon" : "polyline") << R"( style=")" << shape.style << R"(" points=")";
@@ -150,17 +167,94 @@ std::string Plot::svg() const
         text << "\"/>\n";
         if (!shape.label.empty())
         {
-            text << R"(<line style=")" << shape.style << R"(;stroke-width:3" x1=")" << width - right - 128
-                 << R"(" x2=")" << width - right - 110 << R"(" y1=")" << legend - 3 << R"(" y2=")" << legend - 3
-                 << R"("/><text class="tick" x=")" << width - right - 104 << R"(" y=")" << legend << R"(">)"
-                 << escaped(shape.label) << "</text>\n";
-            legend += 13;
+            labels.emplace_back(shape.label, shape.style);
         }
     }
-    text << R"(<text class="label" text-anchor="middle" x=")" << (left + width - right) / 2 << R"(" y=")" << height - 8
-         << R"(">)" << escaped(xLabel_)
+    text << legendOf(labels, left) << R"(<text class="label" text-anchor="middle" x=")" << (left + width - right) / 2
+         << R"(" y=")" << height - 8 << R"(">)" << escaped(xLabel_)
          << "</text>\n<text class=\"label\" text-anchor=\"middle\" transform=\"translate(13 "
          << (top + height - bottom) / 2 << ") rotate(-90)\">" << escaped(yLabel_) << "</text>\n</svg>\n";
+    return text.str();
+}
+
+std::string DotChart::svg() const
+{
+    constexpr double row = 20;
+    constexpr double names = 150;
+    constexpr double farApart = 5.0;
+    Range range;
+    bool isPositive = true;
+    for (const auto& [name, dots] : rows)
+    {
+        for (const auto& [value, error] : dots)
+        {
+            range.take(value - error);
+            range.take(value + error);
+            isPositive = isPositive && !(value - error <= 0.0);
+        }
+    }
+    range.widen();
+    const bool isLog = isPositive && range.high > farApart * range.low;
+    const auto scaled = [&](double value) { return isLog ? std::log10(value) : value; };
+    const double margin = 0.03 * (scaled(range.high) - scaled(range.low));
+    const double low = scaled(range.low) - margin;
+    const double high = scaled(range.high) + margin;
+    const auto px = [&](double x) { return names + (scaled(x) - low) / (high - low) * (width - names - right); };
+    const double end = top + row * static_cast<double>(rows.size());
+    std::vector<double> ticks;
+    if (isLog)
+    {
+        for (double power = std::pow(10.0, std::floor(low)); power <= range.high; power *= 10.0)
+        {
+            ticks.insert(ticks.end(), {power, 2.0 * power, 5.0 * power});
+        }
+    }
+    else
+    {
+        const double step = niceStep(high - low);
+        for (double x = std::ceil(low / step) * step; x <= high; x += step)
+        {
+            ticks.push_back(x);
+        }
+    }
+    std::vector<std::pair<std::string, std::string>> labels;
+    for (const auto& [label, colour] : series)
+    {
+        labels.emplace_back(label, "stroke:" + colour);
+    }
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << width << ' ' << end + 20
+         << R"(" class="plot" role="img" aria-label=")" << escaped(title)
+         << "\">\n<text x=\"4\" y=\"16\" class=\"title\">" << escaped(title) << "</text>\n"
+         << legendOf(labels, 4);
+    for (const double tick : ticks)
+    {
+        if (scaled(tick) >= low && scaled(tick) <= high)
+        {
+            text << R"(<line class="grid" x1=")" << px(tick) << R"(" x2=")" << px(tick) << R"(" y1=")" << top
+                 << R"(" y2=")" << end << R"("/><text class="tick" text-anchor="middle" x=")" << px(tick) << R"(" y=")"
+                 << end + 14 << R"(">)" << shown(tick) << "</text>\n";
+        }
+    }
+    double y = top;
+    for (const auto& [name, dots] : rows)
+    {
+        text << R"(<text class="tick" text-anchor="end" x=")" << names - 6 << R"(" y=")" << y + 13 << R"(">)"
+             << escaped(name) << "</text>\n";
+        for (std::size_t i = 0; i < dots.size(); ++i)
+        {
+            const auto& [value, error] = dots[i];
+            if (std::isfinite(value))
+            {
+                const double at = y + row * static_cast<double>(i + 1) / static_cast<double>(dots.size() + 1);
+                text << R"(<line style="stroke:)" << series[i].second << R"(" x1=")" << px(value - error) << R"(" x2=")"
+                     << px(value + error) << R"(" y1=")" << at << R"(" y2=")" << at << R"("/><circle style="fill:)"
+                     << series[i].second << R"(" r="2.8" cx=")" << px(value) << R"(" cy=")" << at << "\"/>\n";
+            }
+        }
+        y += row;
+    }
+    text << "</svg>\n";
     return text.str();
 }
 

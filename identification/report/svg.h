@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace clepsydra::identification
@@ -32,6 +33,23 @@ private:
     std::string xLabel_;
     std::string yLabel_;
     std::vector<Shape> shapes_;
+};
+
+/// A value with the half width of its interval; NaN where there is none.
+struct Dot
+{
+    double value;
+    double error;
+};
+
+/// Rows of dots with intervals, one dot for each series. The axis is logarithmic where the values are far apart.
+struct DotChart
+{
+    std::string title;
+    std::vector<std::pair<std::string, std::string>> series; // label and colour
+    std::vector<std::pair<std::string, std::vector<Dot>>> rows;
+
+    std::string svg() const;
 };
 
 /// One bar of a chart.

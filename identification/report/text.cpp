@@ -42,7 +42,11 @@ void writeText(const Json& report, std::ostream& out)
         out << "Fitted: " << number["name"].get<std::string>() << ' '
             << (number["withEffect"].is_null() ? with("withoutEffect")
                                                : with("withEffect") + "; without an effect " + with("withoutEffect"))
-            << (number["independent"].is_null() ? "" : "; measured independently " + with("independent")) << '\n';
+            << (number["independent"].is_null() ? "" : "; measured independently " + with("independent"))
+            << (number.contains("assumed") && !number["assumed"].is_null()
+                       ? (number["from"] == "guess" ? "; guessed before " : "; in a handbook ") + with("assumed")
+                       : "")
+            << '\n';
     }
     writeList(report, "measureNext", out);
     if (report.contains("runs"))

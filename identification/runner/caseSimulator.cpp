@@ -195,6 +195,11 @@ Entries CaseSimulator::defaults() const
     return readEntries(caseFolder_ / study_.simulator.entriesFile);
 }
 
+int CaseSimulator::atOnce() const
+{
+    return executor_->atOnce();
+}
+
 std::string CaseSimulator::keyOf(const RunOrder& order) const
 {
     std::string all = fingerprint_ + '\n' + order.command + '\n';

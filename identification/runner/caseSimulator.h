@@ -34,6 +34,9 @@ public:
     std::vector<RunResult> run(const std::vector<RunOrder>& orders) override;
     int missing(const std::vector<RunOrder>& orders) override;
 
+    /// Number of runs at a time.
+    int atOnce() const;
+
     /// Hash of everything that a run depends on.
     std::string keyOf(const RunOrder& order) const;
 

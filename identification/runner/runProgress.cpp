@@ -23,7 +23,9 @@ void RunProgress::ended(const std::string& purpose, const std::string& failure)
     ++done_;
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
     const double left = seconds / static_cast<double>(done_) * static_cast<double>(runs_ - done_);
-    out_ << "  " << done_ << '/' << runs_ << ' ' << purpose << (failure.empty() ? "" : " FAILED: " + failure) << ", "
+    // The lines that follow are the end of the run's log, which the report has.
+    const std::string reason = failure.substr(0, failure.find('\n'));
+    out_ << "  " << done_ << '/' << runs_ << ' ' << purpose << (reason.empty() ? "" : " FAILED: " + reason) << ", "
          << clockTime(left) << " to go" << std::endl;
 }
 

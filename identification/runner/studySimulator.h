@@ -50,7 +50,7 @@ struct Failure
     bool repeated = false; // a later attempt with another seed succeeded
 };
 
-/// Number, seeds, failures and computing time of the simulations made so far.
+/// Number, seeds, failures and wall-clock time (summed over runs) of the simulations made so far.
 struct Effort
 {
     std::map<std::string, int> runsByPurpose;

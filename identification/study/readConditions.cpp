@@ -48,7 +48,9 @@ ColumnSpecification readColumn(const YamlPlace& place)
     place.allow({"column", "unit", "factor", "offset", "valid"});
     ColumnSpecification column;
     column.column = place.at("column").text();
-    column.factor = unitOf(place) * place.numberOr("factor", 1.0);
+    column.unit = place.at("unit").text();
+    column.siUnits = unitOf(place);
+    column.factor = column.siUnits * place.numberOr("factor", 1.0);
     column.offset = place.numberOr("offset", 0.0);
     if (place.has("valid"))
     {
@@ -62,13 +64,15 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     place.allow({"feature", "values", "unit", "relativeError", "standardError"});
     MeasuredNumber number;
     number.feature = indexOf(place.at("feature"), study.features);
+    number.unit = place.at("unit").text();
+    number.siUnits = unitOf(place);
     const bool isLog = study.features[number.feature].kind->isLog();
     for (const auto& value : place.at("values").oneOrMore())
     {
-        number.values.push_back(isLog ? std::log(value.positive() * unitOf(place)) : value.number() * unitOf(place));
+        number.values.push_back(isLog ? std::log(value.positive() * number.siUnits) : value.number() * number.siUnits);
     }
     number.standardError =
-        isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * unitOf(place);
+        isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * number.siUnits;
     if (place.has(isLog ? "standardError" : "relativeError"))
     {
         place.fail(isLog ? "the feature is a logarithm; its error must be given as relativeError"

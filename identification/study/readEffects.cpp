@@ -68,8 +68,8 @@ Bounds readBounds(const YamlPlace& place)
 
 Effect readEffect(const YamlPlace& place)
 {
-    place.allow(
-        {"name", "meaning", "hint", "family", "set", "chain", "amplitude", "switch", "scatter", "prior", "actsIn"});
+    place.allow({"name", "meaning", "hint", "family", "set", "chain", "amplitude", "measured", "switch", "scatter",
+        "prior", "actsIn"});
     Effect effect;
     effect.name = place.at("name").text();
     effect.meaning = place.textOr("meaning", "");
@@ -102,6 +102,21 @@ Effect readEffect(const YamlPlace& place)
             place.at("amplitude").fail("a switch has no amplitude; it is on or off");
         }
         effect.bounds = readBounds(place.at("amplitude"));
+    }
+    if (place.has("measured"))
+    {
+        const YamlPlace measured = place.at("measured");
+        if (effect.isSwitch)
+        {
+            measured.fail("a switch has no amplitude that could be measured; it is on or off");
+        }
+        measured.allow({"mean", "sd"});
+        effect.measured = Normal{measured.at("mean").number(), measured.at("sd").positive()};
+        if (effect.measured->mean < effect.bounds.lower || effect.measured->mean > effect.bounds.upper)
+        {
+            measured.at("mean").fail("is an amplitude and must lie within the effect's range, "
+                                     + textOf(effect.bounds.lower) + " to " + textOf(effect.bounds.upper));
+        }
     }
     for (const auto& [tag, values] : place.optional("actsIn").map())
     {

@@ -61,9 +61,21 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
         requireEntry(value, entry, simulator);
         parameter.entries.emplace(entry, readFormula(value));
     }
-    place.at("prior").allow({"mean", "sd"});
-    parameter.mean = place.at("prior").at("mean").number();
-    parameter.sd = place.at("prior").at("sd").positive();
+    const YamlPlace prior = place.at("prior");
+    prior.allow({"mean", "sd", "from"});
+    parameter.mean = prior.at("mean").number();
+    parameter.sd = prior.at("sd").positive();
+    if (!prior.has("from"))
+    {
+        prior.fail("parameter '" + parameter.name
+                   + "' does not say where its prior comes from; allowed are 'from: measured' (an independent "
+                     "measurement of these particles or this fluid), 'from: handbook' (a published value) and 'from: "
+                     "guess' (also a value that was chosen after a look at the data)");
+    }
+    const auto origins = {Origin::measured, Origin::handbook, Origin::guess};
+    const std::string from = prior.at("from").oneOf(mapped(origins, [](Origin origin) { return nameOf(origin); }));
+    parameter.from =
+        *std::find_if(origins.begin(), origins.end(), [&](Origin origin) { return nameOf(origin) == from; });
     std::tie(parameter.lower, parameter.upper) = place.at("range").range("[lowest, highest]");
     if (parameter.mean <= parameter.lower || parameter.mean >= parameter.upper)
     {

@@ -15,6 +15,11 @@ bool acts(const Effect& effect, const Condition& condition)
     });
 }
 
+std::string nameOf(Origin origin)
+{
+    return origin == Origin::measured ? "measured" : origin == Origin::handbook ? "handbook" : "guess";
+}
+
 std::vector<std::size_t> Study::conditionsOf(Role role) const
 {
     return numbersWhere(conditions.size(), [&](std::size_t c) { return conditions[c].role == role; });

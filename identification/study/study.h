@@ -44,15 +44,34 @@ struct SimulatorSpecification
     double timeLimit = 0.0;                       // of a run [s]; 0: no limit
 };
 
+/// Where a prior comes from. Only the first is called a measurement.
+enum class Origin
+{
+    measured, // an independent measurement, of these particles or this fluid
+    handbook, // a published value for the material
+    guess     // none of these, or chosen after a look at the data
+};
+
+/// "measured", "handbook" or "guess", as study files write it.
+std::string nameOf(Origin origin);
+
+/// A normal distribution.
+struct Normal
+{
+    double mean = 0.0;
+    double sd = 0.0;
+};
+
 /// A fitted parameter, which has one value in all conditions.
 struct Parameter
 {
     std::string name;
     std::string unit;                          // for the report
     std::map<std::string, Expression> entries; // formulas in the parameter's name
-    double mean = 0.0;                         // of the prior, which is an independent measurement
+    double mean = 0.0;                         // of the prior
     double sd = 0.0;
-    double lower = 0.0; // physical limits, which simulations keep
+    Origin from = Origin::guess; // of the prior
+    double lower = 0.0;          // physical limits, which simulations keep
     double upper = 0.0;
     /// Effect that it belongs to, as the height of a layer's edge does; without the effect, the parameter has no
     /// influence.
@@ -74,6 +93,7 @@ struct Effect
     std::string chainOperation;          // operation of the measuring chain; empty: an effect of the simulator
     std::optional<Expression> chainSize; // formula in a
     Bounds bounds;                       // of the amplitude; [0, 1] for a switch
+    std::optional<Normal> measured;      // independent measurement of the amplitude, which is then its prior
     bool isSwitch = false;               // on or off
     bool raisesScatter = false;          // whether it raises the scatter of runs
     double prior = 1.0;                  // relative prior weight
@@ -96,10 +116,12 @@ enum class Role
 struct ColumnSpecification
 {
     std::string column;
-    double factor = 1.0;
+    double factor = 1.0; // includes that of the unit
     double offset = 0.0;
     double lowest = 0.0; // valid range; values outside are missing. Equal limits: all values are valid
     double highest = 0.0;
+    std::string unit = {}; // as stated, and its size in SI units
+    double siUnits = 1.0;
 };
 
 /// Measured values of a feature, for measurements that give no curve.
@@ -108,6 +130,8 @@ struct MeasuredNumber
     std::size_t feature;
     std::vector<double> values; // repeats, as the feature defines them (logarithms taken)
     double standardError = 0.0; // of each value, in addition to the scatter of repeats
+    std::string unit;           // as stated, and its size in SI units
+    double siUnits = 1.0;
 };
 
 struct Measurement

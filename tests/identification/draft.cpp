@@ -71,16 +71,23 @@ public:
         return folder_.path() / name;
     }
 
-    /// Fills in the marked values: the apparatus is that of the case, and sizes in names are in mm.
+    /// Number of values that are still to be filled in.
+    std::size_t places(const std::string& name) const
+    {
+        const std::string study = text(name);
+        const std::regex mark("\"FILL IN: ");
+        return std::distance(std::sregex_iterator(study.begin(), study.end(), mark), std::sregex_iterator());
+    }
+
+    /// Fills in the marked values; the apparatus is that of the case.
     void fill(const std::string& name) const
     {
         std::string study = text(name);
-        for (const auto& [place, by] :
-            std::vector<std::pair<std::string, std::string>>{{"\"FILL IN: [^\"]*; the case has ([^\"]*)\"", "$1"},
-                {R"("FILL IN: [^"]*the name has ([0-9.]*)[^"]*")", "$1e-3"}, {R"(mean: "FILL IN[^"]*")", "mean: 0.15"},
-                {R"(sd: "FILL IN[^"]*")", "sd: 0.03"},
-                {R"(file: "FILL IN[^"]*")", "file: postProcessing/massInHopper/*/massInHopper.dat"},
-                {R"(value: "FILL IN[^"]*")", "value: mass"}, {R"("FILL IN[^"]*")", "0.2"}})
+        for (const auto& [place, by] : std::vector<std::pair<std::string, std::string>>{{" *checked: [^\n]*\n", ""},
+                 {R"(mean: "FILL IN[^"]*")", "mean: 0.15"}, {R"(sd: "FILL IN[^"]*")", "sd: 0.03"},
+                 {R"(from: "FILL IN[^"]*")", "from: handbook"},
+                 {R"(file: "FILL IN[^"]*")", "file: postProcessing/massInHopper/*/massInHopper.dat"},
+                 {R"(value: "FILL IN[^"]*")", "value: mass"}, {R"("FILL IN[^"]*")", "0.2"}})
         {
             study = std::regex_replace(study, std::regex(place), by);
         }
@@ -131,11 +138,12 @@ TEST(Draft, OfHopperFilesIsAcceptedOnceFilled)
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/hopperQuick measured"), 0) << bench.output;
     EXPECT_THAT(bench.output, HasSubstr("left out: measured/notes.txt: contains no numbers"));
     EXPECT_THAT(bench.output, HasSubstr("condition wet10: wet10a.csv wet10b.csv wet10c.csv (repeats)"));
-    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.particleDiameter: FILL IN"));
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.checked: FILL IN"));
     const std::string study = "study.yaml";
     EXPECT_THAT(bench.text(study), HasSubstr("decide now, before"));
     EXPECT_EQ(bench.run("plan " + study), 1);
-    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.particleDiameter: FILL IN"));
+    EXPECT_LE(bench.places(study), 3U) << bench.text(study);
+    EXPECT_THAT(bench.output, HasSubstr("study.yaml:9: simulator.set.checked: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr(".prior.sd: FILL IN"));
     EXPECT_THAT(bench.output, HasSubstr("Replace these by values"));
     bench.fill(study);
@@ -190,6 +198,7 @@ TEST(Draft, OfFallingParticlesIsAcceptedOnceFilled)
     const std::string files = " bead_1.5_trial_1.txt bead_1.5_trial_2.txt bead_2_trial_1.txt bead_2_trial_2.txt";
     ASSERT_EQ(bench.run("new " CASES_FOLDER "/settlingParticle" + files + " --output particles.yaml"), 0)
         << bench.output;
+    EXPECT_LE(bench.places("particles.yaml"), 3U) << bench.text("particles.yaml");
     bench.fill("particles.yaml");
     ASSERT_EQ(bench.run("plan particles.yaml"), 0) << bench.output;
     const Study study = readStudy(bench.path("particles.yaml"));

@@ -161,7 +161,8 @@ TEST(Emulator, ParameterOfAnEffect)
     {
         const TemporaryFolder folder;
         const Study study = linearStudy(folder, seed,
-            "  - { name: edge, of: x, set: { edge: edge }, prior: { mean: 0, sd: 0.2 }, range: [-1, 1] }\n");
+            "  - { name: edge, of: x, set: { edge: edge }, prior: { mean: 0, sd: 0.2, from: measured }, range: [-1, 1] "
+            "}\n");
         LinearSimulator simulator;
         StudySimulator studySimulator(study, simulator);
         const Library library = makeLibrary(studySimulator);

@@ -79,7 +79,7 @@ conditions:
   - { name: dry, role: training, tags: { medium: air } }
   - { name: again, role: heldOut, tags: { medium: water } }
 parameters:
-  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
+  - { name: friction, set: { friction: friction }, prior: { mean: 0.15, sd: 0.02, from: measured }, range: [0, 1] }
 )" + moreParameters + R"(effects:
   - { name: x, set: { x: "0.02*a" }, amplitude: [-1, 1] }
   - { name: y, set: { y: "0.04*a" }, actsIn: { medium: water } }

@@ -311,7 +311,7 @@ TEST(Trace, TwoEffectsAtOnce)
     {
         likely += member.probability;
     }
-    EXPECT_LE(likely + answer.otherBesideSet, 1 + 1e-9) << "the report states these probabilities together";
+    EXPECT_LE(likely + answer.otherProbability, 1 + 1e-9) << "the report states these probabilities together";
     for (const auto& fit : answer.set.front().fits)
     {
         EXPECT_NEAR(fit.amplitude, 0.8, 0.3);
@@ -367,6 +367,20 @@ TEST(NextExperiment, IsTheOneThatSeparatesMostPerCost)
             << "both explanations have the probability one half";
     }
     EXPECT_THAT(order, ElementsAre(water, dear, air, veryDear));
+
+    // A single member is compared with the next probable effect, and not with no effect, which is excluded.
+    answer.rivals = {answer.set.back()};
+    answer.set.pop_back();
+    const auto withRival = nextExperiments(bench.studySimulator, answer, bench.random);
+    ASSERT_EQ(withRival.front().outcomes.size(), 2U);
+    EXPECT_EQ(withRival.front().outcomes[1].name, "y");
+    answer.rivals.clear();
+    const auto alone = nextExperiments(bench.studySimulator, answer, bench.random);
+    ASSERT_EQ(alone.front().outcomes.size(), 1U);
+    EXPECT_EQ(alone.front().outcomes[0].name, "x");
+    EXPECT_EQ(alone.front().separation, 0);
+    answer.set.clear();
+    EXPECT_THAT(nextExperiments(bench.studySimulator, answer, bench.random), IsEmpty());
 }
 
 /// Held-out result for data with one effect at full size, which the answer names or has in its set. \param edgeFails

@@ -187,6 +187,30 @@ TEST(Program, FindsTheEffectThatWasPutIn)
         EXPECT_THAT(contentOf(seen), HasSubstr(summary));
         EXPECT_THAT(contentOf(seen + ".log"), testing::Not(HasSubstr("CONSOLE")));
     }
+    const auto& notScored = report["heldOut"]["notScored"];
+    EXPECT_TRUE(std::any_of(notScored.begin(), notScored.end(), [](const auto& one) {
+        return one["feature"] == "residue" && one["because"] == "it is no logarithm, so its error is no percentage";
+    })) << notScored;
+    EXPECT_THAT(page, HasSubstr("residue of wetBeyond: it is no logarithm"));
+    // Each measured number is drawn in a chart of its feature, held-out conditions apart.
+    EXPECT_THAT(page, HasSubstr("<div class=\"plots numbers\">"));
+    EXPECT_GT(report["numbers"].size(), 6U);
+    for (const auto& row : report["numbers"])
+    {
+        EXPECT_TRUE(row["measured"]["value"].is_number() && row["before"]["value"].is_number()
+                    && row["after"]["value"].is_number())
+            << row;
+        EXPECT_THAT(page, HasSubstr(row["condition"].get<std::string>()));
+    }
+    // One number for a cause that the library does not list: in the report, in its sentences, and on the page.
+    const double other = report["somethingElse"]["probability"].get<double>();
+    const std::string share = other < 0.01   ? "<1 %"
+                              : other > 0.99 ? ">99 %"
+                                             : std::to_string(std::lround(100 * other)) + " %";
+    EXPECT_THAT(report["details"].dump(), HasSubstr("a cause that the library does not list " + share));
+    EXPECT_THAT(page,
+        HasSubstr("does not list is "
+                  + std::regex_replace(std::regex_replace(share, std::regex("<"), "&lt;"), std::regex(">"), "&gt;")));
     const auto fitted = std::find_if(
         report["fitted"].begin(), report["fitted"].end(), [](const auto& one) { return one["name"] == "addedMass"; });
     ASSERT_NE(fitted, report["fitted"].end());
@@ -341,7 +365,18 @@ TEST(Program, PlansBeforeItRuns)
     ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
     EXPECT_TRUE(std::regex_search(workshop.output, std::regex("effect library: (\\d+) runs, \\1 of them not made yet")))
         << workshop.output;
+    EXPECT_TRUE(std::regex_search(workshop.output,
+        std::regex("\\d+ training conditions with \\d+ numbers; 1 fitted parameter \\(friction\\); \\d+ effects")))
+        << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("2 conditions held out"));
+    EXPECT_THAT(workshop.output, HasSubstr("of wall-clock time with "));
     EXPECT_TRUE(fs::is_empty(workshop.path() / "surrogate.work/cache"));
+    const std::string right = contentOf(workshop.path() / "study.yaml");
+    std::ofstream(workshop.path() / "study.yaml")
+        << std::regex_replace(right, std::regex("role: heldOut"), "role: training");
+    ASSERT_EQ(workshop.run("plan"), 0) << workshop.output;
+    EXPECT_THAT(workshop.output, HasSubstr("nothing is held out"));
+    std::ofstream(workshop.path() / "study.yaml") << right;
     ASSERT_EQ(workshop.run("plan --execute"), 0) << workshop.output;
     EXPECT_THAT(workshop.output, HasSubstr("named from"));
     EXPECT_THAT(workshop.output, HasSubstr("An effect is named if its residual is at least "));
@@ -596,6 +631,21 @@ TEST(Runner, RunsOnAFullDiskDoNotCount)
     const auto results = simulator.run({order});
     EXPECT_EQ(results[0].failure, "");
     EXPECT_FALSE(results[0].cached);
+}
+
+/// What a failed run has printed is kept for the report, and the progress has one line for each run.
+TEST(Runner, ProgressIsALineForARun)
+{
+    Workshop workshop;
+    workshop.measure({});
+    const Study study = readStudy(workshop.path() / "study.yaml");
+    std::ostringstream progress;
+    CaseSimulator simulator(study, progress);
+    const RunOrder order{"echo FOAM FATAL; echo of OpenFOAM; exit 3", study.conditions[0].file, {}, 0, "test"};
+    EXPECT_THAT(simulator.run({order})[0].failure, HasSubstr("FOAM FATAL\n    of OpenFOAM"));
+    const std::string said = progress.str();
+    EXPECT_THAT(said, HasSubstr("1/1 test FAILED: 'echo FOAM FATAL"));
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 2) << said;
 }
 
 /// A run that fails with its seed is repeated with another one, and the failure is reported. The same holds with Slurm,

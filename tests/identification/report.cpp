@@ -1,4 +1,6 @@
 /// Sentences and numbers of the report, from answers made by hand.
+#include "decision/measured.h"
+#include "emulator/library.h"
 #include "linearSimulator.h"
 #include "report/fitted.h"
 #include "report/numbers.h"
@@ -9,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <memory>
+#include <tuple>
 
 namespace clepsydra::identification::tests
 {
@@ -42,6 +46,20 @@ TEST(Numbers, AreRoundedAsTheirErrorsAllow)
     EXPECT_EQ(percent(0.004), "<1 %");
     EXPECT_EQ(percent(0.999), ">99 %");
     EXPECT_EQ(percent(0.456), "46 %");
+    EXPECT_EQ(pValueText(0.0312), "p = 0.03");
+    EXPECT_EQ(pValueText(0.312), "p = 0.31");
+    EXPECT_EQ(pValueText(1e-274), "p below 1e-6");
+}
+
+/// A value that its range bounds lies about one standard error inside; one that is determined well does not count, nor
+/// does an interval as wide as the range.
+TEST(Numbers, AtTheEndsOfRanges)
+{
+    EXPECT_EQ(endOfRange(0.95, 0.05, {0, 1}), "upper");
+    EXPECT_EQ(endOfRange(0.9, 0.01, {0, 1}), "");
+    EXPECT_EQ(endOfRange(0.5, 0.29, {0, 1}), "");
+    EXPECT_EQ(endOfRange(-1, 0, {-1, 1}), "lower");
+    EXPECT_EQ(endOfRange(0.99, 0, {-1, 1}), "");
 }
 
 /// A study of the linear simulator whose effects have meanings, and an answer.
@@ -53,6 +71,15 @@ struct Bench
         study.effects[0].hint = "a plug gauge";
         study.effects[1].meaning = "water that moves along with a particle.\n";
         study.parameters[0].unit = "rad";
+        data.resize(study.conditions.size());
+        for (auto& condition : data)
+        {
+            condition.features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+            condition.declaredError = Eigen::VectorXd::Zero(1);
+        }
+        answer.emulator =
+            std::make_shared<Emulator>(study, studySimulator, library.runs, measuredFeatures(study, data));
+        std::tie(answer.layout, answer.measured) = arrange(study, *answer.emulator, data);
         answer.null.setting = studySimulator.plainSetting();
         answer.null.setting.parameters(0) = 0.2;
         answer.null.fits.resize(1);
@@ -78,6 +105,7 @@ struct Bench
             one.fits = {answer.effects[effect].fit};
             one.setting = studySimulator.plainSetting();
             one.setting.amplitudes(static_cast<Eigen::Index>(effect)) = amplitude;
+            one.fits.front().amplitude = amplitude;
             answer.set.push_back(one);
         }
     }
@@ -93,8 +121,10 @@ struct Bench
 
     TemporaryFolder folder;
     Study study = linearStudy(folder, "seed");
-    LinearSimulator simulator;
+    LinearSimulator simulator{true};
     StudySimulator studySimulator{study, simulator};
+    Library library = makeLibrary(studySimulator);
+    std::vector<MeasuredCondition> data;
     Answer answer;
     HeldOutResult heldOut;
     Findings findings{&study, &answer, nullptr, nullptr, &studySimulator, nullptr, nullptr};
@@ -173,9 +203,10 @@ TEST(Sentence, OfASingleMemberKeepsTheDoubt)
 {
     Bench bench;
     bench.found(Decision::set, {{1, 0.5}}, true);
-    bench.answer.otherProbability = 1;
-    bench.answer.otherBesideSet = 0.3;
+    bench.answer.otherProbability = 0.3;
+    bench.answer.oddsOfName = {2.13, 3.46};
     EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("does not list 30 %")));
+    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("causes are 2.1, and a name needs 3.5")));
     EXPECT_THAT(sentenceOf(bench.findings),
         StartsWith("The residual has one of these causes: water that moves along with a particle (y 0.020), or a cause "
                    "that"));
@@ -185,8 +216,9 @@ TEST(Sentence, OfNoResidualAndOfAnUnlistedCause)
 {
     Bench bench;
     EXPECT_EQ(sentenceOf(bench.findings), "The model agrees with these measurements within their noise.");
-    EXPECT_THAT(detailsOf(bench.findings), ElementsAre(HasSubstr("<1 % of such data (p = 0.001)"),
-                                               HasSubstr("does not show"), HasSubstr("No condition was held out")));
+    EXPECT_THAT(detailsOf(bench.findings),
+        ElementsAre(HasSubstr("Friction alone can take the residual from"), HasSubstr("<1 % of such data (p = 0.001)"),
+            HasSubstr("does not show"), HasSubstr("No condition was held out")));
     bench.answer.decision = Decision::unknown;
     EXPECT_THAT(sentenceOf(bench.findings),
         StartsWith("The residual has a cause that the library does not list: none of its 3 effects"));
@@ -201,6 +233,79 @@ TEST(Sentence, OfVariantsOfOneEffect)
     EXPECT_THAT(
         sentenceOf(bench.findings), AllOf(HasSubstr(", or the orifice is wider"), HasSubstr("variants of one effect"),
                                         Not(HasSubstr("one of these causes"))));
+}
+
+/// The prior of a parameter is called a measurement only if it is one.
+TEST(Sentence, SaysWhereAPriorComesFrom)
+{
+    for (const auto& [from, fit, assumed] :
+        {std::tuple(Origin::measured, "the independent measurement", "measurement gave"),
+            std::tuple(Origin::handbook, "the handbook's value", "a handbook gives 0.15"),
+            std::tuple(Origin::guess, "the guess", "guessed to be 0.15")})
+    {
+        Bench bench;
+        bench.study.parameters[0].from = from;
+        bench.answer.null.setting.parameters(0) = 0.15 + 3.5 * 0.02;
+        EXPECT_THAT(sentenceOf(bench.findings), HasSubstr(std::string("3.5 standard deviations from ") + fit));
+        EXPECT_THAT(assumptionsOf(bench.findings), Contains(HasSubstr(assumed)));
+        const auto words = testing::AnyOf(HasSubstr("independent measurement"), HasSubstr("measurement gave"));
+        if (from != Origin::measured)
+        {
+            EXPECT_THAT(sentenceOf(bench.findings), Not(words));
+            EXPECT_THAT(assumptionsOf(bench.findings), Each(Not(words)));
+        }
+    }
+}
+
+/// Where no effect explains the residual, the nearest one is named, with what it takes of the chi-square: 9 of 10 parts.
+TEST(Sentence, NamesTheNearestEffect)
+{
+    Bench bench;
+    bench.found(Decision::unknown, {{1, 0.5}});
+    bench.answer.nearest = bench.answer.set.front();
+    bench.answer.set.clear();
+    bench.answer.null.chiSquare = 650;
+    bench.answer.nearest->chiSquare = 65;
+    EXPECT_THAT(detailsOf(bench.findings),
+        Contains(AllOf(HasSubstr("Nearest is water that moves along with a particle"), HasSubstr("takes 90 %"),
+            HasSubstr("chi-square 650 without, 65.0 with it, in 2 numbers"),
+            HasSubstr("what is left is in condition"))));
+    EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("Condition dry decides most: there, y takes")));
+}
+
+/// A probable effect that is not in the set has its reason printed, as has a value at the end of its range, and what a
+/// measurement would have to give to refute the answer: y = 0.04 a, between 0.3 and 0.7.
+TEST(Sentence, GivesReasons)
+{
+    Bench bench;
+    bench.answer.effects[1].fit.lower = 0.3;
+    bench.answer.effects[1].fit.upper = 0.7;
+    bench.found(Decision::set, {{1, 0.5}}, true);
+    bench.answer.effects[0].probability = 0.3;
+    bench.answer.effects[0].notInSetBecause = "it fits no better than no effect";
+    bench.answer.null.setting.parameters(0) = 1;
+    const auto details = detailsOf(bench.findings);
+    EXPECT_THAT(
+        details, Contains("X is no candidate in spite of its probability, 30 %: it fits no better than no effect."));
+    EXPECT_THAT(
+        details, Contains("Friction lies at the upper end of its range, 0 to 1.0, in the fit without an effect."));
+    EXPECT_THAT(details, Contains(HasSubstr("does not lie between y 0.012 and y 0.028 (95 %)")));
+}
+
+/// The fit without the measurement of an amplitude, 0.9 ± 0.1, is compared with it.
+TEST(Sentence, ComparesAMeasuredAmplitude)
+{
+    for (const auto& [mean, says] : {std::pair(0.8, "agree"), std::pair(0.2, "disagree")})
+    {
+        Bench bench;
+        bench.found(Decision::set, {{1, 0.5}}, true);
+        bench.study.effects[1].measured = Normal{mean, 0.05};
+        bench.answer.effects[1].inSet = true;
+        bench.answer.effects[1].alone = Fit{};
+        bench.answer.effects[1].alone->amplitude = 0.9;
+        bench.answer.effects[1].alone->sd = 0.1;
+        EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr(std::string("0.90 ± 0.10: the two ") + says)));
+    }
 }
 
 /// Parameters with their errors before and after, and the entry that the effect sets: y = 0.04 a, a = 0.5 ± 0.1.

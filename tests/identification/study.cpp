@@ -213,7 +213,7 @@ observable:
 conditions:
   - { name: dry, role: training, set: { friction: 0.2 } }
 parameters:
-  - { name: rough, set: { friction: friction + rough }, prior: { mean: 0.15, sd: 0.02 }, range: [0, 1] }
+  - { name: rough, set: { friction: friction + rough }, prior: { mean: 0.15, sd: 0.02, from: measured }, range: [0, 1] }
 effects:
   - { name: size, set: { particleDiameter: "particleDiameter*(1 + a)" }, amplitude: [-1, 1] }
 )yaml";
@@ -236,6 +236,7 @@ TEST(StudyFile, IsRead)
     EXPECT_EQ(study.features.size(), 1U);
     EXPECT_EQ(study.conditionsOf(Role::training).size(), 1U);
     EXPECT_EQ(study.effects.front().bounds.lower, -1);
+    EXPECT_EQ(study.parameters.front().from, Origin::measured);
     EXPECT_EQ(study.work, std::filesystem::absolute(folder.path()) / "s.work");
 }
 
@@ -254,7 +255,13 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"from: 0.9, to: 0.3", "from: 0.9", "study.yaml:7:", "needs 'to'"},
         {"role: training", "role: train", "study.yaml:9:", "training, heldOut or candidate"},
         {"sd: 0.02", "sd: -1", "study.yaml:11:", "above 0"},
-        {"sd: 0.02", "sigma: 1", "study.yaml:11:", "mean or sd"},
+        {"sd: 0.02", "sigma: 1", "study.yaml:11:", "sd or from"},
+        {", from: measured }", " }", "study.yaml:11:", "'from: measured'"},
+        {", from: measured }", " }", "study.yaml:11:", "'from: handbook'"},
+        {"from: measured", "from: paper", "study.yaml:11:", "guess"},
+        {"amplitude: [-1, 1]", "amplitude: [-1, 1], measured: { mean: 2, sd: 0.1 }",
+            "study.yaml:13:", "range, -1 to 1"},
+        {"amplitude: [-1, 1]", "amplitude: [-1, 1], measured: { mean: 0.2 }", "study.yaml:13:", "sd"},
         {"range: [0", "of: sise, range: [0", "study.yaml:11:", "did you mean 'size'"},
         {"(1 + a)", "(1 + a", "study.yaml:13:", "Missing parenthesis"},
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
@@ -314,7 +321,8 @@ TEST(StudyFile, MistakesNameTheirLine)
         {"name: rough, set: { friction: friction + rough }", "name: friction, set: { friction: friction }",
             "study.yaml:11:", "condition 'dry' sets"},
         {"parameters:\n",
-            "parameters:\n  - { name: w, set: { wall: w }, prior: { mean: 0.3, sd: 0.1 }, range: [0, 1] }\n",
+            "parameters:\n  - { name: w, set: { wall: w }, prior: { mean: 0.3, sd: 0.1, from: measured }, range: [0, "
+            "1] }\n",
             "study.yaml:11:", "simulator.set sets"},
         {"study: s", "study: s\ninference: { level: 0.002, draws: 499 }", "study.yaml:2:", "499 draws"},
         {"role: training",
@@ -351,7 +359,7 @@ TEST(StudyFile, TooManyParameters)
     {
         EXPECT_NO_THROW(studyOf(folder, replaced(goodStudy, "parameters:\n", more)));
         more += "  - { name: p" + std::to_string(p) + ", set: { wall: wall + p" + std::to_string(p)
-                + " }, prior: { mean: 0, sd: 1 }, range: [-1, 1] }\n";
+                + " }, prior: { mean: 0, sd: 1, from: measured }, range: [-1, 1] }\n";
     }
     EXPECT_THROW(studyOf(folder, replaced(goodStudy, "parameters:\n", more)), StudyError);
 }
@@ -510,7 +518,7 @@ TEST(StudyFile, EffectsOfNoTrainingConditionAreLeftOut)
     const TemporaryFolder folder;
     const auto partOf = [](const std::string& effect) {
         return "  - { name: " + effect + "Part, of: " + effect
-               + ", set: { friction: friction }, prior: { mean: 0, sd: 1 }, range: [-9, 9] }\n";
+               + ", set: { friction: friction }, prior: { mean: 0, sd: 1, from: measured }, range: [-9, 9] }\n";
     };
     const Study study = studyOf(folder,
         replaced(replaced(goodStudy, "effects:\n",

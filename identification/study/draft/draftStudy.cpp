@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -49,6 +50,14 @@ std::string rounded(double number)
     text.precision(2);
     text << number;
     return textOf(std::stod(text.str()));
+}
+
+/// Whether a number of a name may be a length in mm, beside the case's length in m.
+bool isInMillimetres(const std::string& number, const std::string& length)
+{
+    constexpr double farApart = 10.0;
+    const double ratio = number.empty() ? 0.0 : 1e-3 * std::atof(number.c_str()) / std::atof(length.c_str());
+    return ratio > 1.0 / farApart && ratio < farApart;
 }
 
 class Draft
@@ -93,6 +102,11 @@ private:
                : simulator_.has("orificeDiameter")  ? "orificeDiameter"
                : simulator_.has("particleDiameter") ? "particleDiameter"
                                                     : "";
+    }
+    std::string twiceTheTank() const
+    {
+        return simulator_.has("tankDiameter") ? rounded(2.0 * std::atof(simulator_.entries.at("tankDiameter").c_str()))
+                                              : fillIn("m, twice the tank's diameter");
     }
     bool isUnderWater(const DraftedCondition& condition) const
     {
@@ -152,8 +166,8 @@ void Draft::writeSimulator()
     };
     // A particle in a tank with one-way coupling: see docs/howTo/ownMeasurement.md.
     const std::vector<std::pair<std::string, std::string>> falling = {
-        {"stopBelow", fillIn("m above the floor, below all measured positions; a run ends there")},
-        {"smoothingBandwidth", fillIn("m; with twice the tank's diameter the liquid stays at rest on any mesh")},
+        {"smoothingBandwidth",
+            twiceTheTank() + "    # m, twice the tank's diameter, so that the liquid stays at rest on any mesh"},
         {"cellsCore", "2"},
         {"cellsRing", "2"},
         {"cellsHigh", "8"},
@@ -161,7 +175,11 @@ void Draft::writeSimulator()
         {"demStep", "1e-4             # there are no contacts"},
         {"maxRayleighFraction", "100"},
     };
-    text_ << "  set:                  # your apparatus; an entry that is left out keeps the value of the case\n";
+    text_ << "  set:                  # your apparatus; an entry that is left out keeps the value of the case\n"
+          << "    checked: "
+          << fillIn("the values below are those of the case; make them those of your apparatus, then "
+                    "delete this line")
+          << '\n';
     const bool isParticle = simulator_.observable == "particleHeight";
     if (isParticle && simulator_.has("vessel"))
     {
@@ -175,7 +193,7 @@ void Draft::writeSimulator()
         const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isParticle && entry.rfind("tank", 0) == 0);
         if (simulator_.has(entry) && entry != varied() && (isWet || !isOfWater))
         {
-            text_ << "    " << entry << ": " << fillIn(unit + "; the case has " + simulator_.entries.at(entry)) << '\n';
+            text_ << "    " << entry << ": " << simulator_.entries.at(entry) << "    # " << unit << '\n';
         }
     }
     const double seconds = 1.5 * measured_.shape.duration * measured_.columns.time.siUnits();
@@ -402,10 +420,11 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
     }
     if (!entry.empty())
     {
+        const bool isPlausible = isInMillimetres(condition.number, simulator_.entries.at(entry));
         text_ << "    set: { " << entry << ": "
-              << fillIn("m" + (condition.number.empty() ? "" : "; the name has " + condition.number)
-                        + "; or replace the entry by one that differs in this condition")
-              << " }\n";
+              << (isPlausible ? condition.number + "e-3 }   # m, from the name; or another entry that differs here"
+                              : fillIn("m; or replace the entry by one that differs in this condition") + " }")
+              << '\n';
     }
     text_ << "    measured:\n      files:\n";
     std::string names;
@@ -420,28 +439,29 @@ void Draft::writeCondition(const DraftedCondition& condition, const std::string&
 
 void Draft::writeParameters()
 {
-    text_ << "\n# Fitted parameters have one value in all conditions; the prior is an independent measurement, never "
-             "these "
-             "data\n"
+    text_ << "\n# Fitted parameters have one value in all conditions; the prior is an independent measurement, a "
+             "handbook's\n# value or a guess (from: measured, handbook, guess), never these data\n"
           << "parameters:\n";
     if (simulator_.has("friction"))
     {
         text_ << "  - name: friction\n    set: { friction: friction }\n    prior: { mean: "
               << fillIn("friction between particles, measured independently on a tilted plate")
-              << ", sd: " << fillIn("its standard error") << " }\n    range: [0.02, 0.8]\n";
+              << ", sd: " << fillIn("its standard error") << ", from: measured }\n    range: [0.02, 0.8]\n";
     }
     else if (simulator_.has("fluidViscosity"))
     {
         text_ << "  - name: logViscosity  # relative to fluidViscosity above\n"
               << "    set: { fluidViscosity: \"fluidViscosity*exp(logViscosity)\" }\n    prior: { mean: 0, sd: "
-              << fillIn("relative standard error of the viscosity, 0.05 for 5 %") << " }\n    range: [-1, 1]\n";
+              << fillIn("relative standard error of the viscosity, 0.05 for 5 %")
+              << ", from: " << fillIn("of the viscosity: measured, handbook or guess") << " }\n    range: [-1, 1]\n";
     }
     else
     {
         text_ << "  - name: " << fillIn("a word")
               << "\n    set: " << fillIn("{ entry: formula in the parameter's name }")
               << "\n    prior: { mean: " << fillIn("number") << ", sd: " << fillIn("number")
-              << " }\n    range: " << fillIn("[lowest, highest]") << '\n';
+              << ", from: " << fillIn("measured, handbook or guess") << " }\n    range: " << fillIn("[lowest, highest]")
+              << '\n';
     }
 }
 

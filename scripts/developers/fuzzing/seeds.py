@@ -66,7 +66,8 @@ conditions:
   - { name: one, role: training, measured: { files: [curve.csv, curve.csv] } }
   - { name: two, role: heldOut, set: { friction: 0.2 },
       measured: { numbers: [ { feature: rate, unit: g/s, relativeError: 0.01, values: [11] } ] } }
-parameters: [ { name: mu, set: { friction: "mu*1.5" }, prior: { mean: 0.15, sd: 0.05 }, range: [0.02, 0.8] } ]
+parameters: [ { name: mu, set: { friction: "mu*1.5" }, prior: { mean: 0.15, sd: 0.05, from: measured },
+  range: [0.02, 0.8] } ]
 effects: [
   { name: wall, set: { frictionWall: "frictionWall*(1 + a)" }, amplitude: [-1, 1] },
   { name: on, set: { lubrication: 1 }, switch: true } ]
