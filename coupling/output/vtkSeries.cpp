@@ -40,8 +40,9 @@ VtkSeries::VtkSeries(std::filesystem::path file, double startTime)
 void VtkSeries::read(double startTime)
 {
     vtkNew<vtkXMLDataParser> parser;
-    const std::string text = textOf(file_);
-    if (parser->Parse(text.c_str()) != 1 || parser->GetRootElement() == nullptr)
+    std::istringstream text(textOf(file_));
+    parser->SetStream(&text);
+    if (parser->Parse() != 1 || parser->GetRootElement() == nullptr)
     {
         throw std::runtime_error(
             file_.string() + " is not a ParaView collection; allowed: a collection, or no file of this name");
