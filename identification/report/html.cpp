@@ -289,8 +289,7 @@ std::string heldOutTable(const Json& heldOut)
                                           {"before", "without an effect"}, {"after", "with the effect"}})
            + "<p class=\"small\">Instead of logarithms, the quantities themselves are shown, in SI units. Noise alone "
              "gives an error of "
-           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %; in 1 % of the cases it is larger than "
-           + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n";
+           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %.</p>\n";
 }
 
 std::string heldOutSection(const std::string& curves, const Json& report)

@@ -41,10 +41,16 @@ Json estimateOrNull(const std::optional<Estimate>& value)
     return value ? estimate(*value) : Json(nullptr);
 }
 
+Json logRatioJson(const LogRatio& ratio)
+{
+    return {{"logRatio", number(ratio.value)}, {"pValue", ratio.pValue}};
+}
+
 Json heldOutScore(const HeldOutScore& score)
 {
     return {{"rmsLogError", number(score.rmsLogError.value)},
-        {"standardError", number(score.rmsLogError.standardError)}, {"crps", estimate(score.crps)}};
+        {"standardError", number(score.rmsLogError.standardError)}, {"chiSquare", number(score.chiSquare)},
+        {"pValue", score.pValue}, {"overNull", logRatioJson(score.overNull)}};
 }
 
 Json heldOutScoreOrNull(const std::optional<HeldOutScore>& score)
@@ -193,16 +199,17 @@ Json heldOutJson(const Findings& findings)
     if (result.conditions.empty())
     {
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
-            {"gaussianProcess", nullptr}, {"accepted", false}};
+            {"gaussianProcess", nullptr}, {"better", false}, {"complete", false}};
     }
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
     return {{"conditions", names}, {"before", heldOutScore(result.before)}, {"after", heldOutScoreOrNull(result.after)},
         {"oneMoreParameter", oneMore}, {"gaussianProcess", heldOutScoreOrNull(result.gaussianProcess)},
-        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", estimate(result.overOneMore)},
-        {"noiseFloor", result.noiseFloor}, {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
-        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
+        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", logRatioJson(result.overOneMore)},
+        {"overGaussianProcess", result.gaussianProcess ? logRatioJson(result.overGaussianProcess) : Json(nullptr)},
+        {"noiseFloor", number(result.noiseFloor)}, {"better", result.better}, {"complete", result.complete},
+        {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored}, {"members", members},
         {"numbers", heldOutNumbers(study, result)}};
 }
 
@@ -297,6 +304,7 @@ Json jsonOf(const Findings& findings)
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
+    json["grade"] = answer.decision == Decision::named ? Json(gradeOf(findings)) : Json(nullptr);
     json["summary"] = sentenceOf(findings);
     json["details"] = detailsOf(findings);
     json["fitted"] = fittedJson(findings);

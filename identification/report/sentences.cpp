@@ -169,6 +169,27 @@ std::string probabilitySentence(const Findings& findings)
     return "The probabilities are: " + joined(shares, ", ") + '.';
 }
 
+/// How the best explanation predicts the held-out conditions, beside the two words of the decision.
+std::vector<std::string> judgementsOf(const HeldOutResult& heldOut, double level)
+{
+    const auto against = [&](const LogRatio& ratio, const std::string& other) {
+        return std::string(ratio.isBeyondChance(level) ? "better than " : "not significantly better than ") + other
+               + " (log ratio " + rounded(ratio.value) + ", p = " + rounded(ratio.pValue, 1) + ')';
+    };
+    std::vector<std::string> compared = {
+        against(heldOut.after->overNull, "no effect"), against(heldOut.overOneMore, "one more free parameter")};
+    if (heldOut.gaussianProcess)
+    {
+        compared.push_back(against(heldOut.overGaussianProcess, "a Gaussian process on the residual"));
+    }
+    return {"The prediction with the most likely effect is " + joined(compared, ", and ") + '.',
+        heldOut.better ? "Better: the effect may enter the model."
+                       : "It does not enter the model: " + joined(heldOut.notBetterBecause, ", and ") + '.',
+        heldOut.complete ? "Complete: no more than noise is left."
+                         : "Not complete: what is left is more than noise (p = " + rounded(heldOut.after->pValue, 1)
+                               + "), or was not predicted."};
+}
+
 std::string heldOutSentence(const Findings& findings)
 {
     const Study& study = *findings.study;
@@ -183,7 +204,26 @@ std::string heldOutSentence(const Findings& findings)
            + " with one more free parameter instead; noise alone gives " + scaleOf(study)(heldOut.noiseFloor) + '.';
 }
 
+std::string namedSentence(const Findings& findings)
+{
+    const std::string name =
+        joined(membersOf(findings), ", or ") + (findings.answer->family.empty() ? "" : ", variants of one effect");
+    const std::string tried = std::to_string(findings.study->effects.size());
+    return (gradeOf(findings) == "better" ? "The residual is explained by: " + name
+                                                + ", or something that acts like it, which predicts what no fit used"
+                                          : "Of the " + tried + " effects tried only this one fits: " + name
+                                                + "; an untried effect may act alike here")
+           + errorWith(findings) + '.';
+}
+
 } // namespace
+
+std::string gradeOf(const Findings& findings)
+{
+    return findings.answer->decision != Decision::named              ? ""
+           : findings.heldOut != nullptr && findings.heldOut->better ? "better"
+                                                                     : "named";
+}
 
 std::string namedBy(const Study& study, const Answer& answer)
 {
@@ -207,8 +247,7 @@ std::string sentenceOf(const Findings& findings)
                    + std::to_string(findings.study->effects.size()) + " effects explains the measurements"
                    + errorWithout(findings) + '.';
         case Decision::named:
-            return "The residual is explained by: " + joined(membersOf(findings), ", or ")
-                   + (answer.family.empty() ? "" : ", variants of one effect") + errorWith(findings) + '.';
+            return namedSentence(findings);
         case Decision::set:
             break;
     }
@@ -253,9 +292,11 @@ std::vector<std::string> detailsOf(const Findings& findings)
     all.push_back(heldOutSentence(findings));
     if (heldOut->after)
     {
-        all.push_back(heldOut->accepted()
-                          ? "The effect may enter the model."
-                          : "It does not enter the model: " + joined(heldOut->notAcceptedBecause, ", and ") + '.');
+        append(all, judgementsOf(*heldOut, findings.study->settings.level));
+    }
+    if (!heldOut->notScored.empty())
+    {
+        all.push_back("Not compared: " + joined(heldOut->notScored, ", ") + '.');
     }
     return all;
 }
