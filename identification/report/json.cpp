@@ -304,7 +304,6 @@ Json jsonOf(const Findings& findings)
     json["program"] = std::string("traceResidual ") + version + " (" + gitCommit + ")";
     json["decision"] = nameOf(answer.decision);
     json["name"] = answer.decision == Decision::named ? Json(namedBy(study, answer)) : Json(nullptr);
-    json["grade"] = answer.decision == Decision::named ? Json(gradeOf(findings)) : Json(nullptr);
     json["summary"] = sentenceOf(findings);
     json["details"] = detailsOf(findings);
     json["fitted"] = fittedJson(findings);

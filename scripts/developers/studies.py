@@ -217,9 +217,16 @@ def errors(report: Any) -> list[Any]:
         f"{100 * one['rmsLogError']:.1f} +- {100 * one['standardError']:.1f} %" if one else "" for one in scores
     ] + [
         f"{100 * held_out['noiseFloor']:.1f} %" if held_out.get("noiseFloor") else "",
-        report.get("grade") or OLD_RULE if report["name"] else "",
+        grade(report),
         ("yes" if held_out["complete"] else "no") if "complete" in held_out else OLD_RULE,
     ]
+
+
+def grade(report: Any) -> str:
+    """Whether a name is only the one effect that fits, or also predicts better than no effect and both controls."""
+    if not report["name"]:
+        return ""
+    return {True: "better", False: "named", None: OLD_RULE}[report["heldOut"].get("better")]
 
 
 def by_condition(report: Any) -> Iterator[Any]:
