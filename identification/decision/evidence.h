@@ -35,6 +35,7 @@ struct Fit
     double sd = 0.0;        // posterior standard deviation
     double lower = 0.0;     // limits of the central 95 % of the posterior
     double upper = 0.0;
+    bool isAtEnd = false;       // whether the most likely amplitude is an end of the range
     Eigen::VectorXd parameters; // standardised with their priors
     Eigen::MatrixXd covariance; // of the parameters at this amplitude
     Eigen::MatrixXd marginal;   // of the parameters over all amplitudes

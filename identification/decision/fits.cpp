@@ -13,7 +13,7 @@ namespace
 
 /// Mean, standard deviation and 95 % interval of a distribution over equidistant amplitudes. The cumulative
 /// distribution is interpolated linearly.
-Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
+Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share, const Effect& effect)
 {
     constexpr double tail = 0.025;
     const auto& a = amplitudes.array();
@@ -35,6 +35,11 @@ Fit marginal(const Eigen::VectorXd& amplitudes, const Eigen::ArrayXd& share)
     };
     fit.lower = quantile(tail);
     fit.upper = quantile(1.0 - tail);
+    Eigen::Index likeliest = 0;
+    share.maxCoeff(&likeliest);
+    fit.isAtEnd =
+        !effect.isSwitch
+        && (a(likeliest) - 2.0 * half < effect.bounds.lower || a(likeliest) + 2.0 * half > effect.bounds.upper);
     return fit;
 }
 
@@ -89,7 +94,8 @@ std::vector<Fit> Evidence::fits(const Explanation& explanation, const Measured& 
     for (std::size_t k = 0; k < explanation.effects.size(); ++k)
     {
         all.push_back(marginal(found.amplitudes[k],
-            k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum())));
+            k == 0 ? Eigen::ArrayXd(share.rowwise().sum()) : Eigen::ArrayXd(share.colwise().sum()),
+            study_.effects[explanation.effects[k]]));
         present.push_back({explanation.effects[k], all.back().amplitude});
     }
     // Deviation of the parameters at each amplitude from their posterior mean.

@@ -10,16 +10,6 @@ namespace clepsydra::identification
 namespace
 {
 
-/// Steps of the central difference, in standard deviations of the error: large if runs scatter, for a better ratio of
-/// signal to noise.
-constexpr double stepWithScatter = 2.0;
-constexpr double stepWithoutScatter = 1.0;
-
-double stepOf(const Study& study)
-{
-    return study.simulator.seedEntry.empty() ? stepWithoutScatter : stepWithScatter;
-}
-
 Setting moved(const StudySimulator& studySimulator, std::size_t error, double z)
 {
     Setting setting = studySimulator.plainSetting();
@@ -46,6 +36,11 @@ std::vector<SimulationOrder> ordersOf(
 
 } // namespace
 
+double differenceStep(const Study& study)
+{
+    return study.simulator.seedEntry.empty() ? 1.0 : 2.0;
+}
+
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition)
 {
     const Study& study = studySimulator.study();
@@ -54,8 +49,8 @@ std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimula
     {
         if (contains(study.commonErrors[i].conditions, condition) && !study.commonErrors[i].entries.empty())
         {
-            append(all, ordersOf(studySimulator, condition, i, -stepOf(study)));
-            append(all, ordersOf(studySimulator, condition, i, stepOf(study)));
+            append(all, ordersOf(studySimulator, condition, i, -differenceStep(study)));
+            append(all, ordersOf(studySimulator, condition, i, differenceStep(study)));
         }
     }
     return all;
@@ -65,7 +60,7 @@ Eigen::MatrixXd commonErrorSlopes(
     StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain)
 {
     const Study& study = studySimulator.study();
-    const double step = stepOf(study);
+    const double step = differenceStep(study);
     const auto meanAt = [&](std::size_t error, double z) {
         std::vector<Simulation> simulations;
         if (!study.commonErrors[error].entries.empty())

@@ -7,6 +7,10 @@
 namespace clepsydra::identification
 {
 
+/// Step of the finite differences of runs, in standard deviations of what is changed: large if runs scatter, for a better
+/// ratio of signal to noise.
+double differenceStep(const Study& study);
+
 /// Runs with each common error of the entries at a positive and a negative value, for the slopes of the features.
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition);
 

@@ -1,66 +1,50 @@
 #include "heldOut/gaussianProcess.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace clepsydra::identification
 {
 
-namespace
+Eigen::MatrixXd discrepancySlopes(const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& residual,
+    const Eigen::MatrixXd& covariance, double variance)
 {
-
-Eigen::MatrixXd kernel(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double variance, double length)
-{
-    Eigen::MatrixXd k(a.rows(), b.rows());
-    for (Eigen::Index i = 0; i < a.rows(); ++i)
+    const Eigen::Index training = residual.size();
+    const auto trained = coordinates.topRows(training);
+    const Eigen::RowVectorXd centre = trained.colwise().mean();
+    const Eigen::RowVectorXd sd = ((trained.rowwise() - centre).colwise().squaredNorm()
+                                   / static_cast<double>(std::max<Eigen::Index>(training - 1, 1)))
+                                      .cwiseSqrt();
+    const Eigen::MatrixXd points =
+        (coordinates.rowwise() - centre).array().rowwise() / (sd.array() > 0.0).select(sd.array(), 1.0);
+    Eigen::MatrixXd squares(points.rows(), points.rows());
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
     {
-        k.row(i) = ((b.rowwise() - a.row(i)).rowwise().squaredNorm().array() / (-2.0 * length * length)).exp();
+        squares.row(i) = (points.rowwise() - points.row(i)).rowwise().squaredNorm();
     }
-    return variance * k;
-}
-
-} // namespace
-
-GaussianProcess::GaussianProcess(
-    const Eigen::MatrixXd& coordinates, const Eigen::VectorXd& values, const Eigen::VectorXd& noiseVariance)
-    : centre_(coordinates.colwise().mean()),
-      spread_(((coordinates.rowwise() - coordinates.colwise().mean()).colwise().squaredNorm()
-               / std::max<double>(static_cast<double>(coordinates.rows()) - 1.0, 1.0))
-                  .cwiseSqrt())
-{
-    spread_ = (spread_.array() > 0.0).select(spread_, 1.0);
-    points_ = (coordinates.rowwise() - centre_).array().rowwise() / spread_.array();
-    const double size = values.squaredNorm() / static_cast<double>(values.size());
-    double best = -std::numeric_limits<double>::infinity();
+    Eigen::MatrixXd best = Eigen::MatrixXd::Zero(points.rows(), points.rows());
+    double highest = -std::numeric_limits<double>::infinity();
     for (const double length : {0.3, 0.5, 0.8, 1.2, 2.0, 3.5, 6.0, 10.0})
     {
+        const Eigen::MatrixXd correlation = (squares.array() / (-2.0 * length * length)).exp();
         for (const double share : {0.0, 0.1, 0.25, 0.5, 1.0, 2.0, 4.0})
         {
-            Eigen::MatrixXd covariance = kernel(points_, points_, share * size, length);
-            covariance.diagonal() += noiseVariance;
-            const Eigen::LLT<Eigen::MatrixXd> root(covariance);
-            const Eigen::VectorXd weights = root.solve(values);
-            const double likelihood = -0.5 * values.dot(weights) - root.matrixLLT().diagonal().array().log().sum();
-            if (likelihood > best)
+            const Eigen::LLT<Eigen::MatrixXd> root(
+                covariance + share * variance * correlation.topLeftCorner(training, training));
+            const double likelihood =
+                -0.5 * root.matrixL().solve(residual).squaredNorm() - root.matrixLLT().diagonal().array().log().sum();
+            if (likelihood > highest)
             {
-                best = likelihood;
-                weights_ = weights;
-                inverse_ = root.solve(Eigen::MatrixXd::Identity(values.size(), values.size()));
-                variance_ = share * size;
-                length_ = length;
+                highest = likelihood;
+                best = share * variance * correlation;
             }
         }
     }
-}
-
-GaussianProcess::Value GaussianProcess::operator()(const Eigen::VectorXd& coordinates) const
-{
-    const Eigen::MatrixXd at = (coordinates.transpose() - centre_).array() / spread_.array();
-    const Eigen::VectorXd k = kernel(points_, at, variance_, length_);
-    return {k.dot(weights_), std::max(0.0, variance_ - k.dot(inverse_ * k))};
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(best);
+    return eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal();
 }
 
 } // namespace clepsydra::identification

@@ -19,31 +19,47 @@ struct HeldOutResult
     HeldOutScore before;               // null fit
     std::optional<HeldOutScore> after; // best explanation, if there is one
     HeldOutScore oneMoreParameter;     // control 1: null fit with one more free parameter
-    /// Control 2: null fit with a Gaussian process on its residual; empty if conditions lack coordinates.
+    /// Control 2: null with a Gaussian process on its residual; empty if conditions lack coordinates.
     std::optional<HeldOutScore> gaussianProcess;
     std::vector<HeldOutScore> members; // of Answer::set
+    LogRatio overOneMore;              // best explanation against control 1
+    LogRatio overGaussianProcess;      // best explanation against control 2
     Estimate improvement;              // rms error before minus after
-    Estimate overOneMore;              // rms error of control 1 minus after
     double noiseFloor = 0.0;           // expected rms error from noise alone
-    double noiseLimit = 0.0;           // 99 % quantile of the rms error from noise alone
     double oneMoreAmplitude = 0.0;     // fitted size of control 1
-    std::vector<std::string> notAcceptedBecause;
+    bool better = false;
+    bool complete = false;
+    std::vector<std::string> notBetterBecause;
+    std::vector<std::string> notScored; // features of the study that are not compared, and why
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
     std::vector<Prediction> predictedAfter;
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
-
-    /// Whether the effect may enter the model: it is the only explanation, its error is significantly smaller than both
-    /// that of the null and that of one more free parameter (one-sided, at the study's level), and is no larger than
-    /// noise.
-    bool accepted() const
-    {
-        return after && notAcceptedBecause.empty();
-    }
 };
 
-/// Simulates the held-out conditions with seeds of their own and compares the results with the measurements.
+/// Simulates the held-out conditions at the fitted settings and compares the results with the measurements.
+///
+/// Each explanation (null, members of the set, controls) predicts all measured held-out features at once, as
+/// `predict` describes. What is taken from where:
+///     training data    mean, slopes and uncertainty of the emulator at the fitted setting, slopes of common errors from
+///                      the library, noise and declared errors of the measurements
+///     held-out mean    runs of the simulator at the fitted setting
+///     held-out slopes  finite differences of runs of the simulator, in which one parameter or amplitude is moved by its
+///                      standard deviation after the training data; commonErrorSlopes for common errors
+///     shared           parameters (their priors), amplitudes (mean and variance of the uniform prior in their ranges),
+///                      common errors, and one model error per feature that is equal in all conditions
+///     not shared       noise of measured means, declared errors, emulator's uncertainty, scatter of the simulated means
+///     control 1        the null, with an operation of the measuring chain as if it were an effect; held-out slopes of
+///                      parameters are those of the null
+///     control 2        the null, with a Gaussian process over the coordinates for each feature as further shared
+///                      quantities
+/// All explanations are simulated with the same seeds.
+///
+/// *Better*: the effect is named, and its prediction is better than those of the null and of both controls, each by a log
+/// ratio of densities above 0 that is beyond chance at the study's level. The effect may then enter the model.
+/// *Complete*: the measurements differ from the prediction with the effect by no more than noise, at the same level.
+///
 /// \param training, heldOut  measurements, by condition of the study
 HeldOutResult evaluateHeldOut(StudySimulator& studySimulator, const Library& library, const Answer& answer,
     const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut,

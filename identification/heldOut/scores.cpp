@@ -1,6 +1,5 @@
 #include "heldOut/scores.h"
 
-#include "lists.h"
 #include "study/measurements.h"
 
 #include <Eigen/Cholesky>
@@ -14,8 +13,6 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr double pi = 3.14159265358979323846;
-
 /// Independent standard normal numbers.
 Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, std::mt19937_64& random)
 {
@@ -23,58 +20,7 @@ Eigen::MatrixXd normals(Eigen::Index rows, Eigen::Index columns, std::mt19937_64
     return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return normal(random); });
 }
 
-double sdOf(const std::vector<double>& values)
-{
-    const Eigen::Map<const Eigen::ArrayXd> all(values.data(), values.size());
-    return std::sqrt((all - all.mean()).square().sum() / static_cast<double>(values.size() - 1));
-}
-
-/// Root mean square error and mean CRPS after shifts of the measured and of the predicted means.
-std::pair<double, double> scoresOf(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::VectorXd>& dataShift,
-    const std::vector<Eigen::VectorXd>& predictionShift)
-{
-    double squares = 0.0;
-    double count = 0.0;
-    double crps = 0.0;
-    double measurements = 0.0;
-    for (std::size_t c = 0; c < data.size(); ++c)
-    {
-        const Eigen::VectorXd measured = meanFeatures(data[c].features);
-        for (const auto f : features[c])
-        {
-            const double shift = dataShift[c](f) - predictionShift[c](f);
-            const double error = measured(f) - predictions[c].mean(f) + shift;
-            squares += error * error;
-            count += 1.0;
-            const double sd = std::sqrt(predictions[c].variance(f) + predictions[c].dataCovariance(f, f)
-                                        + data[c].declaredVariance(f) + data[c].commonVariance(f));
-            for (const double value : data[c].features.col(f))
-            {
-                if (std::isfinite(value))
-                {
-                    crps += crpsOfNormal(predictions[c].mean(f), sd, value + shift);
-                    measurements += 1.0;
-                }
-            }
-        }
-    }
-    return {std::sqrt(squares / count), crps / measurements};
-}
-
 } // namespace
-
-double crpsOfNormal(double mean, double sd, double observed)
-{
-    if (sd <= 0.0)
-    {
-        return std::abs(observed - mean);
-    }
-    const double z = (observed - mean) / sd;
-    const double cumulative = 0.5 * std::erfc(-z / std::sqrt(2.0));
-    const double density = std::exp(-0.5 * z * z) / std::sqrt(2.0 * pi);
-    return sd * (z * (2.0 * cumulative - 1.0) + 2.0 * density - 1.0 / std::sqrt(pi));
-}
 
 std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random)
@@ -96,37 +42,32 @@ std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     return noise;
 }
 
-HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
+Estimate rmsError(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
     const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
     std::mt19937_64& random, std::vector<double>* samples)
 {
-    const auto none = mapped(
-        predictions, [](const Prediction& one) -> Eigen::VectorXd { return Eigen::VectorXd::Zero(one.mean.size()); });
-    HeldOutScore score;
-    std::tie(score.rmsLogError.value, score.crps.value) = scoresOf(data, predictions, features, none, none);
-    std::vector<double> errors;
-    std::vector<double> crps;
-    for (Eigen::Index draw = 0; draw < noise.front().rows(); ++draw)
+    double square = 0.0;
+    Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(noise.front().rows());
+    double count = 0.0;
+    for (std::size_t c = 0; c < data.size(); ++c)
     {
-        std::vector<Eigen::VectorXd> dataShift;
-        std::vector<Eigen::VectorXd> predictionShift;
-        for (std::size_t c = 0; c < data.size(); ++c)
+        const Eigen::VectorXd error = meanFeatures(data[c].features) - predictions[c].mean;
+        for (const auto f : features[c])
         {
-            dataShift.emplace_back(noise[c].row(draw).transpose());
-            predictionShift.emplace_back(
-                predictions[c].variance.cwiseSqrt().cwiseProduct(normals(predictions[c].mean.size(), 1, random)));
+            const Eigen::ArrayXd ofSimulation =
+                std::sqrt(predictions[c].variance(f)) * normals(squares.size(), 1, random).array();
+            square += error(f) * error(f);
+            squares += (error(f) + noise[c].col(f).array() - ofSimulation).square();
+            count += 1.0;
         }
-        const auto [error, rank] = scoresOf(data, predictions, features, dataShift, predictionShift);
-        errors.push_back(error);
-        crps.push_back(rank);
     }
-    score.rmsLogError.standardError = sdOf(errors);
-    score.crps.standardError = sdOf(crps);
+    const Eigen::ArrayXd errors = (squares / count).sqrt();
     if (samples != nullptr)
     {
-        *samples = errors;
+        samples->assign(errors.begin(), errors.end());
     }
-    return score;
+    return {std::sqrt(square / count),
+        std::sqrt((errors - errors.mean()).square().sum() / static_cast<double>(errors.size() - 1))};
 }
 
 } // namespace clepsydra::identification

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "heldOut/predictive.h"
+
 #include <Eigen/Core>
 
 #include <random>
@@ -8,11 +10,11 @@
 namespace clepsydra::identification
 {
 
-/// Prediction of one held-out condition.
+/// Simulation of one held-out condition with an explanation at its fitted setting.
 struct Prediction
 {
     Eigen::VectorXd mean;           // of the features
-    Eigen::VectorXd variance;       // of the mean: scatter of runs and model error, without the error of the fit
+    Eigen::VectorXd variance;       // of the mean, from the scatter of runs
     Eigen::MatrixXd dataCovariance; // of one measurement
 };
 
@@ -23,10 +25,13 @@ struct Estimate
     double standardError = 0.0;
 };
 
+/// How well an explanation predicts the held-out measurements.
 struct HeldOutScore
 {
-    Estimate rmsLogError; // root mean square of measured minus predicted means, over conditions and log features
-    Estimate crps;        // continuous ranked probability score, mean over measurements; smaller is better
+    Estimate rmsLogError;   // root mean square of measured minus simulated means, over conditions and log features
+    double chiSquare = 0.0; // distance of the measurements from the joint prediction
+    double pValue = 1.0;    // probability that noise alone makes this distance as large
+    LogRatio overNull;      // against the prediction without an effect
 };
 
 /// Measurements of one held-out condition.
@@ -35,7 +40,9 @@ struct HeldOutData
     Eigen::MatrixXd features;         // one repeat per row
     Eigen::MatrixXd meanShare;        // result of shareOfMean
     Eigen::VectorXd declaredVariance; // of each value and of the mean, in addition to the scatter of repeats
-    Eigen::MatrixXd errorSlopes;      // result of commonErrorSlopes: features x common errors
+    /// Change of the features by one standard deviation of each common error, then of the model error of each feature:
+    /// errors that are equal in all conditions and for all explanations.
+    Eigen::MatrixXd errorSlopes;
 
     double commonVariance(Eigen::Index feature) const
     {
@@ -43,19 +50,16 @@ struct HeldOutData
     }
 };
 
-/// Continuous ranked probability score of a normal prediction: Gneiting & Raftery, J. Am. Stat. Assoc. 102, 359 (2007),
-/// eq. 21.
-double crpsOfNormal(double mean, double sd, double observed);
-
-/// Draws of the measurement noise for all predictions that are compared. Each common error is equal in all conditions.
+/// Draws of the errors that all explanations share: noise of the measurements, common errors and model error.
 /// \return for each condition, the errors of the measured means, one draw per row
 std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random);
 
-/// Score of a prediction. Its standard errors come from draws of the errors of measured and simulated means.
+/// Root mean square error of a prediction. Its standard error comes from draws of the errors of measured and simulated
+/// means.
 /// \param features  for each condition, the features that enter the error
-/// \param samples  if given, receives the draws of the rms error, for comparing predictions draw by draw
-HeldOutScore heldOutScore(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
+/// \param samples  if given, receives the draws of the error, for comparing predictions draw by draw
+Estimate rmsError(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
     const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
     std::mt19937_64& random, std::vector<double>* samples = nullptr);
 

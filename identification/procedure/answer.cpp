@@ -1,5 +1,7 @@
 #include "procedure/answer.h"
 
+#include <cmath>
+
 namespace clepsydra::identification
 {
 
@@ -27,6 +29,16 @@ std::string nameOf(const Study& study, const std::vector<std::size_t>& effects)
         name += (name.empty() ? "" : " with ") + study.effects[e].name;
     }
     return name.empty() ? "no effect" : name;
+}
+
+std::optional<bool> agreesWithMeasurement(const Effect& effect, const EffectFinding& finding)
+{
+    if (!effect.measured || !finding.alone)
+    {
+        return std::nullopt;
+    }
+    return std::abs(finding.alone->amplitude - effect.measured->mean)
+           <= 2.0 * std::hypot(finding.alone->sd, effect.measured->sd);
 }
 
 } // namespace clepsydra::identification

@@ -36,6 +36,10 @@ struct EffectFinding
     std::optional<Fit> alone;    // without the independent measurement of its amplitude, if there is one
 };
 
+/// Whether the amplitude that the data give without its independent measurement agrees with this measurement, to within
+/// two standard deviations; empty where it was not measured.
+std::optional<bool> agreesWithMeasurement(const Effect& effect, const EffectFinding& finding);
+
 /// One explanation: no effect, one or two effects, with the setting that fits best.
 struct Explanation
 {

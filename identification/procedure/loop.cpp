@@ -67,8 +67,9 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
 int runsPerDataSet(const Study& study, int rounds, int ofPairs)
 {
     const auto count = [&](Role role) { return static_cast<int>(study.conditionsOf(role).size()); };
-    constexpr int predictions = 3; // null fit, best explanation, one more parameter
-    constexpr int outcomes = 8;    // four draws for each of two explanations
+    // Null fit, best explanation and one more parameter; slopes of the first two
+    const int predictions = 4 + 2 * static_cast<int>(study.parameters.size());
+    constexpr int outcomes = 8; // four draws for each of two explanations
     const bool isExact = study.simulator.seedEntry.empty();
     const int fit = 2 + static_cast<int>(study.parameters.size());
     const int deciding = study.settings.decidingRuns;

@@ -66,6 +66,7 @@ public:
         {
             tryPairs(around);
         }
+        refuseStrainedName();
         if (answer_.decision == Decision::unknown)
         {
             findNearest();
@@ -270,6 +271,18 @@ private:
         }
     }
 
+    void refuseStrainedName()
+    {
+        const std::string reason = answer_.decision == Decision::named ? strainOf(study_, answer_.set.front()) : "";
+        if (!reason.empty())
+        {
+            answer_.decision = Decision::set;
+            answer_.unlistedCauseInSet = true;
+            answer_.family = "";
+            answer_.remarks.push_back(nameOf(study_, answer_.set.front().effects) + " is not named: " + reason);
+        }
+    }
+
     static std::vector<std::size_t> effectsOf(const std::vector<Present>& present)
     {
         return mapped(present, [](const Present& one) { return one.effect; });
@@ -435,6 +448,26 @@ private:
 };
 
 } // namespace
+
+std::string strainOf(const Study& study, const Explanation& explanation)
+{
+    constexpr double far = 2.0; // standard deviations
+    const Eigen::VectorXd sds = inSds(study, explanation.setting.parameters);
+    for (std::size_t k = 0; k < explanation.effects.size(); ++k)
+    {
+        for (std::size_t p = 0; p < study.parameters.size() && explanation.fits[k].isAtEnd; ++p)
+        {
+            const Parameter& parameter = study.parameters[p];
+            if (!parameter.effect && parameter.from != Origin::guess && std::abs(sds(p)) > far)
+            {
+                return "the amplitude of " + study.effects[explanation.effects[k]].name
+                       + " is at the end of its range, while " + parameter.name
+                       + " is more than 2 standard deviations from its measured or published value";
+            }
+        }
+    }
+    return "";
+}
 
 Answer trace(StudySimulator& studySimulator, const Library& library, const std::vector<MeasuredCondition>& data,
     std::mt19937_64& random, bool withVisibility)

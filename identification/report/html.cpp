@@ -345,17 +345,6 @@ std::string numberTable(const Json& rows, const std::vector<std::pair<std::strin
     return html + "</table>\n";
 }
 
-std::string notScoredOf(const Json& heldOut)
-{
-    std::string html;
-    for (const auto& one : heldOut.value("notScored", Json::array()))
-    {
-        html += "<li>" + shown(one.at("feature")) + " of " + shown(one.at("condition")) + ": "
-                + shown(one.at("because")) + "</li>\n";
-    }
-    return html.empty() ? "" : "<p>These features do not enter the error:</p><ul>" + html + "</ul>\n";
-}
-
 /// Measured and predicted features of the held-out conditions.
 std::string heldOutTable(const Json& heldOut)
 {
@@ -364,8 +353,7 @@ std::string heldOutTable(const Json& heldOut)
                                           {"before", "without an effect"}, {"after", "with the effect"}})
            + "<p class=\"small\">Instead of logarithms, the quantities themselves are shown, in SI units. Noise alone "
              "gives an error of "
-           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %; in 1 % of the cases it is larger than "
-           + rounded(100.0 * heldOut.at("noiseLimit").get<double>()) + " %.</p>\n" + notScoredOf(heldOut);
+           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %.</p>\n";
 }
 
 std::string heldOutSection(const std::string& curves, const Json& report)

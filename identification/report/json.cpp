@@ -41,10 +41,16 @@ Json estimateOrNull(const std::optional<Estimate>& value)
     return value ? estimate(*value) : Json(nullptr);
 }
 
+Json logRatioJson(const LogRatio& ratio)
+{
+    return {{"logRatio", number(ratio.value)}, {"pValue", ratio.pValue}};
+}
+
 Json heldOutScore(const HeldOutScore& score)
 {
     return {{"rmsLogError", number(score.rmsLogError.value)},
-        {"standardError", number(score.rmsLogError.standardError)}, {"crps", estimate(score.crps)}};
+        {"standardError", number(score.rmsLogError.standardError)}, {"chiSquare", number(score.chiSquare)},
+        {"pValue", score.pValue}, {"overNull", logRatioJson(score.overNull)}};
 }
 
 Json heldOutScoreOrNull(const std::optional<HeldOutScore>& score)
@@ -84,14 +90,14 @@ Json textOrNull(const std::string& text)
 /// deviations; null for an effect that was not measured.
 Json measuredJson(const Effect& effect, const EffectFinding& finding)
 {
-    if (!effect.measured || !finding.alone)
+    const auto agrees = agreesWithMeasurement(effect, finding);
+    if (!agrees)
     {
         return nullptr;
     }
     const auto& [mean, sd] = *effect.measured;
-    const Estimate fitted{finding.alone->amplitude, finding.alone->sd};
-    return {{"mean", mean}, {"sd", sd}, {"fittedWithout", estimate(fitted)},
-        {"agrees", std::abs(fitted.value - mean) <= 2.0 * std::hypot(fitted.standardError, sd)}};
+    return {{"mean", mean}, {"sd", sd}, {"fittedWithout", estimate({finding.alone->amplitude, finding.alone->sd})},
+        {"agrees", *agrees}};
 }
 
 /// The nearest effect of a residual that none explains.
@@ -256,34 +262,6 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
     return list;
 }
 
-/// Features of held-out conditions that do not enter the error, and why.
-Json notScored(const Study& study, const HeldOutResult& result)
-{
-    const bool anyLog =
-        std::any_of(study.features.begin(), study.features.end(), [](const Feature& one) { return one.kind->isLog(); });
-    Json list = Json::array();
-    for (std::size_t i = 0; i < result.conditions.size(); ++i)
-    {
-        const Eigen::VectorXd measured = meanFeatures(result.data[i].features);
-        for (std::size_t f = 0; f < study.features.size(); ++f)
-        {
-            const auto isPredicted = [&](const Prediction& one) { return std::isfinite(one.mean(f)); };
-            const char* because =
-                !std::isfinite(measured(f))                              ? "it was not measured"
-                : !isPredicted(result.predictedBefore[i])                ? "no effect has no prediction"
-                : result.after && !isPredicted(result.predictedAfter[i]) ? "the effect has no prediction"
-                : anyLog && !study.features[f].kind->isLog() ? "it is no logarithm, so its error is no percentage"
-                                                             : nullptr;
-            if (because != nullptr)
-            {
-                list.push_back({{"condition", study.conditions[result.conditions[i]].name},
-                    {"feature", study.features[f].name}, {"because", because}});
-            }
-        }
-    }
-    return list;
-}
-
 Json heldOutJson(const Findings& findings)
 {
     if (findings.heldOut == nullptr)
@@ -302,17 +280,18 @@ Json heldOutJson(const Findings& findings)
     if (result.conditions.empty())
     {
         return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
-            {"gaussianProcess", nullptr}, {"accepted", false}};
+            {"gaussianProcess", nullptr}, {"better", false}, {"complete", false}};
     }
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
     return {{"conditions", names}, {"before", heldOutScore(result.before)}, {"after", heldOutScoreOrNull(result.after)},
         {"oneMoreParameter", oneMore}, {"gaussianProcess", heldOutScoreOrNull(result.gaussianProcess)},
-        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", estimate(result.overOneMore)},
-        {"noiseFloor", result.noiseFloor}, {"noiseLimit", result.noiseLimit}, {"accepted", result.accepted()},
-        {"notAcceptedBecause", result.notAcceptedBecause}, {"members", members},
-        {"numbers", heldOutNumbers(study, result)}, {"notScored", notScored(study, result)}};
+        {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", logRatioJson(result.overOneMore)},
+        {"overGaussianProcess", result.gaussianProcess ? logRatioJson(result.overGaussianProcess) : Json(nullptr)},
+        {"noiseFloor", number(result.noiseFloor)}, {"better", result.better}, {"complete", result.complete},
+        {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored}, {"members", members},
+        {"numbers", heldOutNumbers(study, result)}};
 }
 
 Json runsJson(const StudySimulator& studySimulator)

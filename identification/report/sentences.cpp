@@ -180,6 +180,27 @@ std::string probabilitySentence(const Findings& findings)
     return "The probabilities are: " + joined(shares, ", ") + '.';
 }
 
+/// How the best explanation predicts the held-out conditions, beside the two words of the decision.
+std::vector<std::string> judgementsOf(const HeldOutResult& heldOut, double level)
+{
+    const auto against = [&](const LogRatio& ratio, const std::string& other) {
+        return std::string(ratio.isBeyondChance(level) ? "better than " : "not significantly better than ") + other
+               + " (log ratio " + rounded(ratio.value) + ", p = " + rounded(ratio.pValue, 1) + ')';
+    };
+    std::vector<std::string> compared = {
+        against(heldOut.after->overNull, "no effect"), against(heldOut.overOneMore, "one more free parameter")};
+    if (heldOut.gaussianProcess)
+    {
+        compared.push_back(against(heldOut.overGaussianProcess, "a Gaussian process on the residual"));
+    }
+    return {"The prediction with the most likely effect is " + joined(compared, ", and ") + '.',
+        heldOut.better ? "Better: the effect may enter the model."
+                       : "It does not enter the model: " + joined(heldOut.notBetterBecause, ", and ") + '.',
+        heldOut.complete ? "Complete: no more than noise is left."
+                         : "Not complete: what is left is more than noise (p = " + rounded(heldOut.after->pValue, 1)
+                               + "), or was not predicted."};
+}
+
 std::string heldOutSentence(const Findings& findings)
 {
     const Study& study = *findings.study;
@@ -354,21 +375,55 @@ std::vector<std::string> doubtsOf(const Findings& findings)
         {
             all.push_back("The 95 % interval of the size of " + study.effects[e].name + " contains 0.");
         }
-        if (finding.inSet && finding.alone)
+        if (const auto agrees = agreesWithMeasurement(study.effects[e], finding); finding.inSet && agrees)
         {
             const auto& measured = *study.effects[e].measured;
-            const double error = std::hypot(measured.sd, finding.alone->sd);
             all.push_back("Without its independent measurement, " + withError({measured.mean, measured.sd})
                           + ", the size of " + study.effects[e].name + " would be "
                           + withError({finding.alone->amplitude, finding.alone->sd}) + ": the two "
-                          + (std::abs(measured.mean - finding.alone->amplitude) <= 2.0 * error ? "agree" : "disagree")
-                          + " (within two standard deviations).");
+                          + (*agrees ? "agree" : "disagree") + " (within two standard deviations).");
         }
     }
     return all;
 }
 
+std::string namedSentence(const Findings& findings)
+{
+    const std::string name =
+        joined(membersOf(findings), ", or ") + (findings.answer->family.empty() ? "" : ", variants of one effect");
+    const std::string tried = std::to_string(findings.study->effects.size());
+    const std::string grade = gradeOf(findings);
+    const std::string predicts = ", which predicts what no fit used";
+    return (grade == "measured" ? "The residual is explained by: " + name + predicts
+                                      + ", and whose size agrees with an independent measurement"
+               : grade == "better"
+                   ? "The residual is explained by: " + name + ", or something that acts like it" + predicts
+                   : "Of the " + tried + " effects tried only this one fits: " + name
+                         + "; an untried effect may act alike here")
+           + errorWith(findings) + '.';
+}
+
 } // namespace
+
+std::string gradeOf(const Findings& findings)
+{
+    const Answer& answer = *findings.answer;
+    if (answer.decision != Decision::named)
+    {
+        return "";
+    }
+    if (findings.heldOut == nullptr || !findings.heldOut->better)
+    {
+        return "named";
+    }
+    const auto& named = answer.set.front().effects;
+    return std::all_of(named.begin(), named.end(),
+               [&](std::size_t e) {
+                   return agreesWithMeasurement(findings.study->effects[e], answer.effects[e]).value_or(false);
+               })
+               ? "measured"
+               : "better";
+}
 
 std::string namedBy(const Study& study, const Answer& answer)
 {
@@ -391,8 +446,7 @@ std::string sentenceOf(const Findings& findings)
                    + std::to_string(findings.study->effects.size()) + " effects explains the measurements"
                    + errorWithout(findings) + '.';
         case Decision::named:
-            return "The residual is explained by: " + joined(membersOf(findings), ", or ")
-                   + (answer.family.empty() ? "" : ", variants of one effect") + errorWith(findings) + '.';
+            return namedSentence(findings);
         case Decision::set:
             break;
     }
@@ -442,9 +496,11 @@ std::vector<std::string> detailsOf(const Findings& findings)
     all.push_back(heldOutSentence(findings));
     if (heldOut->after)
     {
-        all.push_back(heldOut->accepted()
-                          ? "The effect may enter the model."
-                          : "It does not enter the model: " + joined(heldOut->notAcceptedBecause, ", and ") + '.');
+        append(all, judgementsOf(*heldOut, findings.study->settings.level));
+    }
+    if (!heldOut->notScored.empty())
+    {
+        all.push_back("Not compared: " + joined(heldOut->notScored, ", ") + '.');
     }
     return all;
 }

@@ -18,6 +18,13 @@ std::vector<std::string> detailsOf(const Findings& findings);
 /// Sentences on what to measure next, and which result is expected.
 std::vector<std::string> nextOf(const Findings& findings);
 
+/// How far a name is supported:
+///     named      it is the only effect tried that fits
+///     better     it also predicts held-out conditions better than no effect, one more parameter and a Gaussian process
+///     measured   its amplitude was measured independently besides, and agrees
+/// Empty if nothing is named.
+std::string gradeOf(const Findings& findings);
+
 /// Name of the effect or family that was found.
 std::string namedBy(const Study& study, const Answer& answer);
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Error rates of traceResidual with a surrogate of the solver: false alarms, detection, right names, sets of
-candidates, answers `unknown`, coverage of intervals, the same answer with other seeds.
+candidates, answers `unknown`, coverage of intervals, the same answer with other seeds; and of the held-out conditions,
+how often a wrong and a right effect may enter the model.
 
 Prints the table of all seeds that have been run (takes seconds). With --run SEED, options of
 build/bin/checkIdentification may follow, for instance --libraries 3. """
@@ -76,6 +77,18 @@ def table(seeds: list[dict[str, Any]]) -> None:
     for size in ("1.00", "0.50", "0.25"):
         row(f"outside the library, size {size}: wrong name", seeds, "outsideLibrary", size, "wrongNameWhenDetected")
         row("unknown, or a set with something else", seeds, "outsideLibrary", size, "somethingElseWhenDetected")
+    scored = [one for one in seeds if "falseAcceptance" in one]
+    if scored:  # the others were run before the held-out conditions were scored
+        row("better, without being the truth, of all data sets with one effect or none", scored, "falseAcceptance")
+        row("of these without an effect", scored, "nulls", "falseAcceptance")
+        row("of these with an effect of the library", scored, "effects", "falseAcceptance")
+        for size in ("1.00", "0.50", "0.25"):
+            row(f"of these outside the library, size {size}", scored, "outsideLibrary", size, "falseAcceptance")
+        row("named rightly: better", scored, "rightAcceptance")
+        row("named rightly: complete", scored, "effects", "completeWhenNamedRightly")
+        row("fall of the held-out error in its 95 % interval", scored, "coverageOfFall")
+        for size in ("1.00", "0.50", "0.25"):
+            row(f"the same, outside the library, size {size}", scored, "outsideLibrary", size, "coverageOfFall")
     row("two effects: the pair in the set", seeds, "pairs", "truthInSetWhenDetected")
     row("two effects: a name", seeds, "pairs", "namedWhenDetected")
     row("of these: of the pair, and no part of it", seeds, "pairs", "namedRightly")

@@ -78,19 +78,19 @@ def leave_out(original: Any) -> None:
 def table(chosen: Any) -> None:
     print(
         "| data | baseline | missing effect | held out | error before | after | one more parameter | noise alone |"
-        " accepted | runs | time |"
+        " grade | complete | runs | time |"
     )
-    print("|---|---|---|---|---|---|---|---|---|---|---|")
+    print("|---|---|---|---|---|---|---|---|---|---|---|---|")
     for name in chosen:
         report = read(CASES / name / "results/report.json")
         if report is None:
-            print("|", " | ".join([*STUDIES[name], "not run yet"] + 8 * [""]), "|")
+            print("|", " | ".join([*STUDIES[name], "not run yet"] + 9 * [""]), "|")
             continue
         found = unseen(name, report)
         scores = [line for label, each in found.items() for line in [(label, errors(each)), *by_condition(each)]]
         runs = report["runs"]
         seconds = runs["seconds"] + runs.get("secondsOfStored", 0)
-        for i, (label, score) in enumerate(scores or [("none", 5 * [""])]):
+        for i, (label, score) in enumerate(scores or [("none", 6 * [""])]):
             first = [*STUDIES[name], answer(report)] if i == 0 else ["", "", ""]
             last = [str(runs["used"]), f"{seconds / 60:.0f} min"] if i == 0 else ["", ""]
             print("|", " | ".join(first + [label] + score + last), "|")
@@ -116,6 +116,7 @@ def unseen(name: str, report: Any) -> dict[str, Any]:
     return {f"{one} (left out: {answer(each)})": each for one, each in left.items()}
 
 
+OLD_RULE = "not judged"  # a report from before the joint test of held-out data; --run renews it
 CANDIDATES = 5  # effects in the picture's left panel
 
 
@@ -216,8 +217,20 @@ def errors(report: Any) -> list[Any]:
         f"{100 * one['rmsLogError']:.1f} +- {100 * one['standardError']:.1f} %" if one else "" for one in scores
     ] + [
         f"{100 * held_out['noiseFloor']:.1f} %" if held_out.get("noiseFloor") else "",
-        "yes" if held_out["accepted"] else "no",
+        grade(report),
+        ("yes" if held_out["complete"] else "no") if "complete" in held_out else OLD_RULE,
     ]
+
+
+def grade(report: Any) -> str:
+    """Whether a name is only the one effect that fits, or also predicts better than no effect and both controls, or
+    besides agrees with a measurement of its amplitude."""
+    if not report["name"]:
+        return ""
+    if report["heldOut"].get("better") is not True:
+        return {False: "named", None: OLD_RULE}[report["heldOut"].get("better")]
+    measured = [effect.get("measured") for effect in report["effects"] if effect["name"] == report["name"]]
+    return "measured" if measured and all(one and one["agrees"] for one in measured) else "better"
 
 
 def by_condition(report: Any) -> Iterator[Any]:
@@ -225,7 +238,7 @@ def by_condition(report: Any) -> Iterator[Any]:
     conditions = report["heldOut"]["conditions"]
     for condition in conditions if len(conditions) > 1 else []:
         numbers = [one for one in report["heldOut"]["numbers"] if one["condition"] == condition]
-        yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in ("before", "after")] + ["", "", ""]
+        yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in ("before", "after")] + 4 * [""]
 
 
 def rms_log_error(numbers: Any, when: Any) -> str:

@@ -51,7 +51,7 @@ protected:
     static constexpr rlim_t room = 1000;
 };
 
-// A folder that cannot be read is not one without tables of earlier starts: a resumed run would begin its table anew. Here it
+// A folder that cannot be read is not one without tables of earlier starts: a resumed run would begin its table again. Here it
 // is a link to itself, which root cannot read either.
 TEST_F(WholeFile, TimesOfAFolderThatCannotBeReadAreAnError)
 {

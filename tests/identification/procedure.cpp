@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <random>
 
 namespace clepsydra::identification::tests
@@ -231,6 +232,48 @@ Explanation explanationBy(std::size_t effect, const Setting& setting)
     return explanation;
 }
 
+/// An effect that would have to be larger than its range allows, beside a friction that contradicts its measurement, is
+/// no name. With either of these alone it may be one, and beside a friction that was only guessed.
+TEST(Trace, AStrainedExplanationIsNoName)
+{
+    Bench bench(false);
+    bench.study.parameters[0].from = Origin::measured;
+    const auto strainAt = [&](double friction, bool isAtEnd) {
+        Explanation explanation = explanationBy(effectOf(bench.study, "y"), bench.studySimulator.plainSetting());
+        explanation.setting.parameters(0) = friction;
+        explanation.fits.front().isAtEnd = isAtEnd;
+        return strainOf(bench.study, explanation);
+    };
+    EXPECT_THAT(
+        strainAt(0.15 - 2.1 * 0.02, true), testing::AllOf(HasSubstr("of y is at"), HasSubstr("while friction")));
+    EXPECT_EQ(strainAt(0.15 - 1.9 * 0.02, true), "");
+    EXPECT_EQ(strainAt(0.15 - 2.1 * 0.02, false), "");
+    bench.study.parameters[0].from = Origin::guess;
+    EXPECT_EQ(strainAt(0.15 - 2.1 * 0.02, true), "");
+}
+
+/// y changes the feature under water by 0.2 at the end of its range: a residual of 0.3 puts it there, one of 0.1 does not.
+TEST(Trace, TellsAnAmplitudeAtTheEndOfItsRange)
+{
+    Bench bench;
+    const auto isAtEnd = [&](double residual) {
+        std::vector<MeasuredCondition> data(bench.study.conditions.size());
+        for (std::size_t c = 0; c < data.size(); ++c)
+        {
+            data[c].features = (Eigen::MatrixXd(3, 1) << -2.31, -2.30, -2.29).finished();
+            data[c].features.array() += c == 0 ? residual : 0;
+            data[c].declaredError = Eigen::VectorXd::Zero(1);
+        }
+        const Emulator emulator(
+            bench.study, bench.studySimulator, bench.library.runs, measuredFeatures(bench.study, data));
+        const auto [layout, measured] = arrange(bench.study, emulator, data);
+        const Evidence evidence(bench.study, emulator, layout, Eigen::VectorXd::Zero(1));
+        return evidence.fit(effectOf(bench.study, "y"), measured).isAtEnd;
+    };
+    EXPECT_TRUE(isAtEnd(0.3));
+    EXPECT_FALSE(isAtEnd(0.1));
+}
+
 /// Two kernels of one force are no pair, because only one of them can be on; two factors on one entry are a pair,
 /// because they multiply.
 TEST(Trace, NoPairOfEffectsThatUndoEachOther)
@@ -386,9 +429,13 @@ TEST(NextExperiment, IsTheOneThatSeparatesMostPerCost)
 /// Held-out result for data with one effect at full size, which the answer names or has in its set. \param edgeFails
 /// whether there is another held-out condition, in which another effect acts too and no run with y succeeds
 /// \param besides  what the measurements of the held-out conditions have in addition, which no effect explains
-HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFails = false, double besides = 0)
+/// \param change  of the study, before anything is simulated
+HeldOutResult heldOutOf(
+    const std::string& truth, Decision decision, bool edgeFails = false, double besides = 0,
+    const std::function<void(Study&)>& change = [](Study&) {})
 {
     Bench bench;
+    change(bench.study);
     if (edgeFails)
     {
         bench.study.conditions.push_back(bench.study.conditions.back());
@@ -419,28 +466,72 @@ HeldOutResult heldOutOf(const std::string& truth, Decision decision, bool edgeFa
 }
 
 /// A factor on all times cannot imitate an effect that acts under water only. The effect may enter the model, but only
-/// if it is named.
-TEST(HeldOut, AcceptsANameThatTheControlCannotImitate)
+/// if it is named, and no more than noise is left.
+TEST(HeldOut, ANameThatTheControlCannotImitateIsBetter)
 {
     const HeldOutResult named = heldOutOf("y", Decision::named);
-    EXPECT_THAT(named.notAcceptedBecause, IsEmpty());
-    EXPECT_TRUE(named.accepted());
+    EXPECT_THAT(named.notBetterBecause, IsEmpty());
+    EXPECT_TRUE(named.better);
+    EXPECT_TRUE(named.complete);
     EXPECT_FALSE(named.gaussianProcess) << "these conditions have no coordinates";
-    EXPECT_GT(named.overOneMore.value, named.overOneMore.standardError);
-    EXPECT_LT(named.after->rmsLogError.value, named.noiseLimit);
-    EXPECT_GT(named.before.rmsLogError.value, named.noiseLimit);
-    EXPECT_THAT(heldOutOf("y", Decision::set).notAcceptedBecause, ElementsAre(HasSubstr("only explanation")));
+    EXPECT_TRUE(named.overOneMore.isBeyondChance(0.05));
+    EXPECT_GT(named.after->pValue, 0.05);
+    EXPECT_LT(named.before.pValue, 0.01);
+    EXPECT_LT(named.after->rmsLogError.value, 2 * named.noiseFloor);
+    EXPECT_GT(named.before.rmsLogError.value, 3 * named.noiseFloor);
+    const HeldOutResult member = heldOutOf("y", Decision::set);
+    EXPECT_THAT(member.notBetterBecause, ElementsAre(HasSubstr("only explanation")));
+    EXPECT_FALSE(member.better);
 }
 
 /// The held-out measurements are 0.1 above what y explains, ten times their noise: y may be the best name, its model is
-/// still wrong there, and the report says so. It says nothing of it where y explains all.
+/// still wrong there, and the report says so: better, and not complete.
 TEST(HeldOut, TellsWhatIsMoreThanNoise)
 {
     const HeldOutResult result = heldOutOf("y", Decision::named, false, 0.1);
     EXPECT_NEAR(result.after->rmsLogError.value, 0.1, 0.02);
-    EXPECT_GT(result.after->rmsLogError.value, result.noiseLimit);
-    EXPECT_THAT(result.notAcceptedBecause, ElementsAre("the remaining error is larger than noise"));
-    EXPECT_FALSE(result.accepted());
+    EXPECT_LT(result.after->pValue, 0.01);
+    EXPECT_FALSE(result.complete);
+    EXPECT_THAT(result.notBetterBecause, IsEmpty());
+    EXPECT_TRUE(result.better);
+}
+
+/// A Gaussian process over the conditions' coordinates knows from the measurement under water what is missing under
+/// water, as well as the effect does.
+TEST(HeldOut, RefusesAnEffectThatAGaussianProcessReplaces)
+{
+    const HeldOutResult result = heldOutOf("y", Decision::named, false, 0, [](Study& study) {
+        for (auto& condition : study.conditions)
+        {
+            condition.coordinates["wet"] = condition.tags.at("medium") == "water" ? 1 : 0;
+        }
+    });
+    EXPECT_THAT(result.notBetterBecause, ElementsAre(HasSubstr("Gaussian process")));
+    EXPECT_FALSE(result.better);
+    EXPECT_TRUE(result.complete);
+}
+
+/// The simulation's own error is the same in all conditions. Where the training data show it, the held-out data must have
+/// it too: with it nothing is left, and without it they contradict the prediction.
+TEST(HeldOut, TheModelErrorIsSharedOverConditions)
+{
+    const auto chanceWith = [](double besides) {
+        Bench bench;
+        bench.study.modelError(0) = 0.1;
+        std::vector<MeasuredCondition> data(bench.study.conditions.size());
+        for (std::size_t c = 0; c < data.size(); ++c)
+        {
+            data[c].features =
+                featureRows(bench.studySimulator.repeats({c}, bench.studySimulator.plainSetting(), "measured", 4), c,
+                    bench.study.featureCount());
+            data[c].features.array() += bench.study.conditions[c].role == Role::heldOut ? besides : 0.2;
+            data[c].declaredError = Eigen::VectorXd::Zero(bench.study.featureCount());
+        }
+        const Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
+        return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random).before.pValue;
+    };
+    EXPECT_GT(chanceWith(0.2), 0.05);
+    EXPECT_LT(chanceWith(0), 0.001);
 }
 
 /// Control 2 learns the residual of the null over the conditions' coordinates. Here all measurements are above the
@@ -483,7 +574,9 @@ TEST(HeldOut, TheGaussianProcessTakesASmoothResidualAway)
 TEST(HeldOut, ComparesTheSameFeatures)
 {
     const HeldOutResult result = heldOutOf("y", Decision::named, true);
-    EXPECT_THAT(result.notAcceptedBecause, ElementsAre("no prediction of logMeanRate in edged"));
+    EXPECT_THAT(result.notBetterBecause, ElementsAre("no prediction of logMeanRate in edged"));
+    EXPECT_THAT(result.notScored, ElementsAre("no prediction of logMeanRate in edged"));
+    EXPECT_FALSE(result.complete) << "a measured feature was not predicted";
     EXPECT_NEAR(result.before.rmsLogError.value, 0.1, 0.02) << "0.29 with the feature that is not predicted with y";
 }
 
@@ -509,7 +602,7 @@ TEST(HeldOut, OneMoreParameterUsesTheSettingsOfRuns)
     EXPECT_NEAR(sizeOfOneMore(), size, 0.01 * std::abs(size));
 }
 
-/// Without held-out measurements nothing is simulated and nothing is accepted.
+/// Without held-out measurements nothing is simulated and nothing is better.
 TEST(HeldOut, NothingWithoutMeasurements)
 {
     Bench bench(false);
@@ -520,7 +613,8 @@ TEST(HeldOut, NothingWithoutMeasurements)
     const HeldOutResult result =
         evaluateHeldOut(bench.studySimulator, bench.library, answer, bench.nothing, bench.nothing, bench.random);
     EXPECT_THAT(result.conditions, IsEmpty());
-    EXPECT_FALSE(result.accepted());
+    EXPECT_FALSE(result.better);
+    EXPECT_FALSE(result.complete);
     EXPECT_EQ(bench.studySimulator.effort().executed, before);
 }
 
@@ -529,8 +623,8 @@ TEST(HeldOut, NothingWithoutMeasurements)
 TEST(HeldOut, RefusesAnEffectThatOneMoreParameterReplaces)
 {
     const HeldOutResult result = heldOutOf("x", Decision::named);
-    EXPECT_FALSE(result.accepted());
-    EXPECT_THAT(result.notAcceptedBecause, Contains(HasSubstr("one more free parameter")));
+    EXPECT_FALSE(result.better);
+    EXPECT_THAT(result.notBetterBecause, Contains(HasSubstr("one more free parameter")));
 }
 
 } // namespace

@@ -114,7 +114,8 @@ struct Bench
     {
         heldOut.conditions = {2};
         heldOut.before.rmsLogError = {before, 0.01};
-        heldOut.after = HeldOutScore{{after, 0.004}, {}};
+        heldOut.after.emplace();
+        heldOut.after->rmsLogError = {after, 0.004};
         heldOut.improvement = {before - after, 0.01};
         findings.heldOut = &heldOut;
     }
@@ -147,8 +148,16 @@ TEST(Sentence, SaysWhatWasFound)
     bench.found(Decision::named, {{1, 0.5}});
     bench.heldOutErrors(0.351, 0.0207);
     EXPECT_EQ(sentenceOf(bench.findings),
-        "The residual is explained by: water that moves along with a particle (y 0.020); with it the error on held-out "
-        "measurements falls from 35 to 2.1 %.");
+        "Of the 3 effects tried only this one fits: water that moves along with a particle (y 0.020); an untried "
+        "effect "
+        "may act alike here; with it the error on held-out measurements falls from 35 to 2.1 %.");
+    EXPECT_EQ(gradeOf(bench.findings), "named");
+    bench.heldOut.better = true;
+    EXPECT_EQ(sentenceOf(bench.findings),
+        "The residual is explained by: water that moves along with a particle (y 0.020), or something that acts like "
+        "it, "
+        "which predicts what no fit used; with it the error on held-out measurements falls from 35 to 2.1 %.");
+    EXPECT_EQ(gradeOf(bench.findings), "better");
 }
 
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)

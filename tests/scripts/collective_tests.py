@@ -23,7 +23,7 @@ START, WRITE, ERROR, ROW = "at the start", "at write times", "before an error en
 # Number of calls by file, and when they are made.
 OTHERS = {
     "coupling/checkpoint/caseLock.cpp": (1, START),
-    "coupling/checkpoint/checkpoints.cpp": (13, f"{START} and {WRITE}"),
+    "coupling/checkpoint/checkpoints.cpp": (14, f"{START} and {WRITE}"),
     "coupling/checkpoint/partsOfCase.cpp": (2, START),
     "coupling/checkpoint/runInputs.cpp": (6, START),
     "coupling/conservation/conservationCheck.cpp": (2, f"{ERROR}; the volume of the mesh, once"),

@@ -3,6 +3,8 @@
 #include "surrogate/surrogate.h"
 
 #include "lists.h"
+#include "emulator/settings.h"
+#include "heldOut/heldOut.h"
 #include "procedure/trace.h"
 #include "study/readStudy.h"
 
@@ -14,6 +16,7 @@
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <optional>
 #include <random>
 
 namespace clepsydra::identification::tests
@@ -38,6 +41,7 @@ struct Options
     int again = 0;    // of those with one effect, answered again with other seeds of the runs
     unsigned seed = 1;
     int draws = 1000;
+    bool exact = false; // runs do not scatter, measurements do
     bool check = false;
 };
 
@@ -86,6 +90,14 @@ struct Outcome
     bool unlistedCause = false;
     bool covered = false;
     std::vector<std::vector<std::size_t>> set;
+    bool better = false; // on the held-out conditions
+    bool complete = false;
+    std::optional<bool> fallCovered; // whether the fall of the held-out error agrees with its expectation
+
+    bool isNamedRightly() const
+    {
+        return decision == Decision::named && inSet;
+    }
 };
 
 struct Tally
@@ -100,6 +112,11 @@ struct Tally
     double unknown = 0;
     double open = 0; // unknown, or a set with an unlisted cause
     double covered = 0;
+    double wrongBetter = 0; // better than no effect and both controls, without being the truth
+    double rightBetter = 0;
+    double rightComplete = 0;
+    double falls = 0;
+    double fallsCovered = 0;
 
     void add(const Outcome& outcome)
     {
@@ -118,6 +135,12 @@ struct Tally
         unknown += outcome.decision == Decision::unknown ? 1 : 0;
         open += outcome.decision == Decision::unknown || outcome.unlistedCause ? 1 : 0;
         covered += outcome.covered ? 1 : 0;
+        const bool isRight = outcome.isNamedRightly();
+        wrongBetter += outcome.better && !isRight ? 1 : 0;
+        rightBetter += outcome.better && isRight ? 1 : 0;
+        rightComplete += outcome.complete && isRight ? 1 : 0;
+        falls += outcome.fallCovered ? 1 : 0;
+        fallsCovered += outcome.fallCovered.value_or(false) ? 1 : 0;
     }
 
     Json json() const
@@ -128,19 +151,38 @@ struct Tally
             {"namedWhenDetected", share(named, detected)}, {"namedRightly", share(namedRight, named)},
             {"wrongNameWhenDetected", share(named - namedRight, detected)},
             {"unknownWhenDetected", share(unknown, detected)}, {"somethingElseWhenDetected", share(open, detected)},
-            {"intervalCoversWhenDetected", share(covered, detected)}};
+            {"intervalCoversWhenDetected", share(covered, detected)}, {"falseAcceptance", share(wrongBetter, trials)},
+            {"rightAcceptance", share(rightBetter, namedRight)},
+            {"completeWhenNamedRightly", share(rightComplete, namedRight)},
+            {"coverageOfFall", share(fallsCovered, falls)}};
     }
 };
+
+Entries withoutScatter(Entries entries)
+{
+    entries["scatter"] = "0";
+    entries["chaos"] = "0";
+    return entries;
+}
+
+Study withoutSeed(Study study)
+{
+    study.simulator.seedEntry.clear();
+    return study;
+}
 
 /// One library, and synthetic data sets for it.
 class SyntheticStudy
 {
 public:
     /// \param allEffects  the study with the effects that are not in the library
-    SyntheticStudy(const Study& study, const Study& allEffects, const Entries& defaults, unsigned seed)
-        : study_(study),
-          allEffects_(allEffects),
-          simulator_(defaults),
+    /// \param exact  whether runs do not scatter; the measurements then have the scatter of other runs
+    SyntheticStudy(const Study& study, const Study& allEffects, const Entries& defaults, unsigned seed, bool exact)
+        : study_(exact ? withoutSeed(study) : study),
+          allEffects_(exact ? withoutSeed(allEffects) : allEffects),
+          scattering_(study),
+          simulator_(exact ? withoutScatter(defaults) : defaults),
+          scatteringSimulator_(defaults),
           seed_(seed)
     {
         study_.settings.seed = seed;
@@ -152,23 +194,11 @@ public:
     {
         allEffects_.settings.seed = seed_ * 4099U + number;
         StudySimulator simulator(allEffects_, simulator_);
-        std::mt19937_64 random(allEffects_.settings.seed);
-        std::normal_distribution<double> normal;
-        Setting setting = simulator.plainSetting();
-        setting.parameters(0) += study_.parameters.front().sd * normal(random);
-        for (std::size_t k = 0; k < truth.effects.size(); ++k)
-        {
-            setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
-        }
+        const Setting setting = settingOf(truth, simulator);
         std::vector<MeasuredCondition> all(allEffects_.conditions.size());
         for (std::size_t c = 0; c < all.size(); ++c)
         {
-            const auto simulations = simulator.repeats({c}, setting, "measured", repeats);
-            all[c].features.resize(repeats, allEffects_.featureCount());
-            for (Eigen::Index row = 0; row < repeats; ++row)
-            {
-                all[c].features.row(row) = simulations[static_cast<std::size_t>(row)].features.transpose();
-            }
+            all[c].features = measured(simulator, c, setting, "measured");
             all[c].declaredError = Eigen::VectorXd::Zero(allEffects_.featureCount());
         }
         return all;
@@ -212,15 +242,103 @@ public:
             outcome.topOne = std::all_of(answer.effects.begin(), answer.effects.end(),
                 [&](const EffectFinding& other) { return other.probability <= finding.probability; });
         }
+        if (!answer.set.empty())
+        {
+            const HeldOutResult heldOut = evaluateHeldOut(studySimulator, library, answer, data, data, random);
+            outcome.better = heldOut.better;
+            outcome.complete = heldOut.complete;
+            const double miss = expectedFall(truth, answer, heldOut.conditions) - heldOut.improvement.value;
+            outcome.fallCovered = std::abs(miss) <= 1.96 * heldOut.improvement.standardError;
+        }
         return outcome;
     }
 
 private:
     static constexpr int repeats = 3;
+    static constexpr int repetitions = 40; // of measurement and prediction, for the expected fall
+
+    /// The truth as measured: the parameters are drawn from their prior. The same for all measurements of a data set.
+    Setting settingOf(const Truth& truth, const StudySimulator& simulator) const
+    {
+        std::mt19937_64 random(allEffects_.settings.seed);
+        std::normal_distribution<double> normal;
+        Setting setting = simulator.plainSetting();
+        setting.parameters(0) += study_.parameters.front().sd * normal(random);
+        for (std::size_t k = 0; k < truth.effects.size(); ++k)
+        {
+            setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
+        }
+        return setting;
+    }
+
+    /// Repeated measurements in one condition, one per row.
+    Eigen::MatrixXd measured(
+        StudySimulator& simulator, std::size_t condition, const Setting& setting, const std::string& purpose)
+    {
+        const Eigen::Index features = allEffects_.featureCount();
+        Eigen::MatrixXd rows =
+            featureRows(simulator.repeats({condition}, setting, purpose, repeats), condition, features);
+        if (study_.simulator.seedEntry.empty())
+        {
+            scattering_.settings.seed = allEffects_.settings.seed;
+            StudySimulator scattering(scattering_, scatteringSimulator_);
+            const Eigen::MatrixXd runs = featureRows(
+                scattering.repeats({condition}, scattering.plainSetting(), purpose, 2 * repeats), condition, features);
+            rows += (runs.topRows(repeats) - runs.bottomRows(repeats)) / std::sqrt(2.0);
+        }
+        return rows;
+    }
+
+    /// Fall of the held-out error from the fit without an effect to the best one, averaged over repetitions of the
+    /// held-out measurements and of the simulations at both fits. Called after `measure`.
+    double expectedFall(const Truth& truth, const Answer& answer, const std::vector<std::size_t>& conditions)
+    {
+        StudySimulator simulator(allEffects_, simulator_);
+        const Setting trueSetting = settingOf(truth, simulator);
+        const auto extended = [&](Setting setting) {
+            setting.amplitudes.conservativeResizeLike(Eigen::VectorXd::Zero(trueSetting.amplitudes.size()));
+            return setting;
+        };
+        const auto means = [&](const Setting& setting, const std::string& purpose, int runs) {
+            const auto simulations = simulator.repeats(conditions, setting, purpose, runs);
+            return mapped(conditions,
+                [&](std::size_t c) { return meanFeatures(featureRows(simulations, c, allEffects_.featureCount())); });
+        };
+        double sum = 0.0;
+        for (int i = 0; i < repetitions; ++i)
+        {
+            const std::string again = ", again " + std::to_string(i);
+            const auto truths = mapped(conditions, [&](std::size_t c) -> Eigen::VectorXd {
+                return meanFeatures(measured(simulator, c, trueSetting, "measured" + again));
+            });
+            const auto rms = [&](const Setting& setting, const std::string& purpose) {
+                const auto predicted = means(extended(setting), purpose + again, study_.settings.repeatsHeldOut);
+                double squares = 0.0;
+                double count = 0.0;
+                for (std::size_t c = 0; c < truths.size(); ++c)
+                {
+                    for (Eigen::Index f = 0; f < truths[c].size(); ++f)
+                    {
+                        const double error = truths[c](f) - predicted[c](f);
+                        if (study_.features[f].kind->isLog() && std::isfinite(error))
+                        {
+                            squares += error * error;
+                            count += 1.0;
+                        }
+                    }
+                }
+                return std::sqrt(squares / count);
+            };
+            sum += rms(answer.null.setting, "before") - rms(answer.set.front().setting, "after");
+        }
+        return sum / repetitions;
+    }
 
     Study study_;
     Study allEffects_;
+    Study scattering_;
     SurrogateSimulator simulator_;
+    SurrogateSimulator scatteringSimulator_;
     unsigned seed_;
     Library library_;
 };
@@ -253,11 +371,14 @@ Json check(const Options& options)
     double oneOfTwo = 0;                   // pairs of which one effect is named alone
     double sameAnswer = 0;
     double askedAgain = 0;
+    double wrongBetter = 0; // over all data sets
+    double answered = 0;
     double below = 0;
     std::size_t turn = 0;
     for (int l = 0; l < options.libraries; ++l)
     {
-        SyntheticStudy synthetic(study, allEffects, defaults, options.seed * 1000U + static_cast<unsigned>(l));
+        SyntheticStudy synthetic(
+            study, allEffects, defaults, options.seed * 1000U + static_cast<unsigned>(l), options.exact);
         unsigned number = 1;
         for (int i = 0; i < options.nulls; ++i, ++number)
         {
@@ -334,12 +455,25 @@ Json check(const Options& options)
         }
         return json;
     };
-    return {{"study", study.name}, {"seed", options.seed}, {"libraries", options.libraries}, {"draws", options.draws},
-        {"falseAlarms", share(nulls.detected, nulls.trials)}, {"pValueBelowHalf", share(below, nulls.trials)},
-        {"nulls", nulls.json()}, {"effects", effects.json()}, {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
+    const auto count = [&](const Tally& tally) {
+        wrongBetter += tally.wrongBetter;
+        answered += tally.trials;
+    };
+    count(nulls);
+    count(effects);
+    for (const auto& [label, tally] : outside)
+    {
+        count(tally);
+    }
+    return {{"study", study.name}, {"seed", options.seed}, {"exact", options.exact}, {"libraries", options.libraries},
+        {"draws", options.draws}, {"falseAlarms", share(nulls.detected, nulls.trials)},
+        {"pValueBelowHalf", share(below, nulls.trials)}, {"nulls", nulls.json()}, {"effects", effects.json()},
+        {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", decoys.json()},
         {"outsideLibrary", all(outside)}, {"wrongNames", wrongNames}, {"pairs", pairs.json()},
-        {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}};
+        {"oneOfTwoNamed", share(oneOfTwo, pairs.detected)}, {"falseAcceptance", share(wrongBetter, answered)},
+        {"rightAcceptance", effects.json().at("rightAcceptance")},
+        {"coverageOfFall", effects.json().at("coverageOfFall")}};
 }
 
 /// The 95 % Wilson interval of the false alarms must contain the nominal level. The other limits lie far below the
@@ -365,6 +499,12 @@ bool meetsLimits(const Json& result, double level)
     require(effects["intervalCoversWhenDetected"]["share"].get<double>() > 0.8,
         "more than 80 % of the intervals contain the amplitude that was put in");
     require(effects["wrongNameWhenDetected"]["share"].get<double>() < 0.15, "fewer than 15 % of the names are wrong");
+    require(result["falseAcceptance"]["share"].get<double>() <= level,
+        "at most the nominal share of the data sets has a wrong effect that enters the model");
+    require(
+        result["rightAcceptance"]["share"].get<double>() > 0.3, "more than 30 % of the right names enter the model");
+    require(result["coverageOfFall"]["share"].get<double>() > 0.8,
+        "more than 80 % of the intervals of the error's fall contain its expectation");
     return good;
 }
 
@@ -390,6 +530,7 @@ int main(int argc, char** argv)
     app.add_option("--seed", options.seed, "seed of all random numbers");
     app.add_option("--draws", options.draws, "number of draws from the null distribution of the test");
     app.add_option("--output", options.output, "JSON file to write");
+    app.add_flag("--exact", options.exact, "runs do not scatter (seed: none), only measurements do");
     app.add_flag("--check", options.check, "fail if the rates are outside of wide limits");
     CLI11_PARSE(app, argc, argv);
     try

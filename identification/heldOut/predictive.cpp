@@ -1,0 +1,104 @@
+#include "heldOut/predictive.h"
+
+#include "emulator/distributions.h"
+
+#include <Eigen/Cholesky>
+
+#include <cmath>
+
+namespace clepsydra::identification
+{
+
+namespace
+{
+
+/// Log density without the terms that are equal for all predictions of the same measurements.
+class Density
+{
+public:
+    explicit Density(const Predictive& predicted)
+        : predicted_(predicted)
+    {
+        Eigen::MatrixXd covariance = predicted.covariance;
+        // Exact numbers would make it singular.
+        covariance.diagonal() += 1e-9 * covariance.diagonal() + Eigen::VectorXd::Constant(covariance.rows(), 1e-18);
+        root_.compute(covariance);
+    }
+
+    double chiSquare(const Eigen::VectorXd& measured) const
+    {
+        return root_.matrixL().solve(measured - predicted_.mean).squaredNorm();
+    }
+
+    double operator()(const Eigen::VectorXd& measured) const
+    {
+        const double freedom = predicted_.freedom;
+        return -root_.matrixLLT().diagonal().array().log().sum()
+               - 0.5 * (freedom + static_cast<double>(measured.size())) * std::log1p(chiSquare(measured) / freedom);
+    }
+
+    Eigen::VectorXd draw(std::mt19937_64& random) const
+    {
+        std::normal_distribution<double> normal;
+        const double factor =
+            std::sqrt(predicted_.freedom / std::chi_squared_distribution<double>(predicted_.freedom)(random));
+        const Eigen::VectorXd independent =
+            Eigen::VectorXd::NullaryExpr(predicted_.mean.size(), [&] { return normal(random); });
+        return predicted_.mean + root_.matrixL() * (factor * independent);
+    }
+
+private:
+    const Predictive& predicted_;
+    Eigen::LLT<Eigen::MatrixXd> root_;
+};
+
+} // namespace
+
+Shared sharedAfter(const LinearModel& training, const Eigen::VectorXd& measured, const Eigen::VectorXd& fitted)
+{
+    const Eigen::MatrixXd& slopes = training.slopes;
+    const Eigen::VectorXd residual = measured - training.mean + slopes * fitted;
+    const Eigen::LLT<Eigen::MatrixXd> covariance(slopes * slopes.transpose() + training.rest);
+    return {slopes.transpose() * covariance.solve(residual),
+        Eigen::MatrixXd::Identity(slopes.cols(), slopes.cols()) - slopes.transpose() * covariance.solve(slopes)};
+}
+
+Predictive predict(const Shared& shared, const LinearModel& heldOut, const Eigen::VectorXd& fitted, double freedom)
+{
+    return {heldOut.mean + heldOut.slopes * (shared.mean - fitted),
+        heldOut.slopes * shared.covariance * heldOut.slopes.transpose() + heldOut.rest, freedom};
+}
+
+double chiSquareOf(const Predictive& predicted, const Eigen::VectorXd& measured)
+{
+    return Density(predicted).chiSquare(measured);
+}
+
+double chanceOf(const Predictive& predicted, const Eigen::VectorXd& measured)
+{
+    const auto features = static_cast<double>(measured.size());
+    return measured.size() == 0
+               ? 1.0
+               : probabilityBeyondFisher(chiSquareOf(predicted, measured) / features, features, predicted.freedom);
+}
+
+LogRatio logRatio(
+    const Predictive& one, const Predictive& other, const Eigen::VectorXd& measured, int draws, std::mt19937_64& random)
+{
+    const Density ofOne(one);
+    const Density ofOther(other);
+    const auto ratio = [&](const Eigen::VectorXd& values) { return ofOne(values) - ofOther(values); };
+    LogRatio found;
+    found.value = ratio(measured);
+    // Two equal predictions differ by rounding errors only.
+    const double least = found.value - 1e-9 * (1.0 + std::abs(found.value));
+    int asLarge = 1; // the measured one is among them
+    for (int draw = 0; draw < draws; ++draw)
+    {
+        asLarge += ratio(ofOther.draw(random)) >= least ? 1 : 0;
+    }
+    found.pValue = static_cast<double>(asLarge) / static_cast<double>(draws + 1);
+    return found;
+}
+
+} // namespace clepsydra::identification
