@@ -62,19 +62,20 @@ def fill(bench: Bench, part: Any, kibibytes: int, fresh: Any = False, ranks: int
     return said
 
 
-def judged_where_engines_crash(outcome: Outcome) -> Any:
+def judged_where_engines_crash(outcome: Outcome, *file: str) -> Any:
     """The engines do not look at all that they read or allocate: short of a message they end by a signal, which loses
     nothing either."""
     if outcome.status in (-signal.SIGSEGV, -signal.SIGABRT):
         return "an engine crashed, then the same end"
-    return judged(outcome)
+    return judged(outcome, *file)
 
 
-def judged(outcome: Outcome) -> str:
-    """What a run that met a fault has done, short of a silent wrong."""
+def judged(outcome: Outcome, *file: str) -> str:
+    """What a run that met a fault has done, short of a silent wrong. file: names of the file that failed; OpenFOAM does
+    not keep the system's reason, but says which file it could not read."""
     if outcome.status == 0:
         return "went on; same end"  # that it is the same is seen when it has gone on
-    if outcome.status < 0 or not outcome.explains(*OF_DISK):
+    if outcome.status < 0 or not outcome.explains(*OF_DISK, *file):
         raise Wrong(f"status {outcome.status} without a message of the disk: {outcome.last_words}")
     return "stopped with a message, then the same end"
 

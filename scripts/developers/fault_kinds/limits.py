@@ -94,7 +94,7 @@ def numerical_faults(bench: Bench) -> list[Any]:
                     "DEM/in.particles",
                     "^fix motion",
                     "velocity all set 0 0 -1000 units box\nfix motion",
-                    "out of the box",
+                    "outside the box",
                 ),
                 ("DEM/in.particles", "peratomtype 5e6 5e6", "peratomtype 5e12 5e12", "youngsModulus"),
                 ("constant/transportProperties", r"1000;", "-1000;", "'rho' is -1000"),

@@ -93,7 +93,7 @@ def inject(bench: Bench, what: Any, call: Any, judge: Any) -> Any:
         ]
     )
     try:
-        said = judge(outcome)
+        said = judge(outcome, call.file, f'"{Path(call.file).name}"')
         case.set(endTime=END).settle()
     except Wrong as problem:
         raise Wrong(f"{what} in {call.name} {call.number} of {call.file}: {problem}") from None
