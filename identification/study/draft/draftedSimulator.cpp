@@ -3,6 +3,7 @@
 #include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
 
+#include <cstdlib>
 #include <algorithm>
 #include <array>
 #include <fstream>
@@ -48,10 +49,13 @@ std::string observableOf(const fs::path& folder)
     return "";
 }
 
-/// Folder identification/effects of the checkout that contains the case or, without one, the program.
+/// Folder identification/effects of the checkout that contains the case; without one, of that whose scripts/environment
+/// was sourced, or that contains the program.
 fs::path effectsFolder(const fs::path& caseFolder)
 {
-    for (fs::path folder : {caseFolder, fs::read_symlink("/proc/self/exe")})
+    const char* const sourced = std::getenv("CLEPSYDRA");
+    for (fs::path folder :
+        {caseFolder, fs::path(sourced == nullptr ? "" : sourced), fs::read_symlink("/proc/self/exe")})
     {
         for (; folder.has_relative_path(); folder = folder.parent_path())
         {
