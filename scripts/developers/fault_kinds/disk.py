@@ -71,8 +71,8 @@ def judged_where_engines_crash(outcome: Outcome, *file: str) -> Any:
 
 
 def judged(outcome: Outcome, *file: str) -> str:
-    """What a run that met a fault has done, short of a silent wrong. file: names of the file that failed; OpenFOAM does
-    not keep the system's reason, but says which file it could not read."""
+    """What a run that met a fault has done, short of a silent wrong. file: names of a file whose mention explains the
+    fault, too."""
     if outcome.status == 0:
         return "went on; same end"  # that it is the same is seen when it has gone on
     if outcome.status < 0 or not outcome.explains(*OF_DISK, *file):

@@ -93,15 +93,34 @@ def inject(bench: Bench, what: Any, call: Any, judge: Any) -> Any:
         ]
     )
     try:
-        said = judge(outcome, call.file, f'"{Path(call.file).name}"')
+        said = judge(outcome, call)
         case.set(endTime=END).settle()
     except Wrong as problem:
         raise Wrong(f"{what} in {call.name} {call.number} of {call.file}: {problem}") from None
     return said
 
 
+def writing_judged(outcome: Outcome, _: Call) -> str:
+    return judged(outcome)
+
+
+def reading_judged(outcome: Outcome, call: Call) -> Any:
+    """OpenFOAM does not keep the system's reason, but says which file it could not read."""
+    return judged_where_engines_crash(outcome, call.file, f'"{Path(call.file).name}"')
+
+
+def killed(outcome: Outcome, _: Call) -> str:
+    return "same end" if outcome.status else "had ended before"
+
+
 def tries(
-    bench: Bench, names: Any, errors: Any, quick: int, full: Any = None, writing: Any = None, judge: Any = judged
+    bench: Bench,
+    names: Any,
+    errors: Any,
+    quick: int,
+    full: Any = None,
+    writing: Any = None,
+    judge: Any = writing_judged,
 ) -> list[Any]:
     chosen = bench.some(each(bench, names, writing), quick, full)
     return [
@@ -138,12 +157,12 @@ def failing_opens(bench: Bench) -> Any:
 
 @fault("the n-th opening of a file for reading fails (EIO, EMFILE)", CRASH_EXPECTED, in_quick=False)
 def failing_opens_to_read(bench: Bench) -> Any:
-    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=60, writing=False, judge=judged_where_engines_crash)
+    return tries(bench, OPENS, ("EIO", "EMFILE"), quick=2, full=60, writing=False, judge=reading_judged)
 
 
 @fault("the n-th read of a file fails (EIO)", CRASH_EXPECTED, in_quick=False)
 def failing_reads(bench: Bench) -> Any:
-    return tries(bench, READS, ("EIO",), quick=2, full=60, judge=judged_where_engines_crash)
+    return tries(bench, READS, ("EIO",), quick=2, full=60, judge=reading_judged)
 
 
 @fault(
@@ -186,7 +205,3 @@ def die(bench: Bench, call: Any, error: Any, number: Any) -> Any:
     said = judged(outcome)
     case.set(endTime=END).settle()
     return said
-
-
-def killed(outcome: Outcome) -> str:
-    return "same end" if outcome.status else "had ended before"
