@@ -95,6 +95,19 @@ double largestSpeed(const Eigen::MatrixXd& velocities)
     return velocities.colwise().norm().maxCoeff();
 }
 
+constexpr double diameter = 0.001;
+
+/// A closed box of fluid whose sides let it slip, for particles of glass.
+void fillBox(TestCase& test, const Eigen::Vector3i& cells, double density, double viscosity)
+{
+    test.box.upper = {0.008, 0.008, 0.032};
+    test.cells = cells;
+    test.setFluid(density, viscosity);
+    test.file("0/U").set("boundaryField/walls/type", "slip");
+    test.dem.diameter = diameter;
+    test.dem.density = glassDensity;
+}
+
 /// A cloud of 275 particles settles through a closed box whose sides let the water slip. Its speed is constant, so the
 /// momentum of everything in the box is, too, and the only force left to carry its buoyant weight is the pressure
 /// difference from bottom to top: dp A = buoyant weight. At the end the particles lie on the bottom, whose contacts carry
@@ -105,15 +118,9 @@ double largestSpeed(const Eigen::MatrixXd& velocities)
 /// keeps a pressure. The mean over 0.17 s is held to 3 %: the particles' paths are not straight, their momentum fluctuates.
 TEST(SettlingCloud, IsCarriedByThePressureUntilItRests)
 {
-    constexpr double diameter = 0.001;
     TestCase test;
-    test.box.upper = {0.008, 0.008, 0.032};
-    test.cells = {4, 4, 16};
-    test.setFluid(waterDensity, 1e-5);
-    test.file("0/U").set("boundaryField/walls/type", "slip");
+    fillBox(test, {4, 4, 16}, waterDensity, 1e-5);
     test.coupling().set("constDiffSmoothingProps/bandwidth", 3 * diameter);
-    test.dem.diameter = diameter;
-    test.dem.density = glassDensity;
     Box cloud = test.box;
     cloud.lower.z() = 0.011;
     cloud.upper.z() = 0.029;
@@ -163,12 +170,7 @@ TEST(FallingCloud, TheAirMakesRoomForWhatTheParticlesAreAboutToDo)
     constexpr double couplingTimeStep = 1e-3;
     constexpr int steps = 10;
     TestCase test;
-    test.box.upper = {0.008, 0.008, 0.032};
-    test.cells = {1, 1, 16};
-    test.setFluid(airDensity, 1.5e-5);
-    test.file("0/U").set("boundaryField/walls/type", "slip");
-    test.dem.diameter = 0.001;
-    test.dem.density = glassDensity;
+    fillBox(test, {1, 1, 16}, airDensity, 1.5e-5);
     // Columns of particles, each at another height, so that as many pass each level at each time.
     constexpr int columns = 36;
     for (int column = 0; column < columns; ++column)
