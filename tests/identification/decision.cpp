@@ -70,13 +70,16 @@ TEST(Decision, HasItsNominalRates)
     Replicas others(*bench.emulator, bench.layout, evidence, bench.random);
     constexpr int draws = 150;
     int alarms = 0;
+    int aboveCritical = 0;
     for (int i = 0; i < 4 * draws; ++i)
     {
         const auto [data, judge] = others.draw({}, atPrior, bench.random);
         const Odds odds = oddsOf(bench.study, judge(data));
         alarms += isDetected(bench.study, calibration, odds) ? 1 : 0;
+        aboveCritical += odds.statistic > calibration.critical ? 1 : 0;
     }
     EXPECT_NEAR(alarms / (4. * draws), 0.05, 0.035);
+    EXPECT_NEAR(aboveCritical / (4. * draws), 0.05, 0.035) << "the reported critical value is not that of the decision";
     double wrong = 0;
     double decoys = 0;
     double allDetected = 0;
