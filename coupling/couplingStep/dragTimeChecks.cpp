@@ -1,8 +1,6 @@
 #include "couplingStep/dragTimeChecks.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <optional>
 
 namespace clepsydra
 {
@@ -12,7 +10,7 @@ using namespace Foam;
 namespace
 {
 
-/// Length of a step in the time scale of dv/dt = -v/time, at which an explicit step turns v into -v.
+/// Length of an explicit step in the time in which the drag of the particles stops the fluid, from which on errors grow.
 constexpr double longest = 2;
 
 /// By tests/conservation/pressureFeedback.cpp errors grow from 2.2 relaxation times on, at solid fractions above 0.5 and
@@ -35,19 +33,13 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
     const bool checksExplicitCoupling = !settings_.implicitCoupling() && !warnedOfExplicitCoupling_;
     const bool checksFilter =
         settings_.ddtSmoothingTime() >= couplingStepsOfFilter * result.timeStep && !warnedOfFilter_;
-    std::optional<Unresolved> unresolved;
     double fastestHere = 0;
     double mostHere = 0;
     for (Eigen::Index particle = 0; particle < particles.size(); ++particle)
     {
         const double drag = result.received[static_cast<std::size_t>(particle)].implicitCoefficientTime;
-        const double inertia = inertiaTime(particles, particle, result);
         const FluidAtParticle& fluid = particles.state[particle].fluid;
         const auto moves = [&] { return !result.changeOfVelocity.col(particle).isZero(0); };
-        if (!unresolved && demTimeStep_ * drag > longest * inertia && moves())
-        {
-            unresolved = Unresolved{particles.id[particle], particles.radius[particle], inertia / drag};
-        }
         if (checksExplicitCoupling)
         {
             fastestHere = std::max(
@@ -56,28 +48,13 @@ void DragTimeChecks::addTo(const ParticlesView& particles, const DemResult& resu
         }
         if (checksFilter && fluid.voidFraction < looseBed && moves())
         {
-            mostHere = std::max(mostHere, result.timeStep * drag / inertia);
+            mostHere = std::max(mostHere, result.timeStep * drag / inertiaTime(particles, particle, result));
         }
     }
-    totals.add(
-        {{}, {fastestHere, mostHere}}, [this, unresolved, couplingTimeStep = result.timeStep](const RankNumbers& all) {
-            if (unresolved)
-            {
-                reportDemStep(*unresolved);
-            }
-            checkExplicitCoupling(all.maxima[0], couplingTimeStep);
-            checkFilter(all.maxima[1], couplingTimeStep);
-        });
-}
-
-void DragTimeChecks::reportDemStep(const Unresolved& particle) const
-{
-    FatalErrorInFunction << "Drag brings particle " << particle.id << " with a diameter of " << 2 * particle.radius
-                         << " m to the fluid's velocity in " << particle.relaxationTime << " s, but the DEM step is "
-                         << demTimeStep_ << " s; allowed: a timestep in "
-                         << settings_.demDict().get<fileName>("script").c_str() << " of at most "
-                         << longest * particle.relaxationTime << " s, and better a fifth of that" << exit(FatalError);
-    std::abort();
+    totals.add({{}, {fastestHere, mostHere}}, [this, couplingTimeStep = result.timeStep](const RankNumbers& all) {
+        checkExplicitCoupling(all.maxima[0], couplingTimeStep);
+        checkFilter(all.maxima[1], couplingTimeStep);
+    });
 }
 
 void DragTimeChecks::checkExplicitCoupling(double fastest, double couplingTimeStep)

@@ -21,7 +21,7 @@ FluidCoupling::FluidCoupling(const fvMesh& mesh, const CouplingSettings& setting
       meanPressureGradient_(meanPressureGradient),
       mapping_(mesh, settings.dict(), distribution, timers),
       sampling_(mesh, settings, fluid, needs, distribution.smoothingModel(), viscousStress),
-      dragTimes_(settings, fluid.density, engine.timeStep()),
+      dragTimes_(settings, fluid.density),
       rows_(sampling_.removesSelfInducedVelocity()),
       fields_{ClippedVoidFraction(mesh, settings.minimumVoidFraction(), conservation),
           PressureOnParticles(

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -21,6 +22,9 @@ namespace
 {
 
 constexpr Eigen::Index particlesAtATime = 64;
+
+/// DEM step over the relaxation time by drag, at which an explicit step turns the slip velocity into its opposite.
+constexpr double longestDemStep = 2;
 
 /// Prefetches the part of the states of particles `first` to `end` that every force needs; the evaluation of contacts
 /// has displaced it from the caches.
@@ -71,7 +75,8 @@ ParticleForces::ParticleForces(
     const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid, PhaseTimers& timers)
     : timers_(timers),
       modelType_(modelType),
-      coarseGraining_(readCoarseGraining(couplingProperties))
+      coarseGraining_(readCoarseGraining(couplingProperties)),
+      script_(couplingProperties.subOrEmptyDict("DEM").getOrDefault<Foam::fileName>("script", Foam::fileName::null))
 {
     for (const Foam::word& name : couplingProperties.get<Foam::wordList>("forceModels"))
     {
@@ -229,6 +234,11 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
             modelType_ == ModelType::B ? submergedFraction / state.fluid.voidFraction : submergedFraction;
         const double coefficient = ofModel * sum_.implicitCoefficient[particle];
         const double addedMass = ofModel * sum_.addedMass[particle];
+        const double inertia = particles.mass[particle] + addedMass;
+        if (timeStep * coefficient > longestDemStep * inertia && !particles.fixed[particle])
+        {
+            reportStiffDrag(particles, particle, inertia / coefficient, timeStep);
+        }
         Vector3d withReaction = coefficient * (state.fluid.velocity - particles.velocity.col(particle))
                                 + ofModel * sum_.source.col(particle);
         const Vector3d withoutReaction =
@@ -240,8 +250,7 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
             // The particle's acceleration solves m dv/dt = all other forces + m_a (DU/Dt - dv/dt), which is stable for
             // any m_a/m.
             const Vector3d others = particles.otherForce.col(particle) + withReaction + withoutReaction;
-            const Vector3d free =
-                (others + addedMass * state.fluid.acceleration) / (particles.mass[particle] + addedMass);
+            const Vector3d free = (others + addedMass * state.fluid.acceleration) / inertia;
             const Vector3d acceleration = particles.fixed[particle] ? Vector3d(Vector3d::Zero()) : free;
             withReaction += addedMass * (state.fluid.acceleration - acceleration);
         }
@@ -258,6 +267,17 @@ void ParticleForces::evaluatePart(const ParticlesView& particles, double timeSte
     {
         addTorques(particles, timeStep);
     }
+}
+
+void ParticleForces::reportStiffDrag(
+    const ParticlesView& particles, Eigen::Index particle, double relaxationTime, double timeStep) const
+{
+    FatalErrorInFunction << "Drag brings particle " << particles.id[particle] << " with a diameter of "
+                         << 2 * particles.radius[particle] << " m to the fluid's velocity in " << relaxationTime
+                         << " s, but the DEM step is " << timeStep << " s; allowed: a timestep in " << script_.c_str()
+                         << " of at most " << longestDemStep * relaxationTime << " s, and better a fifth of that"
+                         << Foam::exit(Foam::FatalError);
+    std::abort();
 }
 
 ParticlesView ParticleForces::realParticles(const ParticlesView& parcels)

@@ -6,6 +6,7 @@
 #include "phaseTimers.h"
 
 #include "PtrList.H"
+#include "fileName.H"
 
 namespace clepsydra
 {
@@ -21,6 +22,8 @@ public:
     ParticleForces(const Foam::dictionary& couplingProperties, ModelType modelType, const FluidProperties& fluid,
         PhaseTimers& timers);
 
+    /// FatalError where the DEM step is longer than twice the time in which drag brings a particle that the forces move to
+    /// the fluid's velocity, because its velocity would then oscillate and grow from step to step.
     void evaluate(const ParticlesView& particles, double timeStep, Vectors force) override;
 
     /// Checks that `forceModels` has a model, or the word that leaves it out, for each term that the equations of
@@ -68,6 +71,8 @@ private:
     void evaluatePart(const ParticlesView& particles, double timeStep, Vectors force);
     /// One real particle of each parcel, at the parcel's place. Valid until the next call.
     ParticlesView realParticles(const ParticlesView& parcels);
+    [[noreturn]] void reportStiffDrag(
+        const ParticlesView& particles, Eigen::Index particle, double relaxationTime, double timeStep) const;
     /// Sums up what the models add to particles or parcels.
     void addModels(const ParticlesView& particles);
     /// Sets the velocity that the forces use to the sampled one less the particle's self-induced velocity.
@@ -76,6 +81,7 @@ private:
     PhaseTimers& timers_;
     const ModelType modelType_;
     const double coarseGraining_;
+    const Foam::fileName script_;
     bool pairs_ = false;
     bool torque_ = false;
     Foam::wordList names_;
