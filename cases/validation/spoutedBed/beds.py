@@ -1,5 +1,7 @@
 """What both evaluate.py and profile read: a run of the bed, and its profiles."""
 
+import tempfile
+import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -10,10 +12,28 @@ STEP = 4e-3  # [m] from place to place
 BLOCK = 1.0  # [s] of the blocks of time that give the standard errors
 EDGE = 0.136  # [m] the outermost places
 
+RUN = Path("runs/bed")
+STORED = Path("results/means.zip")  # of RUN, what a profile needs: it is committed, a run is not
+
+
+def store() -> None:
+    STORED.parent.mkdir(exist_ok=True)
+    with zipfile.ZipFile(STORED, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in [RUN / "parameters", *sorted(RUN.glob("postProcessing/particleMeans/*/particleMeans.dat"))]:
+            archive.writestr(zipfile.ZipInfo(str(file.relative_to(RUN))), file.read_bytes(), zipfile.ZIP_DEFLATED)
+
+
+def stored() -> "Bed":
+    """The bed of the committed run."""
+    with tempfile.TemporaryDirectory() as folder:
+        zipfile.ZipFile(STORED).extractall(folder)
+        return Bed(Path(folder))
+
 
 class Bed:
     def __init__(self, run: Path) -> None:
         self.run, self.parameters = run, parameter_file.parameters(run / "parameters")
+        self.means = particle_means.ParticleMeans(run)
 
     def __getitem__(self, name: str) -> Any:
         return self.parameters[name]
@@ -24,5 +44,4 @@ class Bed:
         if not REACH <= height <= self["meansTop"] - REACH:
             allowed = [end / self["restHeight"] for end in (REACH, self["meansTop"] - REACH)]
             raise SystemExit(f"height ratio {height_ratio:g}; allowed: {allowed[0]:g} to {allowed[1]:g}")
-        means = particle_means.ParticleMeans(self.run)
-        return means.profile(height, REACH, -EDGE, EDGE, STEP, BLOCK)
+        return self.means.profile(height, REACH, -EDGE, EDGE, STEP, BLOCK)

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from beds import Bed
+from beds import RUN, Bed, store
 from clepsydra import case_files, closures, particle_means, validation
 
 # A fifth: what other codes' beds of this kind differ by from measurements; the width by the distance of points, too.
@@ -20,8 +20,12 @@ NOT_TRACED = "tried with one drag law, one packing and one mesh; not traced"
 
 
 def main() -> None:
-    bed = Bed(Path("runs/bed"))
-    validation.write(rows_beside_measurement(bed) if bed["meansFrom"] > 0 else rows_at_rest(bed))
+    bed = Bed(RUN)
+    if bed["meansFrom"] > 0:
+        validation.write(rows_beside_measurement(bed))
+        store()
+    else:
+        validation.write(rows_at_rest(bed))
 
 
 # --- the jet ---
@@ -30,6 +34,7 @@ def main() -> None:
 def rows_beside_measurement(bed: Bed) -> list[dict[str, Any]]:
     measured = json.loads(Path("measured.json").read_text())
     rows = []
+    parcels = "" if bed["coarseGraining"] == 1 else f", parcels of {bed['coarseGraining'] ** 3:g} particles"
     for height, features in measured["heights"].items():
         profile = bed.profile(float(height))
         ours, errors = of_profile(profile, features)
@@ -37,7 +42,7 @@ def rows_beside_measurement(bed: Bed) -> list[dict[str, Any]]:
             reference = features[name]
             rows.append(
                 validation.row(
-                    f"{NAMES[name]} at {height} of its height, {bed['dragLaw']}",
+                    f"{NAMES[name]} at {height} of its height, {bed['dragLaw']}{parcels}",
                     "m" if name == "width" else "m/s",
                     reference["value"],
                     measured["source"],

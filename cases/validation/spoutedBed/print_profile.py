@@ -4,15 +4,17 @@
 import argparse
 from pathlib import Path
 
-from beds import BLOCK, Bed
+from beds import BLOCK, RUN, STORED, Bed, stored
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="profile", description=__doc__)
     parser.add_argument("height_ratio", type=float, help="height over that of the bed at rest")
-    parser.add_argument("run", type=Path, nargs="?", default=Path("runs/bed"), help="case directory; default: runs/bed")
+    parser.add_argument(
+        "run", type=Path, nargs="?", help=f"case directory; default: {RUN}, or the stored {STORED} where there is none"
+    )
     options = parser.parse_args()
-    bed = Bed(options.run)
+    bed = Bed(options.run or RUN) if options.run or RUN.exists() else stored()
     found = bed.profile(options.height_ratio)
     print(f"# mean speed at {options.height_ratio:g} H0 ({options.height_ratio * bed['restHeight']:g} m)")
     print(f"# x [mm], speed [m/s], standard error from blocks of {BLOCK:g} s [m/s]")
