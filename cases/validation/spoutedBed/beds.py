@@ -9,7 +9,7 @@ from clepsydra import parameter_file, particle_means
 
 REACH = 4e-3  # [m] along x and z, within which particles count for a place
 STEP = 4e-3  # [m] from place to place
-BLOCK = 1.0  # [s] of the blocks of time that give the standard errors
+BLOCK = 0.8  # [s] of the blocks of time that give the standard errors
 EDGE = 0.136  # [m] the outermost places
 
 RUN = Path("runs/bed")
