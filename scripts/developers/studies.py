@@ -25,13 +25,13 @@ from clepsydra import environment
 CASES = environment.REPOSITORY / "cases" / "studies"
 # What a table says of each; the studies' files say more
 STUDIES = {
-    "startingSpheres": ("glass spheres let go in water (Mordant & Pinton 2000)", "drag only"),
+    "startingSpheres": ("glass spheres released in water (Mordant & Pinton 2000)", "drag only"),
     "bouncesInOil": ("a steel sphere bounces in oil, St 152 (Gondret 2002)", "drag, dry restitution"),
-    "glycerineParticlesTall": ("particles fall in a tall tank of glycerine", "one viscosity"),
-    "sphereInBoxCurves": ("a sphere sinks to the floor (ten Cate 2002)", "drag, added mass"),
+    "glycerineParticlesTall": ("particles settle in a tall tank of glycerine", "one viscosity"),
+    "sphereInBoxCurves": ("a sphere settles on the floor (ten Cate 2002)", "drag, added mass"),
     "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
-    "paperRates": ("the paper's two rates, dry and under water", "one friction"),
+    "paperRates": ("the published hopper's two rates, dry and submerged", "one friction"),
 }
 
 
