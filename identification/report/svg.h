@@ -1,70 +1,44 @@
 #pragma once
 
+#include <Eigen/Core>
+
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace clepsydra::identification
 {
 
-/// A plot of curves and bands as inline SVG.
+/// A plot of lines, bands, and values with intervals, as inline SVG. The y axis has numbers or the names of rows.
 class Plot
 {
 public:
-    Plot(std::string title, std::string xLabel, std::string yLabel);
+    /// \param rows  names, from top to bottom, of the rows that values are drawn in. The x axis is then logarithmic where
+    ///        the values are far apart
+    explicit Plot(
+        std::string title, std::string xLabel = "", std::string yLabel = "", std::vector<std::string> rows = {});
 
-    void line(const std::vector<double>& x, const std::vector<double>& y, const std::string& style,
-        const std::string& label = "");
-    void band(const std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper,
-        const std::string& style);
+    /// \param style  CSS; a line that is filled closes itself
+    /// \param label  entry of the legend, which shows equal entries once; empty for none
+    void line(
+        const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::string& style, const std::string& label = "");
+    /// A value in a row, with its interval. \param y  0 is the upper edge of the first row, 1 that of the second
+    void dot(double value, double halfInterval, double y, const std::string& colour, const std::string& label);
 
     std::string svg() const;
 
 private:
-    struct Shape
+    struct Line
     {
-        std::vector<double> x;
-        std::vector<double> y;
+        Eigen::ArrayXd x;
+        Eigen::ArrayXd y;
         std::string style;
         std::string label;
-        bool closed;
     };
     std::string title_;
     std::string xLabel_;
     std::string yLabel_;
-    std::vector<Shape> shapes_;
+    std::vector<std::string> rows_;
+    std::vector<Line> lines_;
 };
-
-/// A value with the half width of its interval; NaN where there is none.
-struct Dot
-{
-    double value;
-    double error;
-};
-
-/// Rows of dots with intervals, one dot for each series. The axis is logarithmic where the values are far apart.
-struct DotChart
-{
-    std::string title;
-    std::vector<std::pair<std::string, std::string>> series; // label and colour
-    std::vector<std::pair<std::string, std::vector<Dot>>> rows;
-
-    std::string svg() const;
-};
-
-/// One bar of a chart.
-struct Bar
-{
-    std::string label;
-    double value;
-    double error; // half width of the interval; 0: none
-    std::string style;
-};
-
-/// Horizontal bars with intervals; values may be negative.
-std::string barChart(const std::string& title, const std::vector<Bar>& bars, const std::string& unit);
-
-/// Text with <, > and & escaped for HTML.
-std::string escaped(const std::string& text);
 
 } // namespace clepsydra::identification
