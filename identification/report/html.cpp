@@ -91,8 +91,8 @@ std::string curvePlots(const Study& study, const std::vector<std::size_t>& condi
         }
         const Condition& condition = study.conditions[c];
         const auto& [files, time, value, numbers] = condition.measured;
-        Plot plot(condition.name, time.unit.empty() ? "time [s]" : label("time", time.unit),
-            label(study.valueColumn, value.unit));
+        Plot plot{condition.name, time.unit.empty() ? "time [s]" : label("time", time.unit),
+            label(study.valueColumn, value.unit)};
         // The measured curves are drawn first, so that they do not cover the simulated ones.
         for (const auto& curve : measured[c].curves)
         {
@@ -137,8 +137,8 @@ std::string numberCharts(const Json& report, const Json& numbers, const std::str
     for (const auto& [feature, rows] : byFeature)
     {
         const Json unit = report.value("units", Json::object()).value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
-        Plot plot(feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals", "", "",
-            mapped(rows, [](const Json& row) { return row.at("condition").get<std::string>(); }));
+        Plot plot{feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals"};
+        plot.rows = mapped(rows, [](const Json& row) { return row.at("condition").get<std::string>(); });
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
             const auto draw = [&](const char* key, double within, const char* colour, const std::string& label) {
@@ -168,7 +168,7 @@ std::string errorChart(const Json& heldOut)
             labels.push_back(label + (": " + rounded(100.0 * numberOr(score.at("rmsLogError"), std::nan("")))) + " %");
         }
     }
-    Plot plot("Error (root mean square) on held-out conditions [%], 95 % intervals", "", "", labels);
+    Plot plot{"Error (root mean square) on held-out conditions [%], 95 % intervals", {}, {}, labels};
     for (std::size_t i = 0; i < errors.size(); ++i)
     {
         drawEstimate(plot, errors[i], 0.01, static_cast<double>(i) + 0.5, blue, "");

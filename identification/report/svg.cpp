@@ -1,13 +1,10 @@
 #include "report/svg.h"
 
-#include "study/study.h"
-
 #include <kainjow/mustache.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
 #include <set>
 #include <sstream>
 
@@ -26,47 +23,46 @@ constexpr double perLetter = 5.6;
 class Axis
 {
 public:
-    Axis(const Bounds& range, double from, double to, bool isLog = false)
-        : range_(range),
-          from_(from),
-          to_(to),
-          isLog_(isLog)
-    {}
+    /// \param values  what it shows
+    /// \param mayBeLog  leaves a margin, and is logarithmic where the values are positive and far apart
+    Axis(std::vector<double> values, double from, double to, bool mayBeLog = false)
+        : from_(from),
+          to_(to)
+    {
+        constexpr double farApart = 5.0;
+        values.erase(
+            std::remove_if(values.begin(), values.end(), [](double one) { return !std::isfinite(one); }), values.end());
+        values.resize(std::max<std::size_t>(1, values.size()));
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        isLog_ = mayBeLog && *low > 0.0 && *high > farApart * *low;
+        const double margin = *high > *low ? (mayBeLog ? 0.03 * (scaled(*high) - scaled(*low)) : 0.0) : 0.5;
+        low_ = scaled(*low) - margin;
+        high_ = scaled(*high) + margin;
+    }
 
     double operator()(double value) const
     {
-        return from_
-               + (scaled(value) - scaled(range_.lower)) / (scaled(range_.upper) - scaled(range_.lower)) * (to_ - from_);
+        return from_ + (scaled(value) - low_) / (high_ - low_) * (to_ - from_);
     }
 
     /// 1, 2 and 5 times powers of ten, or about six at equal distances of this kind.
     std::vector<double> ticks() const
     {
-        const double raw = (range_.upper - range_.lower) / 6.0;
-        double power = std::pow(10.0, std::floor(std::log10(isLog_ ? range_.lower : raw)));
         std::vector<double> all;
-        if (isLog_)
+        for (double power = std::floor(low_); isLog_ && power <= high_; ++power)
         {
-            for (; power <= range_.upper; power *= 10.0)
+            for (const double digit : {1.0, 2.0, 5.0})
             {
-                all.insert(all.end(), {power, 2.0 * power, 5.0 * power});
+                all.push_back(digit * std::pow(10.0, power));
             }
         }
-        else
+        const double raw = (high_ - low_) / 6.0;
+        const double power = std::pow(10.0, std::floor(std::log10(raw)));
+        const double step = power * (raw <= power ? 1.0 : raw <= 2.0 * power ? 2.0 : raw <= 5.0 * power ? 5.0 : 10.0);
+        for (double i = std::ceil(low_ / step); !isLog_ && (i - 1e-9) * step <= high_; ++i)
         {
-            const double step = power
-                                * (raw <= power          ? 1.0
-                                    : raw <= 2.0 * power ? 2.0
-                                    : raw <= 5.0 * power ? 5.0
-                                                         : 10.0);
-            for (double i = std::ceil(range_.lower / step); i * step <= range_.upper; ++i)
-            {
-                all.push_back(i * step + 0.0); // no -0
-            }
+            all.push_back(i * step + 0.0); // no -0
         }
-        all.erase(std::remove_if(
-                      all.begin(), all.end(), [&](double tick) { return tick < range_.lower || tick > range_.upper; }),
-            all.end());
         return all;
     }
 
@@ -76,41 +72,12 @@ private:
         return isLog_ ? std::log10(value) : value;
     }
 
-    Bounds range_;
+    double low_ = 0.0; // of the logarithm, if it is logarithmic
+    double high_ = 1.0;
     double from_;
     double to_;
-    bool isLog_;
+    bool isLog_ = false;
 };
-
-/// Range of finite values, which is never empty.
-Bounds rangeOf(const std::vector<double>& values)
-{
-    Bounds range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (const double value : values)
-    {
-        if (std::isfinite(value))
-        {
-            range = {std::min(range.lower, value), std::max(range.upper, value)};
-        }
-    }
-    const double middle = std::isfinite(range.lower) ? range.lower : 0.0;
-    return range.upper > range.lower ? range : Bounds{middle - 0.5, middle + 0.5};
-}
-
-/// The x axis: logarithmic, if that is allowed and the values are positive and far apart.
-Axis axisOf(const std::vector<double>& values, double from, double to, bool mayBeLog)
-{
-    constexpr double farApart = 5.0;
-    constexpr double margin = 0.03;
-    const Bounds range = rangeOf(values);
-    if (mayBeLog && range.lower > 0.0 && range.upper > farApart * range.lower)
-    {
-        const double factor = std::pow(range.upper / range.lower, margin);
-        return {{range.lower / factor, range.upper * factor}, from, to, true};
-    }
-    const double more = mayBeLog ? margin * (range.upper - range.lower) : 0.0;
-    return {{range.lower - more, range.upper + more}, from, to};
-}
 
 /// Elements of a picture.
 struct Picture
@@ -142,16 +109,9 @@ struct Picture
 
 } // namespace
 
-Plot::Plot(std::string title, std::string xLabel, std::string yLabel, std::vector<std::string> rows)
-    : title_(std::move(title)),
-      xLabel_(std::move(xLabel)),
-      yLabel_(std::move(yLabel)),
-      rows_(std::move(rows))
-{}
-
 void Plot::line(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::string& style, const std::string& label)
 {
-    lines_.push_back({x, y, style, label});
+    lines.push_back({x, y, style, label});
 }
 
 void Plot::dot(double value, double halfInterval, double y, const std::string& colour, const std::string& label)
@@ -165,44 +125,47 @@ std::string Plot::svg() const
 {
     std::vector<double> xs;
     std::vector<double> ys;
-    for (const auto& line : lines_)
+    for (const auto& line : lines)
     {
         xs.insert(xs.end(), line.x.begin(), line.x.end());
         ys.insert(ys.end(), line.y.begin(), line.y.end());
     }
-    const auto rowCount = static_cast<double>(rows_.size());
-    const bool hasRows = !rows_.empty();
+    const auto rowCount = static_cast<double>(rows.size());
+    const bool hasRows = !rows.empty();
     std::size_t letters = 9;
-    for (const auto& row : rows_)
+    for (const auto& row : rows)
     {
         letters = std::max(letters, row.size());
     }
     const double left = 12.0 + perLetter * static_cast<double>(letters);
     const double bottom = hasRows ? top + 20.0 * rowCount : 238.0;
-    const Axis x = axisOf(xs, left, right, hasRows);
-    const Axis y = hasRows ? Axis({0.0, rowCount}, top, bottom) : axisOf(ys, bottom, top, false);
+    const Axis x(xs, left, right, hasRows);
+    const Axis y = hasRows ? Axis({0.0, rowCount}, top, bottom) : Axis(ys, bottom, top);
 
     Picture picture;
     picture.text << "<svg viewBox=\"0 0 " << width << ' ' << bottom + (hasRows ? 20.0 : 42.0)
-                 << R"(" class="plot" role="img" aria-label=")" << kainjow::mustache::html_escape(title_) << "\">\n";
-    picture.words("\"title\"", 4.0, 16.0, title_);
+                 << R"(" class="plot" role="img" aria-label=")" << kainjow::mustache::html_escape(title) << "\">\n";
+    picture.words("\"title\"", 4.0, 16.0, title);
     for (const double tick : x.ticks())
     {
-        picture.line("class=\"grid\"", x(tick), top, x(tick), bottom);
-        picture.tick("middle", x(tick), bottom + 14.0, tick);
+        if (x(tick) >= left && x(tick) <= right)
+        {
+            picture.line("class=\"grid\"", x(tick), top, x(tick), bottom);
+            picture.tick("middle", x(tick), bottom + 14.0, tick);
+        }
     }
     for (const double tick : hasRows ? std::vector<double>{} : y.ticks())
     {
         picture.line("class=\"grid\"", left, y(tick), right, y(tick));
         picture.tick("end", left - 5.0, y(tick) + 3.0, tick);
     }
-    for (std::size_t i = 0; i < rows_.size(); ++i)
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        picture.words(R"("tick" text-anchor="end")", left - 6.0, y(static_cast<double>(i)) + 13.0, rows_[i]);
+        picture.words(R"("tick" text-anchor="end")", left - 6.0, y(static_cast<double>(i)) + 13.0, rows[i]);
     }
     std::set<std::string> labels = {""};
     double legend = 4.0;
-    for (const auto& line : lines_)
+    for (const auto& line : lines)
     {
         picture.text << R"(<polyline style=")" << line.style << R"(" points=")";
         for (Eigen::Index i = 0; i < line.x.size(); ++i)
@@ -220,8 +183,8 @@ std::string Plot::svg() const
             legend += 34.0 + perLetter * static_cast<double>(line.label.size());
         }
     }
-    picture.words(R"("label" text-anchor="middle")", (left + right) / 2.0, bottom + 34.0, xLabel_);
-    picture.words("\"label\" text-anchor=\"middle\" transform=\"rotate(-90)\"", -(top + bottom) / 2.0, 13.0, yLabel_);
+    picture.words(R"("label" text-anchor="middle")", (left + right) / 2.0, bottom + 34.0, xLabel);
+    picture.words("\"label\" text-anchor=\"middle\" transform=\"rotate(-90)\"", -(top + bottom) / 2.0, 13.0, yLabel);
     return picture.text.str() + "</svg>\n";
 }
 

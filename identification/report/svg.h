@@ -8,15 +8,9 @@
 namespace clepsydra::identification
 {
 
-/// A plot of lines, bands, and values with intervals, as inline SVG. The y axis has numbers or the names of rows.
-class Plot
+/// A plot of lines, bands, and values with intervals, as inline SVG.
+struct Plot
 {
-public:
-    /// \param rows  names, from top to bottom, of the rows that values are drawn in. The x axis is then logarithmic where
-    ///        the values are far apart
-    explicit Plot(
-        std::string title, std::string xLabel = "", std::string yLabel = "", std::vector<std::string> rows = {});
-
     /// \param style  CSS; a line that is filled closes itself
     /// \param label  entry of the legend, which shows equal entries once; empty for none
     void line(
@@ -26,7 +20,6 @@ public:
 
     std::string svg() const;
 
-private:
     struct Line
     {
         Eigen::ArrayXd x;
@@ -34,11 +27,13 @@ private:
         std::string style;
         std::string label;
     };
-    std::string title_;
-    std::string xLabel_;
-    std::string yLabel_;
-    std::vector<std::string> rows_;
-    std::vector<Line> lines_;
+    std::string title;
+    std::string xLabel = {};
+    std::string yLabel = {};
+    /// Names, from top to bottom, of rows instead of numbers at the y axis. The x axis is then logarithmic where the
+    /// values are far apart.
+    std::vector<std::string> rows = {};
+    std::vector<Line> lines = {};
 };
 
 } // namespace clepsydra::identification

@@ -178,7 +178,7 @@ TEST(Page, EscapesTheStudysTexts)
 /// Values from 0.1 to 100 have a logarithmic axis: ten times as much is twice as far. What is not finite is not drawn.
 TEST(Page, PlotsValuesInRows)
 {
-    Plot plot("title", "", "", {"first", "second"});
+    Plot plot{"title", {}, {}, {"first", "second"}};
     for (const auto& [value, y] : {std::pair(0.1, 0.5), std::pair(1.0, 1.0), std::pair(100.0, 1.5)})
     {
         plot.dot(value, 0.0, y, "#000", "measured");
@@ -201,7 +201,7 @@ TEST(Page, PlotsValuesInRows)
 /// A band and lines with numbers at both axes, at distances of 1, 2 or 5.
 TEST(Page, PlotsCurves)
 {
-    Plot plot("title", "time [s]", "mass [g]");
+    Plot plot{"title", "time [s]", "mass [g]"};
     plot.line(Eigen::Array3d(0, 1, 3), Eigen::Array3d(-2, 0, 4), "stroke:#000", "measured");
     const std::string svg = plot.svg();
     EXPECT_THAT(svg, HasSubstr("points=\"62.4,238.0 190.9,172.0 448.0,40.0 \""));
