@@ -1,18 +1,14 @@
 #include "report/html.h"
 
 #include "lists.h"
+#include "report/filled.h"
 #include "report/numbers.h"
 #include "report/svg.h"
-#include "report/text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <iomanip>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <sstream>
 
 namespace clepsydra::identification
 {
@@ -22,441 +18,173 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* style = R"(<style>
-body{font:15px/1.5 sans-serif;max-width:1000px;margin:2em auto;padding:0 1em;color:#222}
-h1{font-size:1.6em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #ccc}
-.answer{background:#eef4fa;border-left:4px solid #2a6fa8;padding:.8em 1em;font-size:1.25em}
-table{border-collapse:collapse;width:100%;font-size:.9em}th,td{text-align:left;padding:.25em .6em;border-bottom:1px solid #ddd}
-td.n,th.n{text-align:right}tr.in{background:#fff4d6}
-.plots{display:flex;flex-wrap:wrap;gap:8px}.plot{width:460px;max-width:100%}.bars{width:100%;max-width:760px}
-svg text{font-family:sans-serif}.title{font-size:13px;font-weight:bold}.tick{font-size:10.5px;fill:#333}.label{font-size:11.5px}
-.grid{stroke:#ddd;stroke-width:.7}.axis{stroke:#333}.error{stroke:#000;stroke-width:1.4}
-.small{font-size:.85em;color:#555}
-</style>
-)";
+constexpr const char* page =
+#include "report/page.mustache"
+    ;
 
-constexpr const char* measuredStyle = "fill:none;stroke:#999;stroke-width:3";
-constexpr const char* beforeStyle = "fill:none;stroke:#c0392b;stroke-width:1.3";
-constexpr const char* afterStyle = "fill:none;stroke:#2a6fa8;stroke-width:1.3";
-constexpr const char* beforeBand = "fill:#c0392b;fill-opacity:.18;stroke:none";
-constexpr const char* afterBand = "fill:#2a6fa8;fill-opacity:.18;stroke:none";
-
-std::string shown(double value, int digits = 3)
-{
-    std::ostringstream text;
-    text << std::setprecision(digits) << value;
-    return std::isfinite(value) ? text.str() : "-";
-}
-
-std::string shown(const Json& value, int digits = 3)
-{
-    return value.is_number() ? shown(value.get<double>(), digits) : value.is_string() ? escaped(value) : "-";
-}
-
-std::string share(const Json& value)
-{
-    return value.is_number() ? escaped(percent(value.get<double>())) : "-";
-}
-
-std::string cell(const std::string& text, bool isNumber = false)
-{
-    return std::string("<td") + (isNumber ? " class=\"n\">" : ">") + text + "</td>";
-}
+constexpr const char* blue = "#2a6fa8";
+constexpr const char* red = "#c0392b";
+constexpr double deviations95 = 1.96; // half width of a 95 % interval
 
 //--- Curves ---------------------------------------------------------------------------------------------------------
 
-/// Mean and range of several curves at common times.
-struct Bundle
+/// Draws the mean and the range of simulated curves of a condition.
+void drawRuns(Plot& plot, const Condition& condition, const std::vector<const Curve*>& curves,
+    const std::string& colour, const std::string& label)
 {
-    std::vector<double> time;
-    std::vector<double> mean;
-    std::vector<double> lower;
-    std::vector<double> upper;
-};
-
-Bundle bundleOf(const std::vector<Simulation>& simulations, std::size_t condition)
-{
-    constexpr int points = 80;
-    std::vector<const Curve*> curves;
-    double end = 0.0;
-    double begin = std::numeric_limits<double>::infinity();
-    for (const auto& simulation : simulations)
-    {
-        if (simulation.condition == condition && simulation.curve.time.size() > 1)
-        {
-            curves.push_back(&simulation.curve);
-            end = std::max(end, simulation.curve.time.back());
-            begin = std::min(begin, simulation.curve.time.front());
-        }
-    }
-    Bundle bundle;
     if (curves.empty())
     {
-        return bundle;
+        return;
     }
-    for (int i = 0; i < points; ++i)
+    constexpr int points = 80;
+    double begin = std::numeric_limits<double>::infinity();
+    double end = 0.0;
+    for (const auto* curve : curves)
     {
-        const double t = begin + (end - begin) * i / (points - 1);
-        const auto values = mapped(curves, [&](const Curve* curve) { return valueAt(*curve, t); });
-        const auto [lower, upper] = std::minmax_element(values.begin(), values.end());
-        bundle.time.push_back(t);
-        bundle.mean.push_back(std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size()));
-        bundle.lower.push_back(*lower);
-        bundle.upper.push_back(*upper);
+        begin = std::min(begin, curve->time.front());
+        end = std::max(end, curve->time.back());
     }
-    return bundle;
+    const Eigen::ArrayXd time = Eigen::ArrayXd::LinSpaced(points, begin, end);
+    Eigen::ArrayXXd values(points, curves.size());
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+    {
+        values.col(c) = time.unaryExpr([&](double t) { return valueAt(*curves[c], t); });
+    }
+    values /= condition.measured.value.siUnits;
+    const Eigen::ArrayXd shown = time / condition.measured.time.siUnits;
+    Eigen::ArrayXd around(2 * points);
+    Eigen::ArrayXd band(2 * points);
+    around << shown, shown.reverse();
+    band << values.rowwise().minCoeff(), values.rowwise().maxCoeff().reverse();
+    plot.line(around, band, "fill:" + colour + ";fill-opacity:.18;stroke:none");
+    plot.line(shown, values.rowwise().mean(), "fill:none;stroke:" + colour, label);
 }
 
-/// Plot of one condition: measured curves, and simulated curves without an effect and with the best explanation. Empty
-/// if there are no curves.
-std::string curvePlot(const Study& study, std::size_t condition, const std::vector<Simulation>& before,
-    const std::vector<Simulation>& after, const std::string& afterName, const std::vector<Curve>& measured)
+std::vector<const Curve*> curvesOf(const std::vector<Simulation>& simulations, std::size_t condition)
 {
-    const Bundle without = bundleOf(before, condition);
-    const Bundle with = bundleOf(after, condition);
-    if (without.time.empty() && measured.empty())
+    std::vector<const Curve*> curves;
+    for (const auto& one : simulations)
     {
-        return "";
-    }
-    const ColumnSpecification& time = study.conditions[condition].measured.time;
-    const ColumnSpecification& value = study.conditions[condition].measured.value;
-    const auto label = [](const std::string& name, const ColumnSpecification& column) {
-        return name + (column.unit.empty() ? "" : " [" + column.unit + ']');
-    };
-    const auto in = [](std::vector<double> values, const ColumnSpecification& column) {
-        std::for_each(values.begin(), values.end(), [&](double& one) { one /= column.siUnits; });
-        return values;
-    };
-    Plot plot(study.conditions[condition].name, time.unit.empty() ? "time [s]" : label("time", time),
-        label(study.valueColumn, value));
-    // The measured curves are drawn first, so that they do not cover the simulated ones.
-    for (std::size_t i = 0; i < measured.size(); ++i)
-    {
-        plot.line(in(measured[i].time, time), in(measured[i].value, value), measuredStyle, i == 0 ? "measured" : "");
-    }
-    const auto draw = [&](const Bundle& bundle, const char* line, const char* band, const std::string& name) {
-        if (!bundle.time.empty())
+        if (one.condition == condition && one.curve.time.size() > 1)
         {
-            const auto times = in(bundle.time, time);
-            plot.band(times, in(bundle.lower, value), in(bundle.upper, value), band);
-            plot.line(times, in(bundle.mean, value), line, name);
+            curves.push_back(&one.curve);
         }
-    };
-    draw(without, beforeStyle, beforeBand, "without effect");
-    draw(with, afterStyle, afterBand, afterName);
-    return plot.svg();
+    }
+    return curves;
 }
 
+/// Measured curves, and simulated curves without an effect and with the best explanation.
 std::string curvePlots(const Study& study, const std::vector<std::size_t>& conditions,
     const std::vector<Simulation>& before, const std::vector<Simulation>& after, const std::string& afterName,
     const std::vector<MeasuredCondition>& measured)
 {
+    const auto label = [](const std::string& name, const std::string& unit) {
+        return unit.empty() ? name : name + " [" + unit + ']';
+    };
     std::string html = "<div class=\"plots\">";
     for (const auto c : conditions)
     {
-        html += curvePlot(study, c, before, after, afterName, measured[c].curves);
+        const auto without = curvesOf(before, c);
+        if (without.empty() && measured[c].curves.empty())
+        {
+            continue;
+        }
+        const Condition& condition = study.conditions[c];
+        const auto& [files, time, value, numbers] = condition.measured;
+        Plot plot{condition.name, time.unit.empty() ? "time [s]" : label("time", time.unit),
+            label(study.valueColumn, value.unit)};
+        // The measured curves are drawn first, so that they do not cover the simulated ones.
+        for (const auto& curve : measured[c].curves)
+        {
+            using Values = Eigen::Map<const Eigen::ArrayXd>;
+            const auto size = static_cast<Eigen::Index>(curve.time.size());
+            plot.line(Values(curve.time.data(), size) / time.siUnits, Values(curve.value.data(), size) / value.siUnits,
+                "fill:none;stroke:#999;stroke-width:3", "measured");
+        }
+        drawRuns(plot, condition, without, red, "without effect");
+        drawRuns(plot, condition, curvesOf(after, c), blue, afterName);
+        html += plot.svg();
     }
     return html + "</div>\n";
 }
 
-std::string trainingCurves(const Findings& findings)
+//--- Numbers --------------------------------------------------------------------------------------------------------
+
+double numberOr(const Json& json, double otherwise)
 {
-    const auto simulationsOf = [](const Explanation& explanation) {
-        return mapped(explanation.runs, [](const Run& run) { return run.simulation; });
-    };
-    const Answer& answer = *findings.answer;
-    const Explanation* best = bestOf(answer);
-    return curvePlots(*findings.study, findings.study->conditionsOf(Role::training), simulationsOf(answer.null),
-        simulationsOf(best == nullptr ? Explanation{} : *best),
-        answer.nearest ? "with the nearest effect" : "with effect", *findings.data);
+    return json.is_number() ? json.get<double>() : otherwise;
 }
 
-std::string heldOutCurves(const Findings& findings)
+/// Draws an estimate with its 95 % interval; nothing, if there is none. \param unit  in which it is shown
+void drawEstimate(Plot& plot, const Json& estimate, double unit, double y, const char* colour, const std::string& label)
 {
-    const HeldOutResult& heldOut = *findings.heldOut;
-    return curvePlots(*findings.study, heldOut.conditions, heldOut.simulations.front(),
-        heldOut.after ? heldOut.simulations.back() : std::vector<Simulation>{}, "with effect", *findings.heldOutData);
+    if (estimate.is_object())
+    {
+        plot.dot(numberOr(estimate.at("value"), std::numeric_limits<double>::quiet_NaN()) / unit,
+            deviations95 * numberOr(estimate.at("standardError"), 0.0) / unit, y, colour, label);
+    }
 }
-
-//--- Tables ---------------------------------------------------------------------------------------------------------
 
 /// Measured and predicted numbers, one chart for each feature, in the units in which they were measured.
 std::string numberCharts(const Json& report, const Json& numbers, const std::string& after)
 {
-    const Json units = report.value("units", Json::object());
-    std::vector<std::string> features;
-    std::map<std::string, DotChart> charts;
+    std::map<std::string, std::vector<Json>> byFeature;
     for (const auto& row : numbers)
     {
-        const std::string feature = row.at("feature").get<std::string>();
-        const Json unit = units.value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
-        const auto dot = [&](const char* key) {
-            constexpr double deviations = 1.96;
-            const double si = unit.at("si").get<double>();
-            const Json& value = row.at(key);
-            return value.is_object() && value.at("value").is_number() ? Dot{value.at("value").get<double>() / si,
-                       value.at("standardError").is_number() ? deviations * value.at("standardError").get<double>() / si
-                                                             : 0.0}
-                                                                      : Dot{std::numeric_limits<double>::quiet_NaN(),
-                                                                          0.0};
-        };
-        auto& chart = charts[feature];
-        if (chart.rows.empty())
-        {
-            features.push_back(feature);
-            chart.title = feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals";
-            chart.series = {{"measured", "#000"}, {"without effect", "#c0392b"}};
-            if (row.at("after").is_object())
-            {
-                chart.series.emplace_back(after, "#2a6fa8");
-            }
-        }
-        std::vector<Dot> dots = {dot("measured"), dot("before"), dot("after")};
-        dots.resize(chart.series.size());
-        chart.rows.emplace_back(row.at("condition").get<std::string>(), std::move(dots));
+        byFeature[row.at("feature")].push_back(row);
     }
     std::string html = "<div class=\"plots numbers\">";
-    for (const auto& feature : features)
+    for (const auto& [feature, rows] : byFeature)
     {
-        html += charts.at(feature).svg();
+        const Json unit = report.value("units", Json::object()).value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
+        Plot plot{feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals"};
+        plot.rows = mapped(rows, [](const Json& row) { return row.at("condition").get<std::string>(); });
+        for (std::size_t i = 0; i < rows.size(); ++i)
+        {
+            const auto draw = [&](const char* key, double within, const char* colour, const std::string& label) {
+                drawEstimate(plot, rows[i].at(key), unit.at("si"), static_cast<double>(i) + within, colour, label);
+            };
+            draw("measured", 0.25, "#000", "measured");
+            draw("before", 0.5, red, "without effect");
+            draw("after", 0.75, blue, after);
+        }
+        html += plot.svg();
     }
     return html + "</div>\n";
 }
 
-std::string residualTable(const Json& report)
+/// Errors of the predictions that are compared on held-out conditions.
+std::string errorChart(const Json& heldOut)
 {
-    std::ostringstream html;
-    html << "<table><tr><th>condition</th><th>feature</th><th class=\"n\">measured minus simulated, without an "
-            "effect</th><th class=\"n\">standard error</th><th class=\"n\">in standard errors</th></tr>\n";
-    for (const auto& condition : report.at("residual"))
+    std::vector<std::string> labels;
+    std::vector<Json> errors;
+    for (const auto& [key, label] : {std::pair("before", "without an effect"), std::pair("after", "with the effect"),
+             std::pair("oneMoreParameter", "one more free parameter instead"),
+             std::pair("gaussianProcess", "a Gaussian process instead")})
     {
-        for (const auto& [name, value] : condition.at("measuredMinusSimulated").items())
+        if (const Json& score = heldOut.at(key); score.is_object())
         {
-            const double residual = value.at("value").get<double>();
-            const double error = value.at("standardError").get<double>();
-            html << (std::abs(residual) > 2.0 * error ? "<tr class=\"in\">" : "<tr>")
-                 << cell(shown(condition.at("condition"))) << cell(escaped(name)) << cell(shown(residual), true)
-                 << cell(shown(error), true) << cell(shown(residual / error, 2), true) << "</tr>\n";
+            errors.push_back({{"value", score.at("rmsLogError")}, {"standardError", score.at("standardError")}});
+            labels.push_back(label + (": " + rounded(100.0 * numberOr(score.at("rmsLogError"), std::nan("")))) + " %");
         }
     }
-    html << "</table>\n";
-    return html.str();
-}
-
-std::string inRange(const Json& effect, const char* key)
-{
-    const Json& smallest = effect.at(key);
-    const Bounds range{effect.at("range").at(0).get<double>(), effect.at("range").at(1).get<double>()};
-    return smallest.is_null() || smallest > range.reach() ? "not in range" : shown(smallest, 2);
-}
-
-std::string meaningOf(const Json& effect)
-{
-    const std::string meaning = shown(effect.at("meaning"));
-    return (meaning.empty() ? shown(effect.at("name"))
-                            : meaning + " <span class=\"small\">" + shown(effect.at("name")) + "</span>");
-}
-
-/// Why a probable effect is not in the set.
-std::string reasonOf(const Json& effect)
-{
-    const Json& reason = effect.value("notInSetBecause", Json());
-    return reason.is_string() ? " <span class=\"small\">" + shown(reason) + "</span>" : "";
-}
-
-std::string effectTable(const Json& report)
-{
-    std::ostringstream html;
-    html << "<table><tr><th>effect</th><th class=\"n\">size (95 %)</th><th class=\"n\">probability</th><th "
-            "class=\"n\">needed for the set</th><th class=\"n\">detected from size</th><th class=\"n\">named from "
-            "size</th></tr>\n";
-    for (const auto& effect : report.at("effects"))
+    Plot plot{"Error (root mean square) on held-out conditions [%], 95 % intervals", {}, {}, labels};
+    for (std::size_t i = 0; i < errors.size(); ++i)
     {
-        const bool judged = effect.at("judged").get<bool>();
-        html << (effect.at("inSet").get<bool>() ? "<tr class=\"in\">" : "<tr>") << cell(meaningOf(effect))
-             << cell(judged ? shown(effect.at("amplitude"), 2) + " (" + shown(effect.at("interval95").at(0), 2) + " to "
-                                  + shown(effect.at("interval95").at(1), 2) + ")"
-                            : "its runs have failed",
-                    true)
-             << cell((judged ? share(effect.at("probability")) : "-") + reasonOf(effect), true)
-             << cell(share(effect.at("probabilityNeeded")), true) << cell(inRange(effect, "smallestDetectable"), true)
-             << cell(inRange(effect, "smallestNamed"), true) << "</tr>\n";
+        drawEstimate(plot, errors[i], 0.01, static_cast<double>(i) + 0.5, blue, "");
     }
-    html << "</table>\n<p class=\"small\">Size 1 is the end of an effect's plausible range. Effects that the data "
-            "cannot "
-            "distinguish are highlighted. Probabilities assume that an effect is missing; that of a cause that the "
-            "library "
-            "does not list is "
-         << share(report.at("somethingElse").at("probability"))
-         << " (needed: " << share(report.at("somethingElse").at("probabilityNeeded")) << ").</p>\n";
-    return html.str();
+    return plot.svg();
 }
 
-/// Predictions that are compared on held-out conditions: key of the report, label, colour.
-constexpr std::array<std::array<const char*, 3>, 4> predictions = {{{"before", "without an effect", "#c0392b"},
-    {"after", "with the effect", "#2a6fa8"}, {"oneMoreParameter", "with one more free parameter instead", "#999"},
-    {"gaussianProcess", "with a Gaussian process instead", "#bbb"}}};
-
-std::string heldOutBars(const Json& heldOut)
+/// The keys of an object as `name`, their values as `is`.
+Json listOf(const Json& object)
 {
-    std::vector<Bar> bars;
-    for (const auto& [key, label, colour] : predictions)
+    Json list = Json::array();
+    for (const auto& [name, value] : object.items())
     {
-        const Json& score = heldOut.at(key);
-        if (score.is_object() && score.at("rmsLogError").is_number())
-        {
-            bars.push_back({label, 100.0 * score.at("rmsLogError").get<double>(),
-                196.0 * score.at("standardError").get<double>(), std::string("fill:") + colour});
-        }
+        list.push_back({{"name", name}, {"is", value}});
     }
-    return barChart("Error (root mean square) on held-out conditions, 95 % intervals", bars, "%");
-}
-
-/// Table of texts and numbers with errors. \param columns  keys of the rows and titles; columns without values are left
-/// out
-std::string numberTable(const Json& rows, const std::vector<std::pair<std::string, std::string>>& columns)
-{
-    const auto isThere = [](const Json& value) {
-        return value.is_object() || (value.is_string() && !value.get<std::string>().empty());
-    };
-    const auto at = [](const Json& row, const std::string& key) { return row.value(key, Json()); };
-    std::vector<std::string> kept;
-    std::string html = "<table><tr>";
-    for (const auto& column : columns)
-    {
-        const auto& key = column.first;
-        if (std::any_of(rows.begin(), rows.end(), [&](const Json& row) { return isThere(at(row, key)); }))
-        {
-            kept.push_back(key);
-            html += (at(rows.front(), key).is_string() ? "<th>" : "<th class=\"n\">") + column.second + "</th>";
-        }
-    }
-    html += "</tr>\n";
-    for (const auto& row : rows)
-    {
-        html += "<tr>";
-        for (const auto& key : kept)
-        {
-            const Json value = at(row, key);
-            html += value.is_string() ? cell(shown(value)) : cell(estimateText(value), true);
-        }
-        html += "</tr>\n";
-    }
-    return html + "</table>\n";
-}
-
-/// Measured and predicted features of the held-out conditions.
-std::string heldOutTable(const Json& heldOut)
-{
-    return numberTable(
-               heldOut.at("numbers"), {{"condition", "condition"}, {"feature", "feature"}, {"measured", "measured"},
-                                          {"before", "without an effect"}, {"after", "with the effect"}})
-           + "<p class=\"small\">Instead of logarithms, the quantities themselves are shown, in SI units. Noise alone "
-             "gives an error of "
-           + rounded(100.0 * heldOut.at("noiseFloor").get<double>()) + " %.</p>\n";
-}
-
-std::string heldOutSection(const std::string& curves, const Json& report)
-{
-    const Json& heldOut = report.at("heldOut");
-    return heldOut.at("before").is_object()
-               ? curves + numberCharts(report, heldOut.at("numbers"), "with effect") + heldOutBars(heldOut)
-                     + heldOutTable(heldOut)
-               : "<p>No condition was held out, so the prediction has not been tested.</p>\n";
-}
-
-std::string fittedTable(const Json& report)
-{
-    if (report.at("fitted").empty())
-    {
-        return "<p>Nothing was fitted.</p>\n";
-    }
-    return numberTable(report.at("fitted"),
-               {{"name", "quantity"}, {"unit", "unit"}, {"withEffect", "with the effect"},
-                   {"withoutEffect", "without an effect"}, {"independent", "measured independently"},
-                   {"assumed", "expected before"}, {"from", "origin of that"}})
-           + "<p class=\"small\">Quantities without a unit have that of the case's entry.</p>\n";
-}
-
-std::string listOf(const Json& sentences)
-{
-    std::string html = "<ul>";
-    for (const auto& sentence : sentences)
-    {
-        html += "<li>" + shown(sentence) + "</li>\n";
-    }
-    return html + "</ul>\n";
-}
-
-std::string nextSection(const Json& report)
-{
-    std::string html = report.at("measureNext").empty()
-                           ? "<p>There is nothing to distinguish, or the study lists no candidate conditions.</p>\n"
-                           : listOf(report.at("measureNext"));
-    for (const auto& next : report.at("nextExperiment"))
-    {
-        html += "<h3>" + shown(next.at("condition"))
-                + "</h3><p class=\"small\">The expected divergence between the explanations after one measurement is "
-                + rounded(next.at("separation").get<double>()) + ", and " + rounded(next.at("perCost").get<double>())
-                + " per unit of cost.</p><table><tr><th>if the cause is</th><th class=\"n\">probability</th>"
-                  "<th>one measurement gives</th></tr>\n";
-        for (const auto& outcome : next.at("predicted"))
-        {
-            std::string features;
-            for (const auto& [name, value] : outcome.at("features").items())
-            {
-                features +=
-                    escaped(name) + " " + shown(value.at("value"), 4) + " &plusmn; " + shown(value.at("sd"), 2) + "; ";
-            }
-            html += "<tr>" + cell(shown(outcome.at("if"))) + cell(share(outcome.at("probability")), true)
-                    + cell(features) + "</tr>\n";
-        }
-        html += "</table>\n";
-    }
-    return html;
-}
-
-std::string runsSection(const Json& report)
-{
-    const Json& runs = report.at("runs");
-    std::string html = "<p>The answer rests on " + shown(runs.at("used")) + " runs. Of these, "
-                       + shown(runs.at("executed")) + " were made now and took " + shown(runs.at("seconds"))
-                       + " s of wall-clock time, summed over the runs; the others were stored and took "
-                       + shown(runs.at("secondsOfStored")) + " s when they were made.</p>\n<table>";
-    for (const auto& [purpose, count] : runs.at("byPurpose").items())
-    {
-        html += "<tr>" + cell(escaped(purpose)) + cell(shown(count), true) + "</tr>\n";
-    }
-    html += "</table>\n";
-    if (!runs.at("failures").empty())
-    {
-        html += "<p>These runs failed:</p><ul>";
-        for (const auto& failure : runs.at("failures"))
-        {
-            html += "<li>" + shown(failure.at("purpose")) + ", " + shown(failure.at("condition")) + ", seed "
-                    + std::to_string(failure.at("seed").get<long>()) + ": "
-                    + (failure.at("repeatedWithAnotherSeed").get<bool>() ? "repeated with another seed" : "excluded")
-                    + "<pre>" + shown(failure.at("reason")) + "</pre></li>";
-        }
-        html += "</ul>\n";
-    }
-    return html;
-}
-
-std::string lookAlikesOf(const Json& report)
-{
-    const Json& pairs = report.at("calibration").at("lookAlikes");
-    if (pairs.empty())
-    {
-        return "<p>All effects that these conditions show can be distinguished at full size.</p>\n";
-    }
-    std::string html =
-        "<p>For these pairs, most data with the first effect at full size also admit the second:</p><ul>";
-    for (const auto& pair : pairs)
-    {
-        html += "<li>" + shown(pair.at(0)) + " and " + shown(pair.at(1)) + "</li>\n";
-    }
-    return html + "</ul>\n";
+    return list;
 }
 
 constexpr const char* withoutCurves =
@@ -467,38 +195,68 @@ constexpr const char* withoutCurves =
 
 CurvePlots curvePlotsOf(const Findings& findings)
 {
-    return {trainingCurves(findings), findings.heldOut->conditions.empty() ? "" : heldOutCurves(findings)};
+    const auto& [study, answer, heldOut, next, simulator, data, heldOutData] = findings;
+    const auto simulationsOf = [](const Explanation& explanation) {
+        return mapped(explanation.runs, [](const Run& run) { return run.simulation; });
+    };
+    const Explanation* best = bestOf(*answer);
+    return {curvePlots(*study, study->conditionsOf(Role::training), simulationsOf(answer->null),
+                simulationsOf(best == nullptr ? Explanation{} : *best),
+                answer->nearest ? "with the nearest effect" : "with effect", *data),
+        heldOut->conditions.empty()
+            ? ""
+            : curvePlots(*study, heldOut->conditions, heldOut->simulations.front(),
+                heldOut->after ? heldOut->simulations.back() : std::vector<Simulation>{}, "with effect", *heldOutData)};
 }
 
 std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
 {
-    const CurvePlots plots = curves.value_or(CurvePlots{withoutCurves, withoutCurves});
-    const std::string title = shown(report.at("study"));
-    std::string html = "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>" + title + "</title>\n"
-                       + style + "</head><body>\n<h1>" + title + "</h1>\n<p class=\"answer\">"
-                       + shown(report.at("summary")) + "</p>\n" + listOf(report.at("details"));
-    html += "<h2>Fitted quantities</h2>\n" + fittedTable(report);
-    html += "<h2>Held-out conditions, without and with the effect</h2>\n" + heldOutSection(plots.heldOut, report);
-    html += "<h2>What to measure next</h2>\n" + nextSection(report);
-    html += "<h2>Evidence</h2>\n" + effectTable(report);
-    html += "<h2>Indistinguishable effects</h2>\n" + lookAlikesOf(report);
-    html += "<h2>Training conditions, measured and simulated</h2>\n" + plots.fitted
-            + numberCharts(report, report.value("numbers", Json::array()),
-                report.value("nearest", Json()).is_object() ? "with the nearest effect" : "with effect")
-            + residualTable(report);
-    html += "<h2>Runs</h2>\n" + runsSection(report);
-    html += "<h2>Assumptions</h2>\n" + listOf(report.at("assumptions"));
-    if (!report.at("remarks").empty())
+    for (const auto* key :
+        {"study", "summary", "details", "fitted", "measureNext", "assumptions", "remarks", "program"})
     {
-        html += "<h2>Remarks</h2>\n" + listOf(report.at("remarks"));
+        report.at(key);
     }
-    html += "<p class=\"small\">" + shown(report.at("program")) + "</p>\n</body></html>\n";
-    // Reports of earlier versions contain "+-".
-    for (auto at = html.find("+-"); at != std::string::npos; at = html.find("+-", at))
+    Json shown = report;
+    shown["plots"] = {{"fitted", curves ? curves->fitted : withoutCurves},
+        {"heldOut", curves ? curves->heldOut : withoutCurves},
+        {"fittedNumbers",
+            numberCharts(report, report.value("numbers", Json::array()),
+                report.value("nearest", Json()).is_object() ? "with the nearest effect" : "with effect")}};
+    if (const Json& heldOut = report.at("heldOut"); heldOut.at("before").is_object())
     {
-        html.replace(at, 2, "&plusmn;");
+        shown["plots"]["heldOutNumbers"] = numberCharts(report, heldOut.at("numbers"), "with effect");
+        shown["plots"]["errors"] = errorChart(heldOut);
     }
-    return html;
+    for (auto& effect : shown.at("effects"))
+    {
+        const double reach = std::max(effect.at("range").at(1).get<double>(), -effect.at("range").at(0).get<double>());
+        for (const auto* key : {"smallestDetectable", "smallestNamed"})
+        {
+            effect[key] = numberOr(effect.at(key), reach + 1.0) > reach ? Json() : effect[key];
+        }
+    }
+    for (auto& condition : shown.at("residual"))
+    {
+        auto& features = condition.at("measuredMinusSimulated");
+        features = listOf(features);
+        for (auto& feature : features)
+        {
+            constexpr double large = 2.0;
+            const double ratio =
+                feature["is"].at("value").get<double>() / feature["is"].at("standardError").get<double>();
+            feature["inErrors"] = ratio;
+            feature["isLarge"] = std::abs(ratio) > large;
+        }
+    }
+    for (auto& next : shown.at("nextExperiment"))
+    {
+        for (auto& outcome : next.at("predicted"))
+        {
+            outcome["features"] = listOf(outcome.at("features"));
+        }
+    }
+    shown["runs"]["byPurpose"] = listOf(report.at("runs").at("byPurpose"));
+    return filled(page, shown, Escape::html);
 }
 
 } // namespace clepsydra::identification

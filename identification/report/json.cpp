@@ -20,42 +20,31 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has neither NaN nor infinity; both become null.
-Json number(double value)
+std::vector<double> numbers(const Eigen::VectorXd& values)
 {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-
-Json numbers(const Eigen::VectorXd& values)
-{
-    return mapped(values, number);
+    return {values.begin(), values.end()};
 }
 
 Json estimate(const Estimate& value)
 {
-    return {{"value", number(value.value)}, {"standardError", number(value.standardError)}};
-}
-
-Json estimateOrNull(const std::optional<Estimate>& value)
-{
-    return value ? estimate(*value) : Json(nullptr);
+    return {{"value", value.value}, {"standardError", value.standardError}};
 }
 
 Json logRatioJson(const LogRatio& ratio)
 {
-    return {{"logRatio", number(ratio.value)}, {"pValue", ratio.pValue}};
+    return {{"logRatio", ratio.value}, {"pValue", ratio.pValue}};
 }
 
 Json heldOutScore(const HeldOutScore& score)
 {
-    return {{"rmsLogError", number(score.rmsLogError.value)},
-        {"standardError", number(score.rmsLogError.standardError)}, {"chiSquare", number(score.chiSquare)},
-        {"pValue", score.pValue}, {"overNull", logRatioJson(score.overNull)}};
+    return {{"rmsLogError", score.rmsLogError.value}, {"standardError", score.rmsLogError.standardError},
+        {"chiSquare", score.chiSquare}, {"pValue", score.pValue}, {"overNull", logRatioJson(score.overNull)}};
 }
 
-Json heldOutScoreOrNull(const std::optional<HeldOutScore>& score)
+template<class Value>
+Json orNull(const std::optional<Value>& value, Json (*jsonOf)(const Value&))
 {
-    return score ? heldOutScore(*score) : Json(nullptr);
+    return value ? jsonOf(*value) : Json(nullptr);
 }
 
 Json parametersOf(const Study& study, const Eigen::VectorXd& values)
@@ -144,19 +133,18 @@ Json effectsJson(const Findings& findings)
         const EffectFinding& finding = answer.effects[e];
         list.push_back({{"name", effect.name}, {"meaning", effect.meaning}, {"family", effect.family},
             {"kind", effect.isOfChain() ? "measuringChain" : "simulator"}, {"inSet", finding.inSet},
-            {"amplitude", number(finding.fit.amplitude)}, {"standardError", number(finding.fit.sd)},
-            {"interval95", {number(finding.fit.lower), number(finding.fit.upper)}},
+            {"amplitude", finding.fit.amplitude}, {"standardError", finding.fit.sd},
+            {"interval95", {finding.fit.lower, finding.fit.upper}},
             {"range", {effect.bounds.lower, effect.bounds.upper}}, {"sets", entriesAt(effect, finding.fit.amplitude)},
-            {"chiSquare", number(finding.fit.chiSquare)}, {"logOdds", number(finding.logOdds)},
-            {"probability", number(finding.probability)}, {"probabilityNeeded", number(finding.threshold)},
-            {"notInSetBecause", textOrNull(finding.notInSetBecause)},
+            {"chiSquare", finding.fit.chiSquare}, {"logOdds", finding.logOdds}, {"probability", finding.probability},
+            {"probabilityNeeded", finding.threshold}, {"notInSetBecause", textOrNull(finding.notInSetBecause)},
             {"atEndOfRange", textOrNull(effect.isSwitch || !finding.known
                                             ? ""
                                             : endOfRange(finding.fit.amplitude, finding.fit.sd, effect.bounds))},
             {"measured", measuredJson(effect, finding)}, {"judged", finding.known},
             {"parameters", parametersOf(study, finding.parameters)},
-            {"smallestDetectable", number(answer.visibility.detected(e))},
-            {"smallestNamed", number(answer.visibility.named(e))}, {"howToMeasure", effect.hint}});
+            {"smallestDetectable", answer.visibility.detected(e)}, {"smallestNamed", answer.visibility.named(e)},
+            {"howToMeasure", effect.hint}});
     }
     std::stable_sort(list.begin(), list.end(),
         [](const Json& a, const Json& b) { return a["probability"].get<double>() > b["probability"].get<double>(); });
@@ -186,6 +174,13 @@ Json quantity(const Feature& feature, const Estimate& value)
                                  : estimate(value);
 }
 
+Json rowOf(const Condition& condition, const Feature& feature, const Estimate& measured, const Estimate& before,
+    const std::optional<Estimate>& after)
+{
+    return {{"condition", condition.name}, {"feature", feature.name}, {"measured", quantity(feature, measured)},
+        {"before", quantity(feature, before)}, {"after", after ? quantity(feature, *after) : Json(nullptr)}};
+}
+
 /// Measured and predicted features of the training conditions, by the emulator.
 Json trainingNumbers(const Findings& findings)
 {
@@ -196,10 +191,8 @@ Json trainingNumbers(const Findings& findings)
     Json list = Json::array();
     for (std::size_t i = 0; i < before.size(); ++i)
     {
-        const Feature& feature = study.features[before[i].feature];
-        list.push_back({{"condition", study.conditions[before[i].condition].name}, {"feature", feature.name},
-            {"measured", quantity(feature, before[i].measured)}, {"before", quantity(feature, before[i].predicted)},
-            {"after", after.empty() ? Json(nullptr) : quantity(feature, after[i].predicted)}});
+        list.push_back(rowOf(study.conditions[before[i].condition], study.features[before[i].feature],
+            before[i].measured, before[i].predicted, after.empty() ? std::nullopt : std::optional(after[i].predicted)));
     }
     return list;
 }
@@ -223,9 +216,9 @@ Json fittedJson(const Findings& findings)
     return mapped(fittedNumbers(findings), [](const FittedNumber& number) -> Json {
         const bool isMeasured = number.from == nameOf(Origin::measured);
         return {{"name", number.name}, {"unit", number.unit},
-            {"independent", isMeasured ? estimateOrNull(number.prior) : Json(nullptr)},
-            {"assumed", isMeasured ? Json(nullptr) : estimateOrNull(number.prior)}, {"from", textOrNull(number.from)},
-            {"withoutEffect", estimate(number.before)}, {"withEffect", estimateOrNull(number.after)}};
+            {"independent", isMeasured ? orNull(number.prior, estimate) : Json(nullptr)},
+            {"assumed", isMeasured ? Json(nullptr) : orNull(number.prior, estimate)}, {"from", textOrNull(number.from)},
+            {"withoutEffect", estimate(number.before)}, {"withEffect", orNull(number.after, estimate)}};
     });
 }
 
@@ -246,17 +239,12 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
             {
                 continue;
             }
-            const bool isLog = study.features[f].kind->isLog();
-            const auto plain = [&](double value, double sd) {
-                return isLog ? estimate({std::exp(value), std::exp(value) * sd}) : estimate({value, sd});
-            };
             const auto predicted = [&](const Prediction& prediction) {
-                return plain(prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f)));
+                return Estimate{prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f))};
             };
-            list.push_back(
-                {{"condition", study.conditions[result.conditions[i]].name}, {"feature", study.features[f].name},
-                    {"measured", plain(measured(f), error(f))}, {"before", predicted(result.predictedBefore[i])},
-                    {"after", result.after ? predicted(result.predictedAfter[i]) : Json(nullptr)}});
+            list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {measured(f), error(f)},
+                predicted(result.predictedBefore[i]),
+                result.after ? std::optional(predicted(result.predictedAfter[i])) : std::nullopt));
         }
     }
     return list;
@@ -285,11 +273,12 @@ Json heldOutJson(const Findings& findings)
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
-    return {{"conditions", names}, {"before", heldOutScore(result.before)}, {"after", heldOutScoreOrNull(result.after)},
-        {"oneMoreParameter", oneMore}, {"gaussianProcess", heldOutScoreOrNull(result.gaussianProcess)},
+    return {{"conditions", names}, {"before", heldOutScore(result.before)},
+        {"after", orNull(result.after, heldOutScore)}, {"oneMoreParameter", oneMore},
+        {"gaussianProcess", orNull(result.gaussianProcess, heldOutScore)},
         {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", logRatioJson(result.overOneMore)},
         {"overGaussianProcess", result.gaussianProcess ? logRatioJson(result.overGaussianProcess) : Json(nullptr)},
-        {"noiseFloor", number(result.noiseFloor)}, {"better", result.better}, {"complete", result.complete},
+        {"noiseFloor", result.noiseFloor}, {"better", result.better}, {"complete", result.complete},
         {"notBetterBecause", result.notBetterBecause}, {"notScored", result.notScored}, {"members", members},
         {"numbers", heldOutNumbers(study, result)}};
 }
@@ -315,11 +304,7 @@ Json runsJson(const StudySimulator& studySimulator)
 Json nextJson(const Findings& findings)
 {
     Json list = Json::array();
-    if (findings.next == nullptr)
-    {
-        return list;
-    }
-    for (const auto& next : *findings.next)
+    for (const auto& next : findings.next == nullptr ? std::vector<NextExperiment>{} : *findings.next)
     {
         Json outcomes = Json::array();
         for (const auto& outcome : next.outcomes)
@@ -327,8 +312,7 @@ Json nextJson(const Findings& findings)
             Json features = Json::object();
             for (std::size_t f = 0; f < findings.study->features.size(); ++f)
             {
-                features[findings.study->features[f].name] = {
-                    {"value", number(outcome.features(f))}, {"sd", number(outcome.sd(f))}};
+                features[findings.study->features[f].name] = {{"value", outcome.features(f)}, {"sd", outcome.sd(f)}};
             }
             outcomes.push_back({{"if", outcome.name}, {"probability", outcome.probability}, {"features", features}});
         }
@@ -367,9 +351,9 @@ Json calibrationJson(const Findings& findings)
     const Json pairs = mapped(answer.visibility.alike, [&](const auto& pair) {
         return std::vector<std::string>{study.effects[pair.first].name, study.effects[pair.second].name};
     });
-    return {{"critical", number(answer.calibration.critical)}, {"level", study.settings.level},
-        {"draws", study.settings.draws}, {"coverage", study.settings.coverage},
-        {"wrongNamesAllowed", study.settings.wrongNames}, {"wrongNamesOfDecoys", answer.calibration.wrongNames},
+    return {{"critical", answer.calibration.critical}, {"level", study.settings.level}, {"draws", study.settings.draws},
+        {"coverage", study.settings.coverage}, {"wrongNamesAllowed", study.settings.wrongNames},
+        {"wrongNamesOfDecoys", answer.calibration.wrongNames},
         {"decoys", "each effect of the library left out in turn; patterns of any shape, orthogonal to the parameters"},
         {"lookAlikes", pairs}};
 }
@@ -394,13 +378,13 @@ Json jsonOf(const Findings& findings)
     json["somethingElseInSet"] = answer.unlistedCauseInSet;
     json["somethingElse"] = {
         {"probability", answer.decision == Decision::unknown ? Json(nullptr) : Json(answer.otherProbability)},
-        {"probabilityNeeded", number(answer.otherThreshold)}};
-    json["oddsOfName"] = answer.oddsOfName ? Json{{"logOdds", number(answer.oddsOfName->first)},
-                             {"needed", number(answer.oddsOfName->second)}}
-                                           : Json(nullptr);
+        {"probabilityNeeded", answer.otherThreshold}};
+    json["oddsOfName"] = answer.oddsOfName
+                             ? Json{{"logOdds", answer.oddsOfName->first}, {"needed", answer.oddsOfName->second}}
+                             : Json(nullptr);
     json["nearest"] = nearestJson(findings);
     json["pValue"] = answer.pValue;
-    json["logOdds"] = number(answer.logOdds);
+    json["logOdds"] = answer.logOdds;
     json["null"] = explanationJson(study, answer.null);
     json["null"]["parameterSds"] = numbers(answer.null.fits.front().covariance.diagonal().cwiseSqrt());
     json["effects"] = effectsJson(findings);
@@ -415,7 +399,7 @@ Json jsonOf(const Findings& findings)
     json["seeds"] = {{"study", study.settings.seed}, {"byPurpose", findings.studySimulator->effort().seedsByPurpose}};
     json["assumptions"] = assumptionsOf(findings);
     json["remarks"] = answer.remarks;
-    return json;
+    return Json::parse(json.dump()); // NaN and infinity, which JSON does not have, have become null
 }
 
 } // namespace clepsydra::identification

@@ -1,11 +1,12 @@
 #include "report/svg.h"
 
+#include <kainjow/mustache.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <limits>
+#include <set>
 #include <sstream>
-#include <utility>
 
 namespace clepsydra::identification
 {
@@ -14,292 +15,177 @@ namespace
 {
 
 constexpr double width = 460;
-constexpr double height = 280;
-constexpr double left = 62;
-constexpr double right = 12;
+constexpr double right = width - 12;
 constexpr double top = 40;
-constexpr double bottom = 42;
+constexpr double perLetter = 5.6;
 
-std::string shown(double value)
+/// Places of values along one side of a plot, in pixels.
+class Axis
 {
-    std::ostringstream text;
-    text << std::setprecision(3) << (std::abs(value) < 1e-12 ? 0.0 : value);
-    return text.str();
-}
-
-/// Distance between ticks: 1, 2 or 5 times a power of ten, about six in the range.
-double niceStep(double range)
-{
-    const double raw = range / 6.0;
-    const double power = std::pow(10.0, std::floor(std::log10(raw)));
-    for (const double factor : {1.0, 2.0, 5.0})
+public:
+    /// \param values  what it shows
+    /// \param mayBeLog  leaves a margin, and is logarithmic where the values are positive and far apart
+    Axis(std::vector<double> values, double from, double to, bool mayBeLog = false)
+        : from_(from),
+          to_(to)
     {
-        if (factor * power >= raw)
-        {
-            return factor * power;
-        }
+        constexpr double farApart = 5.0;
+        values.erase(
+            std::remove_if(values.begin(), values.end(), [](double one) { return !std::isfinite(one); }), values.end());
+        values.resize(std::max<std::size_t>(1, values.size()));
+        const auto [low, high] = std::minmax_element(values.begin(), values.end());
+        isLog_ = mayBeLog && *low > 0.0 && *high > farApart * *low;
+        const double margin = *high > *low ? (mayBeLog ? 0.03 * (scaled(*high) - scaled(*low)) : 0.0) : 0.5;
+        low_ = scaled(*low) - margin;
+        high_ = scaled(*high) + margin;
     }
-    return 10.0 * power;
-}
 
-struct Range
-{
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
+    double operator()(double value) const
+    {
+        return from_ + (scaled(value) - low_) / (high_ - low_) * (to_ - from_);
+    }
 
-    void take(double value)
+    /// 1, 2 and 5 times powers of ten, or about six at equal distances of this kind.
+    std::vector<double> ticks() const
     {
-        if (std::isfinite(value))
+        std::vector<double> all;
+        for (double power = std::floor(low_); isLog_ && power <= high_; ++power)
         {
-            low = std::min(low, value);
-            high = std::max(high, value);
+            for (const double digit : {1.0, 2.0, 5.0})
+            {
+                all.push_back(digit * std::pow(10.0, power));
+            }
         }
+        const double raw = (high_ - low_) / 6.0;
+        const double power = std::pow(10.0, std::floor(std::log10(raw)));
+        const double step = power * (raw <= power ? 1.0 : raw <= 2.0 * power ? 2.0 : raw <= 5.0 * power ? 5.0 : 10.0);
+        for (double i = std::ceil(low_ / step); !isLog_ && (i - 1e-9) * step <= high_; ++i)
+        {
+            all.push_back(i * step + 0.0); // no -0
+        }
+        return all;
     }
-    void widen()
+
+private:
+    double scaled(double value) const
     {
-        if (!(high > low))
-        {
-            const double middle = std::isfinite(low) ? low : 0.0;
-            low = middle - 0.5;
-            high = middle + 0.5;
-        }
+        return isLog_ ? std::log10(value) : value;
     }
+
+    double low_ = 0.0; // of the logarithm, if it is logarithmic
+    double high_ = 1.0;
+    double from_;
+    double to_;
+    bool isLog_ = false;
 };
 
-/// Legend in one line above the plot, where there are no data. \param style  of a line of each label
-std::string legendOf(const std::vector<std::pair<std::string, std::string>>& labels, double from)
+/// Elements of a picture.
+struct Picture
 {
-    constexpr double perLetter = 5.6;
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1);
-    double x = from;
-    for (const auto& [label, style] : labels)
+    Picture()
     {
-        text << R"(<line style=")" << style << R"(;stroke-width:3" x1=")" << x << R"(" x2=")" << x + 16
-             << R"(" y1="29" y2="29"/><text class="tick" x=")" << x + 20 << R"(" y="32">)" << escaped(label)
-             << "</text>\n";
-        x += 34 + perLetter * static_cast<double>(label.size());
+        text << std::fixed << std::setprecision(1);
     }
-    return text.str();
-}
+
+    void line(const std::string& look, double x1, double y1, double x2, double y2)
+    {
+        text << "<line " << look << " x1=\"" << x1 << "\" y1=\"" << y1 << "\" x2=\"" << x2 << "\" y2=\"" << y2
+             << "\"/>\n";
+    }
+    void words(const std::string& look, double x, double y, const std::string& said)
+    {
+        text << "<text class=" << look << " x=\"" << x << "\" y=\"" << y << "\">"
+             << kainjow::mustache::html_escape(said) << "</text>\n";
+    }
+    void tick(const std::string& anchor, double x, double y, double value)
+    {
+        std::ostringstream said;
+        said << std::setprecision(3) << value;
+        words("\"tick\" text-anchor=\"" + anchor + '"', x, y, said.str());
+    }
+
+    std::ostringstream text;
+};
 
 } // namespace
 
-std::string escaped(const std::string& text)
+void Plot::line(const Eigen::ArrayXd& x, const Eigen::ArrayXd& y, const std::string& style, const std::string& label)
 {
-    std::string safe;
-    for (const char c : text)
-    {
-        safe += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
-    }
-    return safe;
+    lines.push_back({x, y, style, label});
 }
 
-Plot::Plot(std::string title, std::string xLabel, std::string yLabel)
-    : title_(std::move(title)),
-      xLabel_(std::move(xLabel)),
-      yLabel_(std::move(yLabel))
-{}
-
-void Plot::line(
-    const std::vector<double>& x, const std::vector<double>& y, const std::string& style, const std::string& label)
+void Plot::dot(double value, double halfInterval, double y, const std::string& colour, const std::string& label)
 {
-    shapes_.push_back({x, y, style, label, false});
-}
-
-void Plot::band(const std::vector<double>& x, const std::vector<double>& lower, const std::vector<double>& upper,
-    const std::string& style)
-{
-    Shape shape{x, lower, style, "", true};
-    shape.x.insert(shape.x.end(), x.rbegin(), x.rend());
-    shape.y.insert(shape.y.end(), upper.rbegin(), upper.rend());
-    shapes_.push_back(std::move(shape));
+    const Eigen::ArrayXd height = Eigen::ArrayXd::Constant(2, y);
+    line(Eigen::Array2d(value - halfInterval, value + halfInterval), height, "stroke:" + colour, label);
+    line(Eigen::Array2d(value, value), height, "stroke-linecap:round;stroke-width:5.6;stroke:" + colour);
 }
 
 std::string Plot::svg() const
 {
-    Range xs;
-    Range ys;
-    for (const auto& shape : shapes_)
+    std::vector<double> xs;
+    std::vector<double> ys;
+    for (const auto& line : lines)
     {
-        for (std::size_t i = 0; i < shape.x.size(); ++i)
+        xs.insert(xs.end(), line.x.begin(), line.x.end());
+        ys.insert(ys.end(), line.y.begin(), line.y.end());
+    }
+    const auto rowCount = static_cast<double>(rows.size());
+    const bool hasRows = !rows.empty();
+    std::size_t letters = 9;
+    for (const auto& row : rows)
+    {
+        letters = std::max(letters, row.size());
+    }
+    const double left = 12.0 + perLetter * static_cast<double>(letters);
+    const double bottom = hasRows ? top + 20.0 * rowCount : 238.0;
+    const Axis x(xs, left, right, hasRows);
+    const Axis y = hasRows ? Axis({0.0, rowCount}, top, bottom) : Axis(ys, bottom, top);
+
+    Picture picture;
+    picture.text << "<svg viewBox=\"0 0 " << width << ' ' << bottom + (hasRows ? 20.0 : 42.0)
+                 << R"(" class="plot" role="img" aria-label=")" << kainjow::mustache::html_escape(title) << "\">\n";
+    picture.words("\"title\"", 4.0, 16.0, title);
+    for (const double tick : x.ticks())
+    {
+        if (x(tick) >= left && x(tick) <= right)
         {
-            xs.take(shape.x[i]);
-            ys.take(shape.y[i]);
+            picture.line("class=\"grid\"", x(tick), top, x(tick), bottom);
+            picture.tick("middle", x(tick), bottom + 14.0, tick);
         }
     }
-    xs.widen();
-    ys.widen();
-    const auto px = [&](double x) { return left + (x - xs.low) / (xs.high - xs.low) * (width - left - right); };
-    const auto py = [&](double y) {
-        return height - bottom - (y - ys.low) / (ys.high - ys.low) * (height - top - bottom);
-    };
-
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << width << ' ' << height
-         << R"(" class="plot" role="img" aria-label=")" << escaped(title_) << "\">\n<text x=\"" << left
-         << R"(" y="16" class="title">)" << escaped(title_) << "</text>\n";
-    const double xStep = niceStep(xs.high - xs.low);
-    for (double x = std::ceil(xs.low / xStep) * xStep; x <= xs.high + 1e-9 * xStep; x += xStep)
+    for (const double tick : hasRows ? std::vector<double>{} : y.ticks())
     {
-        text << R"(<line class="grid" x1=")" << px(x) << R"(" x2=")" << px(x) << R"(" y1=")" << top << R"(" y2=")"
-             << height - bottom << R"("/><text class="tick" text-anchor="middle" x=")" << px(x) << R"(" y=")"
-             << height - bottom + 14 << R"(">)" << shown(x) << "</text>\n";
+        picture.line("class=\"grid\"", left, y(tick), right, y(tick));
+        picture.tick("end", left - 5.0, y(tick) + 3.0, tick);
     }
-    const double yStep = niceStep(ys.high - ys.low);
-    for (double y = std::ceil(ys.low / yStep) * yStep; y <= ys.high + 1e-9 * yStep; y += yStep)
+    for (std::size_t i = 0; i < rows.size(); ++i)
     {
-        text << R"(<line class="grid" x1=")" << left << R"(" x2=")" << width - right << R"(" y1=")" << py(y)
-             << R"(" y2=")" << py(y) << R"("/><text class="tick" text-anchor="end" x=")" << left - 5 << R"(" y=")"
-             << py(y) + 3 << R"(">)" << shown(y) << "</text>\n";
+        picture.words(R"("tick" text-anchor="end")", left - 6.0, y(static_cast<double>(i)) + 13.0, rows[i]);
     }
-    std::vector<std::pair<std::string, std::string>> labels;
-    for (const auto& shape : shapes_)
+    std::set<std::string> labels = {""};
+    double legend = 4.0;
+    for (const auto& line : lines)
     {
-        text << "<" << (shape.closed ? "polygon" : "polyline") << R"( style=")" << shape.style << R"(" points=")";
-        for (std::size_t i = 0; i < shape.x.size(); ++i)
+        picture.text << R"(<polyline style=")" << line.style << R"(" points=")";
+        for (Eigen::Index i = 0; i < line.x.size(); ++i)
         {
-            if (std::isfinite(shape.y[i]))
+            if (std::isfinite(line.x(i)) && std::isfinite(line.y(i)))
             {
-                text << px(shape.x[i]) << ',' << py(shape.y[i]) << ' ';
+                picture.text << x(line.x(i)) << ',' << y(line.y(i)) << ' ';
             }
         }
-        text << "\"/>\n";
-        if (!shape.label.empty())
+        picture.text << "\"/>\n";
+        if (labels.insert(line.label).second)
         {
-            labels.emplace_back(shape.label, shape.style);
+            picture.line("style=\"" + line.style + ";stroke-width:3\"", legend, 29.0, legend + 16.0, 29.0);
+            picture.words("\"tick\"", legend + 20.0, 32.0, line.label);
+            legend += 34.0 + perLetter * static_cast<double>(line.label.size());
         }
     }
-    text << legendOf(labels, left) << R"(<text class="label" text-anchor="middle" x=")" << (left + width - right) / 2
-         << R"(" y=")" << height - 8 << R"(">)" << escaped(xLabel_)
-         << "</text>\n<text class=\"label\" text-anchor=\"middle\" transform=\"translate(13 "
-         << (top + height - bottom) / 2 << ") rotate(-90)\">" << escaped(yLabel_) << "</text>\n</svg>\n";
-    return text.str();
-}
-
-std::string DotChart::svg() const
-{
-    constexpr double row = 20;
-    constexpr double names = 150;
-    constexpr double farApart = 5.0;
-    Range range;
-    bool isPositive = true;
-    for (const auto& [name, dots] : rows)
-    {
-        for (const auto& [value, error] : dots)
-        {
-            range.take(value - error);
-            range.take(value + error);
-            isPositive = isPositive && !(value - error <= 0.0);
-        }
-    }
-    range.widen();
-    const bool isLog = isPositive && range.high > farApart * range.low;
-    const auto scaled = [&](double value) { return isLog ? std::log10(value) : value; };
-    const double margin = 0.03 * (scaled(range.high) - scaled(range.low));
-    const double low = scaled(range.low) - margin;
-    const double high = scaled(range.high) + margin;
-    const auto px = [&](double x) { return names + (scaled(x) - low) / (high - low) * (width - names - right); };
-    const double end = top + row * static_cast<double>(rows.size());
-    std::vector<double> ticks;
-    if (isLog)
-    {
-        for (double power = std::pow(10.0, std::floor(low)); power <= range.high; power *= 10.0)
-        {
-            ticks.insert(ticks.end(), {power, 2.0 * power, 5.0 * power});
-        }
-    }
-    else
-    {
-        const double step = niceStep(high - low);
-        for (double x = std::ceil(low / step) * step; x <= high; x += step)
-        {
-            ticks.push_back(x);
-        }
-    }
-    std::vector<std::pair<std::string, std::string>> labels;
-    for (const auto& [label, colour] : series)
-    {
-        labels.emplace_back(label, "stroke:" + colour);
-    }
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << width << ' ' << end + 20
-         << R"(" class="plot" role="img" aria-label=")" << escaped(title)
-         << "\">\n<text x=\"4\" y=\"16\" class=\"title\">" << escaped(title) << "</text>\n"
-         << legendOf(labels, 4);
-    for (const double tick : ticks)
-    {
-        if (scaled(tick) >= low && scaled(tick) <= high)
-        {
-            text << R"(<line class="grid" x1=")" << px(tick) << R"(" x2=")" << px(tick) << R"(" y1=")" << top
-                 << R"(" y2=")" << end << R"("/><text class="tick" text-anchor="middle" x=")" << px(tick) << R"(" y=")"
-                 << end + 14 << R"(">)" << shown(tick) << "</text>\n";
-        }
-    }
-    double y = top;
-    for (const auto& [name, dots] : rows)
-    {
-        text << R"(<text class="tick" text-anchor="end" x=")" << names - 6 << R"(" y=")" << y + 13 << R"(">)"
-             << escaped(name) << "</text>\n";
-        for (std::size_t i = 0; i < dots.size(); ++i)
-        {
-            const auto& [value, error] = dots[i];
-            if (std::isfinite(value))
-            {
-                const double at = y + row * static_cast<double>(i + 1) / static_cast<double>(dots.size() + 1);
-                text << R"(<line style="stroke:)" << series[i].second << R"(" x1=")" << px(value - error) << R"(" x2=")"
-                     << px(value + error) << R"(" y1=")" << at << R"(" y2=")" << at << R"("/><circle style="fill:)"
-                     << series[i].second << R"(" r="2.8" cx=")" << px(value) << R"(" cy=")" << at << "\"/>\n";
-            }
-        }
-        y += row;
-    }
-    text << "</svg>\n";
-    return text.str();
-}
-
-std::string barChart(const std::string& title, const std::vector<Bar>& bars, const std::string& unit)
-{
-    constexpr double row = 22;
-    constexpr double labels = 250;
-    constexpr double all = 640;
-    Range range;
-    range.take(0.0);
-    for (const auto& bar : bars)
-    {
-        range.take(bar.value - bar.error);
-        range.take(bar.value + bar.error);
-    }
-    range.widen();
-    const auto px = [&](double x) { return labels + (x - range.low) / (range.high - range.low) * (all - labels - 90); };
-    const double tall = top + row * static_cast<double>(bars.size()) + 8;
-    std::ostringstream text;
-    text << std::fixed << std::setprecision(1) << R"(<svg viewBox="0 0 )" << all << ' ' << tall
-         << R"(" class="bars" role="img" aria-label=")" << escaped(title)
-         << "\">\n<text x=\"4\" y=\"16\" class=\"title\">" << escaped(title) << "</text>\n";
-    double y = top;
-    for (const auto& bar : bars)
-    {
-        const double from = std::min(px(0.0), px(bar.value));
-        text << R"(<text class="tick" text-anchor="end" x=")" << labels - 6 << R"(" y=")" << y + 14 << R"(">)"
-             << escaped(bar.label) << "</text>";
-        if (std::isfinite(bar.value))
-        {
-            text << R"(<rect style=")" << bar.style << R"(" x=")" << from << R"(" y=")" << y + 3 << R"(" height=")"
-                 << row - 7 << R"(" width=")" << std::abs(px(bar.value) - px(0.0)) << R"("/>)";
-            if (bar.error > 0.0)
-            {
-                text << R"(<line class="error" x1=")" << px(bar.value - bar.error) << R"(" x2=")"
-                     << px(bar.value + bar.error) << R"(" y1=")" << y + 10.5 << R"(" y2=")" << y + 10.5 << R"("/>)";
-            }
-            text << R"(<text class="tick" x=")" << std::max(px(bar.value + bar.error), px(0.0)) + 6 << R"(" y=")"
-                 << y + 14 << R"(">)" << shown(bar.value) << ' ' << unit << "</text>\n";
-        }
-        y += row;
-    }
-    text << R"(<line class="axis" x1=")" << px(0.0) << R"(" x2=")" << px(0.0) << R"(" y1=")" << top << R"(" y2=")" << y
-         << "\"/>\n</svg>\n";
-    return text.str();
+    picture.words(R"("label" text-anchor="middle")", (left + right) / 2.0, bottom + 34.0, xLabel);
+    picture.words("\"label\" text-anchor=\"middle\" transform=\"rotate(-90)\"", -(top + bottom) / 2.0, 13.0, yLabel);
+    return picture.text.str() + "</svg>\n";
 }
 
 } // namespace clepsydra::identification

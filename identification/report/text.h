@@ -16,7 +16,4 @@ void writeText(const nlohmann::ordered_json& report, std::ostream& out);
 /// A text with paths relative to the study's folder, since a report is read on other machines too.
 std::string fromStudy(const Study& study, std::string text);
 
-/// A value of the report with its error: "0.17 ± 0.01"; "-" if it is null.
-std::string estimateText(const nlohmann::ordered_json& estimate);
-
 } // namespace clepsydra::identification

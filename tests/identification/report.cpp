@@ -1,17 +1,23 @@
-/// Sentences and numbers of the report, from answers made by hand.
+/// Sentences, numbers and page of the report, from answers made by hand.
 #include "decision/measured.h"
 #include "emulator/library.h"
 #include "linearSimulator.h"
+#include "report/filled.h"
 #include "report/fitted.h"
+#include "report/html.h"
 #include "report/numbers.h"
+#include "report/svg.h"
 #include "report/text.h"
 #include "report/sentences.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <memory>
+#include <regex>
+#include <stdexcept>
 #include <tuple>
 
 namespace clepsydra::identification::tests
@@ -130,6 +136,81 @@ struct Bench
     HeldOutResult heldOut;
     Findings findings{&study, &answer, nullptr, nullptr, &studySimulator, nullptr, nullptr};
 };
+
+/// Forms of a number, an estimate without an error, and what counts as false.
+TEST(Filled, FormsOfNumbers)
+{
+    const nlohmann::ordered_json data = {{"count", 12345}, {"small", 0.004}, {"none", nullptr}, {"empty", ""},
+        {"zero", 0}, {"no", false}, {"yes", true}, {"estimate", {{"value", 0.17321}, {"standardError", 0.01189}}},
+        {"exact", {{"value", 2.5}, {"sd", nullptr}}}};
+    EXPECT_EQ(filled("{{count.text}}, {{small.text}}, {{small.share}}, {{small.percent}}", data, Escape::none),
+        "12345, 0.00400, <1 %, 0.40 %");
+    EXPECT_EQ(filled("{{small.share}}", data, Escape::html), "&lt;1 %");
+    EXPECT_EQ(filled("{{estimate.text}}, {{exact.text}}", data, Escape::none), "0.173 ± 0.012, 2.500");
+    EXPECT_EQ(filled("{{#none}}1{{/none}}{{#empty}}2{{/empty}}{{#zero}}3{{/zero}}{{#no}}4{{/no}}{{#yes}}5{{/yes}}",
+                  data, Escape::none),
+        "35");
+    EXPECT_THROW(filled("{{#open}}", data, Escape::none), std::logic_error);
+}
+
+/// Names of a study are texts, not elements of the page.
+TEST(Page, EscapesTheStudysTexts)
+{
+    const nlohmann::ordered_json number = {{"value", 2.0}, {"standardError", 0.1}};
+    const nlohmann::ordered_json none = nlohmann::ordered_json::array();
+    nlohmann::ordered_json report = {{"study", "<i>"}, {"program", ""}, {"summary", "a < b & 'c'"}, {"details", none},
+        {"fitted", none}, {"measureNext", none}, {"nextExperiment", none}, {"effects", none}, {"residual", none},
+        {"assumptions", {"<script>"}}, {"remarks", none}, {"heldOut", {{"before", nullptr}}},
+        {"runs", {{"byPurpose", {{"<b>", 1}}}}}};
+    report["numbers"].push_back({{"condition", "<wet>"}, {"feature", "\"rate\" & <end>"}, {"measured", number},
+        {"before", number}, {"after", nullptr}});
+    const std::string page = htmlOf(report, std::nullopt);
+    for (const auto* text : {"<i>", "<script>", "<b>", "<wet>", "<end>"})
+    {
+        EXPECT_THAT(page, Not(HasSubstr(text)));
+    }
+    EXPECT_THAT(page, HasSubstr("a &lt; b &amp; &apos;c&apos;"));
+    EXPECT_THAT(page, HasSubstr("aria-label=\"&quot;rate&quot; &amp; &lt;end&gt; "));
+    EXPECT_THAT(page, HasSubstr("&lt;wet&gt;</text>"));
+    EXPECT_THAT(page, HasSubstr("No condition was held out"));
+}
+
+/// Values from 0.1 to 100 have a logarithmic axis: ten times as much is twice as far. What is not finite is not drawn.
+TEST(Page, PlotsValuesInRows)
+{
+    Plot plot{"title", {}, {}, {"first", "second"}};
+    for (const auto& [value, y] : {std::pair(0.1, 0.5), std::pair(1.0, 1.0), std::pair(100.0, 1.5)})
+    {
+        plot.dot(value, 0.0, y, "#000", "measured");
+    }
+    plot.dot(std::numeric_limits<double>::quiet_NaN(), 0.0, 1.5, "#000", "other");
+    const std::string svg = plot.svg();
+    const std::regex place("linecap:round[^>]*points=\"([0-9.]+),([0-9.]+) [^>]*>");
+    std::vector<std::array<double, 2>> dots;
+    for (std::sregex_iterator at(svg.begin(), svg.end(), place), end; at != end; ++at)
+    {
+        dots.push_back({std::stod((*at)[1]), std::stod((*at)[2])});
+    }
+    ASSERT_EQ(dots.size(), 3U);
+    EXPECT_NEAR(dots[2][0] - dots[1][0], 2.0 * (dots[1][0] - dots[0][0]), 0.2);
+    EXPECT_NEAR(dots[2][1] - dots[0][1], 20.0, 0.2) << "rows from top to bottom";
+    EXPECT_EQ(svg.find(">measured<"), svg.rfind(">measured<")) << "one entry of the legend";
+    EXPECT_THAT(svg, AllOf(HasSubstr(">measured<"), HasSubstr(">first<"), HasSubstr(">0.2<"), HasSubstr(">100<")));
+}
+
+/// A band and lines with numbers at both axes, at distances of 1, 2 or 5.
+TEST(Page, PlotsCurves)
+{
+    Plot plot{"title", "time [s]", "mass [g]"};
+    plot.line(Eigen::Array3d(0, 1, 3), Eigen::Array3d(-2, 0, 4), "stroke:#000", "measured");
+    const std::string svg = plot.svg();
+    EXPECT_THAT(svg, HasSubstr("points=\"62.4,238.0 190.9,172.0 448.0,40.0 \""));
+    for (const auto* text : {">0.5<", ">2.5<", ">-2<", ">0<", ">4<", ">time [s]<", ">mass [g]<"})
+    {
+        EXPECT_THAT(svg, HasSubstr(text));
+    }
+    EXPECT_THAT(svg, Not(HasSubstr(">-0<")));
+}
 
 /// Reports are committed; the reason of a failed run must not contain the folders of the machine that made it.
 TEST(Text, PathsFromTheStudysFolder)
