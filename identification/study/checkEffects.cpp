@@ -4,6 +4,7 @@
 #include "study/entriesOfRuns.h"
 #include "tokens/didYouMean.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -66,25 +67,19 @@ void checkTags(const YamlPlace& root, const Study& study)
 /// A misspelt family would separate its effect from the other variants, which would remain unnoticed.
 void checkFamilies(const YamlPlace& root, const Study& study)
 {
-    std::map<std::string, int> members;
+    std::map<std::string, std::vector<std::string>> members;
     for (const auto& effect : study.effects)
     {
-        ++members[effect.family];
+        members[effect.family].push_back(effect.name);
     }
-    for (const auto& effect : study.effects)
+    members.erase("");
+    for (const auto& [family, effects] : members)
     {
-        std::vector<std::string> others;
-        for (const auto& [family, count] : members)
+        auto others = namesOf(members);
+        others.erase(std::find(others.begin(), others.end(), family));
+        if (const std::string near = didYouMean(family, others); effects.size() == 1 && !near.empty())
         {
-            if (!family.empty() && family != effect.family)
-            {
-                others.push_back(family);
-            }
-        }
-        const bool isAlone = !effect.family.empty() && members[effect.family] == 1;
-        if (const std::string near = isAlone ? didYouMean(effect.family, others) : ""; !near.empty())
-        {
-            root.fail("effect '" + effect.name + "' is the only one of the family '" + effect.family + "'" + near);
+            root.fail("effect '" + effects.front() + "' is the only one of the family '" + family + "'" + near);
         }
     }
 }

@@ -53,17 +53,12 @@ void readEntries(const YamlPlace& place, Effect& effect)
 
 Bounds readBounds(const YamlPlace& place)
 {
-    const auto ends = place.list();
-    if (ends.size() != 2)
-    {
-        place.fail("must be [lower, upper]");
-    }
-    const Bounds bounds{ends[0].number(), ends[1].number()};
-    if (!(bounds.lower <= 0.0 && bounds.upper > 0.0))
+    const auto [lower, upper] = place.range("[lower, upper]");
+    if (lower > 0.0 || upper <= 0.0)
     {
         place.fail("must hold 0, where the effect is absent, and end above 0");
     }
-    return bounds;
+    return {lower, upper};
 }
 
 Effect readEffect(const YamlPlace& place)

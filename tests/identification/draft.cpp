@@ -1,7 +1,6 @@
 /// `traceResidual new` drafts study files, which are accepted when their marked values have been filled in.
-#include "study/draft/columns.h"
-#include "study/draft/conditions.h"
 #include "study/draft/draftStudy.h"
+#include "study/draft/guesses.h"
 #include "study/measurements.h"
 #include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
@@ -286,7 +285,7 @@ TEST(Draft, Columns)
 {
     const TemporaryFolder folder;
     const auto columns = [&](const std::string& head, const std::string& rows = "1,7,5\n2,7,6\n3,8,4\n") {
-        const auto c = guessColumns(readTable(folder.write("a.csv", head + '\n' + rows)));
+        const auto c = guessColumns(folder.write("a.csv", head + '\n' + rows));
         return c.time.column + '[' + c.time.unit + "] " + c.value.column + '[' + c.value.unit + "] " + c.quantity;
     };
     EXPECT_EQ(columns("t_s,note,position_mm"), "t_s[s] position_mm[mm] length");

@@ -1,21 +1,26 @@
 #include "study/draft/draftStudy.h"
 
+#include "curves/table.h"
 #include "features/features.h"
 #include "files/wholeFile.h"
-#include "study/draft/draftedSimulator.h"
-#include "study/draft/measuredFiles.h"
+#include "lists.h"
+#include "study/draft/guesses.h"
+#include "study/draft/studyTemplate.h"
+#include "study/measurements.h"
 #include "study/yaml.h"
 #include "tokens/didYouMean.h"
-
-#include <yaml-cpp/emitter.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <numeric>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <stdexcept>
-#include <utility>
 
 namespace clepsydra::identification
 {
@@ -25,22 +30,68 @@ namespace
 
 namespace fs = std::filesystem;
 
-std::string fillIn(const std::string& what)
+/// Guesses by the words of the template. A word that is only a condition has an empty guess.
+using Guesses = std::map<std::string, std::string>;
+
+/// A word as a YAML value, quoted if necessary.
+std::string yaml(const std::string& word)
 {
-    return '"' + std::string(YamlPlace::toFillIn) + ": " + what + '"';
+    return YAML::Dump(YAML::Node(word));
 }
 
-/// A text as a YAML value, quoted if necessary.
-std::string yamlWord(const std::string& word)
+/// What is known of the study so far.
+struct Draft
 {
-    static const std::regex plain("[a-z][a-z0-9_./-]*", std::regex::icase);
-    if (std::regex_match(word, plain) || word.rfind("../", 0) == 0)
+    fs::path folder; // of the study file
+    Guesses guesses = {};
+    std::string said = {}; // for the user to check
+
+    bool has(const std::string& word) const
     {
-        return word;
+        return guesses.count(word) > 0;
     }
-    YAML::Emitter emitter;
-    emitter << YAML::DoubleQuoted << word;
-    return emitter.c_str();
+    void setIf(bool isTrue, const std::string& word, const std::string& guess = "")
+    {
+        if (isTrue)
+        {
+            guesses[word] = guess;
+        }
+    }
+    void say(const std::string& what)
+    {
+        said += "\n  " + what;
+    }
+    std::string relative(const fs::path& file) const
+    {
+        return yaml(fs::absolute(file).lexically_normal().lexically_relative(folder).string());
+    }
+};
+
+/// The text of a template, whose words are explained there.
+std::string filled(const std::string& pattern, const Guesses& guesses)
+{
+    static const std::regex place(R"(^\[([\w.]+)\]|<([\w.]+)(\|([^>]*))?>)");
+    std::istringstream lines(pattern);
+    std::string text;
+    for (std::string line; std::getline(lines, line);)
+    {
+        std::string written;
+        std::smatch match;
+        bool isKept = true;
+        while (isKept && std::regex_search(line, match, place))
+        {
+            const auto guess = guesses.find(match[1].matched ? match[1] : match[2]);
+            isKept = guess != guesses.end() || match[3].matched;
+            written += match.prefix();
+            if (isKept && !match[1].matched)
+            {
+                written += guess == guesses.end() ? match[4].str() : guess->second;
+            }
+            line = match.suffix();
+        }
+        text += isKept ? written + line + '\n' : "";
+    }
+    return text;
 }
 
 /// A number rounded to two digits.
@@ -52,434 +103,271 @@ std::string rounded(double number)
     return textOf(std::stod(text.str()));
 }
 
-/// Whether a number of a name may be a length in mm, beside the case's length in m.
-bool isInMillimetres(const std::string& number, const std::string& length)
+//--- The case -------------------------------------------------------------------------------------------------------
+
+/// Folder identification/effects of the checkout that contains the case; without one, of that whose scripts/environment
+/// was sourced, or that contains the program.
+fs::path effectsFolder(const fs::path& caseFolder)
 {
-    constexpr double farApart = 10.0;
-    const double ratio = number.empty() ? 0.0 : 1e-3 * std::atof(number.c_str()) / std::atof(length.c_str());
-    return ratio > 1.0 / farApart && ratio < farApart;
-}
-
-class Draft
-{
-public:
-    Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study);
-
-    std::string text() const
+    const char* const sourced = std::getenv("CLEPSYDRA");
+    for (fs::path folder :
+        {caseFolder, fs::path(sourced == nullptr ? "" : sourced), fs::read_symlink("/proc/self/exe")})
     {
-        return text_.str();
-    }
-    const std::vector<std::string>& said() const
-    {
-        return said_;
-    }
-
-private:
-    void writeHead();
-    void writeSimulator();
-    void writeObservable();
-    void writeFeatures();
-    void writeWindows(double last);
-    void writePositions();
-    void writeMeasured();
-    void writeConditions();
-    void writeCondition(const DraftedCondition& condition, const std::string& entry);
-    void writeParameters();
-    void writeEnd();
-
-    void say(const std::string& what)
-    {
-        said_.push_back(what);
-    }
-    std::string relative(const fs::path& file) const
-    {
-        return yamlWord(fs::absolute(file).lexically_normal().lexically_relative(folder_).string());
-    }
-    /// The entry that is most likely to differ from condition to condition.
-    std::string varied() const
-    {
-        return measured_.conditions.size() < 2      ? ""
-               : simulator_.has("orificeDiameter")  ? "orificeDiameter"
-               : simulator_.has("particleDiameter") ? "particleDiameter"
-                                                    : "";
-    }
-    std::string twiceTheTank() const
-    {
-        return simulator_.has("tankDiameter") ? rounded(2.0 * std::atof(simulator_.entries.at("tankDiameter").c_str()))
-                                              : fillIn("m, twice the tank's diameter");
-    }
-    bool isUnderWater(const DraftedCondition& condition) const
-    {
-        static const std::regex water("wet|water|subm", std::regex::icase);
-        return std::regex_search(condition.name, water);
-    }
-
-    DraftedSimulator simulator_;
-    MeasuredFiles measured_;
-    fs::path folder_; // of the study file
-    std::string name_;
-    std::ostringstream text_;
-    std::vector<std::string> said_;
-};
-
-Draft::Draft(const fs::path& caseFolder, const std::vector<fs::path>& measured, const fs::path& study)
-    : simulator_(draftSimulator(caseFolder)),
-      measured_(readMeasuredFiles(measured, simulator_)),
-      folder_(fs::weakly_canonical(fs::absolute(study)).parent_path()),
-      name_(simulator_.folder.filename().string()),
-      said_(measured_.remarks)
-{
-    writeHead();
-    writeSimulator();
-    writeObservable();
-    writeMeasured();
-    writeConditions();
-    writeParameters();
-    writeEnd();
-}
-
-void Draft::writeHead()
-{
-    text_ << "# Drafted by `traceResidual new`. All values are guesses; check each line. Values \""
-          << YamlPlace::toFillIn
-          << "\"\n# could not be guessed; no run starts before they are replaced. All keys: docs/reference/study.md\n"
-          << "study: " << yamlWord(name_) << "\n\n";
-}
-
-void Draft::writeSimulator()
-{
-    text_ << "simulator:\n  case: " << relative(simulator_.folder)
-          << "\n  seed: " << (simulator_.has("seed") ? "seed" : "none")
-          << (simulator_.has("seed") ? "          # this entry changes the packing\n"
-                                     : "          # the case has no such entry; repeated runs do not differ\n");
-    const std::vector<std::pair<std::string, std::string>> apparatus = {
-        {"particleDiameter", "m"},
-        {"particleDensity", "kg/m3"},
-        {"particleCount", "number of particles in the hopper"},
-        {"hopperDiameter", "m"},
-        {"orificeDiameter", "m"},
-        {"fluidDensity", "kg/m3"},
-        {"fluidViscosity", "m2/s, kinematic"},
-        {"tankDiameter", "m"},
-        {"tankHeight", "m"},
-        {"releaseHeight", "m, of the particle's centre above the floor"},
-    };
-    // A particle in a tank with one-way coupling: see docs/howTo/ownMeasurement.md.
-    const std::vector<std::pair<std::string, std::string>> falling = {
-        {"smoothingBandwidth",
-            twiceTheTank() + "    # m, twice the tank's diameter, so that the liquid stays at rest on any mesh"},
-        {"cellsCore", "2"},
-        {"cellsRing", "2"},
-        {"cellsHigh", "8"},
-        {"couplingTimeStep", "5e-3"},
-        {"demStep", "1e-4             # there are no contacts"},
-        {"maxRayleighFraction", "100"},
-    };
-    text_ << "  set:                  # your apparatus; an entry that is left out keeps the value of the case\n"
-          << "    checked: "
-          << fillIn("the values below are those of the case; make them those of your apparatus, then "
-                    "delete this line")
-          << '\n';
-    const bool isParticle = simulator_.observable == "particleHeight";
-    if (isParticle && simulator_.has("vessel"))
-    {
-        text_ << "    vessel: tank        # or box; see the case's file parameters\n";
-    }
-    const bool isWet = isParticle || !simulator_.hasSteps
-                       || std::any_of(measured_.conditions.begin(), measured_.conditions.end(),
-                           [&](const auto& c) { return isUnderWater(c); });
-    for (const auto& [entry, unit] : apparatus)
-    {
-        const bool isOfWater = entry.rfind("fluid", 0) == 0 || (!isParticle && entry.rfind("tank", 0) == 0);
-        if (simulator_.has(entry) && entry != varied() && (isWet || !isOfWater))
+        for (; folder.has_relative_path(); folder = folder.parent_path())
         {
-            text_ << "    " << entry << ": " << simulator_.entries.at(entry) << "    # " << unit << '\n';
+            if (fs::is_directory(folder / "identification/effects"))
+            {
+                return folder / "identification/effects";
+            }
         }
     }
-    const double seconds = 1.5 * measured_.shape.duration * measured_.columns.time.siUnits();
-    for (const std::string entry : {"dryTime", "submergedTime", "endTime"})
+    return {};
+}
+
+/// \return the quantity that the case writes: mass, length, or empty if it is unknown
+std::string guessCase(const fs::path& folder, Draft& draft)
+{
+    if (!fs::is_regular_file(folder / "parameters") || !fs::is_regular_file(folder / "Allrun"))
     {
-        if (simulator_.has(entry) && (isWet || entry != "submergedTime"))
+        throw std::runtime_error(folder.string()
+                                 + " is not a case, which needs a file 'parameters' of lines 'name value;' and "
+                                   "a program 'Allrun' that reads it");
+    }
+    for (const auto& [entry, value] : readEntries(folder / "parameters"))
+    {
+        draft.guesses["case." + entry] = value;
+    }
+    draft.guesses["case"] = draft.relative(folder);
+    draft.guesses["study"] = yaml(folder.filename());
+    draft.setIf(draft.has("case.seed"), "seed", "seed");
+    draft.setIf(!draft.has("case.friction"), draft.has("case.fluidViscosity") ? "viscosity" : "otherParameter");
+    const fs::path controlDict = folder / "system/controlDict";
+    const std::string functions = fs::exists(controlDict) ? clepsydra::textOf(controlDict) : "";
+    const bool isHopper = functions.find("massInHopper") != std::string::npos;
+    const bool isParticle = !isHopper && functions.find("particleHeight") != std::string::npos;
+    const std::string observable = isHopper ? "massInHopper" : "particleHeight";
+    const bool hasSteps = fs::exists(folder / "step.dry") && fs::exists(folder / "step.submerged");
+    draft.setIf(isHopper, "medium", "air");
+    draft.setIf(isHopper && hasSteps, "step", "dry");
+    draft.setIf(isHopper || isParticle, "file",
+        std::string(hasSteps ? "steps/dry/" : "") + "postProcessing/" + observable + "/*/" + observable + ".dat");
+    draft.say("observable: "
+              + (isHopper || isParticle ? observable + ", which the case writes" : "unknown, it must be filled in"));
+    return isHopper ? "mass" : isParticle ? "length" : "";
+}
+
+//--- The measured files -----------------------------------------------------------------------------------------------
+
+/// Files, which must be tables, and all tables of folders.
+std::vector<fs::path> tablesOf(const std::vector<fs::path>& places, Draft& draft)
+{
+    std::set<fs::path> tables;
+    for (const auto& place : places)
+    {
+        if (!fs::is_directory(place))
         {
-            text_ << "    " << entry << ": "
-                  << (measured_.columns.time.unit.empty()
-                             ? fillIn("s, more than the longest record")
-                             : rounded(seconds) + "        # 1.5 times the longest training record")
-                  << '\n';
+            readTable(place);
+            tables.insert(place);
+            continue;
+        }
+        const std::size_t before = tables.size();
+        for (const auto& entry : fs::directory_iterator(place))
+        {
+            const fs::path& file = entry.path();
+            try
+            {
+                if (contains(std::vector<fs::path>{".csv", ".txt", ".dat", ".tsv"}, file.extension()))
+                {
+                    readTable(file);
+                    tables.insert(file);
+                }
+            }
+            catch (const std::runtime_error& error)
+            {
+                draft.say("left out: " + std::string(error.what()));
+            }
+        }
+        if (tables.size() == before)
+        {
+            throw std::runtime_error(place.string()
+                                     + ": contains no table of numbers; expected are files .csv, .txt, .dat or .tsv "
+                                       "with a column of times and one of values");
         }
     }
-    for (const auto& [entry, value] : falling)
+    return {tables.begin(), tables.end()};
+}
+
+/// Reads all files; the values of held-out conditions are checked and left out.
+std::vector<Curve> trainingCurves(
+    const std::vector<DraftedCondition>& conditions, const GuessedColumns& columns, const fs::path& first)
+{
+    std::vector<Curve> curves;
+    for (const auto& condition : conditions)
     {
-        if (isParticle && measured_.shape.bounces == 0 && simulator_.has(entry))
+        for (const auto& file : condition.files)
         {
-            text_ << "    " << entry << ": " << value << '\n';
+            try
+            {
+                curves.insert(
+                    curves.end(), condition.isHeldOut ? 0 : 1, readMeasured(file, columns.time, columns.value));
+            }
+            catch (const std::runtime_error& error)
+            {
+                throw std::runtime_error(std::string(error.what()) + " (the study has the columns of " + first.string()
+                                         + "; files with other columns need another study)");
+            }
         }
     }
+    return curves;
 }
 
-void Draft::writeObservable()
+/// Valid range of positions that are exactly 0 in three rows or more at an end of a file, where a camera saw nothing.
+void guessBlanks(const std::vector<Curve>& curves, ColumnSpecification& column)
 {
-    text_ << "\nobservable:\n";
-    if (simulator_.observable.empty())
+    std::vector<double> seen;
+    bool hasBlanks = false;
+    for (const auto& [time, value] : curves)
     {
-        text_ << "  file: " << fillIn("the table that a run writes, as post/*/m.dat; a folder * stands for start times")
-              << '\n'
-              << "  value: " << fillIn("its column") << '\n';
-        say("observable: unknown, because the case writes no known table");
+        hasBlanks = hasBlanks || std::count(value.begin(), value.begin() + 3, 0.0) == 3
+                    || std::count(value.end() - 3, value.end(), 0.0) == 3;
+        std::copy_if(value.begin(), value.end(), std::back_inserter(seen), [](double number) { return number != 0.0; });
     }
-    else
+    const auto [smallest, largest] = std::minmax_element(seen.begin(), seen.end());
+    if (hasBlanks && !seen.empty() && *smallest > 0.0)
     {
-        const bool isSpeed = measured_.columns.quantity == "speed";
-        text_ << "  file: " << (simulator_.hasSteps ? "steps/dry/" : "") << "postProcessing/" << simulator_.observable
-              << "/*/" << simulator_.observable << ".dat\n"
-              << "  value: "
-              << (simulator_.observable == "massInHopper" ? "mass"
-                     : isSpeed                            ? "velocity"
-                                                          : "height")
-              << '\n';
-        if (isSpeed)
+        column.lowest = 0.5 * *smallest;
+        column.highest = 2.0 * *largest;
+    }
+}
+
+/// Guesses from the curves of the training conditions, which are in SI units if their units are known.
+void guessFeatures(const std::vector<Curve>& curves, const GuessedColumns& columns, Draft& draft)
+{
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const auto& quantity = columns.quantity;
+    const bool isOfHopper = quantity == "share" || quantity == "mass";
+    bool bounces = quantity == "length";
+    bool endsFlat = true;
+    int falling = 0;
+    double duration = 0.0;
+    double rest = 0.0;         // largest ratio of last to first value
+    double lowest = -infinity; // limits of the range that all curves pass through
+    double highest = infinity;
+    for (const auto& curve : curves)
+    {
+        const auto& value = curve.value;
+        const auto [low, high] = std::minmax_element(value.begin(), value.end());
+        const double range = *high - *low;
+        // A bouncing particle is highest at the start.
+        const bool falls = value.front() - *low > 0.5 * range;
+        falling += falls ? 1 : -1;
+        std::vector<double> lowestYet(value.size());
+        std::partial_sum(
+            value.begin(), value.end(), lowestYet.begin(), [](double a, double b) { return std::min(a, b); });
+        bounces = bounces && falls
+                  && !std::equal(value.begin(), value.end(), lowestYet.begin(),
+                      [&](double here, double yet) { return here - yet <= 0.03 * range; });
+        lowest = std::max(lowest, *low);
+        highest = std::min(highest, *high);
+        rest = std::max(rest, value.back() / value.front());
+        const double nearEnd = valueAt(curve, 0.1 * curve.time.front() + 0.9 * curve.time.back());
+        endsFlat = endsFlat && std::abs(nearEnd - value.back()) < 0.01 * range;
+        duration = std::max(duration, curve.time.back() - curve.time.front());
+    }
+    const bool falls = falling > 0;
+    const double way = highest - lowest;
+    const double to = std::ceil(((falls ? rest : 0.2) + 0.03) * 20.0) / 20.0;
+    draft.setIf(!columns.time.unit.empty(), "duration", rounded(1.5 * duration));
+    for (int i = 1; i <= 3; ++i)
+    {
+        const double at = falls ? highest - (0.3 * i - 0.1) * way : lowest + (0.3 * i - 0.1) * way;
+        draft.setIf(to < 0.87, "share" + std::to_string(i), rounded(0.95 - (0.95 - to) * i / 3.0));
+        draft.setIf(way > 0.0 && !columns.value.unit.empty(), "position" + std::to_string(i), rounded(at));
+    }
+    draft.setIf(isOfHopper, "isOfHopper");
+    draft.setIf(isOfHopper && endsFlat, "endsFlat");
+    draft.setIf(isOfHopper && !falls, "isDischarged");
+    draft.setIf(quantity == "share", "share", falls ? "" : "minus ");
+    draft.setIf(quantity == "length" && !bounces, "isPosition");
+    draft.setIf(quantity == "length" && !falls, "fromRelease");
+    draft.setIf(bounces, "bounces", rounded(0.02 * way));
+    draft.setIf(quantity == "speed", "isSpeed");
+    draft.setIf(quantity == "speed" || (quantity == "length" && !falls), "countsDown");
+    draft.setIf(quantity == "mass" ? !falls : quantity == "speed" && lowest + highest < 0.0, "isReversed");
+    draft.setIf(quantity.empty(), "kinds", listed(namesOf(featureKinds())));
+    if (!isOfHopper && !bounces && draft.has("case.smoothingBandwidth") && draft.has("case.tankDiameter"))
+    {
+        draft.guesses["twiceTheTank"] = rounded(2.0 * std::atof(draft.guesses["case.tankDiameter"].c_str()));
+    }
+    draft.say("columns: time is '" + columns.time.column + "' [" + columns.time.unit + "], value '"
+              + columns.value.column + "' [" + columns.value.unit + "], "
+              + (quantity.empty() ? "of unknown kind" : "a " + quantity)
+              + (bounces  ? " that bounces"
+                  : falls ? " that falls"
+                          : " that rises"));
+}
+
+/// \param written  quantity that the case writes
+void guessMeasured(const std::vector<DraftedCondition>& conditions, const std::string& written, Draft& draft)
+{
+    const auto isTraining = [](const DraftedCondition& condition) { return !condition.isHeldOut; };
+    const fs::path first = std::find_if(conditions.begin(), conditions.end(), isTraining)->files.front();
+    GuessedColumns columns = guessColumns(first);
+    columns.quantity = columns.quantity.empty() ? written : columns.quantity;
+    const std::string other = written == "mass" ? "share" : "speed";
+    if (!written.empty() && columns.quantity != written && columns.quantity != other)
+    {
+        throw std::runtime_error(first.string() + ": column '" + columns.value.column + "' is a " + columns.quantity
+                                 + ", but the case writes a " + written + "; is it the right case?");
+    }
+    auto curves = trainingCurves(conditions, columns, first);
+    if (columns.quantity == "length")
+    {
+        guessBlanks(curves, columns.value);
+        curves = trainingCurves(conditions, columns, first);
+    }
+    draft.guesses["timeColumn"] = yaml(columns.time.column);
+    draft.guesses["valueColumn"] = yaml(columns.value.column);
+    draft.setIf(!columns.time.unit.empty(), "timeUnit", columns.time.unit);
+    draft.setIf(!columns.value.unit.empty(), "valueUnit", yaml(columns.value.unit));
+    const bool hasRange = columns.value.highest > 0.0 && !columns.value.unit.empty();
+    draft.setIf(hasRange, "lowestValid", rounded(columns.value.lowest));
+    draft.setIf(hasRange, "highestValid", rounded(columns.value.highest));
+    const std::string ofParticle = columns.quantity == "speed" ? "velocity" : "height";
+    draft.setIf(!written.empty(), "value", written == "mass" ? "mass" : ofParticle);
+    guessFeatures(curves, columns, draft);
+}
+
+void writeConditions(const std::vector<DraftedCondition>& conditions, Draft& draft)
+{
+    static const std::regex water("wet|water|subm", std::regex::icase);
+    const std::string entry = draft.has("case.orificeDiameter") ? "orificeDiameter" : "particleDiameter";
+    const bool isVaried = conditions.size() > 1 && draft.has("case." + entry);
+    for (const auto& condition : conditions)
+    {
+        Draft own{draft.folder, draft.guesses};
+        own.guesses["name"] = yaml(condition.name);
+        own.guesses["role"] = condition.isHeldOut ? "heldOut       # PROPOSED" : "training";
+        const bool isWet = std::regex_search(condition.name, water);
+        own.setIf(isWet && own.has("medium"), "medium", "water");
+        own.setIf(isWet && own.has("step"), "isSubmerged");
+        own.setIf(isWet && own.has("step"), "step", "submerged");
+        own.setIf(isVaried, "entry", entry);
+        // Lengths in names are in mm; a number that is far from the case's length means something else.
+        const double ratio =
+            1e-3 * std::atof(condition.number.c_str()) / std::atof(own.guesses["case." + entry].c_str());
+        own.setIf(ratio > 0.1 && ratio < 10.0, "length", condition.number + "e-3");
+        std::string names;
+        for (const auto& file : condition.files)
         {
-            text_ << "  factor: -1            # in the case, upward speeds are positive\n";
+            own.guesses["files"] += (names.empty() ? "        - " : "\n        - ") + draft.relative(file);
+            names += ' ' + file.filename().string();
         }
-        if (measured_.columns.quantity == "length" && measured_.shape.bounces > 0)
-        {
-            text_ << "  offset: -particleDiameter/2       # gives the gap below the particle instead of the height of "
-                     "its "
-                     "centre\n";
-        }
-        if (measured_.columns.quantity == "length" && !measured_.shape.falls)
-        {
-            text_ << "  # The measured position grows while the particle falls: it is the distance from the release\n"
-                  << "  factor: -1\n  offset: releaseHeight\n";
-        }
-        say("observable: " + simulator_.observable + ", which the case writes");
+        draft.guesses["conditions"] += filled(conditionTemplate, own.guesses);
+        draft.say("condition " + condition.name + (condition.isHeldOut ? ", proposed to be held out:" : ":") + names
+                  + (condition.files.size() > 1 ? " (repeats)" : " (one file; the noise is estimated from repeats)"));
     }
-    text_ << "  # modelError: 0.01    # standard deviation of the model error (mesh, time steps) of each feature\n"
-          << "  features:\n";
-    writeFeatures();
-}
-
-void Draft::writeFeatures()
-{
-    const bool isShare = measured_.columns.quantity == "share";
-    if (measured_.columns.quantity == "mass" || isShare)
-    {
-        writeWindows(measured_.shape.falls ? measured_.shape.largestRest : 0.2);
-    }
-    else if (measured_.columns.quantity == "length")
-    {
-        writePositions();
-    }
-    else if (measured_.columns.quantity == "speed")
-    {
-        text_ << "    - { kind: logMaximum }\n";
-    }
-    else
-    {
-        text_ << "    - { kind: " << fillIn("one of " + listed(namesOf(featureKinds()))) << " }\n";
-    }
-}
-
-/// Three windows of the mass that all curves pass through.
-void Draft::writeWindows(double last)
-{
-    constexpr double from = 0.95;
-    const double to = std::ceil((last + 0.03) * 20.0) / 20.0;
-    if (to > 0.85)
-    {
-        text_ << "    - { kind: logMeanRate, from: 0.95, to: "
-              << fillIn("smaller share of the fill; a training file ends at " + rounded(last)) << " }\n";
-        return;
-    }
-    const std::vector<std::string> names = {"early", "middle", "late"};
-    text_ << "    # Mean rates between two shares of the fill, which all training files pass through\n";
-    for (std::size_t i = 0; i < names.size(); ++i)
-    {
-        const auto share = [&](std::size_t end) {
-            return rounded(from - (from - to) * static_cast<double>(end) / static_cast<double>(names.size()));
-        };
-        text_ << "    - { name: " << names[i] << ", kind: logMeanRate, from: " << share(i) << ", to: " << share(i + 1)
-              << " }\n";
-    }
-    if (measured_.shape.endsFlat)
-    {
-        text_ << "    - { kind: residue }   # all training files end with a constant mass\n";
-    }
-}
-
-void Draft::writePositions()
-{
-    const double unit = measured_.columns.value.siUnits();
-    const double way = (measured_.shape.highest - measured_.shape.lowest) * unit;
-    for (int bounce = 1; bounce <= measured_.shape.bounces && bounce <= 3; ++bounce)
-    {
-        const std::string number = std::to_string(bounce);
-        text_ << "    - { name: height" << number << ", kind: logBounceHeight, bounce: " << number
-              << ", level: " << rounded(0.02 * way) << " }\n";
-        if (bounce < measured_.shape.bounces)
-        {
-            text_ << "    - { name: duration" << number << ", kind: logBounceDuration, bounce: " << number
-                  << ", level: " << rounded(0.02 * way) << " }\n";
-        }
-    }
-    if (measured_.shape.bounces > 0)
-    {
-        return;
-    }
-    const bool isKnown = way > 0.0 && !measured_.columns.value.unit.empty();
-    text_ << "    # Speeds between two positions [m], which all training files pass through\n";
-    const auto position = [&](double share) {
-        const double at = measured_.shape.falls ? measured_.shape.highest * unit - share * way
-                                                : measured_.shape.lowest * unit + share * way;
-        return isKnown ? rounded(at) : fillIn("m");
-    };
-    for (const auto& [name, from, to] : {std::tuple("first", 0.2, 0.5), std::tuple("second", 0.5, 0.8)})
-    {
-        text_ << "    - { name: " << name << ", kind: logSpeed, from: " << position(from) << ", to: " << position(to)
-              << " }\n";
-    }
-}
-
-void Draft::writeMeasured()
-{
-    const auto unit = [](const GuessedColumn& column, const std::string& allowed) {
-        return column.unit.empty() ? fillIn(allowed) : yamlWord(column.unit);
-    };
-    text_ << "\nmeasured:               # columns of all files, by name or number\n"
-          << "  time: { column: " << yamlWord(measured_.columns.time.column)
-          << ", unit: " << unit(measured_.columns.time, "s, ms, min or h") << " }\n"
-          << "  value: { column: " << yamlWord(measured_.columns.value.column)
-          << ", unit: " << unit(measured_.columns.value, "one of g, kg, mm, m, ...");
-    const std::string fill = "the mass in the hopper at the start, in kg";
-    const bool isShare = measured_.columns.quantity == "share";
-    const bool isOfHopper = isShare || measured_.columns.quantity == "mass";
-    const bool isRising = isOfHopper && !measured_.shape.falls;
-    const bool isDownwards =
-        measured_.columns.quantity == "speed" && measured_.shape.lowest + measured_.shape.highest < 0.0;
-    if (isShare)
-    {
-        text_ << ", factor: " << fillIn((isRising ? "minus " : "") + fill);
-    }
-    else if (isRising || isDownwards)
-    {
-        text_ << ", factor: -1";
-    }
-    if (isRising)
-    {
-        text_ << ", offset: " << fillIn(fill + "; the files contain the discharged mass");
-    }
-    const bool isValidKnown =
-        measured_.shape.hasBlanks && measured_.shape.smallestSeen > 0.0 && !measured_.columns.value.unit.empty();
-    if (isValidKnown)
-    {
-        const double si = measured_.columns.value.siUnits();
-        text_ << ", valid: [" << rounded(0.5 * measured_.shape.smallestSeen * si) << ", "
-              << rounded(2.0 * measured_.shape.largest * si) << ']';
-    }
-    text_ << " }\n";
-    if (isValidKnown)
-    {
-        text_ << "  # valid [m]: rows of 0 before or after all others count as missing\n";
-        say("valid: rows of 0 at the ends of files count as missing");
-    }
-}
-
-void Draft::writeConditions()
-{
-    text_ << R"(
-# One item per condition; its files are repeats. Files whose names differ in a mark at the end (10a and 10b, _1 and _2)
-# are taken for repeats, all others for conditions; move a file to correct that. A condition with `role: heldOut` enters
-# no fit, and the answer is tested on it. Roles are PROPOSED by the names alone, one condition inside the range and one
-# at its end: decide now, before any of these values or any result has been seen, and do not change the roles later.
-conditions:
-)";
-    for (const auto& condition : measured_.conditions)
-    {
-        writeCondition(condition, varied());
-    }
-    if (std::none_of(
-            measured_.conditions.begin(), measured_.conditions.end(), [](const auto& c) { return c.isHeldOut; }))
-    {
-        say("held out: none, because there are fewer than three conditions; the prediction cannot be tested");
-    }
-}
-
-void Draft::writeCondition(const DraftedCondition& condition, const std::string& entry)
-{
-    text_ << "  - name: " << yamlWord(condition.name)
-          << "\n    role: " << (condition.isHeldOut ? "heldOut       # PROPOSED" : "training") << '\n';
-    if (!simulator_.tagValues.empty() && simulator_.observable == "massInHopper")
-    {
-        const bool isWet = isUnderWater(condition);
-        text_ << "    tags: { medium: " << (isWet ? "water" : "air") << " }\n";
-        if (simulator_.hasSteps)
-        {
-            text_ << "    command: ./Allrun mesh filling " << (isWet ? "submerged" : "dry") << '\n'
-                  << (isWet ? "    file: steps/submerged/postProcessing/massInHopper/*/massInHopper.dat\n" : "");
-        }
-    }
-    if (!entry.empty())
-    {
-        const bool isPlausible = isInMillimetres(condition.number, simulator_.entries.at(entry));
-        text_ << "    set: { " << entry << ": "
-              << (isPlausible ? condition.number + "e-3 }   # m, from the name; or another entry that differs here"
-                              : fillIn("m; or replace the entry by one that differs in this condition") + " }")
-              << '\n';
-    }
-    text_ << "    measured:\n      files:\n";
-    std::string names;
-    for (const auto& file : condition.files)
-    {
-        text_ << "        - " << relative(file) << '\n';
-        names += ' ' + file.filename().string();
-    }
-    say("condition " + condition.name + (condition.isHeldOut ? ", proposed to be held out:" : ":") + names
-        + (condition.files.size() > 1 ? " (repeats)" : " (one file; the noise is estimated from repeats)"));
-}
-
-void Draft::writeParameters()
-{
-    text_ << "\n# Fitted parameters have one value in all conditions; the prior is an independent measurement, a "
-             "handbook's\n# value or a guess (from: measured, handbook, guess), never these data\n"
-          << "parameters:\n";
-    if (simulator_.has("friction"))
-    {
-        text_ << "  - name: friction\n    set: { friction: friction }\n    prior: { mean: "
-              << fillIn("friction between particles, measured independently on a tilted plate")
-              << ", sd: " << fillIn("its standard error") << ", from: measured }\n    range: [0.02, 0.8]\n";
-    }
-    else if (simulator_.has("fluidViscosity"))
-    {
-        text_ << "  - name: logViscosity  # relative to fluidViscosity above\n"
-              << "    set: { fluidViscosity: \"fluidViscosity*exp(logViscosity)\" }\n    prior: { mean: 0, sd: "
-              << fillIn("relative standard error of the viscosity, 0.05 for 5 %")
-              << ", from: " << fillIn("of the viscosity: measured, handbook or guess") << " }\n    range: [-1, 1]\n";
-    }
-    else
-    {
-        text_ << "  - name: " << fillIn("a word")
-              << "\n    set: " << fillIn("{ entry: formula in the parameter's name }")
-              << "\n    prior: { mean: " << fillIn("number") << ", sd: " << fillIn("number")
-              << ", from: " << fillIn("measured, handbook or guess") << " }\n    range: " << fillIn("[lowest, highest]")
-              << '\n';
-    }
-}
-
-void Draft::writeEnd()
-{
-    text_
-        << "\n# Effects that the model may lack. Narrow their ranges to your knowledge; add your own below `effects:`\n"
-        << "effectsFrom: "
-        << (simulator_.library.empty() ? fillIn("a library, as identification/effects/hopper.yaml")
-                                       : relative(simulator_.library))
-        << "\n# withoutEffects: [effects that you have measured or excluded]\n"
-        << "# commonErrors: errors common to all repeats, as that of a particle's diameter that was measured once\n"
-        << "\nbudget: { runs: 300 }\n";
-    if (!simulator_.library.empty())
-    {
-        say("effects: " + simulator_.library.filename().string() + "; the case has the entries of "
-            + std::to_string(simulator_.fitting) + " of its " + std::to_string(simulator_.effects) + " effects");
-    }
+    draft.guesses.erase(isVaried ? "case." + entry : "");
 }
 
 } // namespace
@@ -492,14 +380,20 @@ void draftStudy(
         throw std::runtime_error(
             study.string() + " exists already and is not overwritten; --output chooses another file");
     }
-    const Draft draft(caseFolder, measured, study);
-    writeWhole(study, draft.text());
-    out << study.string() << " has been written. Please check these guesses:\n";
-    for (const auto& each : draft.said())
-    {
-        out << "  " << each << '\n';
-    }
-    out << "Please fill in these values:\n"
+    Draft draft{fs::weakly_canonical(fs::absolute(study)).parent_path()};
+    const fs::path folder = fs::weakly_canonical(caseFolder);
+    const std::string written = guessCase(folder, draft);
+    const auto conditions = draftConditions(tablesOf(measured, draft));
+    guessMeasured(conditions, written, draft);
+    writeConditions(conditions, draft);
+    const fs::path library =
+        effectsFolder(folder) / (draft.has("isOfHopper") ? "hopper.yaml" : "settlingParticle.yaml");
+    draft.setIf(fs::exists(library) && !draft.has("kinds"), "library", draft.relative(library));
+    draft.say(
+        "effects: " + (draft.has("library") ? library.filename().string() : "unknown, a library must be filled in"));
+    writeWhole(study, filled(studyTemplate, draft.guesses));
+    out << study.string() << " has been written. Please check these guesses:" << draft.said
+        << "\nPlease fill in these values:\n"
         << YamlPlace::placesToFillIn(study) << "Then run: traceResidual plan " << study.string() << '\n';
 }
 

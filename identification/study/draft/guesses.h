@@ -1,5 +1,7 @@
 #pragma once
 
+#include "study/study.h"
+
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,12 +9,26 @@
 namespace clepsydra::identification
 {
 
+/// Columns of a measured file. An unknown unit is empty, and its numbers count as SI units.
+struct GuessedColumns
+{
+    ColumnSpecification time;
+    ColumnSpecification value;
+    std::string quantity; // of the value: mass, length, speed or share; empty: unknown
+};
+
+/// Guesses the columns of time and value from units and words in the titles. Without these, the time is the first
+/// column that never falls, and the value is the next one that is not constant.
+/// \throws std::runtime_error naming the file if there are no two such columns
+GuessedColumns guessColumns(const std::filesystem::path& file);
+
 /// Files that are taken for repeats of one condition.
 struct DraftedCondition
 {
     std::string name;
     std::vector<std::filesystem::path> files;
     std::string number; // last number in the name; empty if there is none
+    std::string series; // name with * for the number: dry*mm for dry10mm
     bool isHeldOut = false;
 };
 
