@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compares the bed's height, its void fraction and the pressure 45 mm above the distributor with the measured ones.
+"""Compares the bed's height, its solid fraction and the pressure 45 mm above the distributor with the measured ones.
 
 Each is compared by its mean, its swing and its main frequency; with --quick the pressure gradient in a bed at rest is
 compared with the drag law."""
@@ -36,9 +36,10 @@ class Bed:
         """Times, and values in the units of measured.json."""
         step, height = np.loadtxt(self.run / "DEM/height.dat").T
         time, pressure = self.probe("p")
+        _, void_fraction = self.probe("voidFraction")
         return {
             "height": ((step - step[0]) * self["demStep"], height),
-            "voidage": self.probe("voidFraction"),
+            "solid fraction": (time, 1 - void_fraction),
             "pressure": (time, self["fluidDensity"] * pressure),
         }
 
