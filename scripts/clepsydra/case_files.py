@@ -22,9 +22,10 @@ def columns(case: Path | str, name: str, table: str | None = None) -> np.ndarray
     rows = np.empty((0, 0))
     for directory in start_directories(case, name):
         text = (directory / (table or f"{name}.dat")).read_text().replace("(", " ").replace(")", " ")
-        part = np.loadtxt(text.splitlines(), ndmin=2)
-        if len(part) == 0:
+        lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+        if not lines:
             continue
+        part = np.loadtxt(lines, ndmin=2)
         rows = np.vstack([rows[rows[:, 0] < part[0, 0]], part]) if len(rows) else part
     if not len(rows):
         raise SystemExit(f"{case}: no data in postProcessing/{name}")
