@@ -237,7 +237,8 @@ TEST(Sentence, SaysWhatWasFound)
     EXPECT_EQ(sentenceOf(bench.findings),
         "The residual is explained by: water that moves along with a particle (y 0.020), or something that acts like "
         "it, "
-        "which also predicts the held-out measurements; with it the error on held-out measurements falls from 35 to 2.1 %.");
+        "which also predicts the held-out measurements; with it the error on held-out measurements falls from 35 to "
+        "2.1 %.");
     EXPECT_EQ(gradeOf(bench.findings), "better");
 }
 

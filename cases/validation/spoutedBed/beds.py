@@ -13,14 +13,16 @@ BLOCK = 0.5  # [s] of the blocks of time that give the standard errors
 EDGE = 0.136  # [m] the outermost places
 
 RUN = Path("runs/bed")
-STORED = Path("results/means.zip")  # of RUN, what a profile needs: it is committed, a run is not
+STORED = Path("means.zip")  # of RUN, what a profile needs: it is committed, a run is not
 
 
 def store() -> None:
     columns = particle_means.ParticleMeans(RUN).columns[: particle_means.SPEED + 1]
     rows = "".join(f"{' '.join(f'{value:.6g}' for value in row)}\n" for row in columns[:, columns[-2] > 0].T)
-    contents = {"parameters": (RUN / "parameters").read_text(), "postProcessing/particleMeans/0/particleMeans.dat": rows}
-    STORED.parent.mkdir(exist_ok=True)
+    contents = {
+        "parameters": (RUN / "parameters").read_text(),
+        "postProcessing/particleMeans/0/particleMeans.dat": rows,
+    }
     with zipfile.ZipFile(STORED, "w") as archive:
         for name, text in contents.items():
             archive.writestr(zipfile.ZipInfo(name), text, zipfile.ZIP_DEFLATED)
