@@ -152,6 +152,12 @@ TEST(Seeds, ArePrimesAndDiffer)
     EXPECT_EQ(seedOf(1, "repeats", "dry", 7), seedOf(1, "repeats", "dry", 7));
 }
 
+/// The hash of this run is 10,435; smaller primes than 11,003 are refused by the hopper's case, whose run would fail.
+TEST(Seeds, AreNotThoseOfTheParticleTemplates)
+{
+    EXPECT_EQ(seedOf(1, "design", "dry14mm", 6), 11003);
+}
+
 /// Seeds of runs in committed reports, in which three effects had other names. If the names in the purpose were used as
 /// they are, the committed runs could not be repeated.
 TEST(Seeds, OfCommittedRuns)
