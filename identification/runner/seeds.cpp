@@ -13,7 +13,7 @@ namespace
 
 constexpr long smallest = 10007;
 constexpr long smallestOfCases = 11003; // the particle templates of cases/tutorials/hopperQuick have the primes below
-constexpr long range = 99000000; // primes below 1e8: nine digits fit into any integer
+constexpr long range = 99000000;        // primes below 1e8: nine digits fit into any integer
 
 std::uint64_t hashed(std::uint64_t state, const std::string& text)
 {
@@ -71,8 +71,8 @@ long seedOf(unsigned studySeed, const std::string& purpose, const std::string& c
 {
     std::uint64_t state = hashed(0xcbf29ce484222325ULL, std::to_string(studySeed));
     state = hashed(hashed(hashed(state, withFormerNames(purpose)), condition), std::to_string(number));
-    long seed = std::max(
-        smallestOfCases, smallest + static_cast<long>(mixed(state) % static_cast<std::uint64_t>(range)));
+    long seed =
+        std::max(smallestOfCases, smallest + static_cast<long>(mixed(state) % static_cast<std::uint64_t>(range)));
     while (!isPrime(seed))
     {
         ++seed;

@@ -2,8 +2,8 @@
 """Makes the measurements of docs/tutorials/hopperMeasurement.md again: the solver takes the place of a hopper in a
 laboratory.
 
-The case is cases/tutorials/hopperQuick. What the page does not say before its end are FRICTION and LAG. The seeds are not
-those of traceResidual. """
+The case is cases/tutorials/hopperQuick. What the page does not say before its end are FRICTION and LAG. The seeds are
+not those of traceResidual."""
 
 import argparse
 import os
@@ -54,7 +54,6 @@ def measured(run: Path, orifice: int, seed: int) -> str:
     shown = np.interp(readings, time, delayed(time, mass)) + noise
     shutil.rmtree(run)
     return "t_s,m_g\n" + "".join(f"{t:.3f},{1e3 * m:.3f}\n" for t, m in zip(readings, shown))
-
 
 
 def delayed(time: np.ndarray, mass: np.ndarray) -> np.ndarray:
