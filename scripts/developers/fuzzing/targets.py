@@ -35,6 +35,9 @@ TARGETS = {
     "couplingProperties": ("couplingProperties: couplingStep/couplingSettings", seeds.coupling_properties, 3000),
 }
 
+#: Targets whose mutations are made of another's dictionary.
+SAME_WORDS = {"effects": "study", "entries": "parameters"}
+
 
 def run(name: str, build: Any, seconds: int) -> dict[str, Any]:
     """A row of the table. Prints what was found."""
@@ -97,7 +100,7 @@ def replay(name: str, build: Any, folder: Path, files: list[Path]) -> "Output":
 
 
 def mutate(name: str, build: Any, folder: Path, corpora: list[Path], found: Path, seconds: int) -> "Output":
-    dictionary = REPOSITORY / f"tests/fuzz/dictionaries/{name}"
+    dictionary = REPOSITORY / f"tests/fuzz/dictionaries/{SAME_WORDS.get(name, name)}"
     options = [
         f"-max_total_time={seconds}",
         f"-max_len={TARGETS[name][2]}",

@@ -1,3 +1,0 @@
-# A floor that all particles fall through
-
-include         DEM/in.bottomless
