@@ -229,11 +229,6 @@ void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach, 
     }
 }
 
-double CellDiffusion::distanceSqr(const point& a, const point& b) const
-{
-    return periodic_.isPeriodic() ? periodic_.nearest(toEigen(a - b)).squaredNorm() : magSqr(a - b);
-}
-
 CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, double reach, int rounds) const
 {
     // Each cell receives the nearest source from its neighbours (Danielsson, Comput. Graph. Image Process. 14, 227,
@@ -246,8 +241,9 @@ CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, doubl
     const vectorField& centres = mesh_.C().primitiveField();
     std::vector<Nearest> nearest(whole_.columnCount);
     std::vector<label> changed;
-    const auto offer = [&](label cell, const vector& source) {
-        const scalar awaySqr = distanceSqr(centres[cell], source);
+    const auto offer = [&, isPeriodic = periodic_.isPeriodic()](label cell, const vector& source) {
+        const vector apart = centres[cell] - source;
+        const scalar awaySqr = isPeriodic ? periodic_.nearest(toEigen(apart)).squaredNorm() : magSqr(apart);
         if (awaySqr <= sqr(reach + 2 * width_[cell]) && awaySqr < nearest[cell].distanceSqr)
         {
             nearest[cell] = {source, awaySqr};
@@ -407,7 +403,10 @@ void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Ei
     std::vector<Values<Lanes>> here(part_.columnCount);
     for (std::size_t cell = 0; cell < part_.cells.size(); ++cell)
     {
-        std::copy_n(u.col(part_.cells[cell]).data(), u.rows(), start[cell].lane);
+        for (Eigen::Index row = 0; row < u.rows(); ++row)
+        {
+            start[cell].lane[row] = u(row, part_.cells[cell]);
+        }
         for (int lane = 0; lane < Lanes; ++lane)
         {
             here[cell].lane[lane] = coefficients.back() * start[cell].lane[lane];

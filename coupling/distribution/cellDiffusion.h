@@ -137,8 +137,6 @@ private:
     /// Collective.
     /// \param rounds  number of rounds; 0 for as many as are needed, with a reduction after each
     Near near(const std::vector<Foam::label>& sources, double reach, int rounds) const;
-    /// Square of the shortest distance between images of two points [m2].
-    double distanceSqr(const Foam::point& a, const Foam::point& b) const;
     Part partOf(const std::vector<bool>& taken) const;
     Part allCells() const;
     /// applyChebyshev() for up to `Lanes` quantities.
