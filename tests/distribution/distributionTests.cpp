@@ -794,7 +794,7 @@ TEST(ConstDiffSmoothing, IsTheExponentialOfDiffusionOnALattice)
 
 // A cell that has nine neighbours on one side, as beside a finer part of a mesh, and its neighbours: what each quantity in
 // them becomes is the exponential of the matrix of diffusion, from its eigenvectors. A sweep that stops at six neighbours,
-// as many as a hexahedron has, loses tens of per cents.
+// as many as a hexahedron has, misses values by per cents.
 TEST(ConstDiffSmoothing, IsTheExponentialOfDiffusionBesideAFinerMesh)
 {
     const TemporaryCase folder;
