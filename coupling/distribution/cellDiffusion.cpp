@@ -39,37 +39,66 @@ struct alignas((Lanes > 8 ? 4 : Lanes) * sizeof(double)) Values
     double lane[Lanes] = {};
 };
 
-struct Neighbours
-{
-    const label* first;
-    const label* cell;
-    const double* rate;
-};
-
 /// above <- coefficient start + factor X here - above, in each cell.
-template<int Lanes>
-CLEPSYDRA_FOR_VECTOR_UNITS void sweep(label cellCount, const Neighbours neighbours, double coefficient, double factor,
-    const Values<Lanes>* start, const Values<Lanes>* here, Values<Lanes>* above)
+template<int Lanes, class Part>
+CLEPSYDRA_FOR_VECTOR_UNITS void sweep(const Part& part, double coefficient, double factor, const Values<Lanes>* start,
+    const Values<Lanes>* here, Values<Lanes>* above)
 {
-    for (label cell = 0; cell < cellCount; ++cell)
+    for (std::size_t cell = 0; cell < part.rows.size(); ++cell)
     {
-        const Values<Lanes> own = here[cell];
-        Values<Lanes> gained = own;
-        for (label i = neighbours.first[cell]; i < neighbours.first[cell + 1]; ++i)
+        const auto& row = part.rows[cell];
+        Values<Lanes> next = here[cell];
+        for (int lane = 0; lane < Lanes; ++lane)
         {
-            const Values<Lanes>& other = here[neighbours.cell[i]];
-            const double rate = neighbours.rate[i];
+            next.lane[lane] *= row.own;
+        }
+        for (std::size_t i = 0; i < row.most; ++i)
+        {
+            const Values<Lanes>& other = here[row.column[i]];
             for (int lane = 0; lane < Lanes; ++lane)
             {
-                gained.lane[lane] += rate * (other.lane[lane] - own.lane[lane]);
+                next.lane[lane] += row.rate[i] * other.lane[lane];
             }
         }
         for (int lane = 0; lane < Lanes; ++lane)
         {
             above[cell].lane[lane] =
-                coefficient * start[cell].lane[lane] + factor * gained.lane[lane] - above[cell].lane[lane];
+                coefficient * start[cell].lane[lane] + factor * next.lane[lane] - above[cell].lane[lane];
         }
     }
+    for (const auto& further : part.further)
+    {
+        for (int lane = 0; lane < Lanes; ++lane)
+        {
+            above[further.cell].lane[lane] += factor * further.rate * here[further.column].lane[lane];
+        }
+    }
+}
+
+/// All cells, each soon after the first of its neighbours (Cuthill & McKee, Proc. 24th ACM National Conf., 157, 1969).
+std::vector<label> orderByNeighbours(
+    label cellCount, const std::vector<label>& firstNeighbour, const std::vector<label>& neighbour)
+{
+    std::vector<label> order;
+    std::vector<bool> isListed(cellCount, false);
+    const auto list = [&](label cell) {
+        // Behind a boundary there is a cell of another rank.
+        if (cell < cellCount && !isListed[cell])
+        {
+            isListed[cell] = true;
+            order.push_back(cell);
+        }
+    };
+    std::size_t next = 0;
+    for (label first = 0; first < cellCount; ++first)
+    {
+        for (list(first); next < order.size(); ++next)
+        {
+            const label cell = order[next];
+            std::for_each(neighbour.begin() + firstNeighbour[cell], neighbour.begin() + firstNeighbour[cell + 1], list);
+        }
+    }
+    return order;
 }
 
 } // namespace
@@ -78,9 +107,7 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
     : mesh_(mesh),
       periodic_(periodicBoxOf(mesh))
 {
-    Part& whole = whole_;
-    whole.cells.resize(mesh.nCells());
-    std::iota(whole.cells.begin(), whole.cells.end(), 0);
+    Whole& whole = whole_;
     whole.columnCount = mesh.nCells();
     std::vector<Link> links;
     const auto conductances = [](const scalarField& faceArea, const scalarField& deltaCoeff) {
@@ -145,6 +172,8 @@ CellDiffusion::CellDiffusion(const fvMesh& mesh)
         whole.neighbour[at] = link.column;
         whole.rate[at] = 2 * link.conductance / (largestEigenvalue_ * mesh.V()[link.cell]);
     }
+    whole.order = orderByNeighbours(mesh.nCells(), whole.firstNeighbour, whole.neighbour);
+    part_ = allCells();
 }
 
 CellDiffusion::StiffestCell CellDiffusion::stiffestCell() const
@@ -167,12 +196,13 @@ CellDiffusion::StiffestCell CellDiffusion::stiffestCell() const
 
 void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach, RankTotals& totals)
 {
+    const bool wasRestricted = isRestricted_;
     const Near found = near(sources, reach, planHolds_ ? rounds_ : 0);
     const RankNumbers sizes{{static_cast<double>(std::count(found.taken.begin(), found.taken.end(), true)),
                                 static_cast<double>(found.taken.size())},
         {found.isComplete ? 0.0 : 1.0}};
     const auto isWorthwhile = [](const RankNumbers& all) {
-        // Where nearly all cells are near, a second list of them costs memory and saves no time.
+        // Where nearly all cells are near, a new list of them in each coupling step saves no time.
         constexpr double worthwhile = 0.8;
         return all.sums[0] < worthwhile * all.sums[1];
     };
@@ -189,12 +219,14 @@ void CellDiffusion::restrictTo(const std::vector<label>& sources, double reach, 
         isRestricted_ = isWorthwhile(RankTotals::of(sizes));
         planHolds_ = true;
     }
-    part_ = isRestricted_ ? std::optional<Part>(partOf(found.taken)) : std::nullopt;
-}
-
-double CellDiffusion::distanceSqr(const point& a, const point& b) const
-{
-    return periodic_.isPeriodic() ? periodic_.nearest(toEigen(a - b)).squaredNorm() : magSqr(a - b);
+    if (isRestricted_)
+    {
+        part_ = partOf(found.taken);
+    }
+    else if (wasRestricted)
+    {
+        part_ = allCells();
+    }
 }
 
 CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, double reach, int rounds) const
@@ -209,8 +241,9 @@ CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, doubl
     const vectorField& centres = mesh_.C().primitiveField();
     std::vector<Nearest> nearest(whole_.columnCount);
     std::vector<label> changed;
-    const auto offer = [&](label cell, const vector& source) {
-        const scalar awaySqr = distanceSqr(centres[cell], source);
+    const auto offer = [&, isPeriodic = periodic_.isPeriodic()](label cell, const vector& source) {
+        const vector apart = centres[cell] - source;
+        const scalar awaySqr = isPeriodic ? periodic_.nearest(toEigen(apart)).squaredNorm() : magSqr(apart);
         if (awaySqr <= sqr(reach + 2 * width_[cell]) && awaySqr < nearest[cell].distanceSqr)
         {
             nearest[cell] = {source, awaySqr};
@@ -244,7 +277,7 @@ CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, doubl
             }
         }
         changed.clear();
-        exchange(whole_, nearest);
+        exchange(whole_.boundaries, nearest);
         // What this rank takes from its neighbours below is not known to them before the next exchange.
         const bool isLast = round == rounds;
         const std::vector<bool> knownToNeighbours = isLast ? taken() : std::vector<bool>();
@@ -271,11 +304,16 @@ CellDiffusion::Near CellDiffusion::near(const std::vector<label>& sources, doubl
     }
 }
 
+CellDiffusion::Part CellDiffusion::allCells() const
+{
+    return partOf(std::vector<bool>(whole_.columnCount, true));
+}
+
 CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const
 {
     Part part;
     std::vector<label> place(taken.size(), -1);
-    for (label cell = 0; cell < mesh_.nCells(); ++cell)
+    for (const label cell : whole_.order)
     {
         if (taken[cell])
         {
@@ -299,18 +337,32 @@ CellDiffusion::Part CellDiffusion::partOf(const std::vector<bool>& taken) const
         }
         part.boundaries.push_back(std::move(some));
     }
-    part.firstNeighbour.assign(1, 0);
     for (const label cell : part.cells)
     {
+        Row row{1, {}, {}};
+        row.column.fill(place[cell]);
+        std::size_t count = 0;
         for (label n = whole_.firstNeighbour[cell]; n < whole_.firstNeighbour[cell + 1]; ++n)
         {
-            if (place[whole_.neighbour[n]] >= 0)
+            const label column = place[whole_.neighbour[n]];
+            const double rate = whole_.rate[n];
+            if (column < 0)
             {
-                part.neighbour.push_back(place[whole_.neighbour[n]]);
-                part.rate.push_back(whole_.rate[n]);
+                continue;
+            }
+            row.own -= rate;
+            if (count < Row::most)
+            {
+                row.column[count] = column;
+                row.rate[count] = rate;
+                ++count;
+            }
+            else
+            {
+                part.further.push_back({place[cell], column, rate});
             }
         }
-        part.firstNeighbour.push_back(static_cast<label>(part.neighbour.size()));
+        part.rows.push_back(row);
     }
     return part;
 }
@@ -346,14 +398,15 @@ void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Ei
 {
     // Clenshaw's recurrence b_k = c_k u + 2 X b_(k+1) - b_(k+2), X = 1 - 2 L/largestEigenvalue; the result is c_0 u + X
     // b_1 - b_2.
-    const Part& part = part_ ? *part_ : whole_;
-    const auto cellCount = static_cast<label>(part.cells.size());
-    std::vector<Values<Lanes>> start(part.columnCount);
-    std::vector<Values<Lanes>> above(part.columnCount);
-    std::vector<Values<Lanes>> here(part.columnCount);
-    for (label cell = 0; cell < cellCount; ++cell)
+    std::vector<Values<Lanes>> start(part_.columnCount);
+    std::vector<Values<Lanes>> above(part_.columnCount);
+    std::vector<Values<Lanes>> here(part_.columnCount);
+    for (std::size_t cell = 0; cell < part_.cells.size(); ++cell)
     {
-        std::copy_n(u.col(part.cells[cell]).data(), u.rows(), start[cell].lane);
+        for (Eigen::Index row = 0; row < u.rows(); ++row)
+        {
+            start[cell].lane[row] = u(row, part_.cells[cell]);
+        }
         for (int lane = 0; lane < Lanes; ++lane)
         {
             here[cell].lane[lane] = coefficients.back() * start[cell].lane[lane];
@@ -361,25 +414,24 @@ void CellDiffusion::applyChebyshevTo(const std::vector<double>& coefficients, Ei
     }
     for (std::size_t k = coefficients.size() - 1; k > 0; --k)
     {
-        exchange(part, here);
-        sweep(cellCount, {part.firstNeighbour.data(), part.neighbour.data(), part.rate.data()}, coefficients[k - 1],
-            k > 1 ? 2 : 1, start.data(), here.data(), above.data());
+        exchange(part_.boundaries, here);
+        sweep(part_, coefficients[k - 1], k > 1 ? 2 : 1, start.data(), here.data(), above.data());
         here.swap(above);
     }
-    for (label cell = 0; cell < cellCount; ++cell)
+    for (std::size_t cell = 0; cell < part_.cells.size(); ++cell)
     {
-        std::copy_n(here[cell].lane, u.rows(), u.col(part.cells[cell]).data());
+        std::copy_n(here[cell].lane, u.rows(), u.col(part_.cells[cell]).data());
     }
 }
 
 template<class Values>
-void CellDiffusion::exchange(const Part& part, std::vector<Values>& values)
+void CellDiffusion::exchange(const std::vector<Boundary>& boundaries, std::vector<Values>& values)
 {
     const auto bytes = [](std::size_t columns) { return static_cast<std::streamsize>(columns * sizeof(Values)); };
     const label before = UPstream::nRequests();
     std::vector<std::vector<Values>> outgoing;
-    outgoing.reserve(part.boundaries.size());
-    for (const Boundary& boundary : part.boundaries)
+    outgoing.reserve(boundaries.size());
+    for (const Boundary& boundary : boundaries)
     {
         UIPstream::read(UPstream::commsTypes::nonBlocking, boundary.rank,
             reinterpret_cast<char*>(&values[boundary.firstBehind]), bytes(boundary.cells.size()), boundary.tag,

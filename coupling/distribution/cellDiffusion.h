@@ -7,7 +7,7 @@
 #include "fvMesh.H"
 #include "rankTotals.h"
 
-#include <optional>
+#include <array>
 #include <vector>
 
 namespace clepsydra
@@ -79,6 +79,38 @@ private:
         Eigen::Index firstBehind;
     };
 
+    /// All cells of this rank and those behind its boundaries, whose columns come after.
+    struct Whole
+    {
+        Eigen::Index columnCount;
+        std::vector<Boundary> boundaries;
+        // Neighbours of cell P are the entries firstNeighbour[P] to firstNeighbour[P + 1].
+        std::vector<Foam::label> firstNeighbour;
+        std::vector<Foam::label> neighbour;
+        /// 2/largestEigenvalue |S_f|/(|d_f| V_P) [-].
+        std::vector<double> rate;
+        /// The cells in an order in which neighbours are near each other in memory.
+        std::vector<Foam::label> order;
+    };
+
+    /// What a sweep adds up for a cell: itself and as many neighbours as a hexahedron has, so that the loop over them has a
+    /// fixed length. Where a cell has fewer, the rest are itself with a rate of zero.
+    struct Row
+    {
+        static constexpr std::size_t most = 6;
+        double own;
+        std::array<double, most> rate;
+        std::array<Foam::label, most> column;
+    };
+
+    /// A neighbour beyond those of the Row.
+    struct FurtherNeighbour
+    {
+        Foam::label cell;
+        Foam::label column;
+        double rate;
+    };
+
     /// All cells of this rank, or some of them.
     struct Part
     {
@@ -87,11 +119,8 @@ private:
         /// Number of the cells and of those behind the boundaries.
         Eigen::Index columnCount;
         std::vector<Boundary> boundaries;
-        // Neighbours of cell P are the entries firstNeighbour[P] to firstNeighbour[P + 1].
-        std::vector<Foam::label> firstNeighbour;
-        std::vector<Foam::label> neighbour;
-        /// 2/largestEigenvalue |S_f|/(|d_f| V_P) [-].
-        std::vector<double> rate;
+        std::vector<Row> rows;
+        std::vector<FurtherNeighbour> further;
     };
 
     /// The cells near sources.
@@ -108,23 +137,22 @@ private:
     /// Collective.
     /// \param rounds  number of rounds; 0 for as many as are needed, with a reduction after each
     Near near(const std::vector<Foam::label>& sources, double reach, int rounds) const;
-    /// Square of the shortest distance between images of two points [m2].
-    double distanceSqr(const Foam::point& a, const Foam::point& b) const;
     Part partOf(const std::vector<bool>& taken) const;
+    Part allCells() const;
     /// applyChebyshev() for up to `Lanes` quantities.
     template<int Lanes>
     void applyChebyshevTo(const std::vector<double>& coefficients, Eigen::Ref<Eigen::MatrixXd> u) const;
     /// Fills in the values behind the boundaries to other ranks.
     template<class Values>
-    static void exchange(const Part& part, std::vector<Values>& values);
+    static void exchange(const std::vector<Boundary>& boundaries, std::vector<Values>& values);
 
     const Foam::fvMesh& mesh_;
     const PeriodicBox periodic_;
     /// Largest distance between a cell and one of its neighbours [m].
     std::vector<double> width_;
-    Part whole_;
-    /// The cells that are smoothed, where these are not all.
-    std::optional<Part> part_;
+    Whole whole_;
+    /// The cells that are smoothed.
+    Part part_;
     // What restrictTo() assumes about all ranks, the same on all of them: the number of rounds that were needed so far,
     // and whether it is worthwhile to leave out cells.
     bool planHolds_ = false;
