@@ -188,7 +188,8 @@ double Calibration::pValue(const Odds& odds) const
     const double ofStatistic = (1.0 + static_cast<double>(above)) / (1.0 + static_cast<double>(nullStatistics.size()));
     // Without scatter there is a second test, on the chi-square of the null fit. Draws far from all runs are as unusual
     // as any data, but the runs at the null fit are exact. The factor 2 corrects for two tests (Bonferroni).
-    return odds.chanceOfChiSquare ? std::min(1.0, 2.0 * std::min(ofStatistic, *odds.chanceOfChiSquare)) : ofStatistic;
+    const double p = odds.chanceOfChiSquare ? 2.0 * std::min(ofStatistic, *odds.chanceOfChiSquare) : ofStatistic;
+    return std::clamp(p, leastPValue, 1.0);
 }
 
 bool isDetected(const Study& study, const Calibration& calibration, const Odds& odds)

@@ -44,7 +44,7 @@ struct Calibration
     double otherMembership = 0.0; // as `membership`, for an unlisted cause
     double wrongNames = 0.0;      // share of the detected decoys that are named at these thresholds
 
-    /// Probability, without any effect, of a residual at least as large as that of the data.
+    /// Probability, without any effect, of a residual at least as large as that of the data; `leastPValue` at least.
     double pValue(const Odds& odds) const;
 
     /// A fit of an effect with its interval widened to its nominal coverage.

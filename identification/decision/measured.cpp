@@ -134,9 +134,10 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
     Layout layout;
     Measured measured;
     const auto learnt = numbersWhere(data.size(), [&](std::size_t c) { return emulator[c].has_value(); });
-    const Covariance own = emulator.scatters() ? Covariance{} : ownNoise(study, data, learnt, &emulator);
-    layout.noiseFreedom = emulator.scatters() ? emulator.degreesOfFreedom() : own.nu;
-    layout.noise = emulator.scatters() ? emulator.noise() : own.matrix;
+    const Covariance noise = emulator.scatters() ? Covariance{emulator.noise(), emulator.degreesOfFreedom(), 0.0}
+                                                 : ownNoise(study, data, learnt, &emulator);
+    layout.noiseFreedom = noise.nu;
+    layout.noise = noise.matrix;
     for (const auto c : learnt)
     {
         const auto& known = emulator[c]->features;
@@ -170,7 +171,7 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         }
         else
         {
-            block.noise = own.matrix(kept, kept);
+            block.noise = noise.matrix(kept, kept);
         }
         layout.rows += block.size();
         measured.mean.conservativeResize(layout.rows);

@@ -18,6 +18,10 @@ double probabilityBeyondFisher(double value, double freedom, double freedomOfNoi
 /// The value that a variable of Fisher's F distribution exceeds with this probability.
 double fisherValueBeyond(double probability, double freedom, double freedomOfNoise);
 
+/// Smallest p-value that is given. Errors are not normal so far from their mean, and a smaller number would say more
+/// than is known.
+constexpr double leastPValue = 1e-6;
+
 /// Derivative of the logarithm of the gamma function.
 double digamma(double value);
 

@@ -270,7 +270,7 @@ double Emulator::logEvidence(const std::array<double, Basis::kinds>& scales) con
 /// Chooses the scales that maximise the evidence, by two sweeps of searches in one scale at a time.
 void Emulator::chooseScales()
 {
-    scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, scatters_ ? 0.0 : 1.0};
+    scales_ = {largestScale, 10.0, 1.0, 1.0, 1.0, 1.0};
     constexpr int bits = 8;
     constexpr int sweeps = 2;
     constexpr std::uintmax_t mostEvaluations = 16;

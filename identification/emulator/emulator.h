@@ -90,6 +90,7 @@ private:
     void chooseScales();
     void solve(std::size_t condition);
     void learnNoiseAndScatter();
+    std::vector<std::vector<Eigen::Index>> repeats(std::size_t condition) const;
     void learnNoise(bool ofPlainRuns);
     void learnScatter();
     void learnChain(std::size_t effect, std::size_t condition, const StudySimulator& studySimulator,

@@ -94,11 +94,8 @@ void Emulator::learnChain(
         {
             chain.slopes[i].col(node) = solution.row(1 + i).transpose();
         }
-        if (scatters_)
-        {
-            const Eigen::ArrayXd ratio = squares(after, good).array() / squares(before, good).array();
-            chain.logScatter.col(node) = (ratio.isFinite() && ratio > 0.0).select(0.5 * ratio.log(), 0.0);
-        }
+        const Eigen::ArrayXd ratio = squares(after, good).array() / squares(before, good).array();
+        chain.logScatter.col(node) = (ratio.isFinite() && ratio > 0.0).select(0.5 * ratio.log(), 0.0);
     }
     conditions_[c]->chain[e] = std::move(chain);
 }

@@ -41,12 +41,16 @@ double biasOfLog(double degreesOfFreedom)
 /// comparison with it.
 void Emulator::learnNoiseAndScatter()
 {
-    if (scatters_)
-    {
-        learnNoise(true);
-        learnScatter();
-    }
+    learnNoise(true);
+    learnScatter();
     learnNoise(false);
+}
+
+/// Places of the runs of a condition with equal settings. Runs that are equal because they do not scatter say nothing
+/// about noise.
+std::vector<std::vector<Eigen::Index>> Emulator::repeats(std::size_t c) const
+{
+    return scatters_ ? repeatsOf(rows_[c].settings) : std::vector<std::vector<Eigen::Index>>{};
 }
 
 /// Estimates the noise from repeats at equal settings only, because the residual of a regression underestimates it. The
@@ -66,11 +70,11 @@ void Emulator::learnNoise(bool ofPlainRuns)
         const auto& kept = conditions_[c]->features;
         const Rows& rows = rows_[c];
         Scatter own;
-        for (const auto& group : repeatsOf(rows.settings))
+        for (const auto& group : repeats(c))
         {
             const std::size_t first = group.front();
             const bool isPlain = rows.settings[first].amplitudes.isZero() || !ofPlainRuns;
-            if (scatters_ && rows.scattering[first].empty() && isPlain)
+            if (rows.scattering[first].empty() && isPlain)
             {
                 own.add(rows.values(group, Eigen::all));
             }
@@ -165,7 +169,7 @@ void Emulator::learnScatter()
         for (const auto c : learnt_)
         {
             const auto& kept = conditions_[c]->features;
-            for (const auto& group : repeatsOf(rows_[c].settings))
+            for (const auto& group : repeats(c))
             {
                 const Setting& setting = rows_[c].settings[group.front()];
                 Eigen::VectorXd others = setting.amplitudes;

@@ -326,14 +326,10 @@ private:
         });
     }
 
-    /// Covariance of one measurement in a held-out condition. Effects that raise the scatter do so as on average over
-    /// the training conditions in which the same effects act.
-    Eigen::MatrixXd noiseIn(const Compared& one, std::size_t condition) const
+    /// Factors on the standard deviations in a held-out condition. Effects that raise the scatter do so as on average
+    /// over the training conditions in which the same effects act.
+    Eigen::VectorXd scatterIn(const Compared& one, std::size_t condition) const
     {
-        if (!one.emulator.scatters())
-        {
-            return one.layout.noise;
-        }
         const auto present = one.fitted.present(one.at);
         Eigen::ArrayXd logs = Eigen::ArrayXd::Zero(study_.featureCount());
         Eigen::ArrayXd counts = logs;
@@ -352,8 +348,7 @@ private:
                 counts(here.features[k]) += 1.0;
             }
         }
-        const Eigen::VectorXd factor = (logs / counts.max(1.0)).exp();
-        return factor.asDiagonal() * one.emulator.noise() * factor.asDiagonal();
+        return (logs / counts.max(1.0)).exp();
     }
 
     void predictBy(Compared& one, const std::vector<Simulation>& simulations) const
@@ -362,13 +357,10 @@ private:
         {
             const Eigen::MatrixXd rows = featureRows(simulations, c, study_.featureCount());
             const double runs = std::max(1.0, static_cast<double>(rows.array().isFinite().rowwise().any().count()));
-            const Eigen::MatrixXd noise = noiseIn(one, c);
-            Prediction predicted{meanFeatures(rows), Eigen::VectorXd::Zero(study_.featureCount()), noise};
-            if (one.emulator.scatters())
-            {
-                predicted.variance = noise.diagonal() / runs;
-            }
-            one.predicted.push_back(std::move(predicted));
+            const Eigen::VectorXd scatter = scatterIn(one, c);
+            one.predicted.push_back(
+                {meanFeatures(rows), scatter.cwiseAbs2().cwiseProduct(one.emulator.noise().diagonal()) / runs,
+                    scatter.asDiagonal() * one.layout.noise * scatter.asDiagonal()});
             one.slopes.emplace_back(Eigen::MatrixXd::Zero(study_.featureCount(), one.fitted.size()));
         }
     }

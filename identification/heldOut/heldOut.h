@@ -2,7 +2,7 @@
 
 #include "emulator/library.h"
 #include "heldOut/scores.h"
-#include "procedure/answer.h"
+#include "decision/answer.h"
 #include "study/measurements.h"
 
 #include <optional>

@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <cmath>
 
 namespace clepsydra::identification
@@ -79,7 +80,8 @@ double chanceOf(const Predictive& predicted, const Eigen::VectorXd& measured)
     const auto features = static_cast<double>(measured.size());
     return measured.size() == 0
                ? 1.0
-               : probabilityBeyondFisher(chiSquareOf(predicted, measured) / features, features, predicted.freedom);
+               : std::max(leastPValue,
+                   probabilityBeyondFisher(chiSquareOf(predicted, measured) / features, features, predicted.freedom));
 }
 
 LogRatio logRatio(

@@ -48,7 +48,7 @@ Predictive predict(const Shared& shared, const LinearModel& heldOut, const Eigen
 double chiSquareOf(const Predictive& predicted, const Eigen::VectorXd& measured);
 
 /// Probability that measurements that follow the prediction are at least as far from it: Fisher's F distribution of
-/// the squared distance per feature.
+/// the squared distance per feature. It is `leastPValue` at least.
 double chanceOf(const Predictive& predicted, const Eigen::VectorXd& measured);
 
 /// Log of the density of measurements under one prediction minus that under another.

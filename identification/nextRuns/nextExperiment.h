@@ -1,6 +1,6 @@
 #pragma once
 
-#include "procedure/answer.h"
+#include "decision/answer.h"
 
 #include <Eigen/Core>
 

@@ -3,7 +3,7 @@
 #include "files/wholeFile.h"
 #include "nextRuns/nextExperiment.h"
 #include "heldOut/heldOut.h"
-#include "procedure/magnitudes.h"
+#include "runner/magnitudes.h"
 #include "procedure/trace.h"
 #include "report/html.h"
 #include "report/json.h"

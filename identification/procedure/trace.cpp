@@ -16,13 +16,16 @@ namespace clepsydra::identification
 namespace
 {
 
-/// The first round simulates the null fit, the others the fits of the leading explanations.
-constexpr int rounds = 3;
+/// Largest numbers of rounds of deciding runs.
+struct Rounds
+{
+    int ofSingles; // the first simulates the null fit, the others the fits of the leading explanations
+    int ofPairs;
+};
+constexpr Rounds rounds{3, 1};
 
-/// If runs do not scatter, one run at each fit is enough, and each round brings the fits closer to the truth. These are
-/// the largest numbers of rounds.
-constexpr int roundsOfExact = 9;
-constexpr int pairRoundsOfExact = 4;
+/// If runs do not scatter, one run at each fit is enough, and each round brings the fits closer to the truth.
+constexpr Rounds roundsOfExact{9, 4};
 
 /// Largest number of explanations that get runs, in addition to no effect.
 constexpr std::size_t mostContenders = 4;
@@ -49,8 +52,7 @@ public:
     {
         learn();
         Eigen::VectorXd around = Eigen::VectorXd::Zero(study_.parameters.size());
-        const int last = answer_.emulator->scatters() ? rounds : roundsOfExact;
-        for (int round = 0; round < last; ++round)
+        for (int round = 0; round < rounds_.ofSingles; ++round)
         {
             const Evidence evidence = evidenceNear(around);
             around = evidence.fitNull(answer_.measured).parameters;
@@ -105,7 +107,7 @@ private:
     int runsPerRound() const
     {
         const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
-        return all / rounds;
+        return all / rounds_.ofSingles;
     }
 
     bool simulate(const std::vector<SimulationOrder>& orders)
@@ -117,7 +119,7 @@ private:
 
     bool simulateNull(const Eigen::VectorXd& parameters)
     {
-        const int repeats = answer_.emulator->scatters() ? std::max(1, study_.settings.decidingRuns / rounds) : 1;
+        const int repeats = scatters_ ? std::max(1, study_.settings.decidingRuns / rounds_.ofSingles) : 1;
         std::vector<SimulationOrder> orders;
         for (const auto& block : answer_.layout.blocks)
         {
@@ -156,7 +158,7 @@ private:
             const Fit fit = evidence.fit(e, answer_.measured);
             // The square root of the odds, so that an explanation that is behind by chance gets runs too.
             contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
-            if (i == 0 && !answer_.emulator->scatters())
+            if (i == 0)
             {
                 addNeighbours(contenders, {fit});
             }
@@ -165,9 +167,13 @@ private:
     }
 
     /// Adds copies of the last contender, in each of which one fitted quantity is changed by its standard error. Runs
-    /// there give the slopes for the next fit.
+    /// there give the slopes for the next fit, if they do not scatter.
     void addNeighbours(std::vector<Contender>& contenders, const std::vector<Fit>& fits) const
     {
+        if (scatters_)
+        {
+            return;
+        }
         const Contender centre = contenders.back();
         for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
         {
@@ -195,9 +201,8 @@ private:
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
-        const auto wanted = answer_.emulator->scatters()
-                                ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
-                                : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
+        const auto wanted = scatters_ ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
+                                      : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
@@ -210,17 +215,16 @@ private:
     /// Tries pairs of effects if no single effect explains the data.
     void tryPairs(const Eigen::VectorXd& around)
     {
-        const bool isExact = !answer_.emulator->scatters();
-        for (int round = 0; round < (isExact ? pairRoundsOfExact : 1); ++round)
+        for (int round = 0; round < rounds_.ofPairs; ++round)
         {
-            Evidence evidence = evidenceNear(around, isExact);
+            Evidence evidence = evidenceNear(around, !scatters_);
             const auto leading = leadingPairs(study_, evidence, answer_.measured);
             std::vector<Contender> contenders;
             for (const auto& pair : leading)
             {
                 contenders.push_back({presentOf(pair), pair.fits.front().parameters,
                     std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
-                if (&pair == &leading.front() && isExact)
+                if (&pair == &leading.front())
                 {
                     addNeighbours(contenders, pair.fits);
                 }
@@ -235,7 +239,7 @@ private:
             }
             learn();
         }
-        Evidence evidence = evidenceNear(around, isExact);
+        Evidence evidence = evidenceNear(around, !scatters_);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         const double other = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
@@ -247,7 +251,7 @@ private:
             }
             Explanation found = explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability);
             const Contender own{presentOf(pair), pair.fits.front().parameters, 1.0};
-            pair.inSet = !isExact || openRuns(study_, *answer_.emulator, answer_.layout, {own}, runs_).empty();
+            pair.inSet = scatters_ || openRuns(study_, *answer_.emulator, answer_.layout, {own}, runs_).empty();
             if (pair.inSet)
             {
                 answer_.set.push_back(std::move(found));
@@ -442,6 +446,8 @@ private:
     std::vector<Run> runs_;
     const std::vector<Eigen::MatrixXd>& errorSlopes_;
     const std::size_t librarySize_ = runs_.size();
+    const bool scatters_ = !study_.simulator.seedEntry.empty();
+    const Rounds rounds_ = scatters_ ? rounds : roundsOfExact;
     std::mt19937_64& random_;
     const bool withVisibility_;
     Answer answer_;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "emulator/library.h"
-#include "procedure/answer.h"
+#include "decision/answer.h"
 #include "study/measurements.h"
 
 #include <random>

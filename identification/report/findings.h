@@ -2,7 +2,7 @@
 
 #include "heldOut/heldOut.h"
 #include "nextRuns/nextExperiment.h"
-#include "procedure/answer.h"
+#include "decision/answer.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #include "report/json.h"
 
 #include "lists.h"
-#include "procedure/magnitudes.h"
+#include "runner/magnitudes.h"
 #include "report/fitted.h"
 #include "report/residual.h"
 #include "report/text.h"

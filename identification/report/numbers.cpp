@@ -1,5 +1,7 @@
 #include "report/numbers.h"
 
+#include "emulator/distributions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -58,8 +60,7 @@ std::string percent(double share)
 
 std::string pValueText(double pValue)
 {
-    constexpr double least = 1e-6;
-    return pValue < least ? "p below 1e-6" : "p = " + rounded(pValue, pValue < 0.1 ? 1 : 2);
+    return pValue <= leastPValue ? "p below 1e-6" : "p = " + rounded(pValue, pValue < 0.1 ? 1 : 2);
 }
 
 std::string withError(const Estimate& estimate)

@@ -214,7 +214,7 @@ Json heldOutFacts(const Study& study, const HeldOutResult& heldOut)
     const auto against = [&](const LogRatio& ratio, const std::string& other) {
         return std::string(
                    ratio.isBeyondChance(study.settings.level) ? "better than " : "not significantly better than ")
-               + other + " (log ratio " + rounded(ratio.value) + ", p = " + rounded(ratio.pValue, 1) + ')';
+               + other + " (log ratio " + rounded(ratio.value) + ", " + pValueText(ratio.pValue) + ')';
     };
     std::vector<std::string> compared = {
         against(heldOut.after->overNull, "no effect"), against(heldOut.overOneMore, "one more free parameter")};
@@ -230,7 +230,7 @@ Json heldOutFacts(const Study& study, const HeldOutResult& heldOut)
                       + rounded((isLog ? 100.0 : 1.0) * heldOut.before.rmsLogError.value) + " to "
                       + sizeText(isLog, heldOut.after->rmsLogError.value);
     facts["compared"] = joined(compared, ", and ");
-    facts["left"] = rounded(heldOut.after->pValue, 1);
+    facts["left"] = pValueText(heldOut.after->pValue);
     return facts;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "curves/curve.h"
-#include "runner/entries.h"
+#include "study/entries.h"
 
 #include <string>
 #include <vector>

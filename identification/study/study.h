@@ -2,7 +2,7 @@
 
 #include "curves/curve.h"
 #include "features/features.h"
-#include "runner/entries.h"
+#include "study/entries.h"
 #include "study/expression.h"
 
 #include <Eigen/Core>

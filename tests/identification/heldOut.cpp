@@ -1,3 +1,4 @@
+#include "emulator/distributions.h"
 #include "heldOut/gaussianProcess.h"
 #include "heldOut/scores.h"
 #include "nextRuns/nextExperiment.h"
@@ -41,6 +42,7 @@ TEST(Predictive, OfOneSharedQuantity)
     EXPECT_NEAR(predicted.covariance(0, 0), 2.3, 1e-12);
     EXPECT_NEAR(chiSquareOf(predicted, Eigen::VectorXd::Constant(1, 8)), 3.5 * 3.5 / 2.3, 1e-6);
     EXPECT_NEAR(chanceOf(predicted, Eigen::VectorXd::Constant(1, 8)), std::erfc(std::sqrt(3.5 * 3.5 / 2.3 / 2)), 1e-4);
+    EXPECT_EQ(chanceOf(predicted, Eigen::VectorXd::Constant(1, 1000)), leastPValue);
 }
 
 /// With few degrees of freedom the same distance is less rare: for one feature, F(1, 4) is the square of Student's t, of

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "runner/entries.h"
+#include "study/entries.h"
 #include "runner/simulator.h"
 #include "study/readStudy.h"
 #include "temporaryFolder.h"

@@ -1,6 +1,7 @@
 /// The procedure from data to an answer, and the test of the answer on held-out conditions.
 #include "decision/pairs.h"
 #include "effectOf.h"
+#include "emulator/distributions.h"
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
 #include "linearSimulator.h"
@@ -147,6 +148,8 @@ TEST(Trace, AChiSquareBeyondNoiseIsAResidual)
             EXPECT_TRUE(isDetected(study, calibration, odds));
             odds.chanceOfChiSquare = 0.03;
             EXPECT_FALSE(isDetected(study, calibration, odds)) << "the p-value is corrected for two tests";
+            odds.chanceOfChiSquare = 1e-274;
+            EXPECT_EQ(calibration.pValue(odds), leastPValue);
             std::mt19937_64 random(1);
             const Measured measured = arrange(study, emulator, data).second;
             Replicas replicas(emulator, layout, evidence, random);

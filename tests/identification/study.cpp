@@ -1,7 +1,7 @@
 #include "emulator/library.h"
 #include "emulator/plackettBurman.h"
 #include "runner/seeds.h"
-#include "runner/entries.h"
+#include "study/entries.h"
 #include "study/expression.h"
 #include "study/entriesOfRuns.h"
 #include "study/namedItems.h"

@@ -30,7 +30,7 @@ TARGETS = {
     "csv": ("measured files: study/measurements, curves/table", seeds.tables, 600),
     "study": ("study files: study/readStudy", seeds.studies, 4000),
     "effects": ("libraries of effects: study/readEffects", seeds.effects, 1500),
-    "entries": ("parameters, in traceResidual: runner/entries", seeds.parameters, 400),
+    "entries": ("parameters, in traceResidual: study/entries", seeds.parameters, 400),
     "parameters": ("parameters, in scripts: scripts/clepsydra/parameter_file.py", seeds.parameters, 400),
     "couplingProperties": ("couplingProperties: couplingStep/couplingSettings", seeds.coupling_properties, 3000),
 }

@@ -2,7 +2,7 @@
 // entries keep their values. (scripts/clepsydra/parameter_file.py reads the same files: parameters.py.)
 #include "inputFile.h"
 
-#include "runner/entries.h"
+#include "study/entries.h"
 
 #include <cstdlib>
 #include <iostream>

@@ -1,4 +1,4 @@
-#include "runner/entries.h"
+#include "study/entries.h"
 
 #include "files/wholeFile.h"
 

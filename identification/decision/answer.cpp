@@ -1,4 +1,4 @@
-#include "procedure/answer.h"
+#include "decision/answer.h"
 
 #include <cmath>
 

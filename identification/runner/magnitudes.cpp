@@ -1,4 +1,4 @@
-#include "procedure/magnitudes.h"
+#include "runner/magnitudes.h"
 
 #include <algorithm>
 #include <cmath>
