@@ -36,7 +36,7 @@ TARGETS = {
 }
 
 #: Targets whose mutations are made of another's dictionary.
-SAME_WORDS = {"effects": "study", "entries": "parameters"}
+SAME_WORDS = {"effects": "study", "entries": "parameters", "formula": "parameters"}
 
 
 def run(name: str, build: Any, seconds: int) -> dict[str, Any]:
