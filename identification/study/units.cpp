@@ -44,6 +44,8 @@ const std::map<std::string, Unit>& units()
         {"kPa", {1e3, "pressure"}},
         {"1", {1.0, "share"}},
         {"%", {1e-2, "share", {"percent"}}},
+        {"1/s", {1.0, "share rate", {"1_s"}}},
+        {"%/s", {1e-2, "share rate", {"%_s"}}},
     };
     return all;
 }
