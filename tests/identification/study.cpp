@@ -85,8 +85,8 @@ TEST(Units, AreFactorsOfSi)
 {
     const std::map<std::string, double> factors = {{"s", 1}, {"ms", 0.001}, {"min", 60}, {"h", 3600}, {"kg", 1},
         {"g", 0.001}, {"mg", 0.000001}, {"m", 1}, {"cm", 0.01}, {"mm", 0.001}, {"um", 0.000001}, {"kg/s", 1},
-        {"g/s", 0.001}, {"g/min", 0.001 / 60}, {"m/s", 1}, {"cm/s", 0.01}, {"mm/s", 0.001}, {"Pa", 1}, {"kPa", 1000}, {"1/s", 1}, {"%/s", 0.01},
-        {"1", 1}, {"%", 0.01}};
+        {"g/s", 0.001}, {"g/min", 0.001 / 60}, {"m/s", 1}, {"cm/s", 0.01}, {"mm/s", 0.001}, {"Pa", 1}, {"kPa", 1000},
+        {"1/s", 1}, {"%/s", 0.01}, {"1", 1}, {"%", 0.01}};
     for (const auto& [unit, factor] : factors)
     {
         EXPECT_DOUBLE_EQ(siUnitsPer(unit), factor) << unit;
@@ -108,7 +108,8 @@ TEST(Units, AreFactorsOfSi)
 TEST(Units, AreOfQuantitiesAndHaveOtherNames)
 {
     const std::map<std::string, std::string> quantities = {{"ms", "time"}, {"g", "mass"}, {"um", "length"},
-        {"g/min", "mass rate"}, {"cm/s", "speed"}, {"kPa", "pressure"}, {"%", "share"}, {"%/s", "share rate"}, {"furlong", ""}};
+        {"g/min", "mass rate"}, {"cm/s", "speed"}, {"kPa", "pressure"}, {"%", "share"}, {"%/s", "share rate"},
+        {"furlong", ""}};
     for (const auto& [unit, quantity] : quantities)
     {
         EXPECT_EQ(quantityOf(unit), quantity) << unit;

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Rates and residue of the digitised curves, with the errors that the scatter of their points gives, as study.yaml has them.
+"""Rates and residue of the digitised curves, as study.yaml has them, with errors by the scatter of their points.
 
 Each point's error in time is that of the points between 8 and 82 % about a parabola through them."""
 
