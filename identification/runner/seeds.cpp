@@ -11,9 +11,11 @@ namespace clepsydra::identification
 namespace
 {
 
+// The hash counts from here: another number would change the seeds of all committed runs.
 constexpr long smallest = 10007;
-constexpr long smallestOfCases = 11003; // the particle templates of cases/tutorials/hopperQuick have the primes below
-constexpr long range = 99000000;        // primes below 1e8: nine digits fit into any integer
+// The particle templates of cases/tutorials/hopperQuick have primes below this.
+constexpr long smallestOfCases = 11003;
+constexpr long range = 99000000; // primes below 1e8: nine digits fit into any integer
 
 std::uint64_t hashed(std::uint64_t state, const std::string& text)
 {
