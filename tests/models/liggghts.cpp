@@ -605,6 +605,23 @@ TEST(Liggghts, HasTheSameContactsAsItsOwn)
     EXPECT_GT(ours.bottomRows<3>().norm(), 1) << "nothing turns, so nothing touches";
 }
 
+/// The search by rows of bins finds the pairs that LIGGGHTS finds when it compares all with all, also where pairs of a
+/// group are excluded. The forces on a particle are added up in another order, so the states differ by rounding. A pair
+/// that is missing, or an excluded one that is not, makes a difference of a tenth of a millimetre.
+TEST(Liggghts, FindsThePairsThatAComparisonOfAllWithAllFinds)
+{
+    constexpr int steps = 2000;
+    const std::string excluded = "neigh_modify exclude group larger larger\n";
+    const Eigen::MatrixXd with = heap(steps, "", excluded);
+    const Eigen::MatrixXd without = heap(steps, "");
+    EXPECT_GT((with - without).topRows<3>().cwiseAbs().maxCoeff(), 1e-4);
+    const auto largestDifference = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+        return (a - b).topRows<3>().cwiseAbs().maxCoeff();
+    };
+    EXPECT_LT(largestDifference(with, heap(steps, "", excluded + "neighbor 0.001 nsq\n")), 1e-8);
+    EXPECT_LT(largestDifference(without, heap(steps, "", "neighbor 0.001 nsq\n")), 1e-8);
+}
+
 /// A new neighbour list makes LIGGGHTS forget springs of contacts that have parted. With a new one in every step it does
 /// what our contacts do without: the same to the last bit, whoever evaluates them. It differs from what LIGGGHTS does
 /// with lists that last, so some contacts have parted and met again.

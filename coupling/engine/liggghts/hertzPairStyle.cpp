@@ -3,6 +3,7 @@
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/quietRegistration.h"
+#include "engine/liggghts/rows.h"
 #include "tokens/renamed.h"
 
 // Headers that LIGGGHTS' headers below use without including them.
@@ -98,11 +99,12 @@ public:
 
     void compute_force(lmp::PairGran* pair, int energies, int virials, int forCompute) override
     {
+        const ParticleArrays particles(*program_.atom);
         if (!canEvaluate(*pair, energies != 0 || virials != 0 || forCompute != 0))
         {
             for (int particle = 0; pair->listgranhistory && particle < pair->list->inum; ++particle)
             {
-                findContacts(*pair, pair->list->ilist[particle]);
+                findContacts(*pair, particles, pair->list->ilist[particle]);
                 resetSeparated(*pair, pair->list->ilist[particle]);
             }
 #ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style excludes
@@ -116,9 +118,9 @@ public:
         const lmp::NeighList& list = *pair->list;
         for (int particle = 0; particle < list.inum; ++particle)
         {
-            addContacts(*pair, list.ilist[particle], shearStep);
+            addContacts(*pair, particles, list.ilist[particle], shearStep);
         }
-        evaluate(*pair, shearStep);
+        evaluate(*pair, particles, shearStep);
     }
 
 private:
@@ -137,23 +139,40 @@ private:
         double* shear;
     };
 
+    /// LIGGGHTS' arrays of the particles, three numbers of a particle for each vector.
+    struct ParticleArrays
+    {
+        const double* position;
+        const double* velocity;
+        const double* angularVelocity;
+        double* force;
+        double* torque;
+        const double* radius;
+        const double* mass;
+        const int* type;
+
+        explicit ParticleArrays(const lmp::Atom& atoms)
+            : position(firstElement(atoms.x)),
+              velocity(firstElement(atoms.v)),
+              angularVelocity(firstElement(atoms.omega)),
+              force(firstElement(atoms.f)),
+              torque(firstElement(atoms.torque)),
+              radius(atoms.radius),
+              mass(atoms.rmass),
+              type(atoms.type)
+        {}
+    };
+
     /// Some of a particle's neighbours, by their index in its list.
     struct Chosen
     {
         std::vector<int> which;
         std::size_t count = 0;
 
-        void clear(int most)
+        int* roomFor(int most)
         {
             which.resize(std::max(which.size(), static_cast<std::size_t>(most)));
-            count = 0;
-        }
-
-        /// Without a branch, because one neighbour in three is in contact, which no processor predicts.
-        void addIf(bool isChosen, int neighbour)
-        {
-            which[count] = neighbour;
-            count += isChosen ? 1 : 0;
+            return which.data();
         }
     };
 
@@ -209,9 +228,9 @@ private:
     }
 
     /// Adds the contacts of particle i with the neighbours in its list.
-    void addContacts(lmp::PairGran& pair, int i, double shearStep)
+    void addContacts(lmp::PairGran& pair, const ParticleArrays& particles, int i, double shearStep)
     {
-        findContacts(pair, i);
+        findContacts(pair, particles, i);
         resetSeparated(pair, i);
         const int* const neighbours = pair.list->firstneigh[i];
         int* const flags = pair.listgranhistory->firstneigh[i];
@@ -220,37 +239,44 @@ private:
         {
             const int neighbour = touching_.which[touch];
             flags[neighbour] |= models::CONTACT_NORMAL_MODEL | models::CONTACT_TANGENTIAL_MODEL;
-            add({i, neighbours[neighbour] & NEIGHMASK, history + pair.dnum() * neighbour});
+            add(particles, {i, neighbours[neighbour] & NEIGHMASK, history + pair.dnum() * neighbour});
             if (contacts_.count == HertzContacts::most)
             {
-                evaluate(pair, shearStep);
+                evaluate(pair, particles, shearStep);
             }
         }
     }
 
     /// Finds the neighbours that particle i touches, and those from which it has just separated.
-    void findContacts(const lmp::PairGran& pair, int i)
+    void findContacts(const lmp::PairGran& pair, const ParticleArrays& particles, int i)
     {
-        const lmp::Atom& atoms = *program_.atom;
         const int* const neighbours = pair.list->firstneigh[i];
         const int* const flags = pair.listgranhistory->firstneigh[i];
         const int neighbourCount = pair.list->numneigh[i];
-        const double* const at = atoms.x[i];
-        const double radius = atoms.radius[i];
-        touching_.clear(neighbourCount);
-        separated_.clear(neighbourCount);
+        const double* const at = particles.position + 3 * static_cast<std::ptrdiff_t>(i);
+        const double radius = particles.radius[i];
+        int* const touching = touching_.roomFor(neighbourCount);
+        int* const separated = separated_.roomFor(neighbourCount);
+        std::size_t touchingCount = 0;
+        std::size_t separatedCount = 0;
         for (int neighbour = 0; neighbour < neighbourCount; ++neighbour)
         {
-            const int j = neighbours[neighbour] & NEIGHMASK;
-            const double dx = at[0] - atoms.x[j][0];
-            const double dy = at[1] - atoms.x[j][1];
-            const double dz = at[2] - atoms.x[j][2];
-            const double reach = radius + atoms.radius[j];
+            const std::ptrdiff_t j = neighbours[neighbour] & NEIGHMASK;
+            const double* const position = particles.position + 3 * j;
+            const double dx = at[0] - position[0];
+            const double dy = at[1] - position[1];
+            const double dz = at[2] - position[2];
+            const double reach = radius + particles.radius[j];
             const bool touches = dx * dx + dy * dy + dz * dz < reach * reach;
             const bool touched = flags[neighbour] != 0;
-            touching_.addIf(touches, neighbour);
-            separated_.addIf(!touches & touched, neighbour);
+            // Without a branch, because one neighbour in three is in contact, which no processor predicts.
+            touching[touchingCount] = neighbour;
+            touchingCount += touches ? 1 : 0;
+            separated[separatedCount] = neighbour;
+            separatedCount += !touches & touched ? 1 : 0;
         }
+        touching_.count = touchingCount;
+        separated_.count = separatedCount;
     }
 
     void resetSeparated(lmp::PairGran& pair, int i)
@@ -263,26 +289,26 @@ private:
         }
     }
 
-    void add(const Partners& partners)
+    void add(const ParticleArrays& particles, const Partners& partners)
     {
-        const lmp::Atom& atoms = *program_.atom;
-        const auto [i, j, shear] = partners;
         HertzContacts& c = contacts_;
         const std::size_t k = c.count++;
         partners_[k] = partners;
+        const std::ptrdiff_t i = partners.i;
+        const std::ptrdiff_t j = partners.j;
         for (int axis = 0; axis < 3; ++axis)
         {
-            c.distance[axis][k] = atoms.x[i][axis] - atoms.x[j][axis];
-            c.velocity[axis][k] = atoms.v[i][axis] - atoms.v[j][axis];
-            c.angularVelocityI[axis][k] = atoms.omega[i][axis];
-            c.angularVelocityJ[axis][k] = atoms.omega[j][axis];
-            c.shear[axis][k] = shear[axis];
+            c.distance[axis][k] = particles.position[3 * i + axis] - particles.position[3 * j + axis];
+            c.velocity[axis][k] = particles.velocity[3 * i + axis] - particles.velocity[3 * j + axis];
+            c.angularVelocityI[axis][k] = particles.angularVelocity[3 * i + axis];
+            c.angularVelocityJ[axis][k] = particles.angularVelocity[3 * j + axis];
+            c.shear[axis][k] = partners.shear[axis];
         }
-        c.radiusI[k] = atoms.radius[i];
-        c.radiusJ[k] = atoms.radius[j];
-        c.massI[k] = atoms.rmass[i];
-        c.massJ[k] = atoms.rmass[j];
-        const Material& material = materials_[atoms.type[i] * typeCount_ + atoms.type[j]];
+        c.radiusI[k] = particles.radius[i];
+        c.radiusJ[k] = particles.radius[j];
+        c.massI[k] = particles.mass[i];
+        c.massJ[k] = particles.mass[j];
+        const Material& material = materials_[particles.type[i] * typeCount_ + particles.type[j]];
         c.youngsModulus[k] = material.youngsModulus;
         c.shearModulus[k] = material.shearModulus;
         c.damping[k] = material.damping;
@@ -290,29 +316,31 @@ private:
     }
 
     /// Applies the forces of the contacts that have been added, and clears the list of contacts.
-    void evaluate(lmp::PairGran& pair, double shearStep)
+    void evaluate(lmp::PairGran& pair, const ParticleArrays& particles, double shearStep)
     {
         HertzContacts& c = contacts_;
         evaluateHertz(c, shearStep);
-        const lmp::Atom& atoms = *program_.atom;
         const bool alsoOnGhosts = program_.force->newton_pair != 0;
+        const int localCount = program_.atom->nlocal;
         for (std::size_t k = 0; k < c.count; ++k)
         {
-            const auto [i, j, shear] = partners_[k];
-            const double relaxI = pair.relax(i);
+            double* const shear = partners_[k].shear;
+            const std::ptrdiff_t i = partners_[k].i;
+            const std::ptrdiff_t j = partners_[k].j;
+            const double relaxI = pair.relax(partners_[k].i);
             for (int axis = 0; axis < 3; ++axis)
             {
                 shear[axis] = c.shear[axis][k];
-                atoms.f[i][axis] += relaxI * c.force[axis][k];
-                atoms.torque[i][axis] += relaxI * c.torqueI[axis][k];
+                particles.force[3 * i + axis] += relaxI * c.force[axis][k];
+                particles.torque[3 * i + axis] += relaxI * c.torqueI[axis][k];
             }
-            if (alsoOnGhosts || j < atoms.nlocal)
+            if (alsoOnGhosts || j < localCount)
             {
-                const double relaxJ = pair.relax(j);
+                const double relaxJ = pair.relax(partners_[k].j);
                 for (int axis = 0; axis < 3; ++axis)
                 {
-                    atoms.f[j][axis] -= relaxJ * c.force[axis][k];
-                    atoms.torque[j][axis] += relaxJ * c.torqueJ[axis][k];
+                    particles.force[3 * j + axis] -= relaxJ * c.force[axis][k];
+                    particles.torque[3 * j + axis] += relaxJ * c.torqueJ[axis][k];
                 }
             }
         }

@@ -7,6 +7,7 @@
 #include "engine/liggghts/liggghtsParticles.h"
 #include "engine/liggghts/liggghtsProgram.h"
 #include "engine/liggghts/meshWalls.h"
+#include "engine/liggghts/neighbourLists.h"
 #include "engine/liggghts/outputFiles.h"
 #include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/removal.h"
@@ -30,7 +31,7 @@ struct LiggghtsEngine::Parts
     explicit Parts(const LiggghtsSetup& setup)
         : outputFiles(setup.logFile, setup.outputs),
           program(setup.logFile, setup.communicator, setup.onWarning),
-          commands((registerHertzPairStyle(), runScript(program, outputFiles, setup))),
+          commands((registerHertzPairStyle(), replaceNeighbourSearch(program), runScript(program, outputFiles, setup))),
           resumed(!setup.resumeFrom.empty())
     {
         for (const GroupChange& change : setup.groupChanges)
