@@ -298,7 +298,8 @@ Json runsJson(const StudySimulator& studySimulator)
     return {{"used", all}, {"executed", studySimulator.effort().executed},
         {"fromCache", all - studySimulator.effort().executed}, {"seconds", studySimulator.effort().seconds},
         {"secondsOfStored", studySimulator.effort().secondsOfStored},
-        {"byPurpose", studySimulator.effort().runsByPurpose}, {"failures", failures}};
+        {"byPurpose", studySimulator.effort().runsByPurpose},
+        {"failed", failedRunsOf(studySimulator.study(), studySimulator.effort())}, {"failures", failures}};
 }
 
 Json nextJson(const Findings& findings)

@@ -28,6 +28,9 @@ std::string gradeOf(const Findings& findings);
 /// Name of the effect or family that was found.
 std::string namedBy(const Study& study, const Answer& answer);
 
+/// The failed runs, by purpose and condition, and why the first of each failed.
+std::vector<std::string> failedRunsOf(const Study& study, const Effort& effort);
+
 /// Sentences on the assumptions behind the answer.
 std::vector<std::string> assumptionsOf(const Findings& findings);
 

@@ -17,6 +17,7 @@
 #include <limits>
 #include <memory>
 #include <regex>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -397,6 +398,30 @@ TEST(Sentence, ComparesAMeasuredAmplitude)
         bench.answer.effects[1].alone->sd = 0.1;
         EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr(std::string("0.90 ± 0.10: the two ") + says)));
     }
+}
+
+/// Failed runs of one purpose and condition are counted in one sentence, with the first one's reason.
+TEST(Sentence, CountsFailedRuns)
+{
+    const TemporaryFolder folder;
+    Effort effort;
+    effort.failures = {{"design", "dry", 7, "the step is too long", true}, {"base", "dry", 5, "no licence", false},
+        {"design", "dry", 8, "the step is far too long", false}};
+    EXPECT_THAT(failedRunsOf(linearStudy(folder, "seed"), effort),
+        ElementsAre(
+            "Failed runs (base, condition dry): 1; repeated with another seed: 0. The first, of seed 5: no licence",
+            "Failed runs (design, condition dry): 2; repeated with another seed: 1. The first, of seed 7: the step is "
+            "too "
+            "long"));
+}
+
+/// The text names the data that were left out and the runs that failed.
+TEST(Text, SaysWhatIsMissing)
+{
+    std::ostringstream out;
+    writeText(
+        {{"summary", "s"}, {"remarks", {"feature end is left out"}}, {"runs", {{"failed", {"2 failed runs"}}}}}, out);
+    EXPECT_THAT(out.str(), AllOf(HasSubstr("feature end is left out\n"), HasSubstr("2 failed runs\n")));
 }
 
 /// Parameters with their errors before and after, and the entry that the effect sets: y = 0.04 a, a = 0.5 ± 0.1.
