@@ -23,7 +23,7 @@ std::vector<SimulationOrder> ordersOf(
     const StudySimulator& studySimulator, std::size_t condition, std::size_t error, double z)
 {
     const Study& study = studySimulator.study();
-    const int repeats = study.simulator.seedEntry.empty() ? 1 : study.settings.repeatsAlone;
+    const int repeats = study.simulator.scatters() ? study.settings.repeatsAlone : 1;
     std::vector<SimulationOrder> orders;
     orders.reserve(static_cast<std::size_t>(repeats));
     for (int number = 0; number < repeats; ++number)
@@ -38,7 +38,7 @@ std::vector<SimulationOrder> ordersOf(
 
 double differenceStep(const Study& study)
 {
-    return study.simulator.seedEntry.empty() ? 1.0 : 2.0;
+    return study.simulator.scatters() ? 2.0 : 1.0;
 }
 
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition)

@@ -105,7 +105,7 @@ Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, con
       rows_(study.conditions.size()),
       conditions_(study.conditions.size()),
       known_(study.effects.size(), true),
-      scatters_(!study.simulator.seedEntry.empty())
+      scatters_(study.simulator.scatters())
 {
     for (std::size_t c = 0; c < conditions_.size(); ++c)
     {

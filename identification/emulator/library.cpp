@@ -205,7 +205,7 @@ std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
     for (const auto condition : study.conditionsOf(Role::training))
     {
         Orders orders(studySimulator, condition);
-        append(all, study.simulator.seedEntry.empty() ? orders.exact() : orders.scattering());
+        append(all, study.simulator.scatters() ? orders.scattering() : orders.exact());
         append(all, commonErrorOrders(studySimulator, condition));
     }
     return all;

@@ -55,7 +55,7 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
 {
     const auto conditions = study.conditionsOf(Role::training);
     const auto isMeasured = [&](std::size_t c) { return !study.conditions[c].measured.empty(); };
-    if (study.simulator.seedEntry.empty() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
+    if (!study.simulator.scatters() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
     {
         ownNoise(study, training, conditions);
     }
@@ -70,7 +70,7 @@ int runsPerDataSet(const Study& study, int rounds, int ofPairs)
     // Null fit, best explanation and one more parameter; slopes of the first two
     const int predictions = 4 + 2 * static_cast<int>(study.parameters.size());
     constexpr int outcomes = 8; // four draws for each of two explanations
-    const bool isExact = study.simulator.seedEntry.empty();
+    const bool isExact = !study.simulator.scatters();
     const int fit = 2 + static_cast<int>(study.parameters.size());
     const int deciding = study.settings.decidingRuns;
     return count(Role::training) * (isExact && deciding > 0 ? 1 + rounds * fit + ofPairs * (fit + 1) : deciding)

@@ -446,7 +446,7 @@ private:
     std::vector<Run> runs_;
     const std::vector<Eigen::MatrixXd>& errorSlopes_;
     const std::size_t librarySize_ = runs_.size();
-    const bool scatters_ = !study_.simulator.seedEntry.empty();
+    const bool scatters_ = study_.simulator.scatters();
     const Rounds rounds_ = scatters_ ? rounds : roundsOfExact;
     std::mt19937_64& random_;
     const bool withVisibility_;

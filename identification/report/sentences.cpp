@@ -363,7 +363,7 @@ Json assumedFacts(const Study& study, const Answer& answer)
                            })},
         {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
         {"modelError", study.modelError.maxCoeff() > 0.0}, {"leftOut", mapped(study.leftOut, inLine)},
-        {"differ", !study.simulator.seedEntry.empty()}};
+        {"differ", study.simulator.scatters()}};
 }
 
 /// The sentences of one part: summary, details, next or assumptions.

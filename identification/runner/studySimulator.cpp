@@ -177,7 +177,7 @@ RunOrder StudySimulator::runOrder(const SimulationOrder& order, int attempt) con
     run.file = condition.file;
     run.entries = entriesOf(order.condition, order.setting);
     run.purpose = order.purpose + ", " + condition.name;
-    if (!study_.simulator.seedEntry.empty())
+    if (study_.simulator.scatters())
     {
         const std::string seeds = order.seeds.empty() ? order.purpose : order.seeds;
         run.seed = seedOf(study_.settings.seed, seeds + (attempt > 0 ? "/" + std::to_string(attempt) : ""),
@@ -199,7 +199,7 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
     std::vector<std::vector<std::size_t>> failuresOf(orders.size());
     auto open = numbersWhere(orders.size(), [](std::size_t) { return true; });
     // Without a seed, a second attempt would fail in the same way.
-    const int attempts = study_.simulator.seedEntry.empty() ? 1 : study_.settings.attempts;
+    const int attempts = study_.simulator.scatters() ? study_.settings.attempts : 1;
     for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
     {
         const auto runs = mapped(open, [&](std::size_t i) { return runOrder(orders[i], attempt); });

@@ -42,7 +42,7 @@ SimulatorSpecification readSimulator(const YamlPlace& place)
     {
         place.at("case").fail("there is no file " + (simulator.caseFolder / simulator.entriesFile).string());
     }
-    if (!simulator.seedEntry.empty())
+    if (simulator.scatters())
     {
         requireEntry(place.at("seed"), simulator.seedEntry, simulator);
     }
@@ -214,7 +214,7 @@ void readSettings(const YamlPlace& root, Study& study)
     settings.coverage = share("coverage", settings.coverage, "0.9 for 90 %");
     settings.wrongNames = share("wrongNames", settings.wrongNames, "0.05 for 5 %");
     settings.draws = inference.countOr("draws", settings.draws, 100);
-    if (!study.simulator.seedEntry.empty() && settings.level * (settings.draws + 1) <= 1.0)
+    if (study.simulator.scatters() && settings.level * (settings.draws + 1) <= 1.0)
     {
         inference.at("level").fail(
             std::to_string(settings.draws) + " draws cannot resolve so small a level; raise 'level' or 'draws'");

@@ -37,11 +37,17 @@ struct SimulatorSpecification
     std::string command = "./Allrun";
     std::string entriesFile = "parameters";
     Entries entries;                              // set in all runs
-    std::string seedEntry;                        // entry of the seed; empty: repeated runs do not differ
+    std::string seedEntry;                        // entry of the seed; empty: there is none
     std::vector<std::filesystem::path> dependsOn; // files outside the case that its results depend on
     std::string version;                          // any text; when it changes, stored runs are not used any more
     double costPerRun = 60.0;                     // estimated time of a run until one has been measured [s]
     double timeLimit = 0.0;                       // of a run [s]; 0: no limit
+
+    /// Whether repeated runs differ.
+    bool scatters() const
+    {
+        return !seedEntry.empty();
+    }
 };
 
 /// Where a prior comes from. Only the first is called a measurement.

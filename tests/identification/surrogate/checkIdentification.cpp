@@ -278,7 +278,7 @@ private:
         const Eigen::Index features = allEffects_.featureCount();
         Eigen::MatrixXd rows =
             featureRows(simulator.repeats({condition}, setting, purpose, repeats), condition, features);
-        if (study_.simulator.seedEntry.empty())
+        if (!study_.simulator.scatters())
         {
             scattering_.settings.seed = allEffects_.settings.seed;
             StudySimulator scattering(scattering_, scatteringSimulator_);
