@@ -146,7 +146,6 @@ PAGES = {file: page for page, file in FILES.items()} | {
     "coupling/README.md": "reference/index",
     "identification/README.md": "howTo/ownMeasurement",
     "meshes/README.md": "howTo/meshes",
-    "scripts/developers/benchmarks/README.md": "benchmarks/index",
 }
 
 

@@ -1,7 +1,8 @@
+// Compiled without fused multiply-add, so that rounding is the same as in LIGGGHTS: see CMakeLists.txt.
 #include "engine/liggghts/neighbourLists.h"
 
 #include "engine/liggghts/liggghtsProgram.h"
-#include "engine/liggghts/nearSpheres.h"
+#include "vectorUnits.h"
 
 // Headers that LIGGGHTS' headers below use without including them.
 #include <mpi.h>
@@ -24,6 +25,63 @@ namespace
 {
 
 namespace lmp = LAMMPS_NS;
+
+/// Spheres with each coordinate of all of them side by side for vector units. SI units.
+struct Spheres
+{
+    std::vector<double> x;
+    std::vector<double> y;
+    std::vector<double> z;
+    std::vector<double> radius;
+    /// Results of markNear: the square of the distance of the centres, and 1 for spheres that are near, otherwise 0.
+    std::vector<double> distanceSquared;
+    std::vector<char> isNear;
+
+    void resize(std::size_t count)
+    {
+        for (std::vector<double>* values : {&x, &y, &z, &radius, &distanceSquared})
+        {
+            values->resize(count);
+        }
+        isNear.resize(count);
+    }
+};
+
+/// When two spheres are near each other: if their centres are no further apart than the sum of their radii, times
+/// `radiusFactor`, plus `skin`.
+struct Nearness
+{
+    double radiusFactor;
+    double skin;
+};
+
+/// Finds which of the spheres from `first` to before `last` are near the sphere `of`. It has LIGGGHTS' operations in their
+/// order, so a pair at the limit is decided as LIGGGHTS decides it.
+CLEPSYDRA_FOR_VECTOR_UNITS void markNear(
+    Spheres& spheres, std::size_t first, std::size_t last, std::size_t of, const Nearness& nearness)
+{
+    const double* const x = spheres.x.data();
+    const double* const y = spheres.y.data();
+    const double* const z = spheres.z.data();
+    const double* const radius = spheres.radius.data();
+    double* __restrict const distanceSquared = spheres.distanceSquared.data();
+    char* __restrict const isNear = spheres.isNear.data();
+    const double atX = x[of];
+    const double atY = y[of];
+    const double atZ = z[of];
+    const double ofRadius = radius[of];
+    const auto [radiusFactor, skin] = nearness;
+    for (std::size_t k = first; k < last; ++k)
+    {
+        const double dx = atX - x[k];
+        const double dy = atY - y[k];
+        const double dz = atZ - z[k];
+        const double squared = dx * dx + dy * dy + dz * dz;
+        const double reach = (ofRadius + radius[k]) * radiusFactor + skin;
+        distanceSquared[k] = squared;
+        isNear[k] = squared <= reach * reach ? 1 : 0;
+    }
+}
 
 /// Bins whose particles lie side by side, as offsets from a particle's own bin.
 struct BinRow
