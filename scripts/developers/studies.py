@@ -31,6 +31,7 @@ STUDIES = {
     "sphereInBoxCurves": ("a sphere settles on the floor (ten Cate 2002)", "drag, added mass"),
     "particlesInTwoLiquids": ("particles in glycerol and in water", "Stokes' drag"),
     "settledGlycerol": ("particles in glycerol, before and after it settled", "one viscosity a day"),
+    "slotHopper": ("plastic spheres and cylinders through a slot (digitised)", "spheres of the cylinders' volume"),
     "paperRates": ("the published hopper's two rates, dry and submerged", "one friction"),
 }
 
@@ -214,7 +215,7 @@ def errors(report: Any) -> list[Any]:
     held_out = report["heldOut"]
     scores = [held_out.get(one) for one in ("before", "after", "oneMoreParameter")]
     return [
-        f"{100 * one['rmsLogError']:.1f} +- {100 * one['standardError']:.1f} %" if one else "" for one in scores
+        f"{100 * one['rmsLogError']:.1f} ± {100 * one['standardError']:.1f} %" if one else "" for one in scores
     ] + [
         f"{100 * held_out['noiseFloor']:.1f} %" if held_out.get("noiseFloor") else "",
         grade(report),
