@@ -214,9 +214,7 @@ def shown_condition(study: dict[str, Any], where: Any) -> Any:
 def errors(report: Any) -> list[Any]:
     held_out = report["heldOut"]
     scores = [held_out.get(one) for one in ("before", "after", "oneMoreParameter")]
-    return [
-        f"{100 * one['rmsLogError']:.1f} ± {100 * one['standardError']:.1f} %" if one else "" for one in scores
-    ] + [
+    return [f"{100 * one['rmsLogError']:.1f} ± {100 * one['standardError']:.1f} %" if one else "" for one in scores] + [
         f"{100 * held_out['noiseFloor']:.1f} %" if held_out.get("noiseFloor") else "",
         grade(report),
         ("yes" if held_out["complete"] else "no") if "complete" in held_out else OLD_RULE,

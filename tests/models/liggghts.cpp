@@ -573,9 +573,11 @@ Eigen::MatrixXd heap(
     {
         particles.dem.particles.emplace_back(particles.dem.particles[particle] + Vector3d(0, 0, 0.0022));
     }
-    particles.dem.more = "group larger id 1:100\nset group larger diameter 2.6e-3\n"
-                         "pair_style gran model hertz tangential history "
-                         + wordsOfContactLaw + "\npair_coeff * *\n" + more;
+    particles.dem.more =
+        "group larger id 1:100\nset group larger diameter 2.6e-3\n"
+        "fix rolling all property/global coefficientRollingFriction peratomtypepair 2 0.2 0.2 0.2 0.2\n"
+        "pair_style gran model hertz tangential history "
+        + wordsOfContactLaw + "\npair_coeff * *\n" + more;
     LiggghtsEngine& engine = particles.start(nullptr);
     engine.advance(steps);
     const ParticlesView view = engine.particles();
@@ -603,6 +605,18 @@ TEST(Liggghts, HasTheSameContactsAsItsOwn)
     const Eigen::MatrixXd theirs = heap(2000, "tangential_reset off tangential_damping on");
     EXPECT_EQ(ours, theirs);
     EXPECT_GT(ours.bottomRows<3>().norm(), 1) << "nothing turns, so nothing touches";
+}
+
+/// The same with rolling friction, which slows the rotation. Twenty pairs touch at the start without turning against each
+/// other.
+TEST(Liggghts, HasTheSameRollingFrictionAsItsOwn)
+{
+    const std::string rolling = "rolling_friction cdt tangential_reset off";
+    feenableexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW);
+    const Eigen::MatrixXd ours = heap(2000, rolling);
+    fedisableexcept(FE_ALL_EXCEPT);
+    EXPECT_EQ(ours, heap(2000, rolling + " tangential_damping on"));
+    EXPECT_LT(ours.bottomRows<3>().norm(), 0.8 * heap(2000, "tangential_reset off").bottomRows<3>().norm());
 }
 
 /// The search by rows of bins finds the pairs that LIGGGHTS finds when it compares all with all, also where pairs of a

@@ -11,7 +11,12 @@
 namespace clepsydra
 {
 
-CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double shearStep)
+namespace
+{
+
+/// Inlined into the functions below, each of which is compiled for several vector units.
+template<bool rolls>
+[[gnu::always_inline]] inline void evaluate(HertzContacts& contacts, double shearStep)
 {
     constexpr double rootOfFiveSixths = 0.91287092917527685576161630466800355658790782499663875;
     constexpr double smallest = std::numeric_limits<double>::min();
@@ -93,13 +98,44 @@ CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double sh
         const double turnX = ny * fz - nz * fy;
         const double turnY = nz * fx - nx * fz;
         const double turnZ = nx * fy - ny * fx;
-        c.torqueI[0][k] = -armI * turnX;
-        c.torqueI[1][k] = -armI * turnY;
-        c.torqueI[2][k] = -armI * turnZ;
-        c.torqueJ[0][k] = -armJ * turnX;
-        c.torqueJ[1][k] = -armJ * turnY;
-        c.torqueJ[2][k] = -armJ * turnZ;
+        double rollingX = 0;
+        double rollingY = 0;
+        double rollingZ = 0;
+        if constexpr (rolls)
+        {
+            const double turningX = c.angularVelocityI[0][k] - c.angularVelocityJ[0][k];
+            const double turningY = c.angularVelocityI[1][k] - c.angularVelocityJ[1][k];
+            const double turningZ = c.angularVelocityI[2][k] - c.angularVelocityJ[2][k];
+            const double turning = std::sqrt(turningX * turningX + turningY * turningY + turningZ * turningZ);
+            const double size =
+                c.rollingFriction[k] * normalStiffness * overlap * radius / (turning > 0 ? turning : 1.);
+            rollingX = turningX * size;
+            rollingY = turningY * size;
+            rollingZ = turningZ * size;
+            const double about = rollingX * nx + rollingY * ny + rollingZ * nz;
+            rollingX -= nx * about;
+            rollingY -= ny * about;
+            rollingZ -= nz * about;
+        }
+        c.torqueI[0][k] = -armI * turnX - rollingX;
+        c.torqueI[1][k] = -armI * turnY - rollingY;
+        c.torqueI[2][k] = -armI * turnZ - rollingZ;
+        c.torqueJ[0][k] = -armJ * turnX + rollingX;
+        c.torqueJ[1][k] = -armJ * turnY + rollingY;
+        c.torqueJ[2][k] = -armJ * turnZ + rollingZ;
     }
+}
+
+} // namespace
+
+CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertz(HertzContacts& contacts, double shearStep)
+{
+    evaluate<false>(contacts, shearStep);
+}
+
+CLEPSYDRA_FOR_VECTOR_UNITS void evaluateHertzRolling(HertzContacts& contacts, double shearStep)
+{
+    evaluate<true>(contacts, shearStep);
 }
 
 } // namespace clepsydra

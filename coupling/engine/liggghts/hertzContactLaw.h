@@ -30,6 +30,8 @@ struct HertzContacts
     Values shearModulus;
     Values damping;
     Values friction;
+    /// Coefficient of rolling friction; read with rolling friction only.
+    Values rollingFriction;
 
     /// Tangential displacement since the start of the contact; updated.
     Vectors shear;
@@ -44,5 +46,9 @@ struct HertzContacts
 /// has LIGGGHTS' operations in their order, so the results are the same to the last bit.
 /// \param shearStep  time over which the tangential displacement grows [s]; 0 leaves it unchanged
 void evaluateHertz(HertzContacts& contacts, double shearStep);
+
+/// The same with `rolling_friction cdt` (rolling_model_cdt.h): a torque of constant size against the relative rotation,
+/// without its part about the normal (Ai et al., Powder Technology 206, 2011, model A).
+void evaluateHertzRolling(HertzContacts& contacts, double shearStep);
 
 } // namespace clepsydra

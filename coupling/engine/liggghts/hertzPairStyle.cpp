@@ -46,11 +46,17 @@
 #include <string>
 #include <vector>
 
-// The library contains the compiled template.
-using HertzStyle = LIGGGHTS::ContactModels::GranStyle<LIGGGHTS::ContactModels::HERTZ,
-    LIGGGHTS::ContactModels::TANGENTIAL_HISTORY, LIGGGHTS::ContactModels::COHESION_OFF,
-    LIGGGHTS::ContactModels::ROLLING_OFF, LIGGGHTS::ContactModels::SURFACE_DEFAULT>;
-extern template class LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<HertzStyle>>;
+// The library contains the compiled templates.
+template<int rollingModel>
+using HertzStyle =
+    LIGGGHTS::ContactModels::GranStyle<LIGGGHTS::ContactModels::HERTZ, LIGGGHTS::ContactModels::TANGENTIAL_HISTORY,
+        LIGGGHTS::ContactModels::COHESION_OFF, rollingModel, LIGGGHTS::ContactModels::SURFACE_DEFAULT>;
+template<int rollingModel>
+using HertzOfLiggghts = LIGGGHTS::PairStyles::Granular<LIGGGHTS::ContactModels::ContactModel<HertzStyle<rollingModel>>>;
+extern template class LIGGGHTS::PairStyles::Granular<
+    LIGGGHTS::ContactModels::ContactModel<HertzStyle<LIGGGHTS::ContactModels::ROLLING_OFF>>>;
+extern template class LIGGGHTS::PairStyles::Granular<
+    LIGGGHTS::ContactModels::ContactModel<HertzStyle<LIGGGHTS::ContactModels::ROLLING_CDT>>>;
 
 namespace clepsydra
 {
@@ -61,8 +67,6 @@ namespace
 namespace lmp = LAMMPS_NS;
 namespace models = LIGGGHTS::ContactModels;
 
-using HertzOfLiggghts = LIGGGHTS::PairStyles::Granular<models::ContactModel<HertzStyle>>;
-
 constexpr const char* resetKeyword = "tangential_reset";
 
 /// LIGGGHTS' pair style with a loop over many contacts at a time in place of a chain of calls for each contact. Options
@@ -71,11 +75,15 @@ constexpr const char* resetKeyword = "tangential_reset";
 /// LIGGGHTS keeps the tangential displacement of a contact until the next neighbour list, so particles that have
 /// separated and collide again before that start with the old displacement. Here the displacement is reset at
 /// separation, unless the script says `tangential_reset off`.
-class HertzPairStyle : public HertzOfLiggghts
+template<int rollingModel>
+class HertzPairStyle : public HertzOfLiggghts<rollingModel>
 {
+    using Base = HertzOfLiggghts<rollingModel>;
+    static constexpr bool rolls = rollingModel != models::ROLLING_OFF;
+
 public:
     HertzPairStyle(lmp::LAMMPS& program, lmp::PairGran& parent, int64_t hash)
-        : HertzOfLiggghts(&program, &parent, hash),
+        : Base(&program, &parent, hash),
           program_(program)
     {}
 
@@ -84,17 +92,21 @@ public:
         std::vector<char*> rest(tokens, tokens + count);
         readTangentialReset(rest);
         plain_ = rest.empty();
-        HertzOfLiggghts::settings(static_cast<int>(rest.size()), rest.data(), history);
+        Base::settings(static_cast<int>(rest.size()), rest.data(), history);
     }
 
     void init_granular() override
     {
-        HertzOfLiggghts::init_granular();
+        Base::init_granular();
         PropertyRegistry& registry = program_.force->registry;
         registry.connect("Yeff", youngsModulus_, "hertz pair style");
         registry.connect("Geff", shearModulus_, "hertz pair style");
         registry.connect("betaeff", damping_, "hertz pair style");
         registry.connect("coeffFrict", friction_, "hertz pair style");
+        if constexpr (rolls)
+        {
+            registry.connect("coeffRollFrict", rollingFriction_, "hertz pair style");
+        }
     }
 
     void compute_force(lmp::PairGran* pair, int energies, int virials, int forCompute) override
@@ -108,7 +120,7 @@ public:
                 resetSeparated(*pair, pair->list->ilist[particle]);
             }
 #ifndef __clang_analyzer__ // it follows LIGGGHTS' headers to a contact without history, which this style excludes
-            HertzOfLiggghts::compute_force(pair, energies, virials, forCompute);
+            Base::compute_force(pair, energies, virials, forCompute);
 #endif
             return;
         }
@@ -130,6 +142,7 @@ private:
         double shearModulus;
         double damping;
         double friction;
+        double rollingFriction;
     };
 
     struct Partners
@@ -221,8 +234,8 @@ private:
         {
             for (int j = 1; j < typeCount_; ++j)
             {
-                materials_[i * typeCount_ + j] = {
-                    youngsModulus_[i][j], shearModulus_[i][j], damping_[i][j], friction_[i][j]};
+                materials_[i * typeCount_ + j] = {youngsModulus_[i][j], shearModulus_[i][j], damping_[i][j],
+                    friction_[i][j], rolls ? rollingFriction_[i][j] : 0};
             }
         }
     }
@@ -313,13 +326,14 @@ private:
         c.shearModulus[k] = material.shearModulus;
         c.damping[k] = material.damping;
         c.friction[k] = material.friction;
+        c.rollingFriction[k] = material.rollingFriction;
     }
 
     /// Applies the forces of the contacts that have been added, and clears the list of contacts.
     void evaluate(lmp::PairGran& pair, const ParticleArrays& particles, double shearStep)
     {
         HertzContacts& c = contacts_;
-        evaluateHertz(c, shearStep);
+        (rolls ? evaluateHertzRolling : evaluateHertz)(c, shearStep);
         const bool alsoOnGhosts = program_.force->newton_pair != 0;
         const int localCount = program_.atom->nlocal;
         for (std::size_t k = 0; k < c.count; ++k)
@@ -355,6 +369,7 @@ private:
     double** shearModulus_ = nullptr;
     double** damping_ = nullptr;
     double** friction_ = nullptr;
+    double** rollingFriction_ = nullptr;
     int typeCount_ = 0;
     /// Indexed by the two types.
     std::vector<Material> materials_;
@@ -364,9 +379,14 @@ private:
     std::array<Partners, HertzContacts::most> partners_;
 };
 
-LIGGGHTS::PairStyles::IGranularPairStyle* create(lmp::LAMMPS* program, lmp::PairGran* parent, int64_t hash)
+template<int rollingModel>
+void registerStyle()
 {
-    return new HertzPairStyle(*program, *parent, hash);
+    using Created = LIGGGHTS::PairStyles::IGranularPairStyle*;
+    LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(HertzStyle<rollingModel>::HASHCODE),
+        [](lmp::LAMMPS* program, lmp::PairGran* parent, int64_t hash) -> Created {
+            return new HertzPairStyle<rollingModel>(*program, *parent, hash);
+        });
 }
 
 } // namespace
@@ -374,7 +394,8 @@ LIGGGHTS::PairStyles::IGranularPairStyle* create(lmp::LAMMPS* program, lmp::Pair
 void registerHertzPairStyle()
 {
     const QuietRegistration quiet;
-    LIGGGHTS::PairStyles::Factory::instance().addStyle("gran", static_cast<int>(HertzStyle::HASHCODE), &create);
+    registerStyle<models::ROLLING_OFF>();
+    registerStyle<models::ROLLING_CDT>();
 }
 
 } // namespace clepsydra

@@ -176,7 +176,11 @@ private:
     {
         const int place = place_[i];
         const int bin = coord2bin(atom->x[i]);
-        nearCount_ = 0;
+        // Without members in the loop, which the compiler would load and store for every particle.
+        int* const near = near_.data();
+        const int* const particle = particle_.data();
+        const char* const isNear = sorted_.isNear.data();
+        int count = 0;
         for (const BinRow& row : rows_)
         {
             const int first = firstOfBin_[bin + row.first];
@@ -185,10 +189,11 @@ private:
             for (int k = first; k < last; ++k)
             {
                 // Without a branch, because one of seven is near, which no processor predicts.
-                near_[nearCount_] = k;
-                nearCount_ += sorted_.isNear[k] & (particle_[k] > i ? 1 : 0);
+                near[count] = k;
+                count += isNear[k] & (particle[k] > i ? 1 : 0);
             }
         }
+        nearCount_ = count;
         if (exclude != 0)
         {
             const auto isExcluded = [this, i](int k) {
