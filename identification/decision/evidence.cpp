@@ -123,9 +123,9 @@ void Evidence::prepare()
     upper_.resize(q);
     for (Eigen::Index i = 0; i < q; ++i)
     {
-        const Parameter& parameter = study_.parameters[i];
-        lower_(i) = (parameter.lower - parameter.mean) / parameter.sd;
-        upper_(i) = (parameter.upper - parameter.mean) / parameter.sd;
+        const auto [lower, upper] = study_.parameters[i].boundsInSds();
+        lower_(i) = lower;
+        upper_(i) = upper;
     }
     for (std::size_t e = 0; e < effects_.size(); ++e)
     {

@@ -64,6 +64,17 @@ std::vector<std::vector<Eigen::Index>> measuredFeatures(const Study& study, cons
     return features;
 }
 
+Eigen::VectorXd meanAt(const Emulator& emulator, const Layout& layout, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters)
+{
+    Eigen::VectorXd mean(layout.rows);
+    for (const auto& block : layout.blocks)
+    {
+        mean.segment(block.first, block.size()) = emulator[block.condition]->at(parameters, present)(block.places);
+    }
+    return mean;
+}
+
 Measured draw(const Layout& layout, const Emulator& truth, const std::vector<Present>& present,
     const Eigen::VectorXd& parameters, const Eigen::VectorXd& around, bool withUncertainty, std::mt19937_64& random)
 {

@@ -70,6 +70,10 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
     const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes = {});
 
+/// Expected values of the measurements. \param parameters  standardised
+Eigen::VectorXd meanAt(const Emulator& emulator, const Layout& layout, const std::vector<Present>& present,
+    const Eigen::VectorXd& parameters);
+
 /// Synthetic measurements at a setting.
 /// \param truth  emulator whose expected features are the true ones
 /// \param around  parameters near which the emulator is linearised

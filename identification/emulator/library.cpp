@@ -230,10 +230,9 @@ Library makeLibrary(StudySimulator& studySimulator)
     {
         if (goodRuns(library.runs, condition).empty())
         {
-            throw std::runtime_error(
-                "condition '" + study.conditions[condition].name + "': all runs at the base setting have failed"
-                + (studySimulator.effort().failures.empty() ? ""
-                                                            : ": " + studySimulator.effort().failures.back().reason));
+            throw std::runtime_error("condition '" + study.conditions[condition].name
+                                     + "': all runs at the base setting have failed"
+                                     + studySimulator.effort().lastFailure());
         }
     }
     const auto base = mapped(library.runs, [](const Run& run) { return run.simulation; });

@@ -31,6 +31,17 @@ Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds)
     });
 }
 
+Setting settingOf(
+    const StudySimulator& studySimulator, const Eigen::VectorXd& inSds, const std::vector<Present>& present)
+{
+    Setting setting = studySimulator.plainSetting(physical(studySimulator.study(), inSds));
+    for (const auto& [effect, amplitude] : present)
+    {
+        setting.amplitudes(effect) = amplitude;
+    }
+    return setting;
+}
+
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features)
 {
     const auto own =

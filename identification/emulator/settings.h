@@ -1,5 +1,6 @@
 #pragma once
 
+#include "emulator/conditionEmulator.h"
 #include "emulator/library.h"
 
 #include <Eigen/Core>
@@ -13,6 +14,10 @@ namespace clepsydra::identification
 /// parameters' ranges.
 Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters);
 Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds);
+
+/// The setting with these effects. \param inSds  parameters, standardised
+Setting settingOf(
+    const StudySimulator& studySimulator, const Eigen::VectorXd& inSds, const std::vector<Present>& present);
 
 /// Features of the simulations of one condition, one simulation per row.
 Eigen::MatrixXd featureRows(const std::vector<Simulation>& simulations, std::size_t condition, Eigen::Index features);

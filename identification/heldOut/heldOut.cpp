@@ -77,12 +77,7 @@ public:
 
     Setting setting(const StudySimulator& studySimulator, const Eigen::VectorXd& values) const
     {
-        Setting setting = studySimulator.plainSetting(physical(study_, parameters(values)));
-        for (const auto& [effect, amplitude] : present(values))
-        {
-            setting.amplitudes(effect) = amplitude;
-        }
-        return setting;
+        return settingOf(studySimulator, parameters(values), present(values));
     }
 
     /// The values with one of them moved up, or down where its range ends.
@@ -120,8 +115,8 @@ private:
         {
             return {-std::sqrt(3.0), std::sqrt(3.0)};
         }
-        const Parameter& parameter = study_.parameters[quantity];
-        return {(parameter.lower - parameter.mean) / parameter.sd, (parameter.upper - parameter.mean) / parameter.sd};
+        const auto [lower, upper] = study_.parameters[quantity].boundsInSds();
+        return {lower, upper};
     }
 
     const Study& study_;
@@ -271,23 +266,17 @@ private:
         const Fitted& fitted = one.fitted;
         const Eigen::Index errors = study_.commonErrors.size();
         const Eigen::Index features = study_.featureCount();
-        const auto meanAt = [&](const Eigen::VectorXd& values) {
-            Eigen::VectorXd mean(one.layout.rows);
-            for (const auto& block : one.layout.blocks)
-            {
-                mean.segment(block.first, block.size()) =
-                    one.emulator[block.condition]->at(fitted.parameters(values), fitted.present(values))(block.places);
-            }
-            return mean;
+        const auto mean = [&](const Eigen::VectorXd& values) {
+            return meanAt(one.emulator, one.layout, fitted.present(values), fitted.parameters(values));
         };
         LinearModel& model = one.training;
-        model.mean = meanAt(one.at);
+        model.mean = mean(one.at);
         model.slopes = Eigen::MatrixXd::Zero(one.layout.rows, fitted.size() + errors + features);
         for (Eigen::Index i = 0; i < fitted.size(); ++i)
         {
             Eigen::VectorXd step = Eigen::VectorXd::Zero(fitted.size());
             step(i) = emulatorStep;
-            model.slopes.col(i) = (meanAt(one.at + step) - meanAt(one.at - step)) / (2.0 * emulatorStep);
+            model.slopes.col(i) = (mean(one.at + step) - mean(one.at - step)) / (2.0 * emulatorStep);
         }
         model.rest = Eigen::MatrixXd::Zero(one.layout.rows, one.layout.rows);
         const auto present = fitted.present(one.at);

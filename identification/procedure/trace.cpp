@@ -94,16 +94,6 @@ private:
         return evidence;
     }
 
-    Setting settingOf(const std::vector<Present>& present, const Eigen::VectorXd& parameters) const
-    {
-        Setting setting = studySimulator_.plainSetting(physical(study_, parameters));
-        for (const auto& [effect, amplitude] : present)
-        {
-            setting.amplitudes(effect) = amplitude;
-        }
-        return setting;
-    }
-
     int runsPerRound() const
     {
         const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
@@ -125,15 +115,12 @@ private:
         {
             for (int number = 0; number < repeats; ++number)
             {
-                orders.push_back({block.condition, settingOf({}, parameters), "null fit", number});
+                orders.push_back({block.condition, settingOf(studySimulator_, parameters, {}), "null fit", number});
             }
         }
         if (!simulate(orders))
         {
-            throw std::runtime_error(
-                "all runs at the null fit have failed"
-                + (studySimulator_.effort().failures.empty() ? ""
-                                                             : ": " + studySimulator_.effort().failures.back().reason));
+            throw std::runtime_error("all runs at the null fit have failed" + studySimulator_.effort().lastFailure());
         }
         return true;
     }
@@ -177,9 +164,8 @@ private:
         const Contender centre = contenders.back();
         for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
         {
-            const Parameter& parameter = study_.parameters[p];
             const double error = std::sqrt(fits.front().covariance(p, p));
-            const double end = (parameter.upper - parameter.mean) / parameter.sd;
+            const double end = study_.parameters[p].boundsInSds().upper;
             contenders.push_back(centre);
             contenders.back().parameters(p) += centre.parameters(p) + error > end ? -error : error;
         }
@@ -206,7 +192,7 @@ private:
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
-            orders.push_back({condition, settingOf(present, parameters),
+            orders.push_back({condition, settingOf(studySimulator_, parameters, present),
                 purpose + ": " + nameOf(study_, effectsOf(present)), numbers[{contender, condition}]++});
         }
         return !orders.empty() && simulate(orders);
@@ -326,7 +312,7 @@ private:
             {
                 finding.alone = evidence.fitAlone(e, measured);
             }
-            finding.parameters = settingOf({}, finding.fit.parameters).parameters;
+            finding.parameters = physical(study_, finding.fit.parameters);
             finding.probability = std::exp(odds.effects(e));
             finding.logOdds = odds.effects(e) + odds.logOdds;
             finding.threshold = std::exp(calibration.membership(e));
@@ -422,7 +408,7 @@ private:
         found.fits = fits;
         found.probability = probability;
         found.effects = effectsOf(present);
-        found.setting = settingOf(present, fits.front().parameters);
+        found.setting = settingOf(studySimulator_, fits.front().parameters, present);
         found.logOdds = logOdds;
         found.chiSquare = fits.front().chiSquare;
         for (const auto& run : runs_)

@@ -15,10 +15,7 @@ namespace
 /// All entries of a run that are numbers.
 Expression::Variables numbersAt(const StudySimulator& studySimulator, std::size_t condition, const Setting& setting)
 {
-    Entries all = studySimulator.entriesOf(condition, setting);
-    const Entries defaults = studySimulator.simulator().defaults();
-    all.insert(defaults.begin(), defaults.end());
-    return numbersOf(all);
+    return numbersOf(studySimulator.entriesOf(condition, setting), studySimulator.simulator().defaults());
 }
 
 /// The first training condition in which an effect acts; the entries of that condition are shown.

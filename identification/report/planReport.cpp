@@ -22,17 +22,6 @@ std::string amplitude(double value, const Effect& effect)
     return std::isfinite(value) && value <= effect.bounds.reach() ? text.str() : "not in range";
 }
 
-Eigen::VectorXd meanAt(const Emulator& emulator, const Layout& layout, const std::vector<Present>& present,
-    const Eigen::VectorXd& parameters)
-{
-    Eigen::VectorXd mean(layout.rows);
-    for (const auto& block : layout.blocks)
-    {
-        mean.segment(block.first, block.size()) = emulator[block.condition]->at(parameters, present)(block.places);
-    }
-    return mean;
-}
-
 /// Residual that effects leave when the parameters are fitted without them: root mean square over conditions and over
 /// the features that are logarithms. \param planned  data whose means are replaced
 double residualSize(const Study& study, const Emulator& emulator, const Layout& layout, Measured planned,

@@ -28,9 +28,7 @@ void assign(Entries& entries, const std::map<std::string, std::string>& changes)
 void assign(Entries& entries, const Entries& defaults, const std::map<std::string, Expression>& formulas,
     const std::string& variable, double value)
 {
-    Entries all = entries;
-    all.insert(defaults.begin(), defaults.end());
-    auto variables = numbersOf(all);
+    auto variables = numbersOf(entries, defaults);
     variables[variable] = value;
     for (const auto& [name, formula] : formulas)
     {
@@ -156,9 +154,7 @@ Eigen::VectorXd StudySimulator::featuresOf(const Curve& curve) const
 /// The observable with the factor and the offset that its condition states.
 Curve StudySimulator::observed(Curve curve, std::size_t condition, const Entries& entries) const
 {
-    Entries all = entries;
-    all.insert(defaults_.begin(), defaults_.end());
-    const auto numbers = numbersOf(all);
+    const auto numbers = numbersOf(entries, defaults_);
     const ObservableScale& scale = study_.conditions[condition].observable;
     const double factor = scale.factor(numbers);
     const double offset = scale.offset(numbers);
@@ -222,7 +218,6 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
             const SimulationOrder& order = orders[open[k]];
             Simulation& simulation = done[open[k]];
             simulation.condition = order.condition;
-            simulation.seed = runs[k].seed;
             simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
             simulation.curve = simulation.plain;
             if (simulation.plain.time.size() >= 2)

@@ -36,7 +36,6 @@ struct Simulation
     Eigen::VectorXd features; // NaN where the curve lacks a feature; all NaN if the run has failed
     Curve curve;              // behind the measuring chain
     Curve plain;              // before the measuring chain
-    long seed = 0;
     bool failed = false;
 };
 
@@ -59,6 +58,12 @@ struct Effort
     int executed = 0;             // runs that were made; the others were taken from the store
     double seconds = 0.0;         // of the executed runs
     double secondsOfStored = 0.0; // of the stored runs, when they were made
+
+    /// ": " and why the last of the failed runs failed; empty if none did
+    std::string lastFailure() const
+    {
+        return failures.empty() ? "" : ": " + failures.back().reason;
+    }
 };
 
 /// The simulator as the study describes it: translates settings into entries of the case, runs the simulator, applies

@@ -106,8 +106,9 @@ void replaceEntries(const std::filesystem::path& file, const Entries& changes)
     writeWhole(file, changed.str());
 }
 
-Expression::Variables numbersOf(const Entries& entries)
+Expression::Variables numbersOf(Entries entries, const Entries& defaults)
 {
+    entries.insert(defaults.begin(), defaults.end());
     Expression::Variables numbers;
     for (const auto& [name, value] : entries)
     {

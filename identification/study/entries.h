@@ -20,7 +20,8 @@ Entries readEntries(const std::filesystem::path& file);
 void replaceEntries(const std::filesystem::path& file, const Entries& changes);
 
 /// The entries that are numbers, for use in formulas. A reference $name is replaced by the value of that entry.
-Expression::Variables numbersOf(const Entries& entries);
+/// \param defaults  of entries that are not given
+Expression::Variables numbersOf(Entries entries, const Entries& defaults = {});
 
 /// A number as text with nine significant digits.
 std::string textOf(double number);

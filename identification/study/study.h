@@ -82,6 +82,12 @@ struct Parameter
     /// Effect that it belongs to, as the height of a layer's edge does; without the effect, the parameter has no
     /// influence.
     std::optional<std::size_t> effect;
+
+    /// The physical limits from the prior's mean, over its standard deviation.
+    Bounds boundsInSds() const
+    {
+        return {(lower - mean) / sd, (upper - mean) / sd};
+    }
 };
 
 /// Largest number of parameters, so that vectors of parameters need no memory allocation.

@@ -67,11 +67,6 @@ public:
 
     [[noreturn]] void fail(const std::string& what) const;
 
-    const std::filesystem::path& file() const
-    {
-        return *file_;
-    }
-
 private:
     static YamlPlace parsed(const std::filesystem::path& file);
     void checkKeys(int depth, int& places) const;
