@@ -59,7 +59,8 @@ ENTRIES = {
     "millionParticlesDry": large_bed.million_particles_dry,
     "millionCells": large_bed.million_cells,
     "quickHopperSubmerged_s": whole_run.quick_hopper_submerged,
-    "quickHopperOverLast": whole_run.quick_hopper_over_last,
+    "overLast": whole_run.over_last,
+    "overLastDry": whole_run.over_last_dry,
     "costModelErrorPercent": cost_model.cost_model_error_percent,
 }
 
@@ -84,7 +85,6 @@ TWO_RANKS = (
     "millionParticlesDry",
     "millionCells",
     "quickHopperSubmerged_s",
-    "quickHopperOverLast",
 )
 
 

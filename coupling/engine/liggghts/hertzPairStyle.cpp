@@ -1,4 +1,4 @@
-#include "engine/liggghts/hertzPairStyle.h"
+#include "engine/liggghts/fasterParts.h"
 
 #include "engine/liggghts/hertzContactLaw.h"
 #include "engine/liggghts/liggghtsErrors.h"

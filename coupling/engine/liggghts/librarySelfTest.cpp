@@ -2,7 +2,7 @@
 
 #include "engine/demEngine.h"
 #include "engine/liggghts/floatingPointTraps.h"
-#include "engine/liggghts/hertzPairStyle.h"
+#include "engine/liggghts/fasterParts.h"
 #include "engine/liggghts/liggghtsErrors.h"
 #include "engine/liggghts/quietRegistration.h"
 #include "engine/liggghts/replacedFunctions.h"

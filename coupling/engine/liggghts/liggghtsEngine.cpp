@@ -1,13 +1,12 @@
 #include "engine/liggghts/liggghtsEngine.h"
 
 #include "engine/liggghts/fluidForceFix.h"
-#include "engine/liggghts/hertzPairStyle.h"
+#include "engine/liggghts/fasterParts.h"
 #include "engine/liggghts/insertionCheck.h"
 #include "engine/liggghts/lastForces.h"
 #include "engine/liggghts/liggghtsParticles.h"
 #include "engine/liggghts/liggghtsProgram.h"
 #include "engine/liggghts/meshWalls.h"
-#include "engine/liggghts/neighbourLists.h"
 #include "engine/liggghts/outputFiles.h"
 #include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/removal.h"
@@ -31,7 +30,8 @@ struct LiggghtsEngine::Parts
     explicit Parts(const LiggghtsSetup& setup)
         : outputFiles(setup.logFile, setup.outputs),
           program(setup.logFile, setup.communicator, setup.onWarning),
-          commands((registerHertzPairStyle(), replaceNeighbourSearch(program), runScript(program, outputFiles, setup))),
+          commands((registerHertzPairStyle(), replaceNeighbourSearch(program), replaceMeshWallContacts(program),
+              runScript(program, outputFiles, setup))),
           resumed(!setup.resumeFrom.empty())
     {
         for (const GroupChange& change : setup.groupChanges)

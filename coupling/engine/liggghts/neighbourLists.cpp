@@ -1,5 +1,5 @@
 // Compiled without fused multiply-add, so that rounding is the same as in LIGGGHTS: see CMakeLists.txt.
-#include "engine/liggghts/neighbourLists.h"
+#include "engine/liggghts/fasterParts.h"
 
 #include "engine/liggghts/liggghtsProgram.h"
 #include "vectorUnits.h"
