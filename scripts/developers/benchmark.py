@@ -2,12 +2,14 @@
 """How fast Clepsydra is, each figure a ratio of runs that were interleaved on this machine.
 
 Usage: benchmark [--quick] [--realTime] [--repetitions N] [--json FILE] [ENTRY ...]
+       benchmark --picture PNG --json FILE
 
 Without ENTRY, all entries are measured; with --quick all but the longest. Prints a table and, with --json, writes
-it with machine, date and load. An entry that cannot be measured on this machine is skipped, with the reason. LAMMPS
-and Yade come with scripts/setup --with otherCodes. """
+it with machine, commit, date and load; --picture draws from such a file. An entry that cannot be measured on this
+machine is skipped, with the reason. LAMMPS and Yade come with scripts/setup --with otherCodes. """
 
 import argparse
+import json
 import sys
 import tempfile
 from pathlib import Path
@@ -24,6 +26,7 @@ from developers.benchmarks import (
     memory,
     messages,
     other_programs,
+    picture,
     pressure,
     report,
     stock_liggghts,
@@ -49,6 +52,7 @@ ENTRIES = {
     "overDPMFoamBed": dpm_foam.over_dpm_foam_bed,
     "overLammps": other_programs.over_lammps,
     "overYade": other_programs.over_yade,
+    "overLammpsFlow": flow_rates.over_lammps_flow,
     "flowRates": flow_rates.rates,
     "messagesPerInterval": messages.messages_per_interval,
     "reductionsPerStep": messages.reductions_per_step,
@@ -67,6 +71,7 @@ ENTRIES = {
 # Not of --quick, unless they are named.
 LONG = (
     "speedupTwoRanksEmptying",
+    "overLammpsFlow",
     "flowRates",
     "millionParticles",
     "millionParticlesDry",
@@ -90,6 +95,9 @@ TWO_RANKS = (
 
 def main() -> None:
     options = read_options()
+    if options.picture:
+        picture.draw(json.loads(options.json.read_text())["entries"], options.picture)
+        return
     environment.load()
     timing.real_time = options.realTime
     figures: dict[str, timing.Figure | str] = {}
@@ -119,7 +127,10 @@ def read_options() -> Any:
         help="timed programs of one rank push all other work on this machine aside, others are left out; root only",
     )
     parser.add_argument("--json", type=Path, metavar="FILE", help="write the results to this file")
+    parser.add_argument("--picture", type=Path, metavar="PNG", help="measure nothing; draw what --json names")
     options = parser.parse_args()
+    if options.picture and not (options.json and options.json.exists()):
+        parser.error("--picture draws from a file of results, which --json FILE names")
     unknown = [name for name in options.entries if name not in ENTRIES]
     if unknown:
         parser.error(f"no entry {' '.join(unknown)}; there are: {', '.join(ENTRIES)}")

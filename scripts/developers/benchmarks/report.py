@@ -4,10 +4,12 @@ import datetime
 import json
 import os
 import platform
+import subprocess
 from pathlib import Path
 from typing import Any
 
 from clepsydra import whole_files
+from clepsydra.environment import REPOSITORY
 
 
 def table(figures: Any) -> str:
@@ -30,6 +32,7 @@ def write(file: Path, figures: Any, options: Any) -> None:
         json.dumps(
             {
                 "machine": machine(),
+                "commit": commit(),
                 "quick": options.quick,
                 "realTime": options.realTime,
                 "entries": {name: entry(figure) for name, figure in figures.items()},
@@ -52,6 +55,12 @@ def entry(figure: Any) -> dict[str, Any]:
         "meaning": figure.meaning,
         "details": figure.details,
     }
+
+
+def commit() -> str:
+    return subprocess.run(
+        ["git", "-C", REPOSITORY, "describe", "--always", "--dirty", "--exclude=*"], capture_output=True, text=True
+    ).stdout.strip()
 
 
 def machine() -> str:
