@@ -2,7 +2,7 @@
 #include "files/standardStreams.h"
 #include "files/wholeFile.h"
 #include "procedure/loop.h"
-#include "report/html.h"
+#include "report/report.h"
 #include "report/text.h"
 #include "study/draft/draftStudy.h"
 
@@ -80,7 +80,8 @@ void renewReport(const fs::path& study, const fs::path& folder)
 {
     try
     {
-        reportAgain(study, folder);
+        std::ostream nowhere(nullptr);
+        runStudy(study, folder, nowhere, true);
     }
     catch (const clepsydra::FileError&)
     {

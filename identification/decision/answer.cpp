@@ -1,5 +1,6 @@
 #include "decision/answer.h"
 
+#include <array>
 #include <cmath>
 
 namespace clepsydra::identification
@@ -7,18 +8,8 @@ namespace clepsydra::identification
 
 std::string nameOf(Decision decision)
 {
-    switch (decision)
-    {
-        case Decision::noResidual:
-            return "noResidual";
-        case Decision::named:
-            return "named";
-        case Decision::set:
-            return "set";
-        case Decision::unknown:
-            break;
-    }
-    return "unknown";
+    constexpr std::array names = {"noResidual", "named", "set", "unknown"};
+    return names[static_cast<std::size_t>(decision)];
 }
 
 std::string nameOf(const Study& study, const std::vector<std::size_t>& effects)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "decision/visibility.h"
+#include "decision/calibration.h"
 #include "emulator/library.h"
 
 #include <memory>
@@ -49,7 +49,7 @@ struct Explanation
     double logOdds = 0.0;     // against no effect
     double probability = 0.0; // given that there is a cause; for a pair, given that no single effect explains the data
     double chiSquare = 0.0;
-    std::vector<Run> runs; // runs with these effects, at the fits of all rounds; empty if there are none
+    std::vector<Simulation> runs; // runs with these effects, at the fits of all rounds; empty if there are none
 };
 
 /// Name of an explanation: "no effect", "effect", or "effect with other effect".

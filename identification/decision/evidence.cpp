@@ -1,6 +1,5 @@
 #include "decision/evidence.h"
 
-#include "decision/spread.h"
 #include "emulator/distributions.h"
 
 #include "lists.h"
@@ -234,7 +233,6 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
 {
     const Eigen::VectorXd& here = placeOf(present);
     Node node;
-    node.present = present;
     node.extra.resize(layout_.rows);
     node.terms.resize(layout_.rows, parameterTerms(study_.parameters.size()));
     Eigen::MatrixXd allNoise = Eigen::MatrixXd::Zero(layout_.rows, layout_.rows);

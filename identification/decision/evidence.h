@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <limits>
 #include <map>
 #include <optional>
@@ -46,7 +47,6 @@ struct Fit
 /// in coordinates in which the noise of the means has unit variance and the other covariance is diagonal.
 struct Node
 {
-    std::vector<Present> present;
     std::vector<Eigen::MatrixXd> transform; // into these coordinates, by part of the rows
     std::vector<Eigen::MatrixXd> whiten;    // inverse Cholesky factor of one measurement's noise, by block
     Eigen::VectorXd extra;                  // variances in addition to the noise
@@ -255,5 +255,19 @@ private:
 
 /// Log of the sum of exponentials, without overflow.
 double logSumExp(const Eigen::VectorXd& values);
+
+/// Log density of a sum of squares, averaged over a common factor on the variance with an inverse gamma prior. Terms
+/// that are equal for all explanations are left out.
+inline double logSpread(double trace, double numbers, double freedom)
+{
+    return std::lgamma((freedom + numbers) / 2.0) - std::lgamma(freedom / 2.0) + freedom / 2.0 * std::log(freedom / 2.0)
+           - (freedom + numbers) / 2.0 * std::log((freedom + trace) / 2.0);
+}
+
+/// Trace of w s w'.
+inline double traceOf(const Eigen::MatrixXd& w, const Eigen::MatrixXd& s)
+{
+    return w.lazyProduct(s).cwiseProduct(w).sum();
+}
 
 } // namespace clepsydra::identification

@@ -1,5 +1,7 @@
 #include "decision/pairs.h"
 
+#include "lists.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -37,47 +39,32 @@ bool isOrVaries(const Study& study, std::size_t one, std::size_t other)
     return one == other || areVariants(study, one, other);
 }
 
-/// Compares the pairs with each other and with an unlisted cause.
-class PairJudge
+/// How pairs compare with each other and with an unlisted cause.
+struct Verdict
 {
-public:
-    PairJudge(const Study& study, const Evidence& evidence, const std::vector<PairFinding>& pairs)
-        : study_(study),
-          evidence_(evidence)
-    {
-        for (const auto& pair : pairs)
-        {
-            explanations_.push_back(evidence.explanationOf(pair.effects));
-            logPriors_.push_back(pair.logPrior);
-        }
-    }
-
-    struct Verdict
-    {
-        std::vector<Evidence::Judgement> judgements; // by pair
-        Eigen::VectorXd probabilities;               // by pair; the last is that of an unlisted cause
-    };
-
-    Verdict operator()(const Measured& data) const
-    {
-        Verdict verdict;
-        Eigen::VectorXd logs(static_cast<Eigen::Index>(explanations_.size()) + 1);
-        for (std::size_t i = 0; i < explanations_.size(); ++i)
-        {
-            verdict.judgements.push_back(evidence_.judge(explanations_[i], data));
-            logs(i) = verdict.judgements.back().logEvidence + logPriors_[i];
-        }
-        logs.tail<1>()(0) = evidence_.otherEvidence(data);
-        verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
-        return verdict;
-    }
-
-private:
-    const Study& study_;
-    const Evidence& evidence_;
-    std::vector<Evidence::Explanation> explanations_;
-    std::vector<double> logPriors_;
+    std::vector<Evidence::Judgement> judgements; // by pair
+    Eigen::VectorXd probabilities;               // by pair; the last is that of an unlisted cause
 };
+
+std::vector<Evidence::Explanation> explanationsOf(const Evidence& evidence, const std::vector<PairFinding>& pairs)
+{
+    return mapped(pairs, [&](const PairFinding& pair) { return evidence.explanationOf(pair.effects); });
+}
+
+Verdict verdictOf(const Evidence& evidence, const std::vector<Evidence::Explanation>& explanations,
+    const std::vector<PairFinding>& pairs, const Measured& data)
+{
+    Verdict verdict;
+    Eigen::VectorXd logs(static_cast<Eigen::Index>(pairs.size()) + 1);
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+    {
+        verdict.judgements.push_back(evidence.judge(explanations[i], data));
+        logs(i) = verdict.judgements.back().logEvidence + pairs[i].logPrior;
+    }
+    logs.tail<1>()(0) = evidence.otherEvidence(data);
+    verdict.probabilities = (logs.array() - logSumExp(logs)).exp();
+    return verdict;
+}
 
 /// Amplitudes drawn from a pair's fit, clipped to their ranges.
 std::vector<Present> drawn(const Study& study, const PairFinding& pair, std::mt19937_64& random)
@@ -191,9 +178,9 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
 double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evidence& evidence, Replicas& replicas,
     const Measured& measured, std::mt19937_64& random)
 {
-    const auto verdict = PairJudge(study, evidence, pairs)(measured);
+    const Verdict verdict = verdictOf(evidence, explanationsOf(evidence, pairs), pairs, measured);
     const double null = evidence(measured).null;
-    std::map<const Evidence*, PairJudge> judges;
+    std::map<const Evidence*, std::vector<Evidence::Explanation>> explanations; // by judge
     for (std::size_t i = 0; i < pairs.size(); ++i)
     {
         PairFinding& pair = pairs[i];
@@ -204,7 +191,12 @@ double judgePairs(std::vector<PairFinding>& pairs, const Study& study, const Evi
         {
             const Eigen::VectorXd parameters = around(pair.fits.front(), random);
             const auto [data, judge] = replicas.draw(drawn(study, pair, random), parameters, random);
-            const auto own = judges.try_emplace(&judge, study, judge, pairs).first->second(data);
+            auto& ofJudge = explanations[&judge];
+            if (ofJudge.empty())
+            {
+                ofJudge = explanationsOf(judge, pairs);
+            }
+            const Verdict own = verdictOf(judge, ofJudge, pairs, data);
             chiSquares.push_back(own.judgements[i].chiSquare);
             scatterChiSquares.push_back(own.judgements[i].scatterChiSquare);
             improbabilities.push_back(1.0 - own.probabilities(i));

@@ -3,18 +3,12 @@
 namespace clepsydra::identification
 {
 
-namespace
-{
-
-constexpr int posteriorDraws = 40;
-
-} // namespace
-
 Replicas::Replicas(const Emulator& emulator, const Layout& layout, const Evidence& evidence, std::mt19937_64& random)
     : emulator_(emulator),
       layout_(layout),
       evidence_(evidence)
 {
+    constexpr int posteriorDraws = 40;
     for (int i = 0; i < (emulator.scatters() ? posteriorDraws : 0); ++i)
     {
         Emulator truth = emulator.posteriorDraw(random);

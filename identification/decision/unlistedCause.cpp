@@ -1,7 +1,5 @@
 #include "decision/evidence.h"
 
-#include "decision/spread.h"
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 

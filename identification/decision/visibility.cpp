@@ -1,4 +1,4 @@
-#include "decision/visibility.h"
+#include "decision/calibration.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "emulator/commonErrors.h"
+#include "emulator/library.h"
 
 #include "lists.h"
 #include "emulator/settings.h"

@@ -47,21 +47,9 @@ void Scatter::add(const Eigen::MatrixXd& repeats)
         column = (column.array() - mean) * scale;
         most = std::max(most, count);
     }
-    for (const auto& row : deviations.rowwise())
-    {
-        deviations_.emplace_back(row);
-    }
+    deviations_.conservativeResize(deviations_.rows() + deviations.rows(), deviations.cols());
+    deviations_.bottomRows(deviations.rows()) = deviations;
     nu_ += std::max(most - 1.0, 0.0);
-}
-
-Eigen::MatrixXd Scatter::deviations() const
-{
-    Eigen::MatrixXd all(deviations_.size(), deviations_.empty() ? 0 : deviations_.front().size());
-    for (Eigen::Index row = 0; row < all.rows(); ++row)
-    {
-        all.row(row) = deviations_[row];
-    }
-    return all;
 }
 
 Covariance pooledCovariance(const Eigen::MatrixXd& deviations, double nu)

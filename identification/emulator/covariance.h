@@ -2,9 +2,6 @@
 
 #include <Eigen/Core>
 
-#include <random>
-#include <vector>
-
 namespace clepsydra::identification
 {
 
@@ -22,10 +19,13 @@ public:
     }
 
     /// One deviation per row, scaled so that its squares are unbiased.
-    Eigen::MatrixXd deviations() const;
+    const Eigen::MatrixXd& deviations() const
+    {
+        return deviations_;
+    }
 
 private:
-    std::vector<Eigen::RowVectorXd> deviations_;
+    Eigen::MatrixXd deviations_;
     double nu_ = 0.0;
 };
 

@@ -7,38 +7,31 @@
 namespace clepsydra::identification
 {
 
-namespace
-{
-
-using boost::math::complement;
-using boost::math::fisher_f;
-using boost::math::normal;
-
-} // namespace
+namespace math = boost::math;
 
 double normalQuantile(double probability)
 {
-    return boost::math::quantile(normal(), probability);
+    return math::quantile(math::normal(), probability);
 }
 
 double probabilityBeyondNormal(double value)
 {
-    return boost::math::cdf(complement(normal(), value));
+    return math::cdf(math::complement(math::normal(), value));
 }
 
 double probabilityBeyondFisher(double value, double freedom, double freedomOfNoise)
 {
-    return boost::math::cdf(complement(fisher_f(freedom, freedomOfNoise), value));
+    return math::cdf(math::complement(math::fisher_f(freedom, freedomOfNoise), value));
 }
 
 double fisherValueBeyond(double probability, double freedom, double freedomOfNoise)
 {
-    return boost::math::quantile(complement(fisher_f(freedom, freedomOfNoise), probability));
+    return math::quantile(math::complement(math::fisher_f(freedom, freedomOfNoise), probability));
 }
 
 double digamma(double value)
 {
-    return boost::math::digamma(value);
+    return math::digamma(value);
 }
 
 } // namespace clepsydra::identification

@@ -99,7 +99,7 @@ Emulator Emulator::regenerated(const Emulator& truth, std::mt19937_64& random) c
 
 //--- All conditions -------------------------------------------------------------------------------------------------
 
-Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Run>& runs,
+Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Simulation>& runs,
     const std::vector<std::vector<Eigen::Index>>& features)
     : study_(&study),
       rows_(study.conditions.size()),
@@ -135,13 +135,14 @@ Emulator::Emulator(const Study& study, const StudySimulator& studySimulator, con
 }
 
 /// Chooses the features and effects of a condition that its runs contain.
-void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted)
+void Emulator::choose(
+    std::size_t c, const std::vector<const Simulation*>& good, const std::vector<Eigen::Index>& wanted)
 {
     ConditionEmulator emulator;
     for (const auto f : wanted)
     {
         const auto has = std::count_if(
-            good.begin(), good.end(), [&](const Run* run) { return std::isfinite(run->simulation.features(f)); });
+            good.begin(), good.end(), [&](const Simulation* run) { return std::isfinite(run->features(f)); });
         if (static_cast<double>(has) >= (1.0 - mostGaps) * static_cast<double>(good.size()) && has > 0)
         {
             emulator.features.push_back(f);
@@ -160,9 +161,8 @@ void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const 
     emulator.owners = mapped(study_->parameters, [](const Parameter& parameter) { return parameter.effect; });
     for (const auto e : simulatedEffects(*study_, c))
     {
-        const auto isOn = [&](const Run* run) {
-            return run->setting.amplitudes(e) != 0.0
-                   && run->simulation.features(emulator.features).array().isFinite().all();
+        const auto isOn = [&](const Simulation* run) {
+            return run->setting.amplitudes(e) != 0.0 && run->features(emulator.features).array().isFinite().all();
         };
         if (std::any_of(good.begin(), good.end(), isOn))
         {
@@ -188,7 +188,7 @@ void Emulator::choose(std::size_t c, const std::vector<const Run*>& good, const 
     conditions_[c] = std::move(emulator);
 }
 
-void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const std::vector<const Run*>& runs)
+void Emulator::append(std::size_t c, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs)
 {
     const ConditionEmulator& emulator = *conditions_[c];
     Rows& rows = rows_[c];
@@ -274,6 +274,12 @@ void Emulator::chooseScales()
     constexpr int bits = 8;
     constexpr int sweeps = 2;
     constexpr std::uintmax_t mostEvaluations = 16;
+    const auto best = [](const auto& costOfLog, double largest) {
+        std::uintmax_t most = mostEvaluations;
+        const auto found =
+            boost::math::tools::brent_find_minima(costOfLog, std::log(smallestScale), std::log(largest), bits, most);
+        return std::exp(found.first);
+    };
     for (int sweep = 0; sweep < sweeps; ++sweep)
     {
         for (const auto kind : {Basis::linear, Basis::square, Basis::mixed, Basis::interaction, Basis::wave})
@@ -287,10 +293,7 @@ void Emulator::chooseScales()
                 scales[kind] = std::exp(logScale);
                 return -logEvidence(scales);
             };
-            std::uintmax_t most = mostEvaluations;
-            scales_[kind] = std::exp(boost::math::tools::brent_find_minima(
-                cost, std::log(smallestScale), std::log(largestScale / 10.0), bits, most)
-                                         .first);
+            scales_[kind] = best(cost, largestScale / 10.0);
         }
         if (scatters_)
         {
@@ -298,9 +301,7 @@ void Emulator::chooseScales()
                 lackOfFit_ = std::exp(logSize);
                 return -logEvidence(scales_);
             };
-            std::uintmax_t most = mostEvaluations;
-            lackOfFit_ = std::exp(
-                boost::math::tools::brent_find_minima(cost, std::log(smallestScale), std::log(10.0), bits, most).first);
+            lackOfFit_ = best(cost, 10.0);
         }
     }
 }

@@ -18,7 +18,7 @@ class Emulator
 public:
     /// \param runs  the effect library and all further runs
     /// \param features  wanted features of each condition of the study; features that too many runs lack are left out
-    Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Run>& runs,
+    Emulator(const Study& study, const StudySimulator& studySimulator, const std::vector<Simulation>& runs,
         const std::vector<std::vector<Eigen::Index>>& features);
 
     /// The emulator of a condition of the study; empty if the condition has no features.
@@ -84,8 +84,10 @@ private:
         }
     };
 
-    void choose(std::size_t condition, const std::vector<const Run*>& good, const std::vector<Eigen::Index>& wanted);
-    void append(std::size_t condition, const StudySimulator& studySimulator, const std::vector<const Run*>& runs);
+    void choose(
+        std::size_t condition, const std::vector<const Simulation*>& good, const std::vector<Eigen::Index>& wanted);
+    void append(
+        std::size_t condition, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs);
     double logEvidence(const std::array<double, Basis::kinds>& scales) const;
     void chooseScales();
     void solve(std::size_t condition);
@@ -94,7 +96,7 @@ private:
     void learnNoise(bool ofPlainRuns);
     void learnScatter();
     void learnChain(std::size_t effect, std::size_t condition, const StudySimulator& studySimulator,
-        const std::vector<const Run*>& runs);
+        const std::vector<const Simulation*>& runs);
     Eigen::ArrayXXd variances(std::size_t condition) const;
     Eigen::MatrixXd whitened(std::size_t condition) const;
 

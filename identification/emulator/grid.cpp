@@ -6,14 +6,6 @@
 namespace clepsydra::identification
 {
 
-namespace
-{
-
-/// Number of steps between amplitude 0 and the end of the range that is farther from it.
-constexpr double steps = 8.0;
-
-} // namespace
-
 Grid::Grid(const Effect& effect, const std::vector<double>& added)
 {
     if (effect.isSwitch)
@@ -21,8 +13,9 @@ Grid::Grid(const Effect& effect, const std::vector<double>& added)
         amplitudes_ = Eigen::VectorXd::Ones(1);
         return;
     }
+    constexpr double steps = 8.0; // between amplitude 0 and the end of the range that is farther from it
     const auto [lower, upper] = effect.bounds;
-    const double step = std::max(upper, -lower) / steps;
+    const double step = effect.bounds.reach() / steps;
     const double below = std::ceil(-lower / step - 1e-9);
     const double above = std::ceil(upper / step - 1e-9);
     const auto equidistant = static_cast<Eigen::Index>(below + above) + 1;

@@ -11,7 +11,7 @@ namespace clepsydra::identification
 
 /// Applies the effect of the measuring chain to the curves of runs without effects, at each amplitude of the grid.
 void Emulator::learnChain(
-    std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Run*>& runs)
+    std::size_t e, std::size_t c, const StudySimulator& studySimulator, const std::vector<const Simulation*>& runs)
 {
     const Effect& effect = study_->effects[e];
     const auto& kept = conditions_[c]->features;
@@ -24,7 +24,7 @@ void Emulator::learnChain(
         const auto [setting, all] = beforeChain(*study_, studySimulator, *run);
         if (setting.amplitudes.isZero() && all(kept).array().isFinite().all())
         {
-            curves.push_back(&run->simulation.plain);
+            curves.push_back(&run->plain);
             settings.push_back(setting);
             features.emplace_back(all(kept));
         }

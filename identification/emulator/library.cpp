@@ -1,7 +1,6 @@
 #include "emulator/library.h"
 
 #include "lists.h"
-#include "emulator/commonErrors.h"
 #include "emulator/plackettBurman.h"
 
 #include <algorithm>
@@ -19,11 +18,6 @@ constexpr double parameterStep = 1.5;
 /// Levels of a parameter in runs without effects, in prior standard deviations, and number of runs at each.
 constexpr double axialStep = 2.5;
 constexpr int axialRepeats = 3;
-
-double moved(const Parameter& parameter, double sds)
-{
-    return std::clamp(parameter.mean + sds * parameter.sd, parameter.lower, parameter.upper);
-}
 
 /// Whether an effect is left out of the design: a switch has no lower level, and an effect that raises the scatter in
 /// half of the design's runs would hide all other effects.
@@ -111,7 +105,7 @@ private:
         const Parameter& own = study_.parameters[parameter];
         Setting setting =
             own.effect ? with(*own.effect, study_.effects[*own.effect].bounds.upper) : studySimulator_.plainSetting();
-        setting.parameters(parameter) = moved(own, sds);
+        setting.parameters(parameter) = own.at(sds);
         return setting;
     }
 
@@ -140,7 +134,7 @@ private:
             Setting setting = studySimulator_.plainSetting();
             for (Eigen::Index p = 0; p < parameters; ++p)
             {
-                setting.parameters(p) = moved(study_.parameters[p], parameterStep * row(p));
+                setting.parameters(p) = study_.parameters[p].at(parameterStep * row(p));
             }
             for (std::size_t k = 0; k < effects.size(); ++k)
             {
@@ -174,23 +168,12 @@ std::vector<std::size_t> simulatedEffects(const Study& study, std::size_t condit
     });
 }
 
-std::vector<Run> makeRuns(StudySimulator& studySimulator, const std::vector<SimulationOrder>& orders)
+std::vector<const Simulation*> goodRuns(const std::vector<Simulation>& runs, std::size_t condition)
 {
-    auto simulations = studySimulator.run(orders);
-    std::vector<Run> runs;
-    for (std::size_t i = 0; i < orders.size(); ++i)
-    {
-        runs.push_back({orders[i].setting, std::move(simulations[i])});
-    }
-    return runs;
-}
-
-std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition)
-{
-    std::vector<const Run*> good;
+    std::vector<const Simulation*> good;
     for (const auto& run : runs)
     {
-        if (run.simulation.condition == condition && !run.simulation.failed)
+        if (run.condition == condition && !run.failed)
         {
             good.push_back(&run);
         }
@@ -225,7 +208,7 @@ Library makeLibrary(StudySimulator& studySimulator)
             (order.purpose == "base" ? first : rest).push_back(order);
         }
     }
-    Library library{makeRuns(studySimulator, first), {}};
+    Library library{studySimulator.run(first), {}};
     for (const auto condition : study.conditionsOf(Role::training))
     {
         if (goodRuns(library.runs, condition).empty())
@@ -235,8 +218,8 @@ Library makeLibrary(StudySimulator& studySimulator)
                                      + studySimulator.effort().lastFailure());
         }
     }
-    const auto base = mapped(library.runs, [](const Run& run) { return run.simulation; });
-    append(library.runs, makeRuns(studySimulator, rest));
+    const auto base = library.runs;
+    append(library.runs, studySimulator.run(rest));
     library.errorSlopes.resize(study.conditions.size());
     for (const auto condition : study.conditionsOf(Role::training))
     {

@@ -8,18 +8,8 @@
 namespace clepsydra::identification
 {
 
-/// A run of the simulator and its setting, from which the emulators learn.
-struct Run
-{
-    Setting setting;
-    Simulation simulation;
-};
-
-/// Simulates the orders.
-std::vector<Run> makeRuns(StudySimulator& studySimulator, const std::vector<SimulationOrder>& orders);
-
 /// Runs of one condition that have not failed.
-std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condition);
+std::vector<const Simulation*> goodRuns(const std::vector<Simulation>& runs, std::size_t condition);
 
 /// The effect library: runs in all training conditions, made once per simulator and used for every data set.
 ///
@@ -30,7 +20,7 @@ std::vector<const Run*> goodRuns(const std::vector<Run>& runs, std::size_t condi
 /// parameter is changed at a time.
 struct Library
 {
-    std::vector<Run> runs;
+    std::vector<Simulation> runs;
     std::vector<Eigen::MatrixXd> errorSlopes; // result of commonErrorSlopes for each condition
 };
 
@@ -39,6 +29,19 @@ std::vector<SimulationOrder> libraryOrders(const StudySimulator& studySimulator)
 
 /// Makes the effect library. \throws std::runtime_error if all runs of a condition at the base setting fail
 Library makeLibrary(StudySimulator& studySimulator);
+
+/// Step of the finite differences of runs, in standard deviations of what is changed: large if runs scatter, for a better
+/// ratio of signal to noise.
+double differenceStep(const Study& study);
+
+/// Runs with each common error of the entries at a positive and a negative value, for the slopes of the features.
+std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition);
+
+/// Change of each feature per standard deviation of each common error, to first order: features x errors. The slope is
+/// 0 if the curve lacks the feature.
+/// \param plain  runs without effects; errors of the measuring chain are applied to their curves
+Eigen::MatrixXd commonErrorSlopes(
+    StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain);
 
 /// The design, one run per row, followed by its mirror image.
 Eigen::MatrixXd foldover(const Eigen::MatrixXd& design);

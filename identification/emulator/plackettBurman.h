@@ -11,7 +11,4 @@ namespace clepsydra::identification
 /// factors of the others are at -1.
 Eigen::MatrixXd plackettBurman(Eigen::Index factors);
 
-/// Number of runs of that design.
-Eigen::Index plackettBurmanRuns(Eigen::Index factors);
-
 } // namespace clepsydra::identification

@@ -7,16 +7,6 @@
 namespace clepsydra::identification
 {
 
-namespace
-{
-
-bool sameSetting(const Setting& a, const Setting& b)
-{
-    return a.parameters == b.parameters && a.amplitudes == b.amplitudes;
-}
-
-} // namespace
-
 Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters)
 {
     return Eigen::VectorXd::NullaryExpr(parameters.size(),
@@ -25,10 +15,7 @@ Eigen::VectorXd inSds(const Study& study, const Eigen::VectorXd& parameters)
 
 Eigen::VectorXd physical(const Study& study, const Eigen::VectorXd& inSds)
 {
-    return Eigen::VectorXd::NullaryExpr(inSds.size(), [&](Eigen::Index i) {
-        const Parameter& parameter = study.parameters[i];
-        return std::clamp(parameter.mean + inSds(i) * parameter.sd, parameter.lower, parameter.upper);
-    });
+    return Eigen::VectorXd::NullaryExpr(inSds.size(), [&](Eigen::Index i) { return study.parameters[i].at(inSds(i)); });
 }
 
 Setting settingOf(
@@ -59,8 +46,10 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     std::vector<std::vector<Eigen::Index>> groups;
     for (std::size_t i = 0; i < settings.size(); ++i)
     {
-        const auto group = std::find_if(groups.begin(), groups.end(),
-            [&](const auto& one) { return sameSetting(settings[one.front()], settings[i]); });
+        const auto group = std::find_if(groups.begin(), groups.end(), [&](const auto& one) {
+            const Setting& other = settings[one.front()];
+            return other.parameters == settings[i].parameters && other.amplitudes == settings[i].amplitudes;
+        });
         if (group == groups.end())
         {
             groups.push_back({static_cast<Eigen::Index>(i)});
@@ -73,16 +62,16 @@ std::vector<std::vector<Eigen::Index>> repeatsOf(const std::vector<Setting>& set
     return groups;
 }
 
-BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Run& run)
+BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Simulation& run)
 {
-    BeforeChain before{run.setting, run.simulation.features};
+    BeforeChain before{run.setting, run.features};
     for (std::size_t e = 0; e < study.effects.size(); ++e)
     {
         double& amplitude = before.setting.amplitudes(e);
         if (study.effects[e].isOfChain() && amplitude != 0.0)
         {
             amplitude = 0.0;
-            before.features = studySimulator.featuresOf(run.simulation.plain);
+            before.features = studySimulator.featuresOf(run.plain);
         }
     }
     return before;

@@ -32,6 +32,6 @@ struct BeforeChain
     Eigen::VectorXd features;
 };
 
-BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Run& run);
+BeforeChain beforeChain(const Study& study, const StudySimulator& studySimulator, const Simulation& run);
 
 } // namespace clepsydra::identification

@@ -1,4 +1,4 @@
-#include "heldOut/gaussianProcess.h"
+#include "heldOut/predictive.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>

@@ -2,8 +2,6 @@
 
 #include "lists.h"
 #include "effects/measuringChain.h"
-#include "heldOut/gaussianProcess.h"
-#include "emulator/commonErrors.h"
 #include "emulator/settings.h"
 
 #include <algorithm>
@@ -184,9 +182,9 @@ private:
         return study;
     }
 
-    std::vector<Run> runsOf(const Library& library, const Answer& answer) const
+    std::vector<Simulation> runsOf(const Library& library, const Answer& answer) const
     {
-        std::vector<Run> runs = library.runs;
+        std::vector<Simulation> runs = library.runs;
         append(runs, answer.null.runs);
         for (auto& run : runs)
         {

@@ -161,7 +161,7 @@ std::vector<WantedRun> chooseRuns(
 }
 
 std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, const Layout& layout,
-    const std::vector<Contender>& contenders, const std::vector<Run>& runs)
+    const std::vector<Contender>& contenders, const std::vector<Simulation>& runs)
 {
     std::vector<WantedRun> wanted;
     for (const auto& block : layout.blocks)
@@ -171,7 +171,7 @@ std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, co
         const ConditionEmulator& here = *emulator[block.condition];
         for (std::size_t i = 0; i < contenders.size(); ++i)
         {
-            const auto isNear = [&](const Run* run) {
+            const auto isNear = [&](const Simulation* run) {
                 const auto own = simulatedAs(contenders[i].present, here, run->setting);
                 return own
                        && expectation.distance(i, here.at(inSds(study, run->setting.parameters), *own)(block.places))

@@ -32,6 +32,6 @@ std::vector<WantedRun> chooseRuns(
 /// where the emulator's uncertainty is not small beside the errors of the measurements, or where no run lies within
 /// these errors of its prediction: far from all runs, the emulator's own uncertainty is not reliable.
 std::vector<WantedRun> openRuns(const Study& study, const Emulator& emulator, const Layout& layout,
-    const std::vector<Contender>& contenders, const std::vector<Run>& runs);
+    const std::vector<Contender>& contenders, const std::vector<Simulation>& runs);
 
 } // namespace clepsydra::identification

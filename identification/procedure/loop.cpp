@@ -5,17 +5,14 @@
 #include "heldOut/heldOut.h"
 #include "runner/magnitudes.h"
 #include "procedure/trace.h"
-#include "report/html.h"
-#include "report/json.h"
-#include "report/numbers.h"
-#include "report/planReport.h"
+#include "report/report.h"
+#include "report/text.h"
 #include "runner/caseSimulator.h"
 #include "runner/runProgress.h"
 #include "study/readStudy.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -146,7 +143,7 @@ std::vector<MeasuredCondition> plannedData(
             if (run->setting.amplitudes.isZero())
             {
                 rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-                rows.bottomRows<1>() = run->simulation.features.transpose();
+                rows.bottomRows<1>() = run->features.transpose();
             }
         }
         const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
@@ -200,11 +197,11 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
         visibility(study, evidence, replicas, calibration, numbers, random), out);
 }
 
-namespace
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress,
+    bool onlyStored)
 {
-
-void run(const Study& study, const std::filesystem::path& folder, std::ostream& progress)
-{
+    Study study = readStudy(studyFile);
+    study.settings.budget = onlyStored ? 0 : study.settings.budget;
     requireMeasurements(study);
     checkMeasurements(study, progress);
     const auto training = measurementsOf(study, Role::training);
@@ -232,21 +229,6 @@ void run(const Study& study, const std::filesystem::path& folder, std::ostream& 
     const auto report = jsonOf(findings);
     writeWhole(folder / "report.json", report.dump(1) + '\n');
     writeWhole(folder / "report.html", htmlOf(report, curvePlotsOf(findings)));
-}
-
-} // namespace
-
-void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress)
-{
-    run(readStudy(studyFile), folder, progress);
-}
-
-void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder)
-{
-    Study study = readStudy(studyFile);
-    study.settings.budget = 0;
-    std::ostringstream progress;
-    run(study, folder, progress);
 }
 
 } // namespace clepsydra::identification

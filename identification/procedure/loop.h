@@ -15,11 +15,9 @@ void plan(const std::filesystem::path& studyFile, bool execute, bool time, std::
 
 /// Processes a study file and writes report.json and report.html into `folder`. The answer is written to answer.json
 /// before the held-out measurements are read, so that these cannot influence it.
+/// \param onlyStored  make no runs; if one is missing, that is an error, and the old reports stay
 /// \throws StudyError or std::runtime_error for a wrong study file, unreadable measurements or failed runs
-void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress);
-
-/// Writes the reports again from stored runs alone. \throws std::runtime_error if a run is missing; the old reports
-/// stay then
-void reportAgain(const std::filesystem::path& studyFile, const std::filesystem::path& folder);
+void runStudy(const std::filesystem::path& studyFile, const std::filesystem::path& folder, std::ostream& progress,
+    bool onlyStored = false);
 
 } // namespace clepsydra::identification

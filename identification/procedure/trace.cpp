@@ -100,25 +100,19 @@ private:
         return all / rounds_.ofSingles;
     }
 
-    bool simulate(const std::vector<SimulationOrder>& orders)
+    /// \return whether any of the runs has succeeded
+    bool add(const std::vector<Simulation>& more)
     {
-        const auto more = makeRuns(studySimulator_, orders);
         append(runs_, more);
-        return std::any_of(more.begin(), more.end(), [](const Run& run) { return !run.simulation.failed; });
+        return std::any_of(more.begin(), more.end(), [](const Simulation& run) { return !run.failed; });
     }
 
     bool simulateNull(const Eigen::VectorXd& parameters)
     {
         const int repeats = scatters_ ? std::max(1, study_.settings.decidingRuns / rounds_.ofSingles) : 1;
-        std::vector<SimulationOrder> orders;
-        for (const auto& block : answer_.layout.blocks)
-        {
-            for (int number = 0; number < repeats; ++number)
-            {
-                orders.push_back({block.condition, settingOf(studySimulator_, parameters, {}), "null fit", number});
-            }
-        }
-        if (!simulate(orders))
+        const auto conditions = mapped(answer_.layout.blocks, [](const auto& block) { return block.condition; });
+        const Setting setting = settingOf(studySimulator_, parameters, {});
+        if (!add(studySimulator_.repeats(conditions, setting, "null fit", repeats)))
         {
             throw std::runtime_error("all runs at the null fit have failed" + studySimulator_.effort().lastFailure());
         }
@@ -195,7 +189,7 @@ private:
             orders.push_back({condition, settingOf(studySimulator_, parameters, present),
                 purpose + ": " + nameOf(study_, effectsOf(present)), numbers[{contender, condition}]++});
         }
-        return !orders.empty() && simulate(orders);
+        return !orders.empty() && add(studySimulator_.run(orders));
     }
 
     /// Tries pairs of effects if no single effect explains the data.
@@ -417,7 +411,7 @@ private:
             const bool same = on == static_cast<Eigen::Index>(present.size())
                               && std::all_of(present.begin(), present.end(),
                                   [&](const Present& one) { return run.setting.amplitudes(one.effect) != 0.0; });
-            if (same && !run.simulation.failed && &run >= runs_.data() + librarySize_)
+            if (same && !run.failed && &run >= runs_.data() + librarySize_)
             {
                 found.runs.push_back(run);
             }
@@ -429,7 +423,7 @@ private:
     const Study& study_;
     const std::vector<MeasuredCondition>& data_;
     const std::vector<std::vector<Eigen::Index>> features_;
-    std::vector<Run> runs_;
+    std::vector<Simulation> runs_;
     const std::vector<Eigen::MatrixXd>& errorSlopes_;
     const std::size_t librarySize_ = runs_.size();
     const bool scatters_ = study_.simulator.scatters();

@@ -3,6 +3,7 @@
 #include "heldOut/scores.h"
 #include "report/findings.h"
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,5 +35,21 @@ std::vector<std::string> valuesAtEnds(const Findings& findings);
 
 /// Size of a fitted effect as text: "particleDiameter 3 % larger"; empty for a switch.
 std::string describeSize(const Findings& findings, const Explanation& explanation);
+
+/// Measured feature minus that of a setting.
+struct Residual
+{
+    std::size_t condition; // of the study
+    std::size_t feature;
+    Estimate estimate;
+    Estimate measured;
+    Estimate predicted;
+};
+
+/// Residuals of all training conditions at a setting, according to the emulator.
+std::vector<Residual> residualsOf(const Findings& findings, const Setting& setting);
+
+/// Root mean square of residuals in units of their standard errors.
+double rmsInErrors(const std::vector<Residual>& residuals);
 
 } // namespace clepsydra::identification

@@ -1,9 +1,8 @@
-#include "report/html.h"
+#include "report/report.h"
 
 #include "lists.h"
-#include "report/filled.h"
-#include "report/numbers.h"
 #include "report/svg.h"
+#include "report/text.h"
 
 #include <algorithm>
 #include <cmath>
@@ -196,12 +195,9 @@ constexpr const char* withoutCurves =
 CurvePlots curvePlotsOf(const Findings& findings)
 {
     const auto& [study, answer, heldOut, next, simulator, data, heldOutData] = findings;
-    const auto simulationsOf = [](const Explanation& explanation) {
-        return mapped(explanation.runs, [](const Run& run) { return run.simulation; });
-    };
     const Explanation* best = bestOf(*answer);
-    return {curvePlots(*study, study->conditionsOf(Role::training), simulationsOf(answer->null),
-                simulationsOf(best == nullptr ? Explanation{} : *best),
+    return {curvePlots(*study, study->conditionsOf(Role::training), answer->null.runs,
+                best == nullptr ? std::vector<Simulation>{} : best->runs,
                 answer->nearest ? "with the nearest effect" : "with effect", *data),
         heldOut->conditions.empty()
             ? ""

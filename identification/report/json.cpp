@@ -1,9 +1,8 @@
-#include "report/json.h"
+#include "report/report.h"
 
 #include "lists.h"
 #include "runner/magnitudes.h"
 #include "report/fitted.h"
-#include "report/residual.h"
 #include "report/text.h"
 #include "report/sentences.h"
 

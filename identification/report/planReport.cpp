@@ -1,6 +1,6 @@
-#include "report/planReport.h"
+#include "report/report.h"
 
-#include "report/numbers.h"
+#include "report/text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,7 @@
 #include "report/sentences.h"
 
 #include "lists.h"
-#include "report/filled.h"
 #include "report/fitted.h"
-#include "report/numbers.h"
-#include "report/residual.h"
 #include "report/text.h"
 
 #include <algorithm>

@@ -1,11 +1,152 @@
 #include "report/text.h"
 
-#include "report/filled.h"
+#include "emulator/distributions.h"
 
+#include <kainjow/mustache.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
 
 namespace clepsydra::identification
 {
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+namespace mustache = kainjow::mustache;
+
+int powerOfTen(double value)
+{
+    return static_cast<int>(std::floor(std::log10(std::abs(value))));
+}
+
+/// Whether a number of this magnitude is written without a power of ten.
+bool isPlain(int power)
+{
+    return power >= -4 && power <= 6;
+}
+
+std::string withDecimals(double value, int decimals)
+{
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(std::max(0, decimals)) << value;
+    return text.str();
+}
+
+std::string scientific(double value, int digits)
+{
+    std::ostringstream text;
+    text << std::scientific << std::setprecision(digits - 1) << value;
+    return text.str();
+}
+
+std::string estimateText(const Json& estimate)
+{
+    const Json error = estimate.value("standardError", estimate.value("sd", Json()));
+    const Json& value = estimate.at("value");
+    return value.is_number() ? withError({value, error.is_number() ? error.get<double>() : 0.0}) : "-";
+}
+
+mustache::data dataOf(const Json& json)
+{
+    if (json.empty() || json == "" || json.is_boolean())
+    {
+        return json == true;
+    }
+    if (json.is_string())
+    {
+        return json.get<std::string>();
+    }
+    if (json.is_array())
+    {
+        mustache::data list(mustache::data::type::list);
+        for (const auto& item : json)
+        {
+            list << dataOf(item);
+        }
+        return list;
+    }
+    mustache::data data;
+    if (json.is_number())
+    {
+        const auto value = json.get<double>();
+        data["text"] = json.is_number_integer() ? json.dump() : rounded(value, 3);
+        data["share"] = percent(value);
+        data["percent"] = rounded(100.0 * value) + " %";
+        return data;
+    }
+    for (const auto& [key, value] : json.items())
+    {
+        data[key] = dataOf(value);
+    }
+    if (json.contains("value"))
+    {
+        data["text"] = estimateText(json);
+    }
+    return data;
+}
+
+} // namespace
+
+std::string rounded(double value, int digits)
+{
+    if (value == 0.0 || !std::isfinite(value))
+    {
+        return std::isfinite(value) ? "0" : "-";
+    }
+    const double unit = std::pow(10.0, powerOfTen(value) + 1 - digits);
+    const double near = std::round(value / unit) * unit;
+    const int power = powerOfTen(near * (1.0 + 1e-9)); // rounding may have raised it: 0.0999 has become 0.1
+    return isPlain(power) ? withDecimals(near, digits - 1 - power) : scientific(near, digits);
+}
+
+std::string percent(double share)
+{
+    constexpr double least = 0.01;
+    return share < least ? "<1 %" : share > 1.0 - least ? ">99 %" : std::to_string(std::lround(100.0 * share)) + " %";
+}
+
+std::string pValueText(double pValue)
+{
+    return pValue <= leastPValue ? "p below 1e-6" : "p = " + rounded(pValue, pValue < 0.1 ? 1 : 2);
+}
+
+std::string withError(const Estimate& estimate)
+{
+    constexpr int exact = 4;
+    const auto& [value, error] = estimate;
+    if (!(error > 0.0) || !std::isfinite(error))
+    {
+        return rounded(value, exact);
+    }
+    const int decimals = 1 - powerOfTen(error);
+    if (isPlain(powerOfTen(error)) || (value != 0.0 && isPlain(powerOfTen(value))))
+    {
+        return withDecimals(value, decimals) + " ± " + withDecimals(error, decimals);
+    }
+    const int digits = value == 0.0 ? 2 : std::max(1, powerOfTen(value) + decimals + 1);
+    return scientific(value, digits) + " ± " + scientific(error, 2);
+}
+
+std::string filled(const char* pattern, const Json& data, Escape escape)
+{
+    mustache::mustache page(pattern);
+    if (escape == Escape::none)
+    {
+        page.set_custom_escape([](const std::string& text) { return text; });
+    }
+    const std::string text = page.render(dataOf(data));
+    if (!page.is_valid())
+    {
+        throw std::logic_error("in a template of the report: " + page.error_message());
+    }
+    return text;
+}
 
 void writeText(const nlohmann::ordered_json& report, std::ostream& out)
 {

@@ -1,8 +1,9 @@
 #include "runner/caseSimulator.h"
 
 #include "curves/table.h"
+#include "runner/processPool.h"
 #include "runner/runProgress.h"
-#include "runner/storeLock.h"
+#include "runner/slurmArray.h"
 #include "runner/storedFiles.h"
 
 #include <nlohmann/json.hpp>
@@ -162,6 +163,16 @@ void linkEntries(const fs::path& from, const fs::path& to, const fs::path& butNo
     }
 }
 
+/// Processes on this machine, or a job array of Slurm.
+std::unique_ptr<Executor> makeExecutor(const Study& study)
+{
+    const auto& [kind, processes, options] = study.executor;
+    const double limit = study.simulator.timeLimit;
+    return kind == "slurm"
+               ? std::unique_ptr<Executor>(std::make_unique<SlurmArray>(processes, options, study.work, limit))
+               : std::make_unique<ProcessPool>(processes, limit);
+}
+
 } // namespace
 
 CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
@@ -170,7 +181,7 @@ CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
       cache_(study.work / "cache"),
       tree_(study.work / "tree"),
       fingerprint_(fingerprintOf(study, caseFolder_)),
-      executor_(makeExecutor(study.executor, study.work, study.simulator.timeLimit)),
+      executor_(makeExecutor(study)),
       progress_(progress)
 {
     fs::create_directories(cache_);

@@ -1,10 +1,7 @@
 #pragma once
 
-#include "study/study.h"
-
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -40,11 +37,6 @@ public:
 
     virtual int atOnce() const = 0;
 };
-
-/// Executor of the kind that the study asks for: `pool` (processes on this machine) or `slurm` (a job array).
-/// \param timeLimit  wall-clock limit of one job [s]; 0: no limit
-std::unique_ptr<Executor> makeExecutor(
-    const ExecutorSpecification& specification, const std::filesystem::path& work, double timeLimit);
 
 /// Name of the file that receives a job's output.
 inline constexpr const char* jobLog = "traceResidual.out";

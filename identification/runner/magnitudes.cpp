@@ -1,6 +1,5 @@
 #include "runner/magnitudes.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -12,12 +11,7 @@ namespace
 
 double largestOf(const Curve& curve)
 {
-    double largest = 0.0;
-    for (const double value : curve.value)
-    {
-        largest = std::max(largest, std::abs(value));
-    }
-    return largest;
+    return Eigen::Map<const Eigen::ArrayXd>(curve.value.data(), curve.value.size()).abs().maxCoeff();
 }
 
 void compare(const Study& study, const MeasuredCondition& data, const Simulation& simulation)

@@ -1,4 +1,4 @@
-#include "runner/seeds.h"
+#include "runner/studySimulator.h"
 
 #include <algorithm>
 #include <array>

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <ostream>
 #include <string>
 
 namespace clepsydra::identification
@@ -27,5 +28,23 @@ constexpr std::uintmax_t leastRoom = 256 * 1024;
 /// \param doing  main clause for the message: what becomes of the current work
 /// \throws FileError if less than `leastRoom` is left on the folder's disk
 void requireRoom(const std::filesystem::path& folder, const std::string& doing);
+
+/// During its lifetime no other process makes runs in the same store; two processes that made the same run would write
+/// into the same copy of the case. The lock is flock(2) on <store>/lock, which the system releases when the process
+/// ends.
+class StoreLock
+{
+public:
+    /// Waits until the lock is free. \param progress  stream that receives a message if the lock is taken
+    /// \throws std::runtime_error if the file cannot be locked
+    StoreLock(const std::filesystem::path& store, std::ostream& progress);
+    ~StoreLock();
+
+    StoreLock(const StoreLock&) = delete;
+    StoreLock& operator=(const StoreLock&) = delete;
+
+private:
+    int file_;
+};
 
 } // namespace clepsydra::identification

@@ -1,7 +1,6 @@
 #include "runner/studySimulator.h"
 
 #include "lists.h"
-#include "runner/seeds.h"
 #include "effects/measuringChain.h"
 
 #include <algorithm>
@@ -218,6 +217,7 @@ std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& 
             const SimulationOrder& order = orders[open[k]];
             Simulation& simulation = done[open[k]];
             simulation.condition = order.condition;
+            simulation.setting = order.setting;
             simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
             simulation.curve = simulation.plain;
             if (simulation.plain.time.size() >= 2)

@@ -20,6 +20,9 @@ struct Setting
     Eigen::VectorXd errors = {}; // of the study's common errors, in standard deviations; empty: all zero
 };
 
+/// Seed of a run, a hash of the arguments: a prime from 11003 on; LIGGGHTS requires one above 10000.
+long seedOf(unsigned studySeed, const std::string& purpose, const std::string& condition, int number);
+
 /// Order for one simulation. Its seed is a hash of `seeds` (of `purpose`, if that is empty), condition and number.
 struct SimulationOrder
 {
@@ -33,6 +36,7 @@ struct SimulationOrder
 struct Simulation
 {
     std::size_t condition = 0;
+    Setting setting;
     Eigen::VectorXd features; // NaN where the curve lacks a feature; all NaN if the run has failed
     Curve curve;              // behind the measuring chain
     Curve plain;              // before the measuring chain

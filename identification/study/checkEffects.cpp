@@ -1,7 +1,7 @@
-#include "study/checkEffects.h"
+#include "study/readParts.h"
 
 #include "lists.h"
-#include "study/entriesOfRuns.h"
+#include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
 #include <algorithm>

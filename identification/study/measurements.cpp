@@ -138,10 +138,8 @@ MeasuredCondition readMeasurements(const Study& study, std::size_t condition)
     for (const auto& number : measured.numbers)
     {
         result.features.col(number.feature).setConstant(missing);
-        for (std::size_t repeat = 0; repeat < number.values.size(); ++repeat)
-        {
-            result.features(repeat, number.feature) = number.values[repeat];
-        }
+        result.features.col(number.feature).head(number.values.size()) =
+            Eigen::Map<const Eigen::VectorXd>(number.values.data(), number.values.size());
         result.declaredError(number.feature) = number.standardError;
     }
     return result;

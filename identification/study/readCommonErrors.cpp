@@ -1,8 +1,6 @@
-#include "study/readCommonErrors.h"
+#include "study/readParts.h"
 
-#include "study/entriesOfRuns.h"
-#include "study/namedItems.h"
-#include "study/readFormula.h"
+#include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
 #include <algorithm>
@@ -15,7 +13,7 @@ namespace clepsydra::identification
 namespace
 {
 
-std::vector<std::size_t> readConditions(const YamlPlace& place, const Study& study)
+std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& study)
 {
     if (!place.has("conditions"))
     {
@@ -96,8 +94,8 @@ CommonError readError(const YamlPlace& place, const Study& study)
     place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
     CommonError error;
     error.name = place.at("name").text();
-    error.meaning = place.textOr("meaning", "");
-    error.conditions = readConditions(place, study);
+    place.textOr("meaning", ""); // for readers of the file
+    error.conditions = chosenConditions(place, study);
     error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
     if (place.has("set") + place.has("chain") + place.has("features") != 1)
     {

@@ -1,8 +1,6 @@
-#include "study/readConditions.h"
+#include "study/readParts.h"
 
-#include "study/entriesOfRuns.h"
-#include "study/namedItems.h"
-#include "study/readFormula.h"
+#include "study/readValues.h"
 #include "study/units.h"
 #include "tokens/didYouMean.h"
 

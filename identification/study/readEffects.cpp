@@ -1,7 +1,6 @@
-#include "study/entriesOfRuns.h"
-#include "study/namedItems.h"
-#include "study/readFormula.h"
-#include "study/readStudy.h"
+#include "study/readParts.h"
+
+#include "study/readValues.h"
 
 #include <functional>
 #include <stdexcept>

@@ -1,12 +1,8 @@
 #include "study/readStudy.h"
 
 #include "effects/measuringChain.h"
-#include "study/checkEffects.h"
-#include "study/entriesOfRuns.h"
-#include "study/namedItems.h"
-#include "study/readCommonErrors.h"
-#include "study/readConditions.h"
-#include "study/readFormula.h"
+#include "study/readParts.h"
+#include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
 #include <algorithm>

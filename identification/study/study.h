@@ -83,6 +83,12 @@ struct Parameter
     /// influence.
     std::optional<std::size_t> effect;
 
+    /// The value at a number of standard deviations from the prior's mean, within the limits.
+    double at(double sds) const
+    {
+        return std::clamp(mean + sds * sd, lower, upper);
+    }
+
     /// The physical limits from the prior's mean, over its standard deviation.
     Bounds boundsInSds() const
     {
@@ -201,7 +207,6 @@ bool acts(const Effect& effect, const Condition& condition);
 struct CommonError
 {
     std::string name;
-    std::string meaning;
     std::vector<std::size_t> conditions;
     std::map<std::string, Expression> entries;
     std::string chainOperation; // empty if the error is not of the measuring chain

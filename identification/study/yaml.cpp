@@ -292,29 +292,4 @@ std::filesystem::path YamlPlace::path() const
     return (std::filesystem::absolute(*file_).parent_path() / text()).lexically_normal();
 }
 
-std::string YamlPlace::textOr(const std::string& key, const std::string& byDefault) const
-{
-    return has(key) ? at(key).text() : byDefault;
-}
-
-double YamlPlace::numberOr(const std::string& key, double byDefault) const
-{
-    return has(key) ? at(key).number() : byDefault;
-}
-
-double YamlPlace::positiveOr(const std::string& key, double byDefault) const
-{
-    return has(key) ? at(key).positive() : byDefault;
-}
-
-int YamlPlace::countOr(const std::string& key, int byDefault, int smallest) const
-{
-    return has(key) ? at(key).count(smallest) : byDefault;
-}
-
-bool YamlPlace::flagOr(const std::string& key, bool byDefault) const
-{
-    return has(key) ? at(key).flag() : byDefault;
-}
-
 } // namespace clepsydra::identification

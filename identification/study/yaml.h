@@ -59,11 +59,26 @@ public:
     /// A path, relative to the file's folder.
     std::filesystem::path path() const;
 
-    std::string textOr(const std::string& key, const std::string& byDefault) const;
-    double numberOr(const std::string& key, double byDefault) const;
-    double positiveOr(const std::string& key, double byDefault) const;
-    int countOr(const std::string& key, int byDefault, int smallest) const;
-    bool flagOr(const std::string& key, bool byDefault) const;
+    std::string textOr(const std::string& key, const std::string& byDefault) const
+    {
+        return has(key) ? at(key).text() : byDefault;
+    }
+    double numberOr(const std::string& key, double byDefault) const
+    {
+        return has(key) ? at(key).number() : byDefault;
+    }
+    double positiveOr(const std::string& key, double byDefault) const
+    {
+        return has(key) ? at(key).positive() : byDefault;
+    }
+    int countOr(const std::string& key, int byDefault, int smallest) const
+    {
+        return has(key) ? at(key).count(smallest) : byDefault;
+    }
+    bool flagOr(const std::string& key, bool byDefault) const
+    {
+        return has(key) ? at(key).flag() : byDefault;
+    }
 
     [[noreturn]] void fail(const std::string& what) const;
 

@@ -1,6 +1,5 @@
 /// Rates of the decision on synthetic data with known truth, which are independent of those that set the thresholds.
 #include "decision/pairs.h"
-#include "decision/visibility.h"
 #include "effectOf.h"
 #include "emulator/settings.h"
 #include "nextRuns/chooseRuns.h"

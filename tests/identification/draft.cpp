@@ -2,8 +2,8 @@
 #include "study/draft/draftStudy.h"
 #include "study/draft/guesses.h"
 #include "study/measurements.h"
-#include "study/entriesOfRuns.h"
 #include "study/readStudy.h"
+#include "study/readValues.h"
 #include "temporaryFolder.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/namedItems.h"
+#include "study/readValues.h"
 #include "study/study.h"
 
 #include <algorithm>

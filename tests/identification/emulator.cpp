@@ -232,17 +232,17 @@ struct NoisyBench
     Emulator learn()
     {
         std::normal_distribution<double> normal;
-        std::vector<identification::Run> runs;
+        std::vector<Simulation> runs;
         for (const auto& order : libraryOrders(studySimulator))
         {
             const double t = (order.setting.parameters(0) - 0.15) / 0.02;
             const Eigen::VectorXd& a = order.setting.amplitudes;
-            identification::Run run{order.setting, {}};
-            run.simulation.condition = order.condition;
-            run.simulation.features =
-                Eigen::VectorXd::Constant(1, 0.3 * t + 0.5 * a(0) - 0.4 * a(1) + 0.1 * normal(random));
-            run.simulation.plain.time = {0, 1};
-            run.simulation.plain.value = {1, 0};
+            Simulation run;
+            run.condition = order.condition;
+            run.setting = order.setting;
+            run.features = Eigen::VectorXd::Constant(1, 0.3 * t + 0.5 * a(0) - 0.4 * a(1) + 0.1 * normal(random));
+            run.plain.time = {0, 1};
+            run.plain.value = {1, 0};
             runs.push_back(run);
         }
         return {study, studySimulator, runs, allFeatures(study)};
@@ -298,15 +298,16 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
     const StudySimulator studySimulator(study, simulator);
     std::mt19937_64 random(4);
     std::normal_distribution<double> normal;
-    std::vector<identification::Run> runs;
+    std::vector<Simulation> runs;
     for (const auto& order : libraryOrders(studySimulator))
     {
         const double y = order.setting.amplitudes(1);
-        identification::Run run{order.setting, {}};
-        run.simulation.condition = order.condition;
-        run.simulation.features = Eigen::VectorXd::Constant(1, y + 0.1 * (1 + 3 * y) * normal(random));
-        run.simulation.plain.time = {0, 1};
-        run.simulation.plain.value = {1, 0};
+        Simulation run;
+        run.condition = order.condition;
+        run.setting = order.setting;
+        run.features = Eigen::VectorXd::Constant(1, y + 0.1 * (1 + 3 * y) * normal(random));
+        run.plain.time = {0, 1};
+        run.plain.value = {1, 0};
         runs.push_back(run);
     }
     const Emulator emulator(study, studySimulator, runs, allFeatures(study));

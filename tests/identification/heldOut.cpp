@@ -1,5 +1,4 @@
 #include "emulator/distributions.h"
-#include "heldOut/gaussianProcess.h"
 #include "heldOut/scores.h"
 #include "nextRuns/nextExperiment.h"
 

@@ -1,11 +1,11 @@
 #include "emulator/library.h"
 #include "emulator/plackettBurman.h"
-#include "runner/seeds.h"
+#include "runner/studySimulator.h"
 #include "study/entries.h"
 #include "study/expression.h"
-#include "study/entriesOfRuns.h"
-#include "study/namedItems.h"
+#include "study/readParts.h"
 #include "study/readStudy.h"
+#include "study/readValues.h"
 #include "study/units.h"
 #include "linearSimulator.h"
 #include "temporaryFolder.h"
@@ -198,14 +198,16 @@ TEST(PlackettBurman, IsOrthogonalAndBalanced)
     {
         const Eigen::MatrixXd design = plackettBurman(factors);
         const auto runs = static_cast<double>(design.rows());
-        EXPECT_EQ(design.rows(), plackettBurmanRuns(factors));
         EXPECT_GT(design.rows(), factors);
         EXPECT_TRUE((design.array().abs() == 1).all());
         EXPECT_TRUE(design.colwise().sum().isZero()) << factors;
         EXPECT_TRUE((design.transpose() * design).isApprox(runs * Eigen::MatrixXd::Identity(factors, factors)));
     }
-    EXPECT_EQ(plackettBurmanRuns(11), 12);
-    EXPECT_EQ(plackettBurmanRuns(23), 24);
+    EXPECT_EQ(plackettBurman(11).rows(), 12);
+    EXPECT_EQ(plackettBurman(23).rows(), 24);
+    const Eigen::MatrixXd two = plackettBurman(36);
+    EXPECT_TRUE(two.bottomRightCorner(8, 5) == plackettBurman(5));
+    EXPECT_TRUE((two.bottomLeftCorner(8, 31).array() == -1).all()) << "the factors of the other design";
 }
 
 //--- The study file ---------------------------------------------------------------------------------------------------

@@ -5,10 +5,14 @@
 #include <nlohmann/json.hpp>
 
 #include <optional>
+#include <ostream>
 #include <string>
 
 namespace clepsydra::identification
 {
+
+/// Content of report.json, whose keys docs/reference/report.md describes.
+nlohmann::ordered_json jsonOf(const Findings& findings);
 
 /// Plots of measured and simulated curves as HTML. They need the runs; all other parts of the page are in report.json.
 struct CurvePlots
@@ -23,5 +27,9 @@ CurvePlots curvePlotsOf(const Findings& findings);
 /// Content of report.html, a page that refers to no other files. \param curves  empty if the runs are not stored
 /// \throws nlohmann::json::exception if the report lacks a key that the page shows
 std::string htmlOf(const nlohmann::ordered_json& report, const std::optional<CurvePlots>& curves);
+
+/// Writes the result of a plan as text: the effects that can be detected, named and distinguished.
+void writePlan(const Study& study, const Emulator& emulator, const Layout& layout, const Measured& planned,
+    const Evidence& evidence, const Calibration& calibration, const Visibility& visibility, std::ostream& out);
 
 } // namespace clepsydra::identification
