@@ -5,6 +5,7 @@
 #include "effects/measuringChain.h"
 #include "study/measurements.h"
 #include "study/readStudy.h"
+#include "study/yaml.h"
 
 #include <stdexcept>
 
