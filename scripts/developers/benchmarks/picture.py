@@ -6,6 +6,8 @@ from typing import Any
 
 from clepsydra.picture_style import DPI, pyplot
 
+from .coupled import FLUID
+
 # Phases of a run as the picture has them, from the engines' own to the coupling's.
 PHASES = {
     "DEM": ("DEM",),
@@ -16,7 +18,6 @@ PHASES = {
     "forces": ("forces",),
     "output, start": ("output", "other"),
 }
-FLUID = ("pressure", "momentum", "output, start")
 PROGRAMS = {"ours": "Clepsydra", "LAMMPS": "LAMMPS", "Yade": "Yade"}
 
 
@@ -35,7 +36,7 @@ def draw_times(axes: Any, details: dict[str, Any]) -> None:
         phase: statistics.median(sum(run[name] for name in names) for run in details["coupled"])
         for phase, names in PHASES.items()
     }
-    apart = {phase: coupled[phase] if phase in FLUID else 0 for phase in PHASES}
+    apart = {phase: coupled[phase] if set(names) <= set(FLUID) else 0 for phase, names in PHASES.items()}
     apart["DEM"] = statistics.median(details["liggghts"])
     rows = {"Clepsydra": coupled, "LIGGGHTS and\nfluid solver\napart": apart}
     left = [0.0] * len(rows)
