@@ -17,6 +17,7 @@ from typing import Any
 
 from clepsydra import environment
 from developers.benchmarks import (
+    balance,
     cost_model,
     coupled,
     dpm_foam,
@@ -56,6 +57,7 @@ ENTRIES = {
     "flowRates": flow_rates.rates,
     "messagesPerInterval": messages.messages_per_interval,
     "reductionsPerStep": messages.reductions_per_step,
+    "busiestRankOverMean": balance.busiest_rank_over_mean,
     "bytesPerRank": messages.bytes_per_rank,
     "bytesPerParticle": memory.bytes_per_particle,
     "bytesPerCell": memory.bytes_per_cell,
@@ -73,6 +75,7 @@ LONG = (
     "speedupTwoRanksEmptying",
     "overLammpsFlow",
     "flowRates",
+    "busiestRankOverMean",
     "millionParticles",
     "millionParticlesDry",
     "millionCells",

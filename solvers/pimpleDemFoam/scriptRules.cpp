@@ -36,6 +36,8 @@ const std::set<std::string> knownFixes = {
     // output
     "ave/atom", "ave/correlate", "ave/euler", "ave/euler/stress", "ave/histo", "ave/spatial", "ave/time",
     "check/timestep/gran", "massflow/mesh", "print", "store/force", "store/state",
+    // the boxes of the ranks
+    "balance",
     // made by LIGGGHTS itself
     "READ_RESTART", "STORE", "contacthistory", "contacthistory/mesh", "neighlist/mesh", "contactproperty/atom",
     "contactproperty/atom/wall", "diam/max"};

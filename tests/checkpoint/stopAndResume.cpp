@@ -1,13 +1,16 @@
 // A run that is stopped and resumed is the run that was never stopped: to the last digit, whoever stops it and when.
 
 #include "checkpoint/pilingParticles.h"
+#include "files/wholeFile.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <random>
+#include <sstream>
 #include <thread>
 
 namespace clepsydra::tests
@@ -43,6 +46,36 @@ Outcome runInTwo(TestCase& test, const std::string& stopAt)
                ? test.runCommand("cp system/controlDict asked && echo \"endTime " + stopAt
                                  + ";\" >> system/controlDict && $SOLVER && cp asked system/controlDict && $SOLVER")
                : mesh;
+}
+
+/// Four walls of strips, each of two triangles, that are closer to each other below, as STL.
+std::string chute(double width, double height, double inset, int strips)
+{
+    std::ostringstream text;
+    text << "solid chute\n";
+    const auto corner = [&](int wall, int level) {
+        const double z = height * level / strips;
+        const double atLow = inset * (1 - z / height);
+        const bool right = wall % 4 == 1 || wall % 4 == 2;
+        const bool back = wall % 4 > 1;
+        std::ostringstream vertex;
+        vertex << "vertex " << (right ? width - atLow : atLow) << ' ' << (back ? width - atLow : atLow) << ' ' << z
+               << '\n';
+        return vertex.str();
+    };
+    const auto facet = [&](const std::string& corners) {
+        text << "facet normal 0 0 0\nouter loop\n" << corners << "endloop\nendfacet\n";
+    };
+    for (int wall = 0; wall < 4; ++wall)
+    {
+        for (int strip = 0; strip < strips; ++strip)
+        {
+            facet(corner(wall, strip) + corner(wall + 1, strip) + corner(wall, strip + 1));
+            facet(corner(wall + 1, strip) + corner(wall + 1, strip + 1) + corner(wall, strip + 1));
+        }
+    }
+    text << "endsolid chute\n";
+    return text.str();
 }
 
 } // namespace
@@ -202,6 +235,40 @@ TEST(TwoRanks, WriteTheirOwnParticlesAndGoOn)
     ASSERT_TRUE(resumed.succeeded()) << resumed.output;
     EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.01")) << resumed.output;
     EXPECT_TRUE(stopped.runCommand(TestCase::sameCheckpoint("0.02", through)).succeeded());
+}
+
+// Three ranks one above the other move their boxes as the particles fall in a chute of triangles: `fix balance`. The run that is
+// resumed begins with the boxes of the checkpoint and is bit for bit the run that was never stopped. One that begins with equal
+// boxes is not, nor one that adds up the forces of the triangles in the order in which they have come to the rank.
+TEST(ThreeRanks, GoOnWithTheBoxesOfTheCheckpoint)
+{
+    TestCase through;
+    TestCase stopped;
+    for (TestCase* test : {&through, &stopped})
+    {
+        pilingParticles(*test, false);
+        test->dem.dumpEvery = 0;
+        std::ofstream(test->path() / "chute.stl") << chute(0.012, 0.024, 2.5e-4, 24);
+        test->dem.more += "fix balance all balance 20 1.05\nfix chute all mesh/surface file chute.stl type 1\n"
+                          "fix inChute all wall/gran model hertz tangential history mesh n_meshes 1 meshes chute\n";
+        test->setTimes(test == &stopped ? 0.06 : 0.09, interval, 0.03);
+        const Outcome outcome = test->run(3);
+        ASSERT_TRUE(outcome.succeeded()) << outcome.output;
+    }
+    const std::string boxes = "checkpoints/0.06/particles.subdomains.restart";
+    EXPECT_NE(textOf(stopped.path() / boxes), textOf(through.path() / "checkpoints/0.09/particles.subdomains.restart"))
+        << "the boxes have not moved since";
+
+    const Outcome resumed =
+        stopped.runCommand("echo \"endTime 0.09;\" >> system/controlDict && mpirun -np 3 $SOLVER -parallel");
+    ASSERT_TRUE(resumed.succeeded()) << resumed.output;
+    EXPECT_TRUE(resumed.says("Resuming from the checkpoint of time 0.06")) << resumed.output;
+    // The base has the triangles, one rank after the other, each in the order in which they came.
+    for (const char* const part : {"0", "1", "2", "subdomains"})
+    {
+        const std::string file = std::string("checkpoints/0.09/particles.") + part + ".restart";
+        EXPECT_EQ(contentsOf(stopped.path() / file), contentsOf(through.path() / file)) << file;
+    }
 }
 
 // A checkpoint of the time when one file held the particles of all ranks, and no run had an identifier: it is resumed from, with

@@ -39,6 +39,10 @@ OTHERS = {
     "coupling/engine/liggghts/removal.cpp": (1, "where particles have left"),
     "coupling/engine/liggghts/restartFiles.cpp": (4, f"{START} and {WRITE}"),
     "coupling/engine/liggghts/scriptFacts.cpp": (1, START),
+    "coupling/engine/liggghts/subdomains.cpp": (
+        4,
+        "fix balance: once in so many DEM steps, and with a row of LIGGGHTS' table",
+    ),
     "coupling/exchange/particleExchange.cpp": (1, "where particles have left the boxes that were published"),
     "coupling/functionObjects/hopperCylinder.cpp": (3, START),
     "coupling/functionObjects/massInHopper.cpp": (1, START),

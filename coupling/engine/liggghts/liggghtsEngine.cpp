@@ -12,6 +12,7 @@
 #include "engine/liggghts/removal.h"
 #include "engine/liggghts/restartFiles.h"
 #include "engine/liggghts/scriptRun.h"
+#include "engine/liggghts/subdomains.h"
 
 #include <atom.h>
 #include <lammps.h>
@@ -31,7 +32,7 @@ struct LiggghtsEngine::Parts
         : outputFiles(setup.logFile, setup.outputs),
           program(setup.logFile, setup.communicator, setup.onWarning),
           commands((registerHertzPairStyle(), replaceNeighbourSearch(program), replaceMeshWallContacts(program),
-              runScript(program, outputFiles, setup))),
+              allowUnequalSubdomains(program), runScript(program, outputFiles, setup))),
           resumed(!setup.resumeFrom.empty())
     {
         for (const GroupChange& change : setup.groupChanges)

@@ -1,26 +1,24 @@
 #include "engine/liggghts/fasterParts.h"
 
-#include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/fixStyles.h"
 
 // Headers that LIGGGHTS' headers below use without including them.
 #include <mpi.h>
 
 #include <atom.h>
+#include <comm.h>
 #include <fix_contact_history_mesh.h>
 #include <fix_mesh_surface.h>
 #include <fix_neighlist_mesh.h>
 #include <fix_property_atom.h>
 #include <fix_wall_gran.h>
 #include <lammps.h>
-#include <modify.h>
 #include <neighbor.h>
 #include <tri_mesh.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <map>
-#include <string>
 #include <vector>
 
 namespace clepsydra
@@ -30,22 +28,6 @@ namespace
 {
 
 namespace lmp = LAMMPS_NS;
-
-using FixCreator = lmp::Fix* (*)(lmp::LAMMPS*, int, char**);
-
-/// LIGGGHTS' table of the fixes that a script can have. It is a private member of Modify, which an explicit instantiation
-/// may name.
-std::map<std::string, FixCreator>& fixTable(const lmp::Modify& modify);
-
-template<auto member>
-struct FixTable
-{
-    friend std::map<std::string, FixCreator>& fixTable(const lmp::Modify& modify)
-    {
-        return *(modify.*member);
-    }
-};
-template struct FixTable<&lmp::Modify::fix_map>;
 
 /// Access to the flags of LIGGGHTS' contact history of a mesh.
 struct ContactFlags : lmp::FixContactHistoryMesh
@@ -157,6 +139,13 @@ private:
                 result.triangles.push_back(triangle);
             }
         }
+        if (comm->uniform == 0)
+        {
+            // The order of the triangles depends on all boxes that the rank has had, and forces on the order. A resumed run
+            // knows the last boxes only.
+            std::stable_sort(result.triangles.begin(), result.triangles.end(),
+                [&](int one, int other) { return mesh.id(one) < mesh.id(other); });
+        }
         for (int particle = 0; particle < atom->nlocal; ++particle)
         {
             if (fixMesh.contactHistory()->nneighs(particle) > 0)
@@ -234,9 +223,9 @@ private:
 
 void replaceMeshWallContacts(LiggghtsProgram& program)
 {
-    fixTable(*program->modify)["wall/gran"] = [](lmp::LAMMPS* liggghts, int count, char** tokens) -> lmp::Fix* {
+    setFixStyle(program, "wall/gran", [](lmp::LAMMPS* liggghts, int count, char** tokens) -> lmp::Fix* {
         return new MeshWalls(liggghts, count, tokens);
-    };
+    });
 }
 
 } // namespace clepsydra

@@ -2,6 +2,7 @@
 
 #include "engine/demEngine.h"
 #include "engine/liggghts/liggghtsProgram.h"
+#include "engine/liggghts/subdomains.h"
 #include "files/wholeFile.h"
 
 #include <comm.h>
@@ -197,7 +198,14 @@ std::vector<std::filesystem::path> writeRestart(LiggghtsProgram& program, const 
     if (ready != 0)
     {
         program.execute("write_restart " + FileThroughPipe::entrance(name).string(), "checkpoint");
-        attempt([&] { std::for_each(pipes.begin(), pipes.end(), [](FileThroughPipe& pipe) { pipe.finish(); }); });
+        attempt([&] {
+            std::for_each(pipes.begin(), pipes.end(), [](FileThroughPipe& pipe) { pipe.finish(); });
+            if (program->comm->me == 0)
+            {
+                const std::vector<std::filesystem::path> boxes = writeSubdomains(program, name);
+                files.insert(files.end(), boxes.begin(), boxes.end());
+            }
+        });
         restartInsertions(*program);
     }
     MPI_Barrier(program->world);

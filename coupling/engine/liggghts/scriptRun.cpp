@@ -4,6 +4,7 @@
 #include "engine/liggghts/outputFiles.h"
 #include "engine/liggghts/particleChecks.h"
 #include "engine/liggghts/restartFiles.h"
+#include "engine/liggghts/subdomains.h"
 
 #include <atom.h>
 #include <lammps.h>
@@ -111,6 +112,7 @@ std::vector<ScriptCommand> runScript(LiggghtsProgram& program, OutputFiles& outp
         }
         else if (onResume == OnResume::takeFromCheckpoint && !boxMade)
         {
+            readSubdomains(program, setup.resumeFrom);
             program.execute("read_restart " + setup.resumeFrom.string(), command.where + ", resumed");
             boxMade = true;
         }

@@ -69,9 +69,11 @@ def coupled_over_liggghts_and_fluid(hopper: Hopper, repetitions: int) -> timing.
     numbers = {name: value for name, value in hopper.parameters.items() if isinstance(value, (int, float))}
     numbers |= {f"ranksAlong{axis}": 1 for axis in "XYZ"}
     variables = "".join(f"variable {name} equal {value}\n" for name, value in numbers.items())
+    lines = (run.folder / "DEM" / "in.discharge").read_text().splitlines(keepends=True)
+    discharge = "".join(line for line in lines if not line.startswith("fix balance"))  # LIGGGHTS alone has none
     for name, count in (("alone", steps), ("start", 0)):
         (run.folder / f"in.{name}").write_text(
-            f"{variables}variable packing string {hopper.packing}\ninclude DEM/in.discharge\nrun {count}\n"
+            f"{variables}variable packing string {hopper.packing}\n{discharge}run {count}\n"
         )
     times = timing.interleaved(
         {"coupled": run, **{name: timing.Run(liggghts(name), run.folder) for name in ("alone", "start")}}, repetitions
