@@ -89,12 +89,8 @@ def predict(model: Any) -> None:
             cells * intervals,
             cells ** (4 / 3) * intervals,
         ]
-        hours = {ranks: cost_model.predicted(model, terms, ranks) / 3600 for ranks in (1, 2, 128)}
-        core_hours = 128 * hours[128]
-        print(
-            f"{name}: {particles:.3g} particles, {duration} s: {hours[2]:.3g} h on 2 ranks, {hours[128]:.3g} h on 128"
-            f" ({core_hours:.3g} core-hours; {hours[1] / 128:.3g} h if all of it scaled)"
-        )
+        hours = cost_model.predicted(model, terms, ranks=2) / 3600
+        print(f"{name}: {particles:.3g} particles, {duration} s: {hours:.3g} h on 2 ranks")
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 does."""
 
 import functools
+import math
 import shutil
 from typing import Any
 
@@ -10,7 +11,7 @@ from clepsydra.environment import REPOSITORY
 from . import memory, timing
 from .hopper import Hopper, conservation, forget_results, solver
 
-RANKS = 2
+BOXES = (2, 1, 1)  # of the ranks, along x, y and z
 INTERVALS = 40
 DEM_STEPS = 20  # in a coupling step
 
@@ -62,22 +63,26 @@ def per_unit(seconds: Any, phases: Any, size: Any, unit: str) -> dict[Any, Any]:
 
 @functools.cache
 def measured(hopper: Hopper, repetitions: int, fluid: Any) -> Any:
-    beds = {name: bed(hopper, name, fluid, *size) for name, size in (("small", SMALL), ("large", LARGE))}
+    beds = {
+        name: bed(hopper, f"{name}Bed.{fluid}", *size, BOXES, fluid=fluid)
+        for name, size in (("small", SMALL), ("large", LARGE))
+    }
     return timing.interleaved(beds, repetitions)
 
 
-def bed(hopper: Hopper, name: str, fluid: Any, particles: Any, cells: Any) -> Any:
-    """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed."""
-    folder = memory.column(
-        hopper, particles, cells, fluid=fluid, couplingTimeStep=DEM_STEPS * 1e-5, endTime=INTERVALS * DEM_STEPS * 1e-5
-    ).folder
-    case = folder.with_name(f"{name}Bed.{fluid}")
+def bed(hopper: Hopper, name: str, particles: Any, cells: Any, boxes: tuple[int, int, int], **entries: Any) -> Any:
+    """The still bed whose memory is measured, with the hopper's solver of the pressure, decomposed into boxes."""
+    steps = {"couplingTimeStep": DEM_STEPS * 1e-5, "endTime": INTERVALS * DEM_STEPS * 1e-5}
+    folder = memory.column(hopper, particles, cells, **{**steps, **entries}).folder
+    case = folder.with_name(name)
     shutil.rmtree(case, ignore_errors=True)
     folder.rename(case)
     for file in ("fvSolution", "decomposeParDict"):
         shutil.copy(REPOSITORY / "cases/tutorials/hopperQuick/system" / file, case / "system")
     script = case / "DEM/in.column"
-    script.write_text(f"processors {RANKS} 1 1\n" + script.read_text())  # the same boxes as the mesh's
+    # the same boxes as the mesh's
+    script.write_text(f"processors {' '.join(map(str, boxes))} map xyz\n" + script.read_text())
+    ranks = math.prod(boxes)
     (case / "step").write_text(
         "".join(
             f"{entry} {value:g};\n"
@@ -92,12 +97,11 @@ def bed(hopper: Hopper, name: str, fluid: Any, particles: Any, cells: Any) -> An
                         "nonOrthogonalCorrectors",
                     )
                 },
-                "ranks": RANKS,
-                "ranksAlongX": RANKS,
-                "ranksAlongY": 1,
-                "ranksAlongZ": 1,
+                "ranks": ranks,
+                **{f"ranksAlong{axis}": along for axis, along in zip("XYZ", boxes)},
             }.items()
         )
     )
-    Hopper.in_folder(case, "decomposePar > log.decomposePar 2>&1")
-    return timing.Run(solver(RANKS), case, prepare=lambda: forget_results(case), result=lambda: conservation(case))
+    if ranks > 1:
+        Hopper.in_folder(case, "decomposePar > log.decomposePar 2>&1")
+    return timing.Run(solver(ranks), case, prepare=lambda: forget_results(case), result=lambda: conservation(case))

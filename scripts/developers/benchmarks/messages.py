@@ -3,6 +3,7 @@ times."""
 
 import functools
 import json
+import shutil
 from pathlib import Path
 from typing import Any, Callable
 
@@ -60,10 +61,6 @@ def largest(of_ranks: Any) -> dict[Any, Any]:
 def measured(hopper: Hopper) -> dict[Any, Any]:
     """What tests/benchmarks/countMessages.cpp has written, a list of ranks for each number of them. Once: they are
     counts."""
-    if not counter().exists():
-        raise timing.Skipped(
-            f"there is no {counter()}: 'cmake --build {environment.build()} --target countMessages' makes it"
-        )
     return {ranks: counted(hopper, ranks) for ranks in RANKS}
 
 
@@ -72,9 +69,21 @@ def counter() -> Path:
 
 
 def counted(hopper: Hopper, ranks: int) -> list[Any]:
-    run = hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingTimeStep"], ranks)
+    return counts_of(
+        hopper.run("submerged", f"messagesOn{ranks}", INTERVALS * hopper.parameters["couplingTimeStep"], ranks)
+    )
+
+
+def counts_of(run: timing.Run) -> list[Any]:
+    """What each rank of a run has sent in a coupling step, by phase."""
+    if not counter().exists():
+        raise timing.Skipped(
+            f"there is no {counter()}: 'cmake --build {environment.build()} --target countMessages' makes it"
+        )
     counts = run.folder / "counts"
+    shutil.rmtree(counts, ignore_errors=True)
     counts.mkdir()
     run.command[1:1] = ["-x", f"MESSAGE_COUNTS={counts}", "-x", f"LD_PRELOAD={counter()}"]
     timing.timed(run)
-    return [json.loads((counts / f"{rank}.json").read_text()) for rank in range(ranks)]
+    files = sorted(counts.glob("*.json"), key=lambda file: int(file.stem))
+    return [json.loads(file.read_text()) for file in files]
