@@ -7,9 +7,9 @@ is its work, which is measured on one rank, plus for each phase
     messages * LATENCY + bytes / BANDWIDTH + collective calls * LATENCY * log2(P)
 
 Messages go to 6 neighbours, those of LISTS to 26; bytes go with the area of the faces; the calls are what they are.
-The still bed's pressure is solved at once, so the pressure's counts and work are those of the submerged hopper. Its multigrid halves
-the cells from level to level, and the messages go with the number of levels. Left out: an uneven load, and that ranks of a
-node share its memory."""
+The still bed's pressure is solved at once, so the pressure's counts and work are those of the submerged hopper. Its
+multigrid halves the cells from level to level, and the messages go with the number of levels. Left out: an uneven load,
+and that ranks of a node share its memory."""
 
 import math
 from typing import Any
