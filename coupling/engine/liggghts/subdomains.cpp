@@ -281,7 +281,7 @@ private:
         comm->setup();
         neighbor->setup_bins();
         atom->setup();
-        // Meshes at rest leave their triangles where they are unless they are told that the box changes.
+        // Meshes at rest exchange triangles only if the box changes.
         const int changes = std::exchange(domain->box_change, 1);
         std::for_each(modify->fix, modify->fix + modify->nfix, [](lmp::Fix* fix) {
             if (auto* const mesh = dynamic_cast<lmp::FixMesh*>(fix))
