@@ -1,5 +1,6 @@
 """The environment of scripts/environment, for Python programs that start ours or OpenFOAM's."""
 
+import functools
 import os
 import subprocess
 from pathlib import Path
@@ -28,3 +29,12 @@ def program(name: str) -> Path:
 
 def build() -> Path:
     return Path(os.environ.get("CLEPSYDRA_BUILD", REPOSITORY / "build"))
+
+
+@functools.cache
+def commit() -> str:
+    """Of this repository, with `-dirty` where files differ from it; "unknown" outside a clone."""
+    described = subprocess.run(
+        ["git", "-C", REPOSITORY, "describe", "--always", "--dirty", "--exclude=*"], capture_output=True, text=True
+    )
+    return described.stdout.strip() or "unknown"

@@ -23,7 +23,7 @@ from typing import Any
 import yaml
 
 from clepsydra import whole_files
-from clepsydra.environment import REPOSITORY
+from clepsydra.environment import REPOSITORY, commit
 from developers import page_text, shell_typing
 
 TABLE = REPOSITORY / "tests/pages/firstHour.yaml"
@@ -174,14 +174,11 @@ class Hour:
         self.put_repository(root / "root/clepsydra")
 
     def put_repository(self, target: Path) -> None:
-        commit = subprocess.run(
-            ["git", "-C", REPOSITORY, "rev-parse", "--short", "HEAD"], check=True, capture_output=True, text=True
-        ).stdout.strip()
         start = time.monotonic()
         subprocess.run(["git", "clone", "--quiet", "--no-hardlinks", REPOSITORY, target], check=True)
         self.note(
             "this folder",
-            f"git clone, commit {commit} of {time.strftime('%Y-%m-%d')}, on {os.cpu_count()} cores",
+            f"git clone, commit {commit()} of {time.strftime('%Y-%m-%d')}, on {os.cpu_count()} cores",
             time.monotonic() - start,
             True,
         )

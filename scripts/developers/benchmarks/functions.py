@@ -13,8 +13,8 @@ from . import timing
 # What a function does, by its name; the first that fits counts.
 PARTS = {
     "contacts of particles": "HertzPairStyle|evaluateHertz",
-    "contacts with walls": "MeshWalls|NeighlistMesh|MultiNodeMesh|SurfaceMesh|TriMesh|HistoryMesh|FixWallGran|ContactModels|Walls::|PrimitiveWall",
-    "search for neighbours": "NeighbourLists|markNear|LAMMPS_NS::Neighbor|FixContactHistory::|LAMMPS_NS::Comm|LAMMPS_NS::Atom",
+    "contacts with walls": "MeshWalls|LAMMPS_NS::.*Mesh|FixWallGran|ContactModels|Walls::|PrimitiveWall",
+    "search for neighbours": "NeighbourLists|markNear|S::Neighbor|FixContactHistory::|S::Comm|S::Atom",
     "motion": "FixNVE|FixGravity|LAMMPS_NS::",
     "smoothing": r"sweep<|CellDiffusion::apply",
     "cells and shares": "CellSlabs|HalfSpace|SphereInBox|Neighbourhood|Distribution|CellDiffusion",

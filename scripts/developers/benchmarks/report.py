@@ -4,12 +4,11 @@ import datetime
 import json
 import os
 import platform
-import subprocess
 from pathlib import Path
 from typing import Any
 
 from clepsydra import whole_files
-from clepsydra.environment import REPOSITORY
+from clepsydra.environment import commit
 
 
 def table(figures: Any) -> str:
@@ -55,12 +54,6 @@ def entry(figure: Any) -> dict[str, Any]:
         "meaning": figure.meaning,
         "details": figure.details,
     }
-
-
-def commit() -> str:
-    return subprocess.run(
-        ["git", "-C", REPOSITORY, "describe", "--always", "--dirty", "--exclude=*"], capture_output=True, text=True
-    ).stdout.strip()
 
 
 def machine() -> str:

@@ -1,8 +1,8 @@
 """How many ranks are worth it: what each rank of a bed computes and sends, counted on up to 32 ranks, and a model of a
 network for more.
 
-A rank of P has N/P particles and as many cells, and a box whose faces it shares with others. Its time in a coupling step
-is its work, which is measured on one rank, plus for each phase
+A rank of P has N/P particles and as many cells, and a box whose faces it shares with others. Its time in a coupling
+step is its work, which is measured on one rank, plus for each phase
 
     messages * LATENCY + bytes / BANDWIDTH + collective calls * LATENCY * log2(P)
 

@@ -1,12 +1,11 @@
 """The rows of scripts/faults, as lines, as JSON and as the page's table."""
 
-import functools
 import json
-import subprocess
 from pathlib import Path
 from typing import Any
 
 from clepsydra import whole_files
+from clepsydra.environment import commit
 
 PAGE = Path(__file__).resolve().parent / "README.md"
 BEGIN, END = "<!-- table of faults: made by --page -->\n", "<!-- end of the table -->\n"
@@ -28,14 +27,6 @@ def row(kind: Any, seen: Any, wrong: Any, seconds: Any, skipped: Any = None) -> 
         "seconds": round(seconds, 1),
         "commit": commit(),
     }
-
-
-@functools.cache
-def commit() -> str:
-    described = subprocess.run(
-        ["git", "-C", PAGE.parent, "describe", "--always", "--dirty"], capture_output=True, text=True
-    )
-    return described.stdout.strip() or "unknown"
 
 
 def line(found: Any) -> str:
