@@ -2,6 +2,7 @@
 
 #include "checkpoint/pilingParticles.h"
 #include "files/wholeFile.h"
+#include "support/stlText.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,6 @@
 #include <fstream>
 #include <iostream>
 #include <random>
-#include <sstream>
 #include <thread>
 
 namespace clepsydra::tests
@@ -48,34 +48,26 @@ Outcome runInTwo(TestCase& test, const std::string& stopAt)
                : mesh;
 }
 
-/// Four walls of strips, each of two triangles, that are closer to each other below, as STL.
-std::string chute(double width, double height, double inset, int strips)
+/// Four walls of strips, each of two triangles, that are closer to each other below.
+std::vector<Triangle> chute(double width, double height, double inset, int strips)
 {
-    std::ostringstream text;
-    text << "solid chute\n";
     const auto corner = [&](int wall, int level) {
         const double z = height * level / strips;
-        const double atLow = inset * (1 - z / height);
+        const double low = inset * (1 - z / height);
         const bool right = wall % 4 == 1 || wall % 4 == 2;
         const bool back = wall % 4 > 1;
-        std::ostringstream vertex;
-        vertex << "vertex " << (right ? width - atLow : atLow) << ' ' << (back ? width - atLow : atLow) << ' ' << z
-               << '\n';
-        return vertex.str();
+        return Eigen::Vector3d(right ? width - low : low, back ? width - low : low, z);
     };
-    const auto facet = [&](const std::string& corners) {
-        text << "facet normal 0 0 0\nouter loop\n" << corners << "endloop\nendfacet\n";
-    };
+    std::vector<Triangle> triangles;
     for (int wall = 0; wall < 4; ++wall)
     {
         for (int strip = 0; strip < strips; ++strip)
         {
-            facet(corner(wall, strip) + corner(wall + 1, strip) + corner(wall, strip + 1));
-            facet(corner(wall + 1, strip) + corner(wall + 1, strip + 1) + corner(wall, strip + 1));
+            triangles.push_back({corner(wall, strip), corner(wall + 1, strip), corner(wall, strip + 1)});
+            triangles.push_back({corner(wall + 1, strip), corner(wall + 1, strip + 1), corner(wall, strip + 1)});
         }
     }
-    text << "endsolid chute\n";
-    return text.str();
+    return triangles;
 }
 
 } // namespace
@@ -248,7 +240,7 @@ TEST(ThreeRanks, GoOnWithTheBoxesOfTheCheckpoint)
     {
         pilingParticles(*test, false);
         test->dem.dumpEvery = 0;
-        std::ofstream(test->path() / "chute.stl") << chute(0.012, 0.024, 2.5e-4, 24);
+        std::ofstream(test->path() / "chute.stl") << stlText(chute(0.012, 0.024, 2.5e-4, 24));
         test->dem.more += "fix balance all balance 20 1.05\nfix chute all mesh/surface file chute.stl type 1\n"
                           "fix inChute all wall/gran model hertz tangential history mesh n_meshes 1 meshes chute\n";
         test->setTimes(test == &stopped ? 0.06 : 0.09, interval, 0.03);

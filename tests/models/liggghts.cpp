@@ -12,6 +12,7 @@
 #include "engine/liggghts/wallMotions.h"
 #include "forcesOnParticles.h"
 #include "support/demScript.h"
+#include "support/stlText.h"
 
 #include <gtest/gtest.h>
 #include <mpi.h>
@@ -668,21 +669,10 @@ namespace
 class TriangleFile
 {
 public:
-    TriangleFile(const std::string& name, const std::vector<std::array<Vector3d, 3>>& triangles)
+    TriangleFile(const std::string& name, const std::vector<Triangle>& triangles)
         : name_(testing::TempDir() + name + std::to_string(getpid()) + ".stl")
     {
-        std::ofstream os(name_);
-        os << "solid walls\n";
-        for (const auto& triangle : triangles)
-        {
-            os << "facet normal 0 0 0\nouter loop\n";
-            for (const Vector3d& corner : triangle)
-            {
-                os << "vertex " << corner.x() << ' ' << corner.y() << ' ' << corner.z() << '\n';
-            }
-            os << "endloop\nendfacet\n";
-        }
-        os << "endsolid walls\n";
+        std::ofstream(name_) << stlText(triangles);
     }
 
     ~TriangleFile()

@@ -2,6 +2,7 @@
 /// What a DEM script may hold beside a fluid. LIGGGHTS accepts all of it, and with a fluid much of it gave wrong results
 /// without a message.
 
+#include "support/stlText.h"
 #include "support/testCase.h"
 
 #include <gtest/gtest.h>
@@ -90,8 +91,7 @@ const std::string heat = "fix conductivity all property/global thermalConductivi
                          "fix capacity all property/global thermalCapacity peratomtype 800. 800.\n"
                          "fix heat all heat/gran/conduction initial_temperature 300.";
 
-const std::string plate = "solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0.005 0.005 0.01\n"
-                          "vertex 0.015 0.005 0.01\nvertex 0.01 0.015 0.01\nendloop\nendfacet\nendsolid plate\n";
+const std::string plate = stlText({{{{0.005, 0.005, 0.01}, {0.015, 0.005, 0.01}, {0.01, 0.015, 0.01}}}});
 const std::string plateWall = "fix plate all mesh/surface file DEM/plate.stl type 2";
 
 } // namespace

@@ -2,6 +2,7 @@
 /// Whole runs in which the mesh of the fluid moves: the same physics seen by an observer who moves, a piston, a drum that
 /// turns with its mesh, and what is refused.
 
+#include "support/stlText.h"
 #include "support/testCase.h"
 #include "tokens/exactText.h"
 
@@ -124,19 +125,9 @@ std::string plateStl(double width, double height)
 {
     const double low = -0.1 * width;
     const double high = 1.1 * width;
-    std::ostringstream os;
-    os.precision(17);
-    os << "solid plate\n";
-    for (const bool second : {false, true})
-    {
-        os << "facet normal 0 0 1\nouter loop\n"
-           << "vertex " << low << ' ' << low << ' ' << height << '\n'
-           << "vertex " << high << ' ' << (second ? high : low) << ' ' << height << '\n'
-           << "vertex " << (second ? low : high) << ' ' << high << ' ' << height << '\n'
-           << "endloop\nendfacet\n";
-    }
-    os << "endsolid plate\n";
-    return os.str();
+    const Eigen::Vector3d corner(low, low, height);
+    const Eigen::Vector3d opposite(high, high, height);
+    return stlText({{corner, {high, low, height}, opposite}, {corner, opposite, {low, high, height}}});
 }
 
 constexpr double pistonSpeed = 0.05;
