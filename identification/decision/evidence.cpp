@@ -35,7 +35,7 @@ constexpr int parameterSteps = 8;
 constexpr int halvings = 6;
 constexpr double smallestDecrease = 1e-3;
 
-/// Number of iterations for the fit of an effect if the emulator is not a polynomial.
+/// Number of iterations for the fit of an effect.
 constexpr int refinements = 3;
 
 /// Largest number of nodes that are added for one explanation, and difference between the interpolated and the evaluated
@@ -164,7 +164,7 @@ void Evidence::refine(const Measured& measured)
 
 void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& measured)
 {
-    for (int step = 0; step < (emulator_.scatters() ? 1 : refinements); ++step)
+    for (int step = 0; step < refinements; ++step)
     {
         const Fit found = fits(explanationOf(effects), measured).front();
         places_[effects] = {found.parameters, found.chiSquare, {}};
