@@ -173,11 +173,10 @@ void Evidence::refine(const std::vector<std::size_t>& effects, const Measured& m
 }
 
 /// Where a feature jumps, as at a bounce that begins to reach a level, the chi-square of two neighbouring nodes may
-/// differ by orders of magnitude, and the cubic through them falls far below both. If runs scatter, the emulator is a
-/// polynomial, which has no jumps.
+/// differ by orders of magnitude, and the cubic through them falls far below both.
 void Evidence::addNodes(const std::vector<std::size_t>& effects, const Measured& measured)
 {
-    for (int count = 0; isExact() && count < mostAdded; ++count)
+    for (int count = 0; count < mostAdded; ++count)
     {
         const Explanation explanation = explanationOf(effects);
         const Judgement found = judge(explanation, measured);
