@@ -424,10 +424,6 @@ Evidence::Solution Evidence::solve(const Node& node, double factor, const Measur
 
 double Evidence::largestChiSquare(double sds) const
 {
-    if (!isExact())
-    {
-        return std::numeric_limits<double>::infinity();
-    }
     const auto rows = static_cast<double>(layout_.rows);
     return rows * fisherValueBeyond(probabilityBeyondNormal(sds), rows, layout_.noiseFreedom);
 }

@@ -87,7 +87,7 @@ public:
     }
 
     /// Upper limit of the chi-square of the true explanation, at the tail probability of a number of standard
-    /// deviations of a normal distribution. It is infinite if runs scatter, because then synthetic data give the limit.
+    /// deviations of a normal distribution.
     double largestChiSquare(double sds) const;
 
     /// Probability that noise alone makes the chi-square as large; 1 if runs scatter, because then synthetic data give
