@@ -318,9 +318,8 @@ void Calibrator::setMembership()
         // Draws from the posterior are known slightly better than the real system. Therefore an effect with a
         // probability of at least 1 - coverage always belongs to the set.
         const double notUnlikely = std::log(1.0 - study_.settings.coverage);
-        const double usual =
-            place < 1.0 ? notUnlikely : std::min(notUnlikely, own[static_cast<std::size_t>(place) - 1]);
-        return evidence_.isExact() ? std::max(usual, -negligibleLogOdds) : usual;
+        const double usual = place < 1.0 ? notUnlikely : own[static_cast<std::size_t>(place) - 1];
+        return std::clamp(usual, -negligibleLogOdds, notUnlikely);
     };
     calibration_.membership.resize(study_.effects.size());
     for (std::size_t e = 0; e < study_.effects.size(); ++e)

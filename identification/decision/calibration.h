@@ -61,8 +61,8 @@ double chiSquareLimit(const std::vector<double>& draws, double sds);
 constexpr double meansStillFit = 3.0;
 constexpr double scatterStillFits = 2.0;
 
-/// An explanation whose log odds are below those of the best by more than this gets no runs near its fit. If runs do
-/// not scatter, it is in no set either: its draws, far from all runs, would make any probability look usual.
+/// An explanation whose log odds are below those of the best by more than this gets no runs near its fit. It is in no
+/// set either: its draws, far from all runs, would make any probability look usual.
 constexpr double negligibleLogOdds = 8.0;
 
 /// Parameters drawn from a fit [prior standard deviations].
