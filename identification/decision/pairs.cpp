@@ -156,14 +156,11 @@ std::vector<PairFinding> leadingPairs(const Study& study, Evidence& evidence, co
     }
     judge();
     pairs.resize(std::min(pairs.size(), mostPairs));
-    if (evidence.isExact())
+    for (const auto& pair : pairs)
     {
-        for (const auto& pair : pairs)
-        {
-            evidence.refine(pair.effects, measured);
-        }
-        judge();
+        evidence.refine(pair.effects, measured);
     }
+    judge();
     while (!pairs.empty() && !(pairs.back().logOdds >= pairs.front().logOdds - negligibleLogOdds))
     {
         pairs.pop_back();

@@ -84,13 +84,10 @@ private:
         std::tie(answer_.layout, answer_.measured) = arrange(study_, *answer_.emulator, data_, errorSlopes_);
     }
 
-    Evidence evidenceNear(const Eigen::VectorXd& parameters, bool refined = true) const
+    Evidence evidenceNear(const Eigen::VectorXd& parameters) const
     {
         Evidence evidence(study_, *answer_.emulator, answer_.layout, parameters);
-        if (refined)
-        {
-            evidence.refine(answer_.measured);
-        }
+        evidence.refine(answer_.measured);
         return evidence;
     }
 
@@ -197,7 +194,7 @@ private:
     {
         for (int round = 0; round < rounds_.ofPairs; ++round)
         {
-            Evidence evidence = evidenceNear(around, !scatters_);
+            Evidence evidence = evidenceNear(around);
             const auto leading = leadingPairs(study_, evidence, answer_.measured);
             std::vector<Contender> contenders;
             for (const auto& pair : leading)
@@ -219,7 +216,7 @@ private:
             }
             learn();
         }
-        Evidence evidence = evidenceNear(around, !scatters_);
+        Evidence evidence = evidenceNear(around);
         auto pairs = leadingPairs(study_, evidence, answer_.measured);
         Replicas replicas(*answer_.emulator, answer_.layout, evidence, random_);
         const double other = judgePairs(pairs, study_, evidence, replicas, answer_.measured, random_);
