@@ -14,7 +14,8 @@ from clepsydra import whole_files
 from developers.benchmarks import cost_model, report, timing
 from developers.benchmarks.hopper import Hopper
 
-# The paper's hopper: mass [kg], particle diameter [m], cells, simulated time [s] at the quick hopper's 9.8 g/s, DEM step [s].
+# The paper's hopper: mass [kg], particle diameter [m], cells, simulated time [s] at the quick hopper's 9.8 g/s, DEM step
+# [s].
 PAPER = {"500 g of 2 mm particles, 1.5 million cells": (0.5, 2e-3, 1.5e6, 51, 4e-5)}
 DENSITY = 2540
 INTERVAL = 2e-3
