@@ -14,8 +14,8 @@ from clepsydra import whole_files
 from developers.benchmarks import cost_model, report, timing
 from developers.benchmarks.hopper import Hopper
 
-# The paper's hopper: mass [kg], particle diameter [m], cells, DEM step [s], and the time [s] that it flows at the 9.8 g/s
-# of the quick hopper.
+# The paper's hopper: mass [kg], particle diameter [m], cells, DEM step [s], and the time [s] that it flows at the rate
+# of the quick hopper, 9.8 g/s.
 PAPER = {"500 g of 2 mm particles, 1.5 million cells": (0.5, 2e-3, 1.5e6, 4e-5, 51)}
 DENSITY = 2540
 INTERVAL = 2e-3
