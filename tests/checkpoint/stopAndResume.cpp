@@ -231,7 +231,7 @@ TEST(TwoRanks, WriteTheirOwnParticlesAndGoOn)
 
 // Three ranks one above the other move their boxes as the particles fall in a chute of triangles: `fix balance`. The run that is
 // resumed begins with the boxes of the checkpoint and is bit for bit the run that was never stopped. One that begins with equal
-// boxes is not, nor one that adds up the forces of the triangles in the order in which they have come to the rank.
+// boxes is not.
 TEST(ThreeRanks, GoOnWithTheBoxesOfTheCheckpoint)
 {
     TestCase through;

@@ -14,7 +14,6 @@
 #include <fix.h>
 #include <fix_mesh.h>
 #include <abstract_mesh.h>
-#include <force.h>
 #include <lammps.h>
 #include <modify.h>
 #include <neighbor.h>
@@ -24,6 +23,7 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <sstream>
@@ -328,8 +328,7 @@ std::vector<std::filesystem::path> writeSubdomains(
     text.precision(std::numeric_limits<double>::max_digits10);
     for (const std::vector<double>& cuts : subdomains.cuts())
     {
-        text << cuts.size();
-        std::for_each(cuts.begin(), cuts.end(), [&](double cut) { text << ' ' << cut; });
+        std::copy(cuts.begin(), cuts.end(), std::ostream_iterator<double>(text, " "));
         text << '\n';
     }
     const std::filesystem::path file = fileBeside(checkpoint);
@@ -348,11 +347,11 @@ void readSubdomains(LiggghtsProgram& program, const std::filesystem::path& check
     Cuts cuts;
     for (std::vector<double>& inDirection : cuts)
     {
-        std::size_t count = 0;
-        text >> count;
-        inDirection.resize(text ? std::min<std::size_t>(count, std::numeric_limits<short>::max()) : 0);
-        std::for_each(inDirection.begin(), inDirection.end(), [&](double& cut) { text >> cut; });
-        if (!text || inDirection.size() < 2 || !std::is_sorted(inDirection.begin(), inDirection.end()))
+        std::string line;
+        std::getline(text, line);
+        std::istringstream numbers(line);
+        inDirection.assign(std::istream_iterator<double>(numbers), {});
+        if (!numbers.eof() || inDirection.size() < 2 || !std::is_sorted(inDirection.begin(), inDirection.end()))
         {
             throw DemEngineError(
                 file.string() + ": not the boxes of the ranks; allowed: the file as the checkpoint was written");

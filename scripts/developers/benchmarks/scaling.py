@@ -93,14 +93,23 @@ def step(counts: Any, work: dict[str, float], size: int, ranks: int) -> dict[str
 
 def of_phase(phase: str, counts: Any, each: float, faces: int = 6, neighbours: int = 26) -> dict[str, float]:
     """Messages and bytes of a rank with so many particles and cells, from those of one of COUNTED."""
-    counted_faces = sum(along > 1 for along in COUNTED)
     counted_each = (HOPPER_CELLS if phase == "pressure" else SIDE**3) / math.prod(COUNTED)
-    growth = faces / counted_faces
+    growth = faces / faces_of(COUNTED)
     area = growth * (each / counted_each) ** (2 / 3)
     if phase in LISTS:
-        return {"messages": counts["messages"] * neighbours / 7, "bytes": counts["bytes"] * area}
+        return {"messages": counts["messages"] * neighbours / neighbours_of(COUNTED), "bytes": counts["bytes"] * area}
     levels = math.log(each / LEAST_CELLS) / math.log(counted_each / LEAST_CELLS) if phase == "pressure" else 1
     return {"messages": counts["messages"] * growth * levels, "bytes": counts["bytes"] * area}
+
+
+def faces_of(boxes: tuple[int, int, int]) -> int:
+    """Faces that the rank in the middle shares."""
+    return sum(min(along - 1, 2) for along in boxes)
+
+
+def neighbours_of(boxes: tuple[int, int, int]) -> int:
+    """Ranks whose boxes touch that of the rank in the middle, also at edges and corners."""
+    return math.prod(min(along, 3) for along in boxes) - 1
 
 
 def efficiency(seconds: dict[str, float]) -> float:
@@ -110,11 +119,9 @@ def efficiency(seconds: dict[str, float]) -> float:
 def tested(reference: Any, counted: Any, ranks: int) -> dict[str, Any]:
     """Counted on more ranks over what the model says of them: of all phases but the pressure, which is the hopper's."""
     boxes = next(boxes for boxes in BOXES if math.prod(boxes) == ranks)
-    faces = sum(min(along - 1, 2) for along in boxes)
-    neighbours = math.prod(min(along, 3) for along in boxes) - 1
     each = SIDE**3 / ranks
     phases = [phase for phase in reference if phase != "pressure"]
-    model = [of_phase(phase, reference[phase], each, faces, neighbours) for phase in phases]
+    model = [of_phase(phase, reference[phase], each, faces_of(boxes), neighbours_of(boxes)) for phase in phases]
     return {
         quantity: sum(counted[phase][quantity] for phase in phases) / sum(of[quantity] for of in model)
         for quantity in ("messages", "bytes")
