@@ -32,5 +32,5 @@ def ratios_on(hopper: Hopper, ranks: int) -> list[float]:
         script.write(TABLE)
     timing.timed(run)
     rows = [line.split() for line in (run.folder / "log.liggghts").read_text().splitlines()]
-    count = str(hopper.parameters["particleCount"])
+    count = f"{hopper.parameters['particleCount']:.0f}"
     return [float(row[2]) for row in rows if len(row) == 3 and row[1] == count]
