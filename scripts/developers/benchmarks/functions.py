@@ -6,7 +6,8 @@ import subprocess
 from collections import defaultdict
 from pathlib import Path
 
-from developers.benchmarks.hopper import Hopper
+from clepsydra.environment import REPOSITORY
+from developers.benchmarks.hopper import Hopper, forget_results, solver
 
 from . import timing
 
@@ -31,8 +32,11 @@ def largest_function(hopper: Hopper, repetitions: int) -> timing.Figure:
         raise timing.Skipped("there is no perf: Debian's package linux-perf has it")
     runs = {
         "dry": hopper.run("dry", "dryProfile", 0.3),
+        "dry, two ranks": hopper.run("dry", "dryProfile2", 0.3, 2),
         "submerged": hopper.run("submerged", "submergedProfile", 0.2),
         "submerged, two ranks": hopper.run("submerged", "submergedProfile2", 0.2, 2),
+        "gas bed": gas_bed(hopper.folder, 0.3),
+        "gas bed, two ranks": gas_bed(hopper.folder, 0.3, 2),
     }
     shares = {name: sampled(run) for name, run in runs.items()}
     return timing.Figure(
@@ -41,6 +45,24 @@ def largest_function(hopper: Hopper, repetitions: int) -> timing.Figure:
         details={name: {part: sum(of.values()) for part, of in parts.items()} for name, parts in shares.items()}
         | {f"{name}, functions": largest_of(parts) for name, parts in shares.items()},
     )
+
+
+def gas_bed(parent: Path, duration: float, ranks: int = 1) -> timing.Run:
+    """The flat bed of cases/tutorials/gasFluidisedBed until `duration` [s]; two ranks have half of its width each."""
+    folder = parent / f"gasBed{ranks}"
+    kept = shutil.ignore_patterns("processor*", "checkpoints", "postProcessing", "VTK", "[1-9]*", "0.*")
+    shutil.copytree(REPOSITORY / "cases" / "tutorials" / "gasFluidisedBed", folder, ignore=kept)
+    Hopper.set_parameters(folder / "parameters", {"endTime": duration})
+    Hopper.in_folder(folder, "blockMesh > log.blockMesh 2>&1")
+    if ranks > 1:
+        script = folder / "DEM" / "in.bed"
+        script.write_text(f"processors {ranks} 1 1\n{script.read_text()}")
+        (folder / "system" / "decomposeParDict").write_text(
+            "FoamFile { version 2.0; format ascii; class dictionary; object decomposeParDict; }\n"
+            f"numberOfSubdomains {ranks};\nmethod simple;\nsimpleCoeffs {{ n ({ranks} 1 1); }}\n"
+        )
+        Hopper.in_folder(folder, "decomposePar > log.decomposePar 2>&1")
+    return timing.Run(solver(ranks), folder, prepare=lambda: forget_results(folder))
 
 
 def sampled(run: timing.Run) -> dict[str, dict[str, float]]:
