@@ -111,7 +111,12 @@ void Evidence::transformTo(const Node& node, const Eigen::VectorXd& values, Eige
     for (std::size_t p = 0; p < parts_.size(); ++p)
     {
         const auto [first, size] = parts_[p];
-        transformed.segment(first, size) = node.transform[p].lazyProduct(values.segment(first, size));
+        auto part = transformed.segment(first, size);
+        part.setZero();
+        for (Eigen::Index column = 0; column < size; ++column) // faster than Eigen's product of few numbers
+        {
+            part += values(first + column) * node.transform[p].col(column);
+        }
     }
 }
 
@@ -474,11 +479,7 @@ Evidence::Posterior Evidence::over(
         const double cell = (upper - lower) / static_cast<double>(steps);
         posterior.amplitudes.emplace_back(Eigen::VectorXd::LinSpaced(
             steps, effect.isSwitch ? 1.0 : lower + cell / 2.0, effect.isSwitch ? 1.0 : upper - cell / 2.0));
-        weights.emplace_back(steps, explanation.grids[k].amplitudes().size());
-        for (Eigen::Index i = 0; i < steps; ++i)
-        {
-            weights.back().row(i) = explanation.grids[k].weightsAt(posterior.amplitudes.back()(i));
-        }
+        weights.push_back(explanation.grids[k].weightsAt(posterior.amplitudes.back()));
         priors.push_back(
             effect.isSwitch
                 ? Eigen::VectorXd::Zero(1)

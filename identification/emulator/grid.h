@@ -22,11 +22,17 @@ public:
         return amplitudes_;
     }
 
-    /// Weights of the grid's amplitudes for interpolation by a cubic through the four neighbours of an amplitude.
-    Eigen::RowVectorXd weightsAt(double amplitude) const;
+    /// Weights of the grid's amplitudes for interpolation by a cubic through the four neighbours of an amplitude; one
+    /// row for each amplitude at which is interpolated.
+    Eigen::MatrixXd weightsAt(const Eigen::VectorXd& amplitudes) const;
+    Eigen::RowVectorXd weightsAt(double amplitude) const
+    {
+        return weightsAt(Eigen::VectorXd::Constant(1, amplitude));
+    }
 
 private:
     Eigen::VectorXd amplitudes_; // ascending
+    Eigen::MatrixXd scales_;     // of the cubics of each four neighbours, one column by their first
 };
 
 } // namespace clepsydra::identification
