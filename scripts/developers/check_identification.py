@@ -25,7 +25,7 @@ USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2,
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
-        "--run", metavar="SEED", help="run one seed first, 13 minutes, into identification/results/statistics.json"
+        "--run", metavar="SEED", help="run one seed first, half an hour, into identification/results/statistics.json"
     )
     given, options = parser.parse_known_args()
     if given.run:
