@@ -141,8 +141,8 @@ std::string endOfRange(double value, double error, const Bounds& range)
 {
     constexpr double errors = 1.2;
     const double near = std::max(errors * error, 1e-6 * (range.upper - range.lower));
-    // An interval as wide as the range says nothing of an end.
-    return 2.0 * near >= range.upper - range.lower ? ""
+    // An interval wider than half of the range says nothing of an end.
+    return 4.0 * near >= range.upper - range.lower ? ""
            : value <= range.lower + near           ? "lower"
            : value >= range.upper - near           ? "upper"
                                                    : "";

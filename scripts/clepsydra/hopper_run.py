@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import fcntl
+import math
 import os
 import re
 import shutil
@@ -132,18 +133,13 @@ class Step:
         return max(found, key=float, default="")
 
     def write_ranks(self, ranks: int) -> None:
-        """Splits mesh and particles into the same boxes, one for each rank.
+        """Splits mesh and particles into boxes side by side, one for each rank; none above another.
 
-        Halves or quarters about the hopper's axis keep equal numbers of particles to the end; further ranks lie one
-        above another. More boxes side by side would lie beside the hopper, and never have particles."""
-        along_x = 2 - ranks % 2
-        along_y = 2 - ranks // along_x % 2
-        entries = {
-            "ranks": ranks,
-            "ranksAlongX": along_x,
-            "ranksAlongY": along_y,
-            "ranksAlongZ": ranks // along_x // along_y,
-        }
+        `fix balance` of the DEM scripts gives them equal numbers of particles. Boxes above one another could not follow
+        the particles that lie on the tank's floor, in a layer thinner than the distance within which they see each
+        other."""
+        along_y = max(number for number in range(1, math.isqrt(ranks) + 1) if ranks % number == 0)
+        entries = {"ranks": ranks, "ranksAlongX": ranks // along_y, "ranksAlongY": along_y, "ranksAlongZ": 1}
         path = self.folder / "step"
         kept = [line for line in path.read_text().splitlines() if not line.startswith("ranks")]
         unfinished = self.folder / "step.new"

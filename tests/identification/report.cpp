@@ -57,12 +57,13 @@ TEST(Numbers, AreRoundedAsTheirErrorsAllow)
 }
 
 /// A value that its range bounds lies about one standard error inside; one that is determined well does not count, nor
-/// does an interval as wide as the range.
+/// does an interval wider than half of the range.
 TEST(Numbers, AtTheEndsOfRanges)
 {
     EXPECT_EQ(endOfRange(0.95, 0.05, {0, 1}), "upper");
     EXPECT_EQ(endOfRange(0.9, 0.01, {0, 1}), "");
     EXPECT_EQ(endOfRange(0.5, 0.29, {0, 1}), "");
+    EXPECT_EQ(endOfRange(-0.18, 0.7, {-1, 1}), ""); // nearer to the middle than to the end
     EXPECT_EQ(endOfRange(-1, 0, {-1, 1}), "lower");
     EXPECT_EQ(endOfRange(0.99, 0, {-1, 1}), "");
 }

@@ -109,24 +109,15 @@ class Results(HopperCase):
 
 class Ranks(HopperCase):
     def test_their_boxes_all_reach_the_particles(self) -> None:
-        """As many as ranks, at most two along x and y, said once however often a step is prepared, also for a step that
-        was begun when there were slabs only. Boxes side by side for all numbers of ranks fail at 3, a second say at the
-        second number."""
-        shares = {
-            1: (1, 1, 1),
-            2: (2, 1, 1),
-            3: (1, 1, 3),
-            4: (2, 2, 1),
-            6: (2, 1, 3),
-            8: (2, 2, 2),
-            12: (2, 2, 3),
-            16: (2, 2, 4),
-        }
+        """As many as ranks, side by side, as near to a square as their number allows; said once however often a step is
+        prepared, also for a step that was begun when there were slabs only. Strips for all numbers of ranks fail at 4, a
+        second say at the second number."""
+        shares = {1: (1, 1), 2: (2, 1), 3: (3, 1), 4: (2, 2), 6: (3, 2), 8: (4, 2), 12: (4, 3), 16: (4, 4)}
         step = self.case / "steps" / "dry" / "step"
         for ranks, along in shares.items():
             self.prepare("dry", ranks)
             said = re.findall(r"^(ranks\w*) +(\d+);$", step.read_text(), re.MULTILINE)
-            expected = [("ranks", ranks), *zip(("ranksAlongX", "ranksAlongY", "ranksAlongZ"), along)]
+            expected = [("ranks", ranks), *zip(("ranksAlongX", "ranksAlongY", "ranksAlongZ"), (*along, 1))]
             self.assertEqual(said, [(name, str(number)) for name, number in expected])
         text = (self.case / "step.dry").read_text()
         step.write_text(text + "ranks           4;\n")

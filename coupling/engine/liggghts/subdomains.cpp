@@ -149,24 +149,20 @@ public:
         }
     }
 
+    /// At the start of a run that is not resumed; LIGGGHTS then derives the rest from the boxes by itself.
+    void setup_pre_exchange() override
+    {
+        if (next_ == 0 && moveCuts())
+        {
+            domain->set_local_box();
+            atom->setup();
+        }
+    }
+
     void pre_exchange() override
     {
-        if (comm->nprocs == 1 || update->ntimestep < next_)
+        if (moveCuts())
         {
-            return;
-        }
-        next_ = (update->ntimestep / steps_ + 1) * steps_;
-        domain->pbc();
-        Subdomains& subdomains = subdomainsOf(*lmp);
-        const Cuts before = subdomains.cuts();
-        if (compute_scalar() <= threshold_)
-        {
-            return;
-        }
-        const Cuts after = betterCuts(before);
-        if (busiest(after) < busiest(before))
-        {
-            subdomains.cutAt(after);
             takeOver();
         }
     }
@@ -197,6 +193,30 @@ public:
     }
 
 private:
+    /// Moves the cuts if it is time to and if it relieves the busiest rank.
+    bool moveCuts()
+    {
+        if (comm->nprocs == 1 || update->ntimestep < next_)
+        {
+            return false;
+        }
+        next_ = (update->ntimestep / steps_ + 1) * steps_;
+        domain->pbc();
+        Subdomains& subdomains = subdomainsOf(*lmp);
+        const Cuts before = subdomains.cuts();
+        if (compute_scalar() <= threshold_)
+        {
+            return false;
+        }
+        const Cuts after = betterCuts(before);
+        const bool isBetter = busiest(after) < busiest(before);
+        if (isBetter)
+        {
+            subdomains.cutAt(after);
+        }
+        return isBetter;
+    }
+
     /// Place of a particle in the box, from 0 to 1.
     double place(int particle, std::size_t direction) const
     {
