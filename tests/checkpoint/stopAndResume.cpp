@@ -261,6 +261,12 @@ TEST(ThreeRanks, GoOnWithTheBoxesOfTheCheckpoint)
         const std::string file = std::string("checkpoints/0.09/particles.") + part + ".restart";
         EXPECT_EQ(contentsOf(stopped.path() / file), contentsOf(through.path() / file)) << file;
     }
+
+    // On one rank there is nothing to cut. Without fields reconstructPar needs the folder.
+    const Outcome onOne = stopped.runCommand(
+        "mkdir 0.09 && reconstructPar -latestTime && echo \"endTime 0.1;\" >> system/controlDict && $SOLVER");
+    ASSERT_TRUE(onOne.succeeded()) << onOne.output;
+    EXPECT_TRUE(onOne.says("Resuming from the checkpoint of time 0.09")) << onOne.output;
 }
 
 // A checkpoint of the time when one file held the particles of all ranks, and no run had an identifier: it is resumed from, with

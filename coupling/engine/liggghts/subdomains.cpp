@@ -73,14 +73,16 @@ public:
 
     void set_local_box() override
     {
+        // A run that is resumed on ranks that are arranged otherwise begins with equal parts again.
+        const auto isOfTheseRanks = [&](std::size_t direction) {
+            return cuts_[direction].size() == static_cast<std::size_t>(comm->procgrid[direction]) + 1;
+        };
+        if (!(isOfTheseRanks(0) && isOfTheseRanks(1) && isOfTheseRanks(2)))
+        {
+            cuts_ = {};
+        }
         for (std::size_t direction = 0; !areEqual() && direction < directions; ++direction)
         {
-            if (cuts_[direction].size() != static_cast<std::size_t>(comm->procgrid[direction]) + 1)
-            {
-                throw DemEngineError(
-                    "The ranks of the checkpoint are arranged otherwise than those of this run; allowed: "
-                    "the number of ranks and the command 'processors' with which it was written");
-            }
             std::copy(cuts_[direction].begin(), cuts_[direction].end(), splits()[direction]);
         }
         comm->uniform = areEqual() ? 1 : 0;

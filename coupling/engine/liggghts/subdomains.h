@@ -21,7 +21,8 @@ void allowUnequalSubdomains(LiggghtsProgram& program);
 std::vector<std::filesystem::path> writeSubdomains(
     const LiggghtsProgram& program, const std::filesystem::path& checkpoint);
 
-/// Takes over the boxes that writeSubdomains() has written, for the commands that follow.
+/// Takes over the boxes that writeSubdomains() has written, for the commands that follow; where the ranks are arranged
+/// otherwise than when they were written, all boxes have the same size.
 /// \throws DemEngineError for a file that is none of writeSubdomains()
 /// \throws FileError where the file is there and cannot be read
 void readSubdomains(LiggghtsProgram& program, const std::filesystem::path& checkpoint);
