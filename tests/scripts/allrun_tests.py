@@ -110,8 +110,8 @@ class Results(HopperCase):
 class Ranks(HopperCase):
     def test_their_boxes_all_reach_the_particles(self) -> None:
         """As many as ranks, side by side, as near to a square as their number allows; said once however often a step is
-        prepared, also for a step that was begun when there were slabs only. Strips for all numbers of ranks fail at 4, a
-        second say at the second number."""
+        prepared, also for a step that was begun when there were slabs only. Strips for all numbers of ranks fail at 4,
+        a second say at the second number."""
         shares = {1: (1, 1), 2: (2, 1), 3: (3, 1), 4: (2, 2), 6: (3, 2), 8: (4, 2), 12: (4, 3), 16: (4, 4)}
         step = self.case / "steps" / "dry" / "step"
         for ranks, along in shares.items():
