@@ -74,10 +74,9 @@ public:
     void set_local_box() override
     {
         // A run that is resumed on ranks that are arranged otherwise begins with equal parts again.
-        const auto isOfTheseRanks = [&](std::size_t direction) {
-            return cuts_[direction].size() == static_cast<std::size_t>(comm->procgrid[direction]) + 1;
-        };
-        if (!(isOfTheseRanks(0) && isOfTheseRanks(1) && isOfTheseRanks(2)))
+        if (!std::equal(cuts_.begin(), cuts_.end(), comm->procgrid, [](const std::vector<double>& cuts, int ranks) {
+                return cuts.size() == static_cast<std::size_t>(ranks) + 1;
+            }))
         {
             cuts_ = {};
         }
@@ -154,10 +153,9 @@ public:
     /// At the start of a run that is not resumed; LIGGGHTS then derives the rest from the boxes by itself.
     void setup_pre_exchange() override
     {
-        if (next_ == 0 && moveCuts())
+        if (next_ == 0)
         {
-            domain->set_local_box();
-            atom->setup();
+            moveCuts();
         }
     }
 
@@ -215,6 +213,8 @@ private:
         if (isBetter)
         {
             subdomains.cutAt(after);
+            subdomains.set_local_box();
+            atom->setup();
         }
         return isBetter;
     }
@@ -296,13 +296,11 @@ private:
         return *std::max_element(counts.begin(), counts.end());
     }
 
-    /// What LIGGGHTS has derived from the boxes. The particles follow next, when it exchanges them.
+    /// What else LIGGGHTS has derived from the boxes. The particles follow next, when it exchanges them.
     void takeOver()
     {
-        domain->set_local_box();
         comm->setup();
         neighbor->setup_bins();
-        atom->setup();
         // Meshes at rest exchange triangles only if the box changes.
         const int changes = std::exchange(domain->box_change, 1);
         std::for_each(modify->fix, modify->fix + modify->nfix, [](lmp::Fix* fix) {
