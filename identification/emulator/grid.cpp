@@ -6,13 +6,14 @@
 namespace clepsydra::identification
 {
 
-Grid::Grid(const Effect& effect, const std::vector<double>& added)
+namespace
+{
+
+Eigen::VectorXd amplitudesOf(const Effect& effect, const std::vector<double>& added)
 {
     if (effect.isSwitch)
     {
-        amplitudes_ = Eigen::VectorXd::Ones(1);
-        scales_ = Eigen::MatrixXd::Ones(1, 1);
-        return;
+        return Eigen::VectorXd::Ones(1);
     }
     constexpr double steps = 8.0; // between amplitude 0 and the end of the range that is farther from it
     const auto [lower, upper] = effect.bounds;
@@ -20,23 +21,36 @@ Grid::Grid(const Effect& effect, const std::vector<double>& added)
     const double below = std::ceil(-lower / step - 1e-9);
     const double above = std::ceil(upper / step - 1e-9);
     const auto equidistant = static_cast<Eigen::Index>(below + above) + 1;
-    amplitudes_.resize(equidistant + static_cast<Eigen::Index>(added.size()));
-    amplitudes_.head(equidistant) = Eigen::VectorXd::LinSpaced(equidistant, -below * step, above * step);
-    std::copy(added.begin(), added.end(), amplitudes_.begin() + equidistant);
-    std::sort(amplitudes_.begin(), amplitudes_.end());
-    const Eigen::Index count = std::min<Eigen::Index>(4, amplitudes_.size());
-    scales_ = Eigen::MatrixXd::Ones(count, amplitudes_.size() - count + 1);
-    for (Eigen::Index first = 0; first < scales_.cols(); ++first)
+    Eigen::VectorXd amplitudes(equidistant + static_cast<Eigen::Index>(added.size()));
+    amplitudes.head(equidistant) = Eigen::VectorXd::LinSpaced(equidistant, -below * step, above * step);
+    std::copy(added.begin(), added.end(), amplitudes.begin() + equidistant);
+    std::sort(amplitudes.begin(), amplitudes.end());
+    return amplitudes;
+}
+
+Eigen::MatrixXd scalesOf(const Eigen::VectorXd& amplitudes)
+{
+    const Eigen::Index count = std::min<Eigen::Index>(4, amplitudes.size());
+    Eigen::MatrixXd scales = Eigen::MatrixXd::Ones(count, amplitudes.size() - count + 1);
+    for (Eigen::Index first = 0; first < scales.cols(); ++first)
     {
         for (Eigen::Index i = 0; i < count; ++i)
         {
             for (Eigen::Index j = 0; j < count; ++j)
             {
-                scales_(i, first) /= j == i ? 1.0 : amplitudes_(first + i) - amplitudes_(first + j);
+                scales(i, first) /= j == i ? 1.0 : amplitudes(first + i) - amplitudes(first + j);
             }
         }
     }
+    return scales;
 }
+
+} // namespace
+
+Grid::Grid(const Effect& effect, const std::vector<double>& added)
+    : amplitudes_(amplitudesOf(effect, added)),
+      scales_(scalesOf(amplitudes_))
+{}
 
 Eigen::MatrixXd Grid::weightsAt(const Eigen::VectorXd& amplitudes) const
 {

@@ -50,8 +50,9 @@ def largest_function(hopper: Hopper, repetitions: int) -> timing.Figure:
 def gas_bed(parent: Path, duration: float, ranks: int = 1) -> timing.Run:
     """The flat bed of cases/tutorials/gasFluidisedBed until `duration` [s]; two ranks have half of its width each."""
     folder = parent / f"gasBed{ranks}"
-    kept = shutil.ignore_patterns("processor*", "checkpoints", "postProcessing", "VTK", "[1-9]*", "0.*")
-    shutil.copytree(REPOSITORY / "cases" / "tutorials" / "gasFluidisedBed", folder, ignore=kept)
+    tutorial = REPOSITORY / "cases" / "tutorials" / "gasFluidisedBed"
+    shutil.copytree(tutorial, folder, ignore=shutil.ignore_patterns("processor*"))
+    forget_results(folder)
     Hopper.set_parameters(folder / "parameters", {"endTime": duration})
     Hopper.in_folder(folder, "blockMesh > log.blockMesh 2>&1")
     if ranks > 1:
