@@ -6,8 +6,10 @@
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace clepsydra::identification
 {
@@ -341,38 +343,28 @@ void Calibrator::setMembership()
     calibration_.scatterChiSquares = limitsOf(&Odds::scatterChiSquares, scatterStillFits);
 }
 
-/// Chooses the naming thresholds that give the most right names among the library's own draws at the allowed share of
-/// wrong names among the detected decoys. Each effect has its own threshold; the price of a wrong name is the same for
-/// all.
-void Calibrator::setNaming()
+/// What the draws say of names: the effects that would be named if the thresholds allowed it.
+std::vector<Calibrator::Candidate> Calibrator::candidatesOf(const std::vector<Draw>& draws) const
 {
-    struct Candidate
-    {
-        double margin;
-        double right; // weight of a right name of a library draw
-        double wrong; // weight of a wrong name of a decoy
-    };
     const std::size_t count = study_.effects.size();
-    std::vector<std::vector<Candidate>> candidates(count);
-    std::vector<double> draws(count + 1, 0.0);
-    for (const auto& draw : detected_)
+    std::vector<double> numbers(count + 1, 0.0);
+    for (const auto& draw : draws)
     {
-        draws[draw.truth] += 1.0;
+        numbers[draw.truth] += 1.0;
     }
     const auto classes =
-        static_cast<double>(std::count_if(draws.begin(), draws.end(), [](double number) { return number > 0.0; }));
-    for (const auto& draw : detected_)
+        static_cast<double>(std::count_if(numbers.begin(), numbers.end(), [](double number) { return number > 0.0; }));
+    std::vector<Candidate> candidates;
+    for (const auto& draw : draws)
     {
-        const double weight = 1.0 / (draws[draw.truth] * classes);
+        const double weight = 1.0 / (numbers[draw.truth] * classes);
         const auto add = [&](const Odds& odds, bool isDecoy) {
-            const auto sole = soleMember(study_, calibration_, odds);
-            if (!sole)
+            if (const auto sole = soleMember(study_, calibration_, odds))
             {
-                return;
+                const bool isRight = !isDecoy && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
+                candidates.push_back(
+                    {*sole, marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
             }
-            const bool isRight = !isDecoy && (*sole == draw.truth || areVariants(study_, *sole, draw.truth));
-            candidates[*sole].push_back(
-                {marginOf(study_, odds, *sole), isRight ? weight : 0.0, isRight ? 0.0 : weight});
         };
         if (draw.truth < count)
         {
@@ -380,45 +372,62 @@ void Calibrator::setNaming()
         }
         add(draw.without, true);
     }
-    for (auto& own : candidates)
-    {
-        std::sort(own.begin(), own.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
-    }
-    // Sets the threshold of each effect that maximises right names minus price times wrong names; returns the wrong
-    // names.
-    const auto wrongAt = [&](double price) {
-        double wrong = 0.0;
-        for (std::size_t e = 0; e < count; ++e)
+    return candidates;
+}
+
+/// The naming thresholds that give the most right names among the library's own draws at the allowed share of wrong
+/// names among the detected decoys. Each effect has its own threshold; the price of a wrong name is the same for all.
+Eigen::VectorXd Calibrator::chosenNaming(std::vector<Candidate> candidates) const
+{
+    std::sort(candidates.begin(), candidates.end(), [](const auto& a, const auto& b) { return a.margin > b.margin; });
+    // For each effect the threshold that maximises right names minus price times wrong names.
+    const auto thresholdsAt = [&](double price) {
+        Eigen::VectorXd thresholds =
+            Eigen::VectorXd::Constant(study_.effects.size(), std::numeric_limits<double>::infinity());
+        Eigen::VectorXd gains = Eigen::VectorXd::Zero(thresholds.size());
+        Eigen::VectorXd best = gains;
+        for (const auto& one : candidates)
         {
-            double best = 0.0;
-            double gain = 0.0;
-            double own = 0.0;
-            double ownAtBest = 0.0;
-            double threshold = std::numeric_limits<double>::infinity();
-            for (const auto& one : candidates[e])
+            gains(one.effect) += one.right - price * one.wrong;
+            if (gains(one.effect) >= best(one.effect))
             {
-                gain += one.right - price * one.wrong;
-                own += one.wrong;
-                if (gain >= best)
-                {
-                    best = gain;
-                    ownAtBest = own;
-                    threshold = one.margin;
-                }
+                best(one.effect) = gains(one.effect);
+                thresholds(one.effect) = one.margin;
             }
-            calibration_.naming(e) = threshold;
-            wrong += ownAtBest;
         }
-        return wrong;
+        return thresholds;
     };
-    calibration_.naming.resize(count);
     double price = smallestPrice;
-    calibration_.wrongNames = wrongAt(price);
-    while (calibration_.wrongNames > study_.settings.wrongNames && price < largestPrice)
+    Eigen::VectorXd thresholds = thresholdsAt(price);
+    while (wrongNamesAt(thresholds, candidates) > study_.settings.wrongNames && price < largestPrice)
     {
         price *= priceStep;
-        calibration_.wrongNames = wrongAt(price);
+        thresholds = thresholdsAt(price);
     }
+    return thresholds;
+}
+
+double Calibrator::wrongNamesAt(const Eigen::VectorXd& thresholds, const std::vector<Candidate>& candidates)
+{
+    return std::accumulate(candidates.begin(), candidates.end(), 0.0, [&](double sum, const Candidate& one) {
+        return sum + (one.margin >= thresholds(one.effect) ? one.wrong : 0.0);
+    });
+}
+
+void Calibrator::setNaming()
+{
+    calibration_.naming = chosenNaming(candidatesOf(detected_));
+    // Thresholds look better on the draws that they were chosen from. Each half is therefore judged by thresholds from
+    // the other; draws of one effect follow each other.
+    std::array<std::vector<Draw>, 2> halves;
+    for (std::size_t i = 0; i < detected_.size(); ++i)
+    {
+        halves[i % 2].push_back(detected_[i]);
+    }
+    const auto first = candidatesOf(halves[0]);
+    const auto second = candidatesOf(halves[1]);
+    calibration_.wrongNames =
+        0.5 * (wrongNamesAt(chosenNaming(first), second) + wrongNamesAt(chosenNaming(second), first));
 }
 
 } // namespace clepsydra::identification

@@ -43,7 +43,8 @@ struct Calibration
     Eigen::VectorXd scatterChiSquares;
     Eigen::VectorXd naming;       // smallest log odds (as in marginOf) at which the effect may be named
     double otherMembership = 0.0; // as `membership`, for an unlisted cause
-    double wrongNames = 0.0;      // share of the detected decoys that are named at these thresholds
+    double wrongNames =
+        0.0; // share of detected decoys that get a name, counted on draws that did not set the thresholds
 
     /// Probability, without any effect, of a residual at least as large as that of the data; `leastPValue` at least.
     double pValue(const Odds& odds) const;
@@ -96,6 +97,18 @@ private:
     void drawOther();
     void setMembership();
     void setNaming();
+
+    /// A draw in whose set one effect is alone.
+    struct Candidate
+    {
+        std::size_t effect;
+        double margin; // as in marginOf
+        double right;  // weight of the draw if the name is right
+        double wrong;  // and if it is wrong
+    };
+    std::vector<Candidate> candidatesOf(const std::vector<Draw>& draws) const;
+    Eigen::VectorXd chosenNaming(std::vector<Candidate> candidates) const;
+    static double wrongNamesAt(const Eigen::VectorXd& thresholds, const std::vector<Candidate>& candidates);
 
     const Study& study_;
     const Evidence& evidence_;

@@ -248,7 +248,7 @@ Node Evidence::nodeAt(const std::vector<Present>& present) const
         const Eigen::MatrixXd single = block.ofOne(emulator, present);
         allNoise.block(block.first, block.first, block.size(), block.size()) = single.cwiseProduct(block.meanShare);
         allExtra.block(block.first, block.first, block.size(), block.size()) =
-            Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.common;
+            Eigen::MatrixXd(emulator.uncertainty(here, present)(places, places)) + block.declared;
         node.terms.middleRows(block.first, block.size()) = emulator.mean(present, here)(places, Eigen::all);
         if (block.freedom > 0.0)
         {

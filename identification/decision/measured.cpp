@@ -90,7 +90,7 @@ Measured draw(const Layout& layout, const Emulator& truth, const std::vector<Pre
         const ConditionEmulator& here = *truth[block.condition];
         const auto& places = block.places;
         const Eigen::MatrixXd single = block.ofOne(here, present);
-        Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.common;
+        Eigen::MatrixXd ofMean = single.cwiseProduct(block.meanShare) + block.declared;
         if (withUncertainty)
         {
             ofMean += here.uncertainty(around, present)(places, places);
@@ -164,8 +164,7 @@ std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator
         }
         const auto kept = mapped(block.places, [&](Eigen::Index k) { return known[k]; });
         block.meanShare = shareOfMean(data[c].features)(kept, kept);
-        const Eigen::VectorXd variance = data[c].declaredError(kept).cwiseAbs2() + study.modelError(kept).cwiseAbs2();
-        block.common = variance.asDiagonal();
+        block.declared = Eigen::VectorXd(data[c].declaredError(kept).cwiseAbs2()).asDiagonal();
         block.shared =
             errorSlopes.empty() ? Eigen::MatrixXd(block.size(), 0) : Eigen::MatrixXd(errorSlopes[c](kept, Eigen::all));
         layout.sharesErrors = layout.sharesErrors || block.shared.cols() > 0;

@@ -22,8 +22,8 @@ struct Layout
         Eigen::Index first = 0;           // first row of the block
         std::vector<Eigen::Index> places; // indices of its features in the condition's emulator
         Eigen::MatrixXd meanShare;        // covariance of the mean divided by that of one measurement, by element
-        Eigen::MatrixXd common;           // covariance of the declared errors and of the model error
-        Eigen::MatrixXd shared;           // rows x common errors: change by one standard deviation of each error
+        Eigen::MatrixXd declared;         // covariance of the declared errors
+        Eigen::MatrixXd shared;           // rows x shared errors: change by one standard deviation of each error
         Eigen::MatrixXd noise;            // covariance of one measurement; empty if the simulator's noise stands for it
         double freedom = 0.0; // number of repeats minus 1, if their spread can be compared with the simulator's
 
@@ -35,15 +35,15 @@ struct Layout
         /// Covariance of one measurement. \param here  emulator of the block's condition
         Eigen::MatrixXd ofOne(const ConditionEmulator& here, const std::vector<Present>& present) const;
 
-        /// Covariance of all errors of the mean that repeats do not show, including the common errors.
+        /// Covariance of all errors of the mean that repeats do not show, including those that conditions share.
         Eigen::MatrixXd unshown() const
         {
-            return common + shared * shared.transpose();
+            return declared + shared * shared.transpose();
         }
     };
 
     std::vector<Block> blocks;
-    bool sharesErrors = false; // whether there are common errors
+    bool sharesErrors = false; // whether there are common errors or a model error
     Eigen::Index rows = 0;
     double noiseFreedom = 0.0; // degrees of freedom of the noise
     Eigen::MatrixXd noise;     // mean covariance of one measurement, over all features of the study
@@ -65,7 +65,7 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
 
 /// Stacks the measurements of all conditions that the emulator has learnt.
 /// \param data  by condition of the study
-/// \param errorSlopes  as in Library; empty if there are no common errors
+/// \param errorSlopes  as in Library; empty if conditions share no errors
 /// \throws std::runtime_error if the noise cannot be estimated or if there are no more features than parameters
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,
     const std::vector<MeasuredCondition>& data, const std::vector<Eigen::MatrixXd>& errorSlopes = {});

@@ -56,7 +56,7 @@ std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimula
     return all;
 }
 
-Eigen::MatrixXd commonErrorSlopes(
+Eigen::MatrixXd sharedErrorSlopes(
     StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain)
 {
     const Study& study = studySimulator.study();
@@ -93,6 +93,11 @@ Eigen::MatrixXd commonErrorSlopes(
         slope = error.featureErrors.isZero() ? Eigen::VectorXd((meanAt(i, step) - meanAt(i, -step)) / (2.0 * step))
                                              : error.featureErrors;
         slope = slope.array().isFinite().select(slope, 0.0);
+    }
+    if ((study.modelError.array() > 0.0).any())
+    {
+        slopes.conservativeResize(Eigen::NoChange, slopes.cols() + study.featureCount());
+        slopes.rightCols(study.featureCount()) = study.modelError.asDiagonal();
     }
     return slopes;
 }

@@ -223,7 +223,7 @@ Library makeLibrary(StudySimulator& studySimulator)
     library.errorSlopes.resize(study.conditions.size());
     for (const auto condition : study.conditionsOf(Role::training))
     {
-        library.errorSlopes[condition] = commonErrorSlopes(studySimulator, condition, base);
+        library.errorSlopes[condition] = sharedErrorSlopes(studySimulator, condition, base);
     }
     return library;
 }

@@ -21,7 +21,7 @@ std::vector<const Simulation*> goodRuns(const std::vector<Simulation>& runs, std
 struct Library
 {
     std::vector<Simulation> runs;
-    std::vector<Eigen::MatrixXd> errorSlopes; // result of commonErrorSlopes for each condition
+    std::vector<Eigen::MatrixXd> errorSlopes; // result of sharedErrorSlopes for each condition
 };
 
 /// All runs that makeLibrary makes.
@@ -37,10 +37,11 @@ double differenceStep(const Study& study);
 /// Runs with each common error of the entries at a positive and a negative value, for the slopes of the features.
 std::vector<SimulationOrder> commonErrorOrders(const StudySimulator& studySimulator, std::size_t condition);
 
-/// Change of each feature per standard deviation of each common error, to first order: features x errors. The slope is
-/// 0 if the curve lacks the feature.
+/// Change of each feature per standard deviation of each error that conditions share, to first order: features x
+/// errors. Common errors come first (the slope is 0 if the curve lacks the feature), then, if there is any, the model
+/// error of each feature: a coarse mesh errs alike in all conditions.
 /// \param plain  runs without effects; errors of the measuring chain are applied to their curves
-Eigen::MatrixXd commonErrorSlopes(
+Eigen::MatrixXd sharedErrorSlopes(
     StudySimulator& studySimulator, std::size_t condition, const std::vector<Simulation>& plain);
 
 /// The design, one run per row, followed by its mirror image.

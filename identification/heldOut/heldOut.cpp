@@ -262,14 +262,13 @@ private:
     Compared withTraining(Compared one) const
     {
         const Fitted& fitted = one.fitted;
-        const Eigen::Index errors = study_.commonErrors.size();
-        const Eigen::Index features = study_.featureCount();
+        const Eigen::Index errors = one.layout.blocks.front().shared.cols();
         const auto mean = [&](const Eigen::VectorXd& values) {
             return meanAt(one.emulator, one.layout, fitted.present(values), fitted.parameters(values));
         };
         LinearModel& model = one.training;
         model.mean = mean(one.at);
-        model.slopes = Eigen::MatrixXd::Zero(one.layout.rows, fitted.size() + errors + features);
+        model.slopes = Eigen::MatrixXd::Zero(one.layout.rows, fitted.size() + errors);
         for (Eigen::Index i = 0; i < fitted.size(); ++i)
         {
             Eigen::VectorXd step = Eigen::VectorXd::Zero(fitted.size());
@@ -281,23 +280,14 @@ private:
         for (const auto& block : one.layout.blocks)
         {
             const ConditionEmulator& here = *one.emulator[block.condition];
-            const auto kept = mapped(block.places, [&](Eigen::Index k) { return here.features[k]; });
-            auto slopes = model.slopes.middleRows(block.first, block.size());
-            slopes.middleCols(fitted.size(), errors) = library_.errorSlopes[block.condition](kept, Eigen::all);
-            slopes.rightCols(features) = modelError()(kept, Eigen::all);
+            model.slopes.block(block.first, fitted.size(), block.size(), errors) = block.shared;
             auto rest = model.rest.block(block.first, block.first, block.size(), block.size());
             rest = block.ofOne(here, present).cwiseProduct(block.meanShare)
-                   + here.uncertainty(fitted.parameters(one.at), present)(block.places, block.places);
-            rest.diagonal() += training_[block.condition].declaredError(kept).cwiseAbs2();
+                   + here.uncertainty(fitted.parameters(one.at), present)(block.places, block.places) + block.declared;
             // The covariance of exact numbers would be singular.
             rest.diagonal().array() += 1e-18;
         }
         return one;
-    }
-
-    Eigen::MatrixXd modelError() const
-    {
-        return study_.modelError.asDiagonal();
     }
 
     std::vector<Simulation> simulated(const Setting& setting, const std::string& purpose)
@@ -389,10 +379,8 @@ private:
         result_.predictedBefore = compared_.back().predicted;
         for (std::size_t i = 0; i < result_.data.size(); ++i)
         {
-            Eigen::MatrixXd& slopes = result_.data[i].errorSlopes;
-            slopes = commonErrorSlopes(studySimulator_, result_.conditions[i], result_.simulations.back());
-            slopes.conservativeResize(Eigen::NoChange, slopes.cols() + study_.featureCount());
-            slopes.rightCols(study_.featureCount()) = modelError();
+            result_.data[i].errorSlopes =
+                sharedErrorSlopes(studySimulator_, result_.conditions[i], result_.simulations.back());
         }
     }
 

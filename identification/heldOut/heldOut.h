@@ -46,7 +46,7 @@ struct HeldOutResult
 ///                      the library, noise and declared errors of the measurements
 ///     held-out mean    runs of the simulator at the fitted setting
 ///     held-out slopes  finite differences of runs of the simulator, in which one parameter or amplitude is moved by its
-///                      standard deviation after the training data; commonErrorSlopes for common errors
+///                      standard deviation after the training data; sharedErrorSlopes for common errors
 ///     shared           parameters (their priors), amplitudes (mean and variance of the uniform prior in their ranges),
 ///                      common errors, and one model error per feature that is equal in all conditions
 ///     not shared       noise of measured means, declared errors, emulator's uncertainty, scatter of the simulated means

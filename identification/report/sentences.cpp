@@ -359,6 +359,7 @@ Json assumedFacts(const Study& study, const Answer& answer)
                                                                              : "before the fit it was guessed to be"}};
                            })},
         {"scatters", answer.emulator->scatters()}, {"wrongNames", textOf(100.0 * study.settings.wrongNames)},
+        {"wrongNamesFound", rounded(100.0 * answer.calibration.wrongNames)},
         {"modelError", study.modelError.maxCoeff() > 0.0}, {"leftOut", mapped(study.leftOut, inLine)},
         {"differ", study.simulator.scatters()}};
 }

@@ -78,6 +78,8 @@ TEST(Decision, HasItsNominalRates)
         aboveCritical += odds.statistic > calibration.critical ? 1 : 0;
     }
     EXPECT_NEAR(alarms / (4. * draws), 0.05, 0.035);
+    EXPECT_GT(calibration.wrongNames, bench.study.settings.wrongNames)
+        << "counted on the draws that set the thresholds";
     EXPECT_NEAR(aboveCritical / (4. * draws), 0.05, 0.035) << "the reported critical value is not that of the decision";
     double wrong = 0;
     double decoys = 0;
@@ -179,6 +181,29 @@ TEST(Decision, CommonErrorsExplain)
     }
     EXPECT_GT(before, 5);
     EXPECT_LT(statistic(), before / 3);
+}
+
+/// The model error is one draw for all conditions: it explains a shift that is alike in all of them, and not shifts of
+/// the same size that alternate between them, which independent errors would explain as well.
+TEST(Decision, ModelErrorIsSharedByAllConditions)
+{
+    const double shift = 0.08;
+    const auto statistic = [&](double modelError, double signOfEverySecond) {
+        Bench bench;
+        double sign = 1.0;
+        bench.study.modelError.head(3).setConstant(modelError); // of the rates
+        for (const auto c : bench.study.conditionsOf(Role::training))
+        {
+            bench.data[c].features.leftCols(3).array() += sign * shift;
+            sign *= signOfEverySecond;
+            bench.library.errorSlopes[c] = sharedErrorSlopes(bench.studySimulator, c, bench.library.runs);
+        }
+        const auto [layout, measured] = arrange(bench.study, *bench.emulator, bench.data, bench.library.errorSlopes);
+        const Evidence evidence(bench.study, *bench.emulator, layout, atPrior);
+        return oddsOf(bench.study, evidence(measured)).statistic;
+    };
+    EXPECT_LT(statistic(shift, 1.0), statistic(0.0, 1.0) / 3);
+    EXPECT_GT(statistic(shift, -1.0), 0.9 * statistic(0.0, -1.0));
 }
 
 /// A pattern far above the noise that no effect explains is attributed to an unlisted cause.
