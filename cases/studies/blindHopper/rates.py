@@ -23,6 +23,7 @@ def rates_of(score: Any) -> dict[Any, Any]:
     effects = [one for one in score if one["kind"] not in ("null", "outside")]
     found = [one for one in effects if is_residual(one)]
     alone = [one for one in found if one["decision"] == "named"]
+    right = [one for one in alone if one["verdict"] == "right"]
     found_outside = [one for one in outside if is_residual(one)]
     better = [one for one in found if one["heldOut"]["after"]]
     errors = {
@@ -46,6 +47,8 @@ def rates_of(score: Any) -> dict[Any, Any]:
             one["decision"] == "unknown" or one["somethingElseInSet"] for one in found_outside
         ),
         "coverage95": share(covers(size) for one in found for size in one["amplitudes"]),
+        "rightAcceptance": share(map(is_accepted, right)),
+        "falseAcceptance": share(map(is_accepted, [one for one in score if one not in right])),
         **errors,
         "runsPerDataSet": mean(one["runs"] for one in score),
     }
@@ -53,6 +56,11 @@ def rates_of(score: Any) -> dict[Any, Any]:
 
 def is_residual(one: Any) -> bool:
     return one["decision"] != "noResidual"
+
+
+def is_accepted(one: Any) -> bool:
+    """Whether held-out data let the answer into the model, by the rule of its time."""
+    return bool(one["heldOut"].get("better", one["heldOut"].get("accepted")))
 
 
 def true(one: Any) -> list[Any]:
