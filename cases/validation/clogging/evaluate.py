@@ -13,6 +13,7 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
+import arches
 import numpy as np
 import yaml
 
@@ -265,7 +266,9 @@ def main() -> None:
         plot(found)
     else:
         print("clogging: no clog has been counted yet")
-    validation.write(quick_rows() + rows_of(found))
+    starts = arches.read()
+    arches.report(starts)
+    validation.write(quick_rows() + rows_of(found) + arches.rows_of(starts))
 
 
 if __name__ == "__main__":
