@@ -223,6 +223,14 @@ public:
           training_(training),
           random_(random)
     {
+        if (answer.set.empty() && answer.nearest)
+        {
+            tested_.push_back(&*answer.nearest);
+        }
+        for (const auto& member : answer.set)
+        {
+            tested_.push_back(&member);
+        }
         for (const auto c : study_.conditionsOf(Role::heldOut))
         {
             if (heldOut[c].features.rows() > 0)
@@ -241,7 +249,7 @@ public:
             return std::move(result_);
         }
         simulateNull();
-        simulateMembers();
+        simulateTested();
         const OneMore more(studySimulator_, library_, answer_, training_);
         simulateOneMore(more);
         findScored();
@@ -384,12 +392,12 @@ private:
         }
     }
 
-    void simulateMembers()
+    void simulateTested()
     {
-        for (const auto& member : answer_.set)
+        for (const auto* one : tested_)
         {
-            compared_.push_back(compared(member));
-            auto after = simulate(compared_.back(), member.setting, nameOf(study_, member.effects));
+            compared_.push_back(compared(*one));
+            auto after = simulate(compared_.back(), one->setting, nameOf(study_, one->effects));
             if (result_.simulations.size() == 1)
             {
                 result_.predictedAfter = compared_.back().predicted;
@@ -547,14 +555,20 @@ private:
             result_.gaussianProcess = scoreOf(*process);
             result_.gaussianProcess->rmsLogError = rms(shownBy(*process));
         }
-        for (std::size_t member = 0; member < answer_.set.size(); ++member)
+        for (std::size_t i = 0; i < tested_.size(); ++i)
         {
-            const Compared& one = compared_[1 + member];
+            const Compared& one = compared_[1 + i];
             const Predictive predictive = predictiveOf(one);
             std::vector<double> after;
-            result_.members.push_back(scoreOf(predictive));
-            result_.members.back().rmsLogError = rms(one.predicted, &after);
-            if (member == 0)
+            HeldOutScore score = scoreOf(predictive);
+            score.rmsLogError = rms(one.predicted, &after);
+            if (answer_.set.empty())
+            {
+                result_.nearest = score;
+                continue;
+            }
+            result_.members.push_back(score);
+            if (i == 0)
             {
                 result_.after = result_.members.back();
                 result_.improvement = difference(result_.before.rmsLogError, before, result_.after->rmsLogError, after);
@@ -699,7 +713,8 @@ private:
     const Answer& answer_;
     const std::vector<MeasuredCondition>& training_;
     std::mt19937_64& random_;
-    std::vector<Compared> compared_;               // the null, the members of the set, control 1
+    std::vector<const Explanation*> tested_;       // the members of the set; without any, the nearest effect
+    std::vector<Compared> compared_;               // the null, those tested, control 1
     std::vector<Row> rows_;                        // of the joint prediction; the condition is an index in the result
     std::vector<std::vector<Eigen::Index>> byRms_; // features that enter the rms error, by condition
     std::vector<std::string> unpredicted_;         // measured features that are not scored

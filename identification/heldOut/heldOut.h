@@ -18,7 +18,9 @@ struct HeldOutResult
 {
     HeldOutScore before;               // null fit
     std::optional<HeldOutScore> after; // best explanation, if there is one
-    HeldOutScore oneMoreParameter;     // control 1: null fit with one more free parameter
+    /// Answer::nearest, if no effect explains the residual. It is no explanation: nothing is judged by it.
+    std::optional<HeldOutScore> nearest;
+    HeldOutScore oneMoreParameter; // control 1: null fit with one more free parameter
     /// Control 2: null with a Gaussian process on its residual; empty if conditions lack coordinates.
     std::optional<HeldOutScore> gaussianProcess;
     std::vector<HeldOutScore> members; // of Answer::set
@@ -33,15 +35,15 @@ struct HeldOutResult
     std::vector<std::string> notScored; // features of the study that are not compared, and why
     std::vector<std::size_t> conditions;
     std::vector<Prediction> predictedBefore;
-    std::vector<Prediction> predictedAfter;
+    std::vector<Prediction> predictedAfter;           // by the best explanation or the nearest effect
     std::vector<std::vector<Simulation>> simulations; // before, after
     std::vector<HeldOutData> data;
 };
 
 /// Simulates the held-out conditions at the fitted settings and compares the results with the measurements.
 ///
-/// Each explanation (null, members of the set, controls) predicts all measured held-out features at once, as
-/// `predict` describes. What is taken from where:
+/// Each explanation (null, members of the set or, without any, the nearest effect, controls) predicts all measured
+/// held-out features at once, as `predict` describes. What is taken from where:
 ///     training data    mean, slopes and uncertainty of the emulator at the fitted setting, slopes of common errors from
 ///                      the library, noise and declared errors of the measurements
 ///     held-out mean    runs of the simulator at the fitted setting

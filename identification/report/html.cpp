@@ -158,10 +158,11 @@ std::string errorChart(const Json& heldOut)
     std::vector<std::string> labels;
     std::vector<Json> errors;
     for (const auto& [key, label] : {std::pair("before", "without an effect"), std::pair("after", "with the effect"),
+             std::pair("nearest", "with the nearest effect"),
              std::pair("oneMoreParameter", "one more free parameter instead"),
              std::pair("gaussianProcess", "a Gaussian process instead")})
     {
-        if (const Json& score = heldOut.at(key); score.is_object())
+        if (const Json score = heldOut.value(key, Json()); score.is_object())
         {
             errors.push_back({{"value", score.at("rmsLogError")}, {"standardError", score.at("standardError")}});
             labels.push_back(label + (": " + rounded(100.0 * numberOr(score.at("rmsLogError"), std::nan("")))) + " %");
@@ -196,13 +197,14 @@ CurvePlots curvePlotsOf(const Findings& findings)
 {
     const auto& [study, answer, heldOut, next, simulator, data, heldOutData] = findings;
     const Explanation* best = bestOf(*answer);
+    const std::string with = answer->nearest ? "with the nearest effect" : "with effect";
     return {curvePlots(*study, study->conditionsOf(Role::training), answer->null.runs,
-                best == nullptr ? std::vector<Simulation>{} : best->runs,
-                answer->nearest ? "with the nearest effect" : "with effect", *data),
+                best == nullptr ? std::vector<Simulation>{} : best->runs, with, *data),
         heldOut->conditions.empty()
             ? ""
             : curvePlots(*study, heldOut->conditions, heldOut->simulations.front(),
-                heldOut->after ? heldOut->simulations.back() : std::vector<Simulation>{}, "with effect", *heldOutData)};
+                heldOut->simulations.size() > 1 ? heldOut->simulations[1] : std::vector<Simulation>{}, with,
+                *heldOutData)};
 }
 
 std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
@@ -212,15 +214,14 @@ std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
     {
         report.at(key);
     }
+    const std::string with = report.value("nearest", Json()).is_object() ? "with the nearest effect" : "with effect";
     Json shown = report;
     shown["plots"] = {{"fitted", curves ? curves->fitted : withoutCurves},
         {"heldOut", curves ? curves->heldOut : withoutCurves},
-        {"fittedNumbers",
-            numberCharts(report, report.value("numbers", Json::array()),
-                report.value("nearest", Json()).is_object() ? "with the nearest effect" : "with effect")}};
+        {"fittedNumbers", numberCharts(report, report.value("numbers", Json::array()), with)}};
     if (const Json& heldOut = report.at("heldOut"); heldOut.at("before").is_object())
     {
-        shown["plots"]["heldOutNumbers"] = numberCharts(report, heldOut.at("numbers"), "with effect");
+        shown["plots"]["heldOutNumbers"] = numberCharts(report, heldOut.at("numbers"), with);
         shown["plots"]["errors"] = errorChart(heldOut);
     }
     for (auto& effect : shown.at("effects"))

@@ -243,7 +243,7 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
             };
             list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {measured(f), error(f)},
                 predicted(result.predictedBefore[i]),
-                result.after ? std::optional(predicted(result.predictedAfter[i])) : std::nullopt));
+                result.predictedAfter.empty() ? std::nullopt : std::optional(predicted(result.predictedAfter[i]))));
         }
     }
     return list;
@@ -266,15 +266,15 @@ Json heldOutJson(const Findings& findings)
     }
     if (result.conditions.empty())
     {
-        return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"oneMoreParameter", nullptr},
-            {"gaussianProcess", nullptr}, {"better", false}, {"complete", false}};
+        return {{"conditions", names}, {"before", nullptr}, {"after", nullptr}, {"nearest", nullptr},
+            {"oneMoreParameter", nullptr}, {"gaussianProcess", nullptr}, {"better", false}, {"complete", false}};
     }
     Json oneMore = heldOutScore(result.oneMoreParameter);
     oneMore["operation"] = study.settings.oneMoreParameter;
     oneMore["size"] = result.oneMoreAmplitude;
     return {{"conditions", names}, {"before", heldOutScore(result.before)},
-        {"after", orNull(result.after, heldOutScore)}, {"oneMoreParameter", oneMore},
-        {"gaussianProcess", orNull(result.gaussianProcess, heldOutScore)},
+        {"after", orNull(result.after, heldOutScore)}, {"nearest", orNull(result.nearest, heldOutScore)},
+        {"oneMoreParameter", oneMore}, {"gaussianProcess", orNull(result.gaussianProcess, heldOutScore)},
         {"improvement", estimate(result.improvement)}, {"overOneMoreParameter", logRatioJson(result.overOneMore)},
         {"overGaussianProcess", result.gaussianProcess ? logRatioJson(result.overGaussianProcess) : Json(nullptr)},
         {"noiseFloor", result.noiseFloor}, {"better", result.better}, {"complete", result.complete},

@@ -196,8 +196,10 @@ Json doubtsOf(const Findings& findings)
 }
 
 /// How the explanations predict the held-out conditions.
-Json heldOutFacts(const Study& study, const HeldOutResult& heldOut)
+Json heldOutFacts(const Findings& findings)
 {
+    const Study& study = *findings.study;
+    const HeldOutResult& heldOut = *findings.heldOut;
     const bool isLog = std::any_of(
         study.features.begin(), study.features.end(), [](const Feature& feature) { return feature.kind->isLog(); });
     Json facts = {{"before", errorText(isLog, heldOut.before.rmsLogError)}, {"after", nullptr}, {"change", nullptr},
@@ -205,6 +207,11 @@ Json heldOutFacts(const Study& study, const HeldOutResult& heldOut)
         {"noiseFloor", sizeText(isLog, heldOut.noiseFloor)}, {"better", heldOut.better}, {"complete", heldOut.complete},
         {"notBetterBecause", joined(heldOut.notBetterBecause, ", and ")},
         {"notScored", joined(heldOut.notScored, ", ")}};
+    if (heldOut.nearest)
+    {
+        facts["withNearest"] = {{"effect", nameOf(study, findings.answer->nearest->effects)},
+            {"error", errorText(isLog, heldOut.nearest->rmsLogError)}};
+    }
     if (!heldOut.after)
     {
         return facts;
@@ -339,7 +346,7 @@ Json answerFacts(const Findings& findings)
     }
     if (findings.heldOut != nullptr && !findings.heldOut->conditions.empty())
     {
-        facts["heldOut"] = heldOutFacts(study, *findings.heldOut);
+        facts["heldOut"] = heldOutFacts(findings);
     }
     if (findings.next != nullptr && !findings.next->empty())
     {

@@ -172,7 +172,7 @@ def draw_unseen(axes: Any, panel: Any, study: dict[str, Any], picture_style: Any
     marks = [
         ("measured", "measured", "black", "o", "black"),
         ("before", "simulated, without the effect", picture_style.STEPS["dry"], "s", "none"),
-        ("after", "simulated, with the effect", picture_style.LINE, "D", "none"),
+        ("after", "simulated, with the best effect", picture_style.LINE, "D", "none"),
     ]
     # speeds against the way over which they are means, where all features are such
     ways = [features[one["feature"]] for one in numbers]
@@ -237,7 +237,9 @@ def by_condition(report: Any) -> Iterator[Any]:
     conditions = report["heldOut"]["conditions"]
     for condition in conditions if len(conditions) > 1 else []:
         numbers = [one for one in report["heldOut"]["numbers"] if one["condition"] == condition]
-        yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in ("before", "after")] + 4 * [""]
+        # where no effect explains the residual, the numbers after are those of the nearest one, which is no answer
+        given = [when for when in ("before", "after") if report["heldOut"].get(when)]
+        yield f"&nbsp; {condition} alone", [rms_log_error(numbers, when) for when in given] + (6 - len(given)) * [""]
 
 
 def rms_log_error(numbers: Any, when: Any) -> str:

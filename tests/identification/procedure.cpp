@@ -429,7 +429,8 @@ TEST(NextExperiment, IsTheOneThatSeparatesMostPerCost)
     EXPECT_THAT(nextExperiments(bench.studySimulator, answer, bench.random), IsEmpty());
 }
 
-/// Held-out result for data with one effect at full size, which the answer names or has in its set. \param edgeFails
+/// Held-out result for data with one effect at full size, which the answer names, has in its set or, with
+/// Decision::unknown, gives as the nearest one. \param edgeFails
 /// whether there is another held-out condition, in which another effect acts too and no run with y succeeds
 /// \param besides  what the measurements of the held-out conditions have in addition, which no effect explains
 /// \param change  of the study, before anything is simulated
@@ -464,7 +465,13 @@ HeldOutResult heldOutOf(
     }
     Answer answer = trace(bench.studySimulator, bench.library, data, bench.random);
     answer.decision = decision;
+    answer.nearest.reset();
     answer.set = {explanationBy(index, setting)};
+    if (decision == Decision::unknown)
+    {
+        answer.nearest = answer.set.front();
+        answer.set.clear();
+    }
     return evaluateHeldOut(bench.studySimulator, bench.library, answer, data, data, bench.random);
 }
 
@@ -485,6 +492,22 @@ TEST(HeldOut, ANameThatTheControlCannotImitateIsBetter)
     const HeldOutResult member = heldOutOf("y", Decision::set);
     EXPECT_THAT(member.notBetterBecause, ElementsAre(HasSubstr("only explanation")));
     EXPECT_FALSE(member.better);
+}
+
+/// Where no effect explains the residual, the nearest one is tested in the same way, but nothing is claimed for it,
+/// even if it predicts as well as a name.
+TEST(HeldOut, TheNearestEffectHasAnErrorAndNoGrade)
+{
+    const HeldOutResult named = heldOutOf("y", Decision::named);
+    const HeldOutResult unknown = heldOutOf("y", Decision::unknown);
+    EXPECT_FALSE(unknown.after);
+    EXPECT_THAT(unknown.members, IsEmpty());
+    ASSERT_TRUE(unknown.nearest);
+    EXPECT_EQ(unknown.nearest->rmsLogError.value, named.after->rmsLogError.value);
+    EXPECT_EQ(unknown.predictedAfter.size(), unknown.conditions.size());
+    EXPECT_FALSE(unknown.better);
+    EXPECT_FALSE(unknown.complete);
+    EXPECT_FALSE(named.nearest);
 }
 
 /// The held-out measurements are 0.1 above what y explains, ten times their noise: y may be the best name, its model is

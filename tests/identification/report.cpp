@@ -362,6 +362,14 @@ TEST(Sentence, NamesTheNearestEffect)
             HasSubstr("chi-square 650 without, 65.0 with it, in 2 numbers"),
             HasSubstr("what is left is in condition"))));
     EXPECT_THAT(detailsOf(bench.findings), Contains(HasSubstr("Condition dry decides most: there, y takes")));
+
+    bench.heldOutErrors(0.351, 0.0207);
+    bench.heldOut.nearest = bench.heldOut.after;
+    bench.heldOut.nearest->rmsLogError = {0.21, 0.03};
+    bench.heldOut.after.reset();
+    EXPECT_THAT(
+        detailsOf(bench.findings), AllOf(Contains("With the nearest effect, y, the error would be 21.0 ± 3.0 %."),
+                                       Each(AllOf(Not(HasSubstr("Better")), Not(HasSubstr("omplete"))))));
 }
 
 /// A probable effect that is not in the set has its reason printed, as has a value at the end of its range, and what a
