@@ -27,23 +27,40 @@ Eigen::MatrixXd completeRows(const Eigen::MatrixXd& features)
 }
 
 /// Requires that each measured feature has an error: without one, every difference from it would be a residual.
-/// \param deviations  of all repeats from their means
+/// \param deviations  of all training repeats from their means; empty if there are too few to estimate the noise
 void requireErrors(const Study& study, const MeasuredCondition& data, const std::string& condition,
     const std::vector<Eigen::Index>& features, const Eigen::MatrixXd& deviations)
 {
     const Eigen::VectorXd mean = meanFeatures(data.features);
     for (const auto f : features)
     {
-        const auto spread = deviations.col(f).array().abs();
+        const Eigen::ArrayXd spread =
+            deviations.rows() > 0 ? Eigen::ArrayXd(deviations.col(f).array().abs()) : Eigen::ArrayXd();
         const bool scatters = (spread.isFinite() && spread > 1e-12 * std::abs(mean(f))).any();
         if (std::isfinite(mean(f)) && !scatters && data.declaredError(f) == 0.0 && study.modelError(f) == 0.0)
         {
-            throw std::runtime_error(
-                "condition '" + condition + "': '" + study.features[f].name
-                + "' would count as exact: its repeats do not differ in any condition, and it has no "
-                  "relativeError, standardError or modelError");
+            throw std::runtime_error(study.file.string() + ": condition '" + condition + "': '" + study.features[f].name
+                                     + "' would count as exact; allowed: training measurements of it whose repeats "
+                                       "differ, a relativeError or standardError of its numbers, or its modelError");
         }
     }
+}
+
+/// The repeats of all conditions.
+Scatter repeatsOf(const std::vector<MeasuredCondition>& data, const std::vector<std::size_t>& conditions)
+{
+    Scatter repeats;
+    for (const auto c : conditions)
+    {
+        repeats.add(data[c].features);
+    }
+    return repeats;
+}
+
+/// Whether there are enough repeats to estimate the noise.
+bool showNoise(const Scatter& repeats)
+{
+    return repeats.degreesOfFreedom() >= 2.0;
 }
 
 } // namespace
@@ -111,17 +128,11 @@ Measured draw(const Layout& layout, const Emulator& truth, const std::vector<Pre
 Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data,
     const std::vector<std::size_t>& conditions, const Emulator* learnt)
 {
-    Scatter repeats;
-    bool declared = true;
     std::vector<std::size_t> measured;
     std::copy_if(conditions.begin(), conditions.end(), std::back_inserter(measured),
         [&](std::size_t c) { return !data[c].isPlanned; });
-    for (const auto c : measured)
-    {
-        repeats.add(data[c].features);
-        declared = declared && hasDeclaredErrors(data[c]);
-    }
-    if (repeats.degreesOfFreedom() >= 2.0)
+    const Scatter repeats = repeatsOf(data, measured);
+    if (showNoise(repeats))
     {
         const Eigen::MatrixXd deviations = repeats.deviations();
         for (const auto c : learnt ? measured : std::vector<std::size_t>{})
@@ -130,13 +141,25 @@ Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& da
         }
         return pooledCovariance(deviations, repeats.degreesOfFreedom());
     }
-    if (!declared)
+    if (!std::all_of(measured.begin(), measured.end(), [&](std::size_t c) { return hasDeclaredErrors(data[c]); }))
     {
         throw std::runtime_error("noise cannot be estimated: neither the measurements nor the simulation have repeats "
                                  "(at least two more measurements than conditions are needed, or a relativeError or "
                                  "standardError of every measured value)");
     }
     return {Eigen::MatrixXd::Zero(study.featureCount(), study.featureCount()), asGoodAsKnown, 0.0};
+}
+
+void requireHeldOutErrors(
+    const Study& study, const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut)
+{
+    const Scatter repeats = repeatsOf(training, study.conditionsOf(Role::training));
+    const auto all = numbersWhere(study.featureCount(), [](Eigen::Index) { return true; });
+    for (const auto c : study.conditionsOf(Role::heldOut))
+    {
+        requireErrors(study, heldOut[c], study.conditions[c].name, all,
+            showNoise(repeats) ? repeats.deviations() : Eigen::MatrixXd());
+    }
 }
 
 std::pair<Layout, Measured> arrange(const Study& study, const Emulator& emulator,

@@ -63,6 +63,12 @@ struct Measured
 Covariance ownNoise(const Study& study, const std::vector<MeasuredCondition>& data,
     const std::vector<std::size_t>& conditions, const Emulator* learnt = nullptr);
 
+/// Requires that each measured feature of the held-out conditions has an error, if the simulator has no noise: their
+/// noise is that of the training data. Which features are measured matters here, and not their values.
+/// \throws std::runtime_error naming the condition, the feature and what is allowed
+void requireHeldOutErrors(
+    const Study& study, const std::vector<MeasuredCondition>& training, const std::vector<MeasuredCondition>& heldOut);
+
 /// Stacks the measurements of all conditions that the emulator has learnt.
 /// \param data  by condition of the study
 /// \param errorSlopes  as in Library; empty if conditions share no errors

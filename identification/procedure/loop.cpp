@@ -55,6 +55,7 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
     if (!study.simulator.scatters() && std::all_of(conditions.begin(), conditions.end(), isMeasured))
     {
         ownNoise(study, training, conditions);
+        requireHeldOutErrors(study, training, measurementsOf(study, Role::heldOut));
     }
 }
 

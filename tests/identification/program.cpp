@@ -468,6 +468,27 @@ TEST(Program, RequiresNoiseBeforeItRuns)
     }
 }
 
+/// So is a held-out value, whose noise would be that of the training data, if these have declared errors only.
+TEST(Program, RequiresNoiseOfHeldOutValues)
+{
+    const auto condition = [](const std::string& error) {
+        const std::string number = "measured: { numbers: [ { feature: logMeanRate, unit: kg/s, values: [0.5]";
+        return ", " + number + ", relativeError: 0.02 } ] } }, { name: unseen, role: heldOut, " + number + error
+               + " } ] }";
+    };
+    for (const std::string command : {"run", "plan"})
+    {
+        QuietStudy study(condition(""));
+        EXPECT_NE(study.run(command), 0);
+        EXPECT_THAT(study.output,
+            AllOf(HasSubstr("study.yaml: condition 'unseen': 'logMeanRate' would count as exact; allowed: "),
+                HasSubstr("relativeError")));
+        EXPECT_FALSE(fs::exists(study.folder.path() / "s.work"));
+    }
+    QuietStudy study(condition(", relativeError: 0.02"));
+    EXPECT_EQ(study.run("plan"), 0) << study.output;
+}
+
 TEST(Program, SaysWhatIsWrongAndWritesNothing)
 {
     Workshop workshop;
