@@ -88,9 +88,14 @@ public:
     }
 
 private:
-    /// Mean and standard deviation of the uniform prior of an amplitude.
+    /// Mean and standard deviation of the prior of an amplitude: its independent measurement or, without one,
+    /// uniform in its range.
     std::pair<double, double> prior(std::size_t effect) const
     {
+        if (const auto& measured = study_.effects[effect].measured)
+        {
+            return {measured->mean, measured->sd};
+        }
         const auto [lower, upper] = study_.effects[effect].bounds;
         return {0.5 * (lower + upper), (upper - lower) / std::sqrt(12.0)};
     }
@@ -111,7 +116,10 @@ private:
         const auto q = static_cast<Eigen::Index>(study_.parameters.size());
         if (quantity >= q)
         {
-            return {-std::sqrt(3.0), std::sqrt(3.0)};
+            const std::size_t effect = scaled_[quantity - q];
+            const auto [middle, sd] = prior(effect);
+            const Bounds& bounds = study_.effects[effect].bounds;
+            return {(bounds.lower - middle) / sd, (bounds.upper - middle) / sd};
         }
         const auto [lower, upper] = study_.parameters[quantity].boundsInSds();
         return {lower, upper};

@@ -49,8 +49,9 @@ struct HeldOutResult
 ///     held-out mean    runs of the simulator at the fitted setting
 ///     held-out slopes  finite differences of runs of the simulator, in which one parameter or amplitude is moved by its
 ///                      standard deviation after the training data; sharedErrorSlopes for common errors
-///     shared           parameters (their priors), amplitudes (mean and variance of the uniform prior in their ranges),
-///                      common errors, and one model error per feature that is equal in all conditions
+///     shared           parameters (their priors), amplitudes (their independent measurement or, without one, mean and
+///                      variance of the uniform prior in their ranges), common errors, and one model error per feature
+///                      that is equal in all conditions
 ///     not shared       noise of measured means, declared errors, emulator's uncertainty, scatter of the simulated means
 ///     control 1        the null, with an operation of the measuring chain as if it were an effect; held-out slopes of
 ///                      parameters are those of the null

@@ -522,6 +522,19 @@ TEST(HeldOut, TellsWhatIsMoreThanNoise)
     EXPECT_TRUE(result.better);
 }
 
+/// An amplitude that was measured has this measurement as its prior: if it gave 0.2 ± 0.001, the effect at full size
+/// that the held-out data contain is far from the prediction.
+TEST(HeldOut, AMeasuredAmplitudeIsItsPrior)
+{
+    const auto measuredAs = [](double mean) {
+        return heldOutOf("y", Decision::named, false, 0, [&](Study& study) {
+            study.effects[effectOf(study, "y")].measured = Normal{mean, 0.001};
+        });
+    };
+    EXPECT_GT(measuredAs(1).after->pValue, 0.05);
+    EXPECT_LT(measuredAs(0.2).after->pValue, 0.01);
+}
+
 /// A Gaussian process over the conditions' coordinates knows from the measurement under water what is missing under
 /// water, as well as the effect does.
 TEST(HeldOut, RefusesAnEffectThatAGaussianProcessReplaces)
