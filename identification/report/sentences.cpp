@@ -195,6 +195,26 @@ Json doubtsOf(const Findings& findings)
     return doubts;
 }
 
+/// "falls from 35 to 2.1 %", of the error on the held-out conditions. A change that its standard error may explain is
+/// given with all errors; whether the prediction is better is said by the joint test alone.
+std::string changeText(bool isLog, const HeldOutResult& heldOut)
+{
+    const Estimate& before = heldOut.before.rmsLogError;
+    const Estimate& after = heldOut.after->rmsLogError;
+    const auto& [fall, error] = heldOut.improvement;
+    if (fall == 0.0)
+    {
+        return "stays at " + errorText(isLog, after);
+    }
+    const std::string begin = fall > 0.0 ? "falls from " : "rises from ";
+    if (std::abs(fall) > 2.0 * error)
+    {
+        return begin + rounded((isLog ? 100.0 : 1.0) * before.value) + " to " + sizeText(isLog, after.value);
+    }
+    return begin + errorText(isLog, before) + " to " + errorText(isLog, after)
+           + ", by less than twice the standard error of the difference";
+}
+
 /// How the explanations predict the held-out conditions.
 Json heldOutFacts(const Findings& findings)
 {
@@ -227,13 +247,8 @@ Json heldOutFacts(const Findings& findings)
     {
         compared.push_back(against(heldOut.overGaussianProcess, "a Gaussian process on the residual"));
     }
-    const double sure = 2.0 * heldOut.improvement.standardError;
     facts["after"] = errorText(isLog, heldOut.after->rmsLogError);
-    facts["change"] = (heldOut.improvement.value > sure       ? "falls from "
-                          : heldOut.improvement.value < -sure ? "rises from "
-                                                              : "stays about the same: ")
-                      + rounded((isLog ? 100.0 : 1.0) * heldOut.before.rmsLogError.value) + " to "
-                      + sizeText(isLog, heldOut.after->rmsLogError.value);
+    facts["change"] = changeText(isLog, heldOut);
     facts["compared"] = joined(compared, ", and ");
     facts["left"] = pValueText(heldOut.after->pValue);
     return facts;

@@ -245,7 +245,9 @@ TEST(Sentence, SaysWhatWasFound)
 TEST(Sentence, DoesNotPraiseWhatDoesNotHelp)
 {
     for (const auto& [after, says] :
-        {std::pair(0.045, "stays about the same: 5.0 to 4.5 %"), std::pair(0.09, "rises from 5.0 to 9.0 %")})
+        {std::pair(0.045, "falls from 5.0 ± 1.0 % to 4.50 ± 0.40 %, by less than twice the standard error of the"),
+            std::pair(0.06, "rises from 5.0 ± 1.0 % to 6.00 ± 0.40 %, by less than twice"),
+            std::pair(0.05, "stays at 5.00 ± 0.40 %"), std::pair(0.09, "rises from 5.0 to 9.0 %")})
     {
         Bench bench;
         bench.found(Decision::named, {{1, 0.5}});
