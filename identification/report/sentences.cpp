@@ -184,7 +184,7 @@ Json doubtsOf(const Findings& findings)
         const auto agrees = agreesWithMeasurement(effect, finding);
         doubts.push_back({{"effect", effect.name}, {"capitalised", capitalised(effect.name)},
             {"probability", percent(finding.probability)}, {"excluded", finding.notInSetBecause},
-            {"containsZero", finding.inSet && !effect.isSwitch && finding.fit.lower < 0.0 && finding.fit.upper > 0.0},
+            {"containsZero", finding.inSet && !effect.isSwitch && finding.fit.lower <= 0.0 && finding.fit.upper >= 0.0},
             {"compared", nullptr}});
         if (finding.inSet && agrees)
         {

@@ -393,6 +393,22 @@ TEST(Sentence, GivesReasons)
     EXPECT_THAT(details, Contains(HasSubstr("does not lie between y 0.012 and y 0.028 (95 %)")));
 }
 
+/// An interval that begins at 0, which is also the end of the range, contains 0.
+TEST(Sentence, SaysThatAnIntervalContainsZero)
+{
+    for (const auto& [lower, contains] : {std::pair(-0.1, true), std::pair(0.0, true), std::pair(0.1, false)})
+    {
+        Bench bench;
+        bench.found(Decision::set, {{1, 0.5}}, true);
+        bench.answer.effects[1].inSet = true;
+        bench.answer.effects[1].fit.lower = lower;
+        bench.answer.effects[1].fit.upper = 1.08;
+        const auto details = detailsOf(bench.findings);
+        EXPECT_EQ(testing::Value(details, Contains("The 95 % interval of the size of y contains 0.")), contains)
+            << lower;
+    }
+}
+
 /// The fit without the measurement of an amplitude, 0.9 ± 0.1, is compared with it.
 TEST(Sentence, ComparesAMeasuredAmplitude)
 {
