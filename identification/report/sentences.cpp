@@ -292,12 +292,14 @@ Json nextFacts(const Study& study, const NextExperiment& next)
 Json hintsOf(const Findings& findings)
 {
     Json hints = Json::array();
+    std::vector<std::size_t> hinted; // members of a set may share an effect
     for (const auto& explanation : findings.answer->set)
     {
         for (const auto e : explanation.effects)
         {
-            if (const Effect& effect = findings.study->effects[e]; !effect.hint.empty())
+            if (const Effect& effect = findings.study->effects[e]; !effect.hint.empty() && !contains(hinted, e))
             {
+                hinted.push_back(e);
                 hints.push_back({{"effect", effect.name}, {"is", inLine(effect.hint)}});
             }
         }

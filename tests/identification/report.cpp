@@ -279,6 +279,19 @@ TEST(Sentence, OfASetSaysWhatToMeasure)
     EXPECT_THAT(sentences[1], HasSubstr("a plug gauge"));
 }
 
+/// Two pairs that share an effect: how it is measured is said once.
+TEST(Sentence, GivesEachHintOnce)
+{
+    Bench bench;
+    bench.found(Decision::set, {{1, 0.5}, {2, 0.5}});
+    for (auto& member : bench.answer.set)
+    {
+        member.effects.push_back(0);
+        member.fits.push_back(bench.answer.effects[0].fit);
+    }
+    EXPECT_THAT(nextOf(bench.findings), ElementsAre(HasSubstr("x can be measured independently: a plug gauge")));
+}
+
 /// A fit whose friction contradicts its independent measurement may compensate for a missing effect; the sentence must
 /// say so.
 TEST(Sentence, OfAFitThatContradictsAMeasurement)
