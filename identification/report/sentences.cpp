@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace clepsydra::identification
@@ -307,6 +308,26 @@ Json hintsOf(const Findings& findings)
     return hints;
 }
 
+/// Effects that these conditions can hardly distinguish from those that are named, by their names.
+std::vector<std::string> alikeTo(const Findings& findings)
+{
+    std::set<std::size_t> named;
+    for (const auto& member : findings.answer->set)
+    {
+        named.insert(member.effects.begin(), member.effects.end());
+    }
+    std::set<std::size_t> alike;
+    for (const auto& [one, other] : findings.answer->visibility.alike)
+    {
+        if (named.count(one) != named.count(other))
+        {
+            alike.insert(named.count(one) > 0 ? other : one);
+        }
+    }
+    return mapped(
+        std::vector(alike.begin(), alike.end()), [&](std::size_t e) { return findings.study->effects[e].name; });
+}
+
 /// What the sentences on the answer state.
 Json answerFacts(const Findings& findings)
 {
@@ -360,6 +381,11 @@ Json answerFacts(const Findings& findings)
         const auto [odds, needed] = *answer.oddsOfName;
         facts["odds"] = {{"effect", nameOf(study, best->effects)}, {"is", rounded(odds)},
             {"needed", std::isfinite(needed) ? rounded(needed) : ""}};
+    }
+    if (answer.decision == Decision::named)
+    {
+        facts["alike"] = joined(alikeTo(findings), ", ");
+        facts["name"] = namedBy(study, answer);
     }
     if (findings.heldOut != nullptr && !findings.heldOut->conditions.empty())
     {

@@ -387,6 +387,17 @@ TEST(Sentence, NamesTheNearestEffect)
                                        Each(AllOf(Not(HasSubstr("Better")), Not(HasSubstr("omplete"))))));
 }
 
+/// A name stands beside the causes that most data cannot distinguish from it, in whichever of the two such data were.
+TEST(Sentence, NamesCausesThatActAlike)
+{
+    Bench bench;
+    bench.found(Decision::named, {{1, 0.5}});
+    EXPECT_THAT(detailsOf(bench.findings), Each(Not(HasSubstr("act like"))));
+    bench.answer.visibility.alike = {{1, 0}, {0, 1}, {2, 1}, {0, 2}};
+    EXPECT_THAT(detailsOf(bench.findings),
+        Contains("Causes that act like y in these conditions, even at full size: x, clock."));
+}
+
 /// A probable effect that is not in the set has its reason printed, as has a value at the end of its range, and what a
 /// measurement would have to give to refute the answer: y = 0.04 a, between 0.3 and 0.7.
 TEST(Sentence, GivesReasons)
