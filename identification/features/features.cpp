@@ -202,48 +202,59 @@ std::map<std::string, FeatureKind> makeKinds()
         {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
-            }},
+            },
+            Dimension::rate},
         {"logTimeToDischarge", "log of the time until a share has left", {{"share", 0.95, "of the first value"}},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(
                     timeAtLevel(curve, (1.0 - p.at("share")) * curve.value.front()) - curve.time.front());
-            }},
+            },
+            Dimension::time},
         {"residue", "last value over first value (not a log)", {},
-            [](const Curve& curve, const Parameters& /*unused*/) { return curve.value.back() / curve.value.front(); }},
+            [](const Curve& curve, const Parameters& /*unused*/) { return curve.value.back() / curve.value.front(); },
+            Dimension::share},
         {"logSpeed", "log of the speed between two positions, by least squares", {start, end},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
-            }},
+            },
+            Dimension::rate},
         {"logMeanSpeed", "log of the distance between two positions divided by the time between them",
-            {start, end, {"gap", 1e30, "largest distance of the two rows around a position, SI units"}}, logMeanSpeed},
-        {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight},
-        {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration},
+            {start, end, {"gap", 1e30, "largest distance of the two rows around a position, SI units"}}, logMeanSpeed,
+            Dimension::rate},
+        {"logBounceHeight", "log of the largest gap after a contact", {bounce, level}, logBounceHeight,
+            Dimension::value},
+        {"logBounceDuration", "log of the time between a contact and the next", {bounce, level}, logBounceDuration,
+            Dimension::time},
         {"logImpactSpeed", "log of the speed before the first contact",
             {level, {"before", none, "beginning of the fitted part, before the contact [s]"},
                 {"until", none, "its end, before the contact [s]"}},
-            logImpactSpeed},
+            logImpactSpeed, Dimension::rate},
         {"logReboundSpeed", "log of the speed after the first contact",
             {level, {"from", none, "beginning of the fitted part, after the contact [s]"},
                 {"after", none, "its end, after the contact [s]"}},
-            logReboundSpeed},
+            logReboundSpeed, Dimension::rate},
         {"logMaximum", "log of the largest value", {},
             [](const Curve& curve, const Parameters& /*unused*/) {
                 return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
-            }},
+            },
+            Dimension::value},
         {"logRiseTime", "log of the time between two shares of the largest value, before it", {lowerShare, upperShare},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(timeAtShare(curve, p.at("to"), false) - timeAtShare(curve, p.at("from"), false));
-            }},
+            },
+            Dimension::time},
         {"logFallTime", "log of the time between two shares of the largest value, after it", {upperFirst, lowerLast},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(timeAtShare(curve, p.at("to"), true) - timeAtShare(curve, p.at("from"), true));
-            }},
+            },
+            Dimension::time},
         {"logTimeAbove", "log of the time between a share of the largest value before it and after it",
             {{"share", 0.5, "of the largest value"}},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(
                     timeAtShare(curve, p.at("share"), true) - timeAtShare(curve, p.at("share"), false));
-            }},
+            },
+            Dimension::time},
     };
     std::map<std::string, FeatureKind> byName;
     for (const auto& kind : all)

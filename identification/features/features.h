@@ -9,6 +9,15 @@
 namespace clepsydra::identification
 {
 
+/// What a feature measures of its curve, from which its unit follows.
+enum class Dimension
+{
+    share, // a number without a unit
+    value,
+    time,
+    rate // value per time
+};
+
 /// A kind of number that is taken from a curve. Most kinds are logarithms (a change by 0.01 is 1 %), so that the same
 /// noise covariance holds in all conditions.
 struct FeatureKind
@@ -26,6 +35,7 @@ struct FeatureKind
     std::string meaning;
     std::vector<Parameter> parameters;
     double (*value)(const Curve& curve, const Parameters& parameters); // NaN if the curve does not have the feature
+    Dimension dimension; // of the quantity itself, where the feature is a logarithm
 
     /// Whether the feature is a logarithm, which its name begins with.
     bool isLog() const

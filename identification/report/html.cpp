@@ -124,24 +124,47 @@ void drawEstimate(Plot& plot, const Json& estimate, double unit, double y, const
     }
 }
 
+/// Unit in which a feature was measured; SI units where the report does not give it.
+Json unitOf(const Json& report, const std::string& feature)
+{
+    return report.value("units", Json::object()).value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
+}
+
+/// Numbers of the report with their units, and in these units.
+Json inUnits(const Json& report, Json numbers)
+{
+    for (auto& row : numbers)
+    {
+        const Json unit = unitOf(report, row.at("feature"));
+        row["unit"] = unit.at("unit");
+        for (const auto* key : {"measured", "before", "after"})
+        {
+            for (auto& number : row.at(key)) // of an estimate; null has none
+            {
+                number = number.is_number() ? Json(number.get<double>() / unit.at("si").get<double>()) : number;
+            }
+        }
+    }
+    return numbers;
+}
+
 /// Measured and predicted numbers, one chart for each feature, in the units in which they were measured.
 std::string numberCharts(const Json& report, const Json& numbers, const std::string& after)
 {
     std::map<std::string, std::vector<Json>> byFeature;
-    for (const auto& row : numbers)
+    for (const auto& row : inUnits(report, numbers))
     {
         byFeature[row.at("feature")].push_back(row);
     }
     std::string html = "<div class=\"plots numbers\">";
     for (const auto& [feature, rows] : byFeature)
     {
-        const Json unit = report.value("units", Json::object()).value(feature, Json{{"unit", "SI units"}, {"si", 1.0}});
-        Plot plot{feature + " [" + unit.at("unit").get<std::string>() + "], 95 % intervals"};
+        Plot plot{feature + " [" + rows.front().at("unit").get<std::string>() + "], 95 % intervals"};
         plot.rows = mapped(rows, [](const Json& row) { return row.at("condition").get<std::string>(); });
         for (std::size_t i = 0; i < rows.size(); ++i)
         {
             const auto draw = [&](const char* key, double within, const char* colour, const std::string& label) {
-                drawEstimate(plot, rows[i].at(key), unit.at("si"), static_cast<double>(i) + within, colour, label);
+                drawEstimate(plot, rows[i].at(key), 1.0, static_cast<double>(i) + within, colour, label);
             };
             draw("measured", 0.25, "#000", "measured");
             draw("before", 0.5, red, "without effect");
@@ -223,6 +246,7 @@ std::string htmlOf(const Json& report, const std::optional<CurvePlots>& curves)
     {
         shown["plots"]["heldOutNumbers"] = numberCharts(report, heldOut.at("numbers"), with);
         shown["plots"]["errors"] = errorChart(heldOut);
+        shown["heldOut"]["numbers"] = inUnits(report, heldOut.at("numbers"));
     }
     for (auto& effect : shown.at("effects"))
     {

@@ -196,12 +196,36 @@ Json trainingNumbers(const Findings& findings)
     return list;
 }
 
+/// Unit of a feature of measured curves, and its size in SI units.
+Json unitOfCurves(const FeatureKind& kind, const Measurement& measured)
+{
+    const auto& [files, time, value, numbers] = measured;
+    switch (kind.dimension)
+    {
+        case Dimension::value:
+            return {{"unit", value.unit}, {"si", value.siUnits}};
+        case Dimension::time:
+            return {{"unit", time.unit}, {"si", time.siUnits}};
+        case Dimension::rate:
+            return {{"unit", value.unit + '/' + time.unit}, {"si", value.siUnits / time.siUnits}};
+        default:
+            return {{"unit", "1"}, {"si", 1.0}};
+    }
+}
+
 /// Units in which features were measured, and their sizes in SI units.
 Json unitsJson(const Study& study)
 {
     Json units = Json::object();
     for (const auto& condition : study.conditions)
     {
+        if (!condition.measured.files.empty())
+        {
+            for (const auto& feature : study.features)
+            {
+                units[feature.name] = unitOfCurves(*feature.kind, condition.measured);
+            }
+        }
         for (const auto& number : condition.measured.numbers)
         {
             units[study.features[number.feature].name] = {{"unit", number.unit}, {"si", number.siUnits}};

@@ -188,6 +188,9 @@ TEST(Program, FindsTheEffectThatWasPutIn)
         EXPECT_THAT(contentOf(seen + ".log"), testing::Not(HasSubstr("CONSOLE")));
     }
     EXPECT_EQ(report["heldOut"]["notScored"].size(), 0U) << "features that are no logarithms are compared, too";
+    const nlohmann::json rate = {{"unit", "g/s"}, {"si", 1e-3}};
+    const nlohmann::json time = {{"unit", "s"}, {"si", 1.0}};
+    EXPECT_THAT(report["units"], AllOf(Contains(rate), Contains(time))) << "from the units of the curves' columns";
     // Each measured number is drawn in a chart of its feature, held-out conditions apart.
     EXPECT_THAT(page, HasSubstr("<div class=\"plots numbers\">"));
     EXPECT_GT(report["numbers"].size(), 6U);

@@ -175,6 +175,24 @@ TEST(Page, EscapesTheStudysTexts)
     EXPECT_THAT(page, HasSubstr("No condition was held out"));
 }
 
+/// Numbers of held-out conditions are shown in the units of the data; a report without units has them in SI units.
+TEST(Page, ShowsHeldOutNumbersInTheirUnits)
+{
+    const nlohmann::ordered_json none = nlohmann::ordered_json::array();
+    nlohmann::ordered_json report = {{"study", "s"}, {"program", ""}, {"summary", ""}, {"details", none},
+        {"fitted", none}, {"measureNext", none}, {"nextExperiment", none}, {"effects", none}, {"residual", none},
+        {"assumptions", none}, {"remarks", none}, {"runs", {{"byPurpose", nlohmann::ordered_json::object()}}}};
+    const nlohmann::ordered_json number = {{"value", 0.0123}, {"standardError", 0.0001}};
+    report["heldOut"] = {{"before", {{"rmsLogError", 0.1}, {"standardError", 0.01}}},
+        {"numbers", {{{"condition", "wet"}, {"feature", "rate"}, {"measured", number}, {"before", number},
+                        {"after", nullptr}}}}};
+    EXPECT_THAT(htmlOf(report, std::nullopt),
+        AllOf(HasSubstr("<td>SI units</td><td class=\"n\">0.01230 ± 0.00010</td>"), HasSubstr("rate [SI units]")));
+    report["units"] = {{"rate", {{"unit", "g/s"}, {"si", 1e-3}}}};
+    EXPECT_THAT(htmlOf(report, std::nullopt),
+        AllOf(HasSubstr("<td>g/s</td><td class=\"n\">12.30 ± 0.10</td>"), HasSubstr("rate [g/s]")));
+}
+
 /// Values from 0.1 to 100 have a logarithmic axis: ten times as much is twice as far. What is not finite is not drawn.
 TEST(Page, PlotsValuesInRows)
 {
