@@ -11,7 +11,7 @@ import numpy as np
 
 from clepsydra import parameter_study_results, validation
 
-RUNS = "results/arches"
+RUNS = "results/runs/arches"
 STARTED = 200  # particles out, after which the flow has started: an arch of the start lets at most some 90 pass
 PAPER = "Koivisto et al., arXiv 1703.09584: hoppers of this hole and these particles flow until they are empty"
 LOW, HIGH = (0.3, 0.4), (0.6, 0.8)  # frictions

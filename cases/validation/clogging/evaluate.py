@@ -22,7 +22,7 @@ from clepsydra.picture_style import pyplot
 
 ZURIGUEL = (
     "Zuriguel, Garcimartin, Maza, Pugnaloni & Pastor, Phys. Rev. E 71, 051303 (2005): 9900/(4.94 - D/d)^6.9, constants "
-    "as recalled"
+    "not checked against the paper, of which only the abstract could be read"
 )
 KOIVISTO = "Koivisto & Durian, Phys. Rev. E 95, 032904 (2017): water reduces the mean mass only slightly"
 EXPONENTIAL = "clogging as a Poisson process, as in both measurements"
@@ -35,8 +35,8 @@ LEAST_CLOGS = 20  # for a row
 DRAWS = 2000
 CLOGGED, BLOCKED = "clogged", "blocked"
 MEAN_FINDING = (
-    "the number between clogs depends on the friction of the particles, which was not measured in either experiment; "
-    "hopper and arch-breaking differ from theirs as well"
+    "hopper and arch-breaking differ from those of the experiments, and so may the particles' friction, although Zuriguel et "
+    "al. found no influence of the particles' material"
 )
 RATIO_FINDING = "in the simulation water changes the number between clogs more than was measured"
 SPREAD_FINDING = "the distribution is not exponential: an arch that was broken leaves the bed above it as it was"
