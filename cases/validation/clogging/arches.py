@@ -58,9 +58,7 @@ def rows_of(runs: list[parameter_study_results.Run]) -> list[Any]:
         not stopped(run) for run in runs if left(run) > STARTED
     ]
     return [
-        validation.row(
-            quantity, "-", 1, PAPER, "measured", float(np.mean(hits)), error_of(hits), TOLERANCE, FINDING, 0
-        )
+        validation.row(quantity, "-", 1, PAPER, "measured", float(np.mean(hits)), error_of(hits), TOLERANCE, FINDING, 0)
         for quantity, hits in compared.items()
         if hits
     ]

@@ -22,7 +22,7 @@ from clepsydra.picture_style import pyplot
 
 ZURIGUEL = (
     "Zuriguel, Garcimartin, Maza, Pugnaloni & Pastor, Phys. Rev. E 71, 051303 (2005): 9900/(4.94 - D/d)^6.9, constants "
-    "not checked against the paper, of which only the abstract could be read"
+    "as recalled; of the paper only the abstract could be read"
 )
 KOIVISTO = "Koivisto & Durian, Phys. Rev. E 95, 032904 (2017): water reduces the mean mass only slightly"
 EXPONENTIAL = "clogging as a Poisson process, as in both measurements"
@@ -35,8 +35,8 @@ LEAST_CLOGS = 20  # for a row
 DRAWS = 2000
 CLOGGED, BLOCKED = "clogged", "blocked"
 MEAN_FINDING = (
-    "hopper and arch-breaking differ from those of the experiments, and so may the particles' friction, although Zuriguel et "
-    "al. found no influence of the particles' material"
+    "hopper and arch-breaking differ from those of the experiments, and so may the particles' friction, although "
+    "Zuriguel et al. found no influence of the material"
 )
 RATIO_FINDING = "in the simulation water changes the number between clogs more than was measured"
 SPREAD_FINDING = "the distribution is not exponential: an arch that was broken leaves the bed above it as it was"
