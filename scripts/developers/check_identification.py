@@ -32,7 +32,12 @@ def main() -> None:
         run(given.run, options)
     elif options:
         parser.error(f"{options[0]}: only --run SEED has options, those of build/bin/checkIdentification")
-    table(json.loads(RESULTS.read_text()))
+    results = json.loads(RESULTS.read_text())
+    for exact, title in ((False, "Runs scatter"), (True, "Runs do not scatter (seed: none)")):
+        of_kind = [one for one in results if one["exact"] == exact]
+        if of_kind:
+            print(f"{title}: ", end="")
+            table(of_kind)
 
 
 def run(seed: str, options: list[str]) -> None:
@@ -46,12 +51,17 @@ def run(seed: str, options: list[str]) -> None:
 
 
 def keep(result: dict[str, Any]) -> None:
-    """In the place of an earlier result of the same seed."""
-    results = [one for one in json.loads(RESULTS.read_text()) if one["seed"] != result["seed"]]
-    results = sorted([*results, result], key=lambda one: one["seed"])
+    """In the place of an earlier result of the same seed and kind."""
+    results = [one for one in json.loads(RESULTS.read_text()) if kind_and_seed(one) != kind_and_seed(result)]
+    results = sorted([*results, result], key=kind_and_seed)
     with whole_files.replacing(RESULTS) as file:
         json.dump(results, file, indent=1)
         file.write("\n")
+
+
+def kind_and_seed(result: dict[str, Any]) -> tuple[bool, int]:
+    """Whether runs of the simulator do not scatter, and the seed."""
+    return result["exact"], result["seed"]
 
 
 def table(seeds: list[dict[str, Any]]) -> None:
@@ -77,18 +87,16 @@ def table(seeds: list[dict[str, Any]]) -> None:
     for size in ("1.00", "0.50", "0.25"):
         row(f"outside the library, size {size}: wrong name", seeds, "outsideLibrary", size, "wrongNameWhenDetected")
         row("unknown, or a set with something else", seeds, "outsideLibrary", size, "somethingElseWhenDetected")
-    scored = [one for one in seeds if "falseAcceptance" in one]
-    if scored:  # the others were run before the held-out conditions were scored
-        row("better, without being the truth, of all data sets with one effect or none", scored, "falseAcceptance")
-        row("of these without an effect", scored, "nulls", "falseAcceptance")
-        row("of these with an effect of the library", scored, "effects", "falseAcceptance")
-        for size in ("1.00", "0.50", "0.25"):
-            row(f"of these outside the library, size {size}", scored, "outsideLibrary", size, "falseAcceptance")
-        row("named rightly: better", scored, "rightAcceptance")
-        row("named rightly: complete", scored, "effects", "completeWhenNamedRightly")
-        row("fall of the held-out error in its 95 % interval", scored, "coverageOfFall")
-        for size in ("1.00", "0.50", "0.25"):
-            row(f"the same, outside the library, size {size}", scored, "outsideLibrary", size, "coverageOfFall")
+    row("better, without being the truth, of all data sets with one effect or none", seeds, "falseAcceptance")
+    row("of these without an effect", seeds, "nulls", "falseAcceptance")
+    row("of these with an effect of the library", seeds, "effects", "falseAcceptance")
+    for size in ("1.00", "0.50", "0.25"):
+        row(f"of these outside the library, size {size}", seeds, "outsideLibrary", size, "falseAcceptance")
+    row("named rightly: better", seeds, "rightAcceptance")
+    row("named rightly: complete", seeds, "effects", "completeWhenNamedRightly")
+    row("fall of the held-out error in its 95 % interval", seeds, "coverageOfFall")
+    for size in ("1.00", "0.50", "0.25"):
+        row(f"the same, outside the library, size {size}", seeds, "outsideLibrary", size, "coverageOfFall")
     row("two effects: the pair in the set", seeds, "pairs", "truthInSetWhenDetected")
     row("two effects: a name", seeds, "pairs", "namedWhenDetected")
     row("of these: of the pair, and no part of it", seeds, "pairs", "namedRightly")
