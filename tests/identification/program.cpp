@@ -33,6 +33,8 @@ namespace
 {
 
 namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::Contains;
 using testing::HasSubstr;
 
 std::string replaced(std::string text, const std::string& old, const std::string& by)
