@@ -82,7 +82,7 @@ def starting_spheres(study: dict[str, Any] | None, report: Any = None, committed
 
 def bounces_in_oil(study: dict[str, Any] | None, report: Any = None, committed: Any = None) -> None:
     """Ten times the DEM step, twice the coupling step. The other effect is the camera's, which costs no runs. Without
-    an effect the fit lies at the end of a range, where the last digit decides after how many runs it is close enough."""
+    an effect the fit lies at the end of a range, where the last digit decides how many runs make it close enough."""
     if study:
         study["onlyEffects"] = ["lubrication", "imageScale"]
         study["simulator"]["set"].update(demStep=2e-6, couplingTimeStep=4e-4)
