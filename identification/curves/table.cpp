@@ -156,6 +156,25 @@ double numberOf(const std::filesystem::path& path)
     return numberOf(path.filename().string()).value_or(0.0);
 }
 
+/// A column of the tables of a run, one after the other. Where they overlap, the later one is used.
+Curve joined(const std::vector<Table>& tables, const std::string& timeColumn, const std::string& valueColumn)
+{
+    Curve curve;
+    for (const auto& table : tables)
+    {
+        const auto& time = table.columns[table.index(timeColumn)];
+        const auto& value = table.columns[table.index(valueColumn)];
+        while (!curve.time.empty() && curve.time.back() >= time.front())
+        {
+            curve.time.pop_back();
+            curve.value.pop_back();
+        }
+        curve.time.insert(curve.time.end(), time.begin(), time.end());
+        curve.value.insert(curve.value.end(), value.begin(), value.end());
+    }
+    return tidied(std::move(curve));
+}
+
 } // namespace
 
 std::size_t Table::index(const std::string& column) const
@@ -274,28 +293,19 @@ std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pa
     return found;
 }
 
-Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn)
+Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn,
+    const std::vector<std::string>& furtherColumns)
 {
     const auto files = filesMatching(pattern);
     if (files.empty())
     {
         throw std::runtime_error(pattern.string() + ": no such file");
     }
-    Curve curve;
-    for (const auto& file : files)
-    {
-        const Table table = readTable(file);
-        const auto& time = table.columns[table.index(timeColumn)];
-        const auto& value = table.columns[table.index(valueColumn)];
-        while (!curve.time.empty() && curve.time.back() >= time.front())
-        {
-            curve.time.pop_back();
-            curve.value.pop_back();
-        }
-        curve.time.insert(curve.time.end(), time.begin(), time.end());
-        curve.value.insert(curve.value.end(), value.begin(), value.end());
-    }
-    return tidied(std::move(curve));
+    const auto tables = mapped(files, readTable);
+    Curve curve = joined(tables, timeColumn, valueColumn);
+    curve.others =
+        mapped(furtherColumns, [&](const std::string& column) { return joined(tables, timeColumn, column); });
+    return curve;
 }
 
 Curve tidied(Curve curve)

@@ -30,8 +30,10 @@ Table readTable(const std::filesystem::path& file);
 
 /// Reads a curve that a run has written. A `*` in the path stands for the start times of a resumed run; where the parts
 /// overlap, the later one is used.
+/// \param furtherColumns  become the curve's `others`, in the same sequence
 /// \throws std::runtime_error if there is no such file or column
-Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn);
+Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn,
+    const std::vector<std::string>& furtherColumns = {});
 
 /// The files that match a path with folders named `*`, sorted by the number that the star stands for.
 std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pattern);

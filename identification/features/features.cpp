@@ -186,6 +186,38 @@ double timeAtShare(const Curve& curve, double share, bool after)
     return timeAtLevel(part, level);
 }
 
+/// The part of a curve that begins some seconds after its first row.
+Curve after(double seconds, const Curve& curve)
+{
+    const double start = curve.time.front() + seconds;
+    const auto begin = std::lower_bound(curve.time.begin(), curve.time.end(), start) - curve.time.begin();
+    return {{curve.time.begin() + begin, curve.time.end()}, {curve.value.begin() + begin, curve.value.end()}};
+}
+
+/// Mean over time of a function of the value, which is linear between the rows.
+template<class Function>
+double timeMean(const Curve& curve, const Function& of)
+{
+    double sum = 0.0;
+    for (std::size_t i = 1; i < curve.time.size(); ++i)
+    {
+        sum += (curve.time[i] - curve.time[i - 1]) * (of(curve.value[i]) + of(curve.value[i - 1])) / 2.0;
+    }
+    return curve.time.size() > 1 ? sum / (curve.time.back() - curve.time.front()) : none;
+}
+
+double logMean(const Curve& curve, const Parameters& p)
+{
+    return logOfPositive(timeMean(after(p.at("after"), curve), [](double value) { return value; }));
+}
+
+double logDeviation(const Curve& curve, const Parameters& p)
+{
+    const Curve part = after(p.at("after"), curve);
+    const double mean = timeMean(part, [](double value) { return value; });
+    return 0.5 * logOfPositive(timeMean(part, [&](double value) { return (value - mean) * (value - mean); }));
+}
+
 std::map<std::string, FeatureKind> makeKinds()
 {
     const FeatureKind::Parameter from{"from", none, "larger share of the first value"};
@@ -194,6 +226,7 @@ std::map<std::string, FeatureKind> makeKinds()
     const FeatureKind::Parameter end{"to", none, "position where it ends"};
     const FeatureKind::Parameter level{"level", 5e-4, "gap below which a minimum is a contact, SI units"};
     const FeatureKind::Parameter bounce{"bounce", 1, "number of the contact, from 1"};
+    const FeatureKind::Parameter after{"after", 0.0, "beginning of the part, after the first row [s]"};
     const FeatureKind::Parameter lowerShare{"from", none, "smaller share of the largest value"};
     const FeatureKind::Parameter upperShare{"to", none, "larger share of it"};
     const FeatureKind::Parameter upperFirst{"from", none, "larger share of the largest value"};
@@ -238,6 +271,8 @@ std::map<std::string, FeatureKind> makeKinds()
                 return logOfPositive(*std::max_element(curve.value.begin(), curve.value.end()));
             },
             Dimension::value},
+        {"logMean", "log of the mean over time", {after}, logMean, Dimension::value},
+        {"logDeviation", "log of the standard deviation over time", {after}, logDeviation, Dimension::value},
         {"logRiseTime", "log of the time between two shares of the largest value, before it", {lowerShare, upperShare},
             [](const Curve& curve, const Parameters& p) {
                 return logOfPositive(timeAtShare(curve, p.at("to"), false) - timeAtShare(curve, p.at("from"), false));

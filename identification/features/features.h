@@ -2,7 +2,9 @@
 
 #include "curves/curve.h"
 
+#include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -53,10 +55,18 @@ struct Feature
     std::string name;
     const FeatureKind* kind;
     FeatureKind::Parameters parameters;
+    std::optional<std::size_t> column = {}; // index of the curve's `others`; empty: the curve itself
 
+    /// NaN if the curve does not have the feature, or not its column
     double operator()(const Curve& curve) const
     {
-        return kind->value(curve, parameters);
+        if (!column)
+        {
+            return kind->value(curve, parameters);
+        }
+        return *column < curve.others.size() && curve.others[*column].time.size() > 1
+                   ? kind->value(curve.others[*column], parameters)
+                   : std::numeric_limits<double>::quiet_NaN();
     }
 };
 

@@ -52,7 +52,8 @@ std::string endOfLog(const fs::path& file)
 /// a run that found them would resume from them.
 bool isOutput(const std::string& name)
 {
-    static const std::regex outputs(R"(steps|results|postProcessing|VTK|checkpoints|log\..*|processor\d+|.*\.work)");
+    static const std::regex outputs(
+        R"(steps|runs|results|postProcessing|VTK|checkpoints|log\..*|processor\d+|.*\.work)");
     char* end = nullptr;
     return std::regex_match(name, outputs) || (std::strtod(name.c_str(), &end) > 0.0 && *end == '\0');
 }
@@ -255,7 +256,7 @@ bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResul
     {
         try
         {
-            result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn);
+            result.curve = readCurve(stored / order.file, study_.timeColumn, study_.valueColumn, study_.furtherColumns);
         }
         catch (const std::exception& error)
         {

@@ -16,10 +16,10 @@ namespace clepsydra::identification
 namespace
 {
 
-Feature readFeature(const YamlPlace& place, double& modelError)
+Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherColumns, double& modelError)
 {
     const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
-    std::vector<std::string> allowed = {"name", "kind", "modelError"};
+    std::vector<std::string> allowed = {"name", "kind", "value", "modelError"};
     append(allowed, namesOfItems(kind.parameters));
     place.allow(allowed);
     Feature feature{place.textOr("name", kind.name), &kind, {}};
@@ -30,6 +30,15 @@ Feature readFeature(const YamlPlace& place, double& modelError)
             place.fail("a " + kind.name + " needs '" + parameter.name + "': " + parameter.meaning);
         }
         feature.parameters[parameter.name] = place.numberOr(parameter.name, parameter.byDefault);
+    }
+    if (place.has("value"))
+    {
+        const std::string column = place.at("value").text();
+        if (!contains(furtherColumns, column))
+        {
+            furtherColumns.push_back(column);
+        }
+        feature.column = std::find(furtherColumns.begin(), furtherColumns.end(), column) - furtherColumns.begin();
     }
     modelError = place.numberOr("modelError", modelError);
     return feature;
@@ -232,7 +241,7 @@ void readObservable(const YamlPlace& place, Study& study)
     std::vector<double> errors;
     study.features = readNamed(place.at("features"), "features", [&](const YamlPlace& each) {
         errors.push_back(place.numberOr("modelError", 0.0));
-        return readFeature(each, errors.back());
+        return readFeature(each, study.furtherColumns, errors.back());
     });
     if (study.features.empty())
     {

@@ -246,6 +246,7 @@ struct Study
     SimulatorSpecification simulator;
     std::string timeColumn;
     std::string valueColumn;
+    std::vector<std::string> furtherColumns; // that features are taken from, in the observable's file
     double magnitudeLimit =
         30.0; // largest factor between measured and simulated values; a larger one means wrong units
     std::vector<Feature> features;

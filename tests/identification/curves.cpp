@@ -49,6 +49,21 @@ TEST(Curves, ResumedRunIsOneCurve)
     EXPECT_EQ(curve.value, (std::vector<double>{1, 0.9, 0.8, 0.6}));
 }
 
+/// A feature of another column than the observable's has the values of that column, at its own times; in a record
+/// without that column, as a measured one, there is none.
+TEST(Curves, FurtherColumnsAreCurvesOfTheirOwn)
+{
+    const TemporaryFolder folder;
+    const auto file = folder.write("bed.dat", "# time height pressure\n0\t1\t4\n1\tNA\t6\n2\t3\t8\n");
+    const Curve curve = readCurve(file, "time", "height", {"pressure"});
+    EXPECT_EQ(curve.time, (std::vector<double>{0, 2}));
+    ASSERT_EQ(curve.others.size(), 1U);
+    EXPECT_EQ(curve.others.front().value, (std::vector<double>{4, 6, 8}));
+    const Feature pressure{"pressure", &featureKinds().at("logMaximum"), {}, 0};
+    EXPECT_NEAR(pressure(curve), std::log(8), 1e-12);
+    EXPECT_TRUE(std::isnan(pressure({curve.time, curve.value})));
+}
+
 TEST(Curves, CsvWithGapsAndErrorsWithTheirLine)
 {
     const TemporaryFolder folder;
@@ -195,6 +210,21 @@ TEST(Features, OfARecordThatStartsLate)
     EXPECT_NEAR(feature("residue", curve, {}), 0.25, 1e-12);
 }
 
+/// A signal that swings about 0.3 by 0.1 after a second at 5, sampled three times as densely where it is high: a mean over
+/// time is not that over rows.
+TEST(Features, OfASignalThatSwings)
+{
+    Curve curve;
+    for (double time = 0; time<9; time += std::sin(2 * M_PI * time)> 0 ? 1e-3 : 3e-3)
+    {
+        curve.time.push_back(4 + time);
+        curve.value.push_back(time < 1 ? 5 : 0.3 + 0.1 * std::sin(2 * M_PI * time));
+    }
+    EXPECT_NEAR(feature("logMean", curve, {{"after", 1}}), std::log(0.3), 1e-3);
+    EXPECT_NEAR(feature("logDeviation", curve, {{"after", 1}}), std::log(0.1 / std::sqrt(2)), 5e-3);
+    EXPECT_TRUE(std::isnan(feature("logMean", curve, {{"after", 99}})));
+}
+
 /// When a record starts changes no feature of it. This holds for each kind that there is: one without a row here fails.
 TEST(Features, DoNotDependOnWhenTheRecordStarts)
 {
@@ -209,6 +239,8 @@ TEST(Features, DoNotDependOnWhenTheRecordStarts)
         {"logImpactSpeed", {{"level", 5e-4}, {"before", 0.02}, {"until", 0.01}}},
         {"logReboundSpeed", {{"level", 5e-4}, {"from", 0.01}, {"after", 0.02}}},
         {"logMaximum", {}},
+        {"logMean", {{"after", 0.1}}},
+        {"logDeviation", {{"after", 0.1}}},
         {"logRiseTime", {{"from", 0.3}, {"to", 0.8}}},
         {"logFallTime", {{"from", 0.8}, {"to", 0.3}}},
         {"logTimeAbove", {{"share", 0.5}}},

@@ -2,8 +2,9 @@
 """Compares the bed's height, its solid fraction and the pressure 45 mm above the distributor with the measured ones.
 
 Each is compared by its mean, its swing and its main frequency; with --quick the pressure gradient in a bed at rest is
-compared with the drag law."""
+compared with the drag law. With --signals the three of them are written to results/signals.dat instead."""
 
+import argparse
 import json
 from math import hypot
 from pathlib import Path
@@ -112,7 +113,22 @@ def row_at_rest(bed: Bed) -> dict[str, Any]:
     return validation.row(where, "Pa/m", law, source, "computed", ours, 1e-4 * ours, 2, finding=LOOSER_CELLS)
 
 
+def write_signals(bed: Bed) -> None:
+    """At the times of the probes."""
+    signals = bed.signals()
+    time, pressure = signals["pressure"]
+    columns = [time, np.interp(time, *signals["height"]), signals["solid fraction"][1], pressure]
+    Path("results").mkdir(exist_ok=True)
+    titles = "time [s]\theight [m]\tsolidFraction [1]\tpressure [Pa]"
+    np.savetxt("results/signals.dat", np.transpose(columns), "%.6g", "\t", header=titles)
+
+
 def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--signals", action="store_true", help="write them; nothing is compared")
+    if parser.parse_args().signals:
+        write_signals(Bed(Path("runs/bed0.9")))
+        return
     beds = [Bed(run) for run in sorted(Path("runs").glob("bed*"))]
     rows = [row for bed in beds if bed["endTime"] > START for row in rows_beside_measurement(bed)]
     rows += [row_at_rest(bed) for bed in beds if bed["endTime"] < START]

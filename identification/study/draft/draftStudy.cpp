@@ -226,8 +226,9 @@ void guessBlanks(const std::vector<Curve>& curves, ColumnSpecification& column)
 {
     std::vector<double> seen;
     bool hasBlanks = false;
-    for (const auto& [time, value] : curves)
+    for (const auto& curve : curves)
     {
+        const auto& value = curve.value;
         hasBlanks = hasBlanks || std::count(value.begin(), value.begin() + 3, 0.0) == 3
                     || std::count(value.end() - 3, value.end(), 0.0) == 3;
         std::copy_if(value.begin(), value.end(), std::back_inserter(seen), [](double number) { return number != 0.0; });
