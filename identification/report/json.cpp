@@ -141,7 +141,7 @@ Json effectsJson(const Findings& findings)
                                             ? ""
                                             : endOfRange(finding.fit.amplitude, finding.fit.sd, effect.bounds))},
             {"measured", measuredJson(effect, finding)}, {"judged", finding.known},
-            {"parameters", parametersOf(study, finding.parameters)},
+            {"parameters", finding.known ? parametersOf(study, finding.parameters) : Json::object()},
             {"smallestDetectable", answer.visibility.detected(e)}, {"smallestNamed", answer.visibility.named(e)},
             {"howToMeasure", effect.hint}});
     }

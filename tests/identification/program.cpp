@@ -266,13 +266,22 @@ TEST(Program, FollowsALargeEffectToItsEnd)
 }
 
 /// Without an effect in the data, none is found with this seed; checkIdentification measures the rate of false alarms.
+/// An effect of which no run succeeds is reported as not judged; it has no fit.
 TEST(Program, FindsNothingWithoutAnEffect)
 {
     Workshop workshop;
+    workshop.offer("  - { name: noOrifice, switch: true, set: { orificeDiameter: -1 } }\n");
     workshop.measure({});
     ASSERT_EQ(workshop.run("run"), 0) << workshop.output;
-    EXPECT_EQ(workshop.json("report.json")["decision"], "noResidual");
-    EXPECT_TRUE(workshop.json("report.json")["name"].is_null());
+    const auto report = workshop.json("report.json");
+    EXPECT_EQ(report["decision"], "noResidual");
+    EXPECT_TRUE(report["name"].is_null());
+    for (const auto& effect : report["effects"])
+    {
+        const bool possible = effect["name"] != "noOrifice";
+        EXPECT_EQ(effect["judged"], possible) << effect["name"];
+        EXPECT_EQ(effect["parameters"].empty(), !possible) << effect["name"];
+    }
 }
 
 /// The values of held-out files do not change the answer, which is on disk before they are read, and they are not
