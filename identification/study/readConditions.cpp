@@ -34,11 +34,12 @@ Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherCol
     if (place.has("value"))
     {
         const std::string column = place.at("value").text();
-        if (!contains(furtherColumns, column))
+        const auto known = std::find(furtherColumns.begin(), furtherColumns.end(), column);
+        feature.column = known - furtherColumns.begin();
+        if (known == furtherColumns.end())
         {
             furtherColumns.push_back(column);
         }
-        feature.column = std::find(furtherColumns.begin(), furtherColumns.end(), column) - furtherColumns.begin();
     }
     modelError = place.numberOr("modelError", modelError);
     return feature;

@@ -215,10 +215,13 @@ TEST(Features, OfARecordThatStartsLate)
 TEST(Features, OfASignalThatSwings)
 {
     Curve curve;
-    for (double time = 0; time<9; time += std::sin(2 * M_PI * time)> 0 ? 1e-3 : 3e-3)
+    double time = 0;
+    while (time < 9)
     {
+        const double swing = std::sin(2 * M_PI * time);
         curve.time.push_back(4 + time);
-        curve.value.push_back(time < 1 ? 5 : 0.3 + 0.1 * std::sin(2 * M_PI * time));
+        curve.value.push_back(time < 1 ? 5 : 0.3 + 0.1 * swing);
+        time += swing > 0 ? 1e-3 : 3e-3;
     }
     EXPECT_NEAR(feature("logMean", curve, {{"after", 1}}), std::log(0.3), 1e-3);
     EXPECT_NEAR(feature("logDeviation", curve, {{"after", 1}}), std::log(0.1 / std::sqrt(2)), 5e-3);
