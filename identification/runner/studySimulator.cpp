@@ -107,7 +107,8 @@ Entries StudySimulator::entriesOf(std::size_t condition, const Setting& setting)
     {
         if (setting.errors(i) != 0.0)
         {
-            assign(entries, defaults_, study_.commonErrors[i].entries, "z", setting.errors(i));
+            const CommonError& error = study_.commonErrors[i];
+            assign(entries, defaults_, error.entries, error.variable, error.unit * setting.errors(i));
         }
     }
     return entries;
@@ -115,7 +116,8 @@ Entries StudySimulator::entriesOf(std::size_t condition, const Setting& setting)
 
 Curve StudySimulator::throughChain(Curve curve, std::size_t condition, const Setting& setting) const
 {
-    const auto operate = [&](const std::string& operation, const Expression& size, const char* variable, double value) {
+    const auto operate = [&](const std::string& operation, const Expression& size, const std::string& variable,
+                             double value) {
         curve = chainOperations().at(operation).apply(std::move(curve), size({{variable, value}}));
     };
     for (std::size_t i = 0; i < study_.effects.size(); ++i)
@@ -132,7 +134,7 @@ Curve StudySimulator::throughChain(Curve curve, std::size_t condition, const Set
         const CommonError& error = study_.commonErrors[i];
         if (error.chainSize && setting.errors(i) != 0.0)
         {
-            operate(error.chainOperation, *error.chainSize, "z", setting.errors(i));
+            operate(error.chainOperation, *error.chainSize, error.variable, error.unit * setting.errors(i));
         }
     }
     return curve;

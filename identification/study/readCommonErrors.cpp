@@ -36,11 +36,12 @@ std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& s
 }
 
 /// Requires that a formula gives the unchanged value at z = 0 and another one at z = 1.
-void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself)
+void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::Variables variables, double itself,
+    const CommonError& error)
 {
     constexpr double tolerance = 1e-9;
     const auto at = [&](double z) {
-        variables["z"] = z;
+        variables[error.variable] = z * error.unit;
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
@@ -69,7 +70,7 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
                 value.fail(
                     "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
             }
-            checkAtZero(value, formula, numbers, itself->second);
+            checkAtZero(value, formula, numbers, itself->second, error);
         }
         error.entries.emplace(entry, formula);
     }
@@ -89,19 +90,48 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
     }
 }
 
+/// An effect whose amplitude was measured to `sd`.
+void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
+{
+    const Effect& effect = study.effects[indexOf(place.at("effect"), study.effects)];
+    if (effect.isSwitch || effect.measured)
+    {
+        place.at("effect").fail(std::string("names an effect that ")
+                                + (effect.isSwitch ? "is on or off" : "has a measured amplitude ('measured')")
+                                + "; allowed are effects with a formula in a and without 'measured'");
+    }
+    error.name = place.textOr("name", effect.name);
+    error.variable = "a";
+    error.unit = place.at("sd").positive();
+    error.entries = effect.entries;
+    error.chainOperation = effect.chainOperation;
+    error.chainSize = effect.chainSize;
+    if (!place.has("conditions"))
+    {
+        error.conditions = numbersWhere(
+            study.conditions.size(), [&](std::size_t c) { return acts(effect, study.conditions[c]); });
+    }
+}
+
 CommonError readError(const YamlPlace& place, const Study& study)
 {
-    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
+    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features", "effect", "sd"});
     CommonError error;
-    error.name = place.at("name").text();
     place.textOr("meaning", ""); // for readers of the file
     error.conditions = chosenConditions(place, study);
     error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
-    if (place.has("set") + place.has("chain") + place.has("features") != 1)
+    if (place.has("set") + place.has("chain") + place.has("features") + place.has("effect") != 1)
     {
-        place.fail("needs one of 'set' (entries of the case), 'chain' (the measuring chain) or 'features' (standard "
-                   "deviations)");
+        place.fail("needs one of 'set' (entries of the case), 'chain' (the measuring chain), 'features' (standard "
+                   "deviations) or 'effect' (of the library, measured with a gauge)");
     }
+    if (place.has("effect"))
+    {
+        readGauged(place, study, error);
+        return error;
+    }
+    place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
+    error.name = place.at("name").text();
     if (place.has("set"))
     {
         readEntries(place.at("set"), study, error);
@@ -109,7 +139,7 @@ CommonError readError(const YamlPlace& place, const Study& study)
     else if (place.has("chain"))
     {
         std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
-        checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0);
+        checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0, error);
     }
     else
     {
@@ -124,9 +154,9 @@ CommonError readError(const YamlPlace& place, const Study& study)
 
 } // namespace
 
-std::vector<CommonError> readCommonErrors(const YamlPlace& list, const Study& study)
+void readCommonErrors(const YamlPlace& list, Study& study)
 {
-    std::vector<CommonError> errors;
+    std::vector<CommonError>& errors = study.commonErrors;
     for (const auto& place : list.list())
     {
         const CommonError error = readError(place, study);
@@ -145,7 +175,15 @@ std::vector<CommonError> readCommonErrors(const YamlPlace& list, const Study& st
         }
         requireOwnName(place, errors, "common errors");
     }
-    return errors;
+    for (const auto& place : list.list())
+    {
+        const auto gauged = std::find_if(study.effects.begin(), study.effects.end(),
+            [&](const Effect& effect) { return effect.name == place.textOr("effect", ""); });
+        if (gauged != study.effects.end())
+        {
+            study.effects.erase(gauged);
+        }
+    }
 }
 
 } // namespace clepsydra::identification

@@ -19,9 +19,10 @@ void readConditions(const YamlPlace& root, Study& study);
 /// A list of effects.
 std::vector<Effect> readEffects(const YamlPlace& list);
 
-/// The list `commonErrors`. An error with `each: true` becomes one error for each of its conditions.
-/// \param study  with its simulator, features and conditions
-std::vector<CommonError> readCommonErrors(const YamlPlace& list, const Study& study);
+/// The list `commonErrors`. An error with `each: true` becomes one error for each of its conditions. An effect that an
+/// item declares as measured with a gauge becomes a common error and is no effect of the study any more.
+/// \param study  with its simulator, features, conditions and effects
+void readCommonErrors(const YamlPlace& list, Study& study);
 
 /// Checks for mistakes that would otherwise be found only when runs have started, or never: unknown names in formulas
 /// of effects and parameters, entries that a parameter overrides, misspelt tags and families.

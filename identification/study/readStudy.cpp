@@ -262,6 +262,7 @@ Study readStudy(const std::filesystem::path& file)
                   + std::to_string(mostParameters));
     }
     readAllEffects(root, study);
+    readCommonErrors(root.optional("commonErrors"), study);
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
     {
         const auto place = root.at("parameters").list()[p];
@@ -270,7 +271,6 @@ Study readStudy(const std::filesystem::path& file)
             study.parameters[p].effect = indexOf(place.at("of"), study.effects);
         }
     }
-    study.commonErrors = readCommonErrors(root.optional("commonErrors"), study);
     readSettings(root, study);
     study.executor = readExecutor(root.optional("executor"));
     study.work = root.has("work") ? root.at("work").path()

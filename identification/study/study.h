@@ -208,6 +208,10 @@ struct CommonError
 {
     std::string name;
     std::vector<std::size_t> conditions;
+    /// Variable of the formulas, and its value at z = 1: for an effect that was measured with a gauge, its amplitude a
+    /// and the standard error of the measurement.
+    std::string variable = "z";
+    double unit = 1.0;
     std::map<std::string, Expression> entries;
     std::string chainOperation; // empty if the error is not of the measuring chain
     std::optional<Expression> chainSize;

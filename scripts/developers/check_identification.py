@@ -19,7 +19,13 @@ from clepsydra import environment, whole_files
 
 ROOT = environment.REPOSITORY
 RESULTS = ROOT / "identification/results/statistics.json"  # a list of what checkIdentification writes for each seed
-USUAL = {"libraries": 12, "nulls": 20, "effects": 14, "unknowns": 3, "pairs": 2, "again": 2, "draws": 500}
+SURROGATE = ROOT / "tests/identification/surrogate"
+TITLES = {
+    (False, True): "Runs scatter; sizes and viscosity are measured with a gauge",
+    (False, False): "Runs scatter; sizes and viscosity may be wrong like any other effect",
+    (True, True): "Runs do not scatter (seed: none)",
+}
+USUAL = {"libraries": 12, "nulls": 20, "effects": 11, "unknowns": 3, "pairs": 2, "again": 2, "draws": 500}
 
 
 def main() -> None:
@@ -33,8 +39,8 @@ def main() -> None:
     elif options:
         parser.error(f"{options[0]}: only --run SEED has options, those of build/bin/checkIdentification")
     results = json.loads(RESULTS.read_text())
-    for exact, title in ((False, "Runs scatter"), (True, "Runs do not scatter (seed: none)")):
-        of_kind = [one for one in results if one["exact"] == exact]
+    for kind, title in TITLES.items():
+        of_kind = [one for one in results if kind_of(one) == kind]
         if of_kind:
             print(f"{title}: ", end="")
             table(of_kind)
@@ -44,24 +50,27 @@ def run(seed: str, options: list[str]) -> None:
     usual = [word for name, number in USUAL.items() for word in (f"--{name}", str(number))]
     with tempfile.TemporaryDirectory() as folder:
         output = Path(folder) / "statistics.json"
-        study = ROOT / "tests/identification/surrogate/study.yaml"
-        command = [str(environment.program("checkIdentification")), str(study), *usual, "--seed", seed, *options]
+        study = [str(SURROGATE / "study.yaml"), "--gauged", str(SURROGATE / "gauged.yaml")]
+        command = [str(environment.program("checkIdentification")), *study, *usual, "--seed", seed, *options]
         subprocess.run([*command, "--output", str(output)], check=True, stdout=subprocess.DEVNULL)
         keep(json.loads(output.read_text()))
 
 
 def keep(result: dict[str, Any]) -> None:
     """In the place of an earlier result of the same seed and kind."""
-    results = [one for one in json.loads(RESULTS.read_text()) if kind_and_seed(one) != kind_and_seed(result)]
-    results = sorted([*results, result], key=kind_and_seed)
+    def place(one: dict[str, Any]) -> tuple[tuple[bool, bool], int]:
+        return kind_of(one), one["seed"]
+
+    results = [one for one in json.loads(RESULTS.read_text()) if place(one) != place(result)]
+    results = sorted([*results, result], key=place)
     with whole_files.replacing(RESULTS) as file:
         json.dump(results, file, indent=1)
         file.write("\n")
 
 
-def kind_and_seed(result: dict[str, Any]) -> tuple[bool, int]:
-    """Whether runs of the simulator do not scatter, and the seed."""
-    return result["exact"], result["seed"]
+def kind_of(result: dict[str, Any]) -> tuple[bool, bool]:
+    """Whether runs of the simulator do not scatter, and whether sizes and viscosity were measured with a gauge."""
+    return result["exact"], bool(result.get("gauged"))
 
 
 def table(seeds: list[dict[str, Any]]) -> None:

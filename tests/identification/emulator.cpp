@@ -318,12 +318,12 @@ TEST(Emulator, FindsEffectsThatRaiseTheScatter)
 }
 
 /// ln W = 3 x + ...: an error of 0.01 in x gives 0.03, a gain of 2 % gives 0.02, and errors of features are taken as
-/// stated.
+/// stated. An effect that was measured to a tenth of its size is an error of a tenth.
 TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
 {
     const TemporaryFolder folder;
     Study study = linearStudy(folder, "none");
-    study.commonErrors.resize(3);
+    study.commonErrors.resize(5);
     for (auto& error : study.commonErrors)
     {
         error.conditions = {0};
@@ -333,12 +333,23 @@ TEST(CommonErrors, SlopesAreThoseOfTheSimulator)
     study.commonErrors[1].chainOperation = "gain";
     study.commonErrors[1].chainSize = Expression("0.02*z");
     study.commonErrors[2].featureErrors(0) = 0.05;
+    // Effects that were measured with a gauge, as amplitudes
+    study.commonErrors[3].entries.emplace("x", Expression("x + 0.1*a"));
+    study.commonErrors[4].chainOperation = "gain";
+    study.commonErrors[4].chainSize = Expression("0.2*a");
+    for (const std::size_t gauged : {3U, 4U})
+    {
+        study.commonErrors[gauged].variable = "a";
+        study.commonErrors[gauged].unit = 0.1;
+    }
     LinearSimulator simulator;
     StudySimulator studySimulator(study, simulator);
     const Library library = makeLibrary(studySimulator);
     EXPECT_NEAR(library.errorSlopes[0](0, 0), 0.03, 1e-6);
     EXPECT_NEAR(library.errorSlopes[0](0, 1), 0.02, 1e-4);
     EXPECT_EQ(library.errorSlopes[0](0, 2), 0.05);
+    EXPECT_NEAR(library.errorSlopes[0](0, 3), 0.03, 1e-6);
+    EXPECT_NEAR(library.errorSlopes[0](0, 4), 0.02, 1e-4);
     EXPECT_TRUE(library.errorSlopes[1].isZero()) << "the errors belong to the other condition";
 }
 

@@ -272,6 +272,10 @@ TEST(StudyFile, MistakesNameTheirLine)
             "study.yaml:13:", "range, -1 to 1"},
         {"amplitude: [-1, 1]", "amplitude: [-1, 1], measured: { mean: 0.2 }", "study.yaml:13:", "sd"},
         {"range: [0", "of: sise, range: [0", "study.yaml:11:", "did you mean 'size'"},
+        {"[-1, 1] }", "[-1, 1] }\ncommonErrors: [{ effect: sise, sd: 1 }]", "study.yaml:14:", "did you mean 'size'"},
+        {"[-1, 1] }", "[-1, 1] }\ncommonErrors: [{ effect: size }]", "study.yaml:14:", "needs 'sd'"},
+        {"[-1, 1] }", "[-1, 1], measured: { mean: 0, sd: 1 } }\ncommonErrors: [{ effect: size, sd: 1 }]",
+            "study.yaml:14:", "has a measured amplitude"},
         {"(1 + a)", "(1 + a", "study.yaml:13:", "Missing parenthesis"},
         {"amplitude: [-1, 1]", "amplitude: [0.5, 1]", "study.yaml:13:", "must hold 0"},
         {"amplitude: [-1, 1]", "amplitud: [-1, 1]", "study.yaml:13:", "amplitude"},
@@ -478,6 +482,19 @@ TEST(StudyFile, CommonErrors)
     EXPECT_TRUE(study.commonErrors[2].featureErrors.isZero());
     EXPECT_EQ(study.commonErrors[3].chainOperation, "gain");
     EXPECT_EQ((*study.commonErrors[3].chainSize)({{"z", 2}}), 0.004);
+}
+
+/// An effect that was measured with a gauge is an error of the stated size, and no candidate any more. If it stayed among
+/// the effects, the residual that it causes would get its name.
+TEST(StudyFile, EffectsThatAGaugeMeasuresAreCommonErrors)
+{
+    const TemporaryFolder folder;
+    const Study study = studyOf(folder,
+        goodStudy + "  - { name: rub, set: { friction: friction + a } }\ncommonErrors: [{ effect: size, sd: 0.2 }]\n");
+    ASSERT_EQ(study.commonErrors.size(), 1U);
+    EXPECT_EQ(study.commonErrors[0].name, "size");
+    EXPECT_EQ(study.commonErrors[0].unit, 0.2);
+    EXPECT_EQ(namesOfItems(study.effects), std::vector<std::string>{"rub"});
 }
 
 /// The shipped libraries can be read and contain the documented numbers of effects and families.

@@ -6,6 +6,7 @@
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
 #include "procedure/trace.h"
+#include "study/readParts.h"
 #include "study/readStudy.h"
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <map>
 #include <optional>
@@ -30,6 +32,7 @@ using Json = nlohmann::ordered_json;
 struct Options
 {
     std::string study;
+    std::string gauged;
     std::string output;
     int libraries = 10;
     // Numbers of data sets for each library:
@@ -257,13 +260,14 @@ private:
     static constexpr int repeats = 3;
     static constexpr int repetitions = 40; // of measurement and prediction, for the expected fall
 
-    /// The truth as measured: the parameters are drawn from their prior. The same for all measurements of a data set.
+    /// The truth as measured: parameters and common errors are drawn from their distributions. The same for all measurements of a data set.
     Setting settingOf(const Truth& truth, const StudySimulator& simulator) const
     {
         std::mt19937_64 random(allEffects_.settings.seed);
         std::normal_distribution<double> normal;
         Setting setting = simulator.plainSetting();
         setting.parameters(0) += study_.parameters.front().sd * normal(random);
+        setting.errors = Eigen::VectorXd::NullaryExpr(study_.commonErrors.size(), [&] { return normal(random); });
         for (std::size_t k = 0; k < truth.effects.size(); ++k)
         {
             setting.amplitudes(static_cast<Eigen::Index>(truth.effects[k])) = truth.amplitudes[k];
@@ -347,6 +351,10 @@ Json check(const Options& options)
 {
     Study study = readStudy(options.study);
     study.settings.draws = options.draws;
+    if (!options.gauged.empty())
+    {
+        readCommonErrors(YamlPlace::fileAt(options.gauged).at("commonErrors"), study);
+    }
     Study allEffects = study;
     append(allEffects.effects, outsideLibrary());
     const Entries defaults = readEntries(study.simulator.caseFolder / study.simulator.entriesFile);
@@ -465,8 +473,8 @@ Json check(const Options& options)
     {
         count(tally);
     }
-    return {{"study", study.name}, {"seed", options.seed}, {"exact", options.exact}, {"libraries", options.libraries},
-        {"draws", options.draws}, {"falseAlarms", share(nulls.detected, nulls.trials)},
+    return {{"study", study.name}, {"gauged", mapped(study.commonErrors, std::mem_fn(&CommonError::name))},
+        {"seed", options.seed}, {"exact", options.exact}, {"libraries", options.libraries}, {"draws", options.draws}, {"falseAlarms", share(nulls.detected, nulls.trials)},
         {"pValueBelowHalf", share(below, nulls.trials)}, {"nulls", nulls.json()}, {"effects", effects.json()},
         {"bySize", all(bySize)}, {"byEffect", all(byEffect)},
         {"sameAnswerWithOtherSeeds", share(sameAnswer, askedAgain)}, {"leftOutOfTheLibrary", decoys.json()},
@@ -529,6 +537,7 @@ int main(int argc, char** argv)
     app.add_option("--pairs", options.pairs, "number of data sets with two effects");
     app.add_option("--seed", options.seed, "seed of all random numbers");
     app.add_option("--draws", options.draws, "number of draws from the null distribution of the test");
+    app.add_option("--gauged", options.gauged, "file of the effects that are measured with a gauge (commonErrors)");
     app.add_option("--output", options.output, "JSON file to write");
     app.add_flag("--exact", options.exact, "runs do not scatter (seed: none), only measurements do");
     app.add_flag("--check", options.check, "fail if the rates are outside of wide limits");
