@@ -115,19 +115,22 @@ int main(int argc, char** argv)
         ->required()
         ->check(CLI::ExistingPath);
     drafting->add_option("--output", arguments.study, "file to write; default: study.yaml in the current directory");
-    auto* planning = app.add_subcommand(
+    const auto addCommand = [&](const std::string& name, const std::string& purpose) {
+        auto* command = app.add_subcommand(name, purpose);
+        command->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+        return command;
+    };
+    auto* planning = addCommand(
         "plan", "before measuring: which effects can be detected and distinguished, and what the runs cost");
-    planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
     planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
     planning->add_flag("--time", arguments.time, "make one run to measure its time, if none has been timed yet");
-    auto* running =
-        app.add_subcommand("run", "process a study and write its report; may be interrupted and started again");
-    running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study file");
-    auto* reporting = app.add_subcommand("report", "print the report of a study again, from its stored runs");
-    reporting->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    reporting->add_option(
-        "--output", arguments.folder, "folder of the reports; default: results beside the study file");
+    auto* running = addCommand("run", "process a study and write its report; may be interrupted and started again");
+    auto* reporting = addCommand("report", "print the report of a study again, from its stored runs");
+    for (auto* command : {running, reporting})
+    {
+        command->add_option(
+            "--output", arguments.folder, "folder of the reports; default: results beside the study file");
+    }
     CLI11_PARSE(app, argc, argv);
 
     try

@@ -5,11 +5,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 namespace clepsydra::identification
@@ -21,7 +21,8 @@ namespace
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr timespec endPollInterval{0, 20'000'000};
+constexpr timespec pollPause{0, 20'000'000};
+constexpr int statusOfTimeLimit = 124; // like timeout(1)
 constexpr int statusOfNoProgram = 127;
 constexpr int statusOfSignal = 128;
 
@@ -30,18 +31,17 @@ int statusOf(int waited)
     return WIFEXITED(waited) ? WEXITSTATUS(waited) : statusOfSignal + WTERMSIG(waited);
 }
 
-/// Parent of each process on this machine.
-std::map<pid_t, pid_t> parents()
+double secondsSince(Clock::time_point begin)
 {
-    std::map<pid_t, pid_t> found;
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+void signalDescendants(pid_t ancestor, int signal)
+{
+    std::map<pid_t, pid_t> parents; // of each process on this machine
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator("/proc", ignored))
     {
-        const std::string name = entry.path().filename().string();
-        if (std::isdigit(static_cast<unsigned char>(name.front())) == 0)
-        {
-            continue;
-        }
         // The line is "pid (name) state parent ...", where the name may contain blanks and brackets.
         std::ifstream file(entry.path() / "stat");
         std::string line;
@@ -49,32 +49,29 @@ std::map<pid_t, pid_t> parents()
         const auto end = line.rfind(')');
         if (end != std::string::npos && end + 4 < line.size())
         {
-            found[std::stoi(name)] = std::stoi(line.substr(end + 4));
+            parents[std::stoi(line)] = std::stoi(line.substr(end + 4));
         }
     }
-    return found;
-}
-
-void signalDescendants(pid_t ancestor, int signal)
-{
-    const auto parentOf = parents();
-    for (const auto& [process, parent] : parentOf)
+    std::set<pid_t> tree = {ancestor};
+    for (std::size_t before = 0; before < tree.size();)
     {
-        // The number of steps is limited: a table that is read while processes come and go may contain a cycle.
-        auto above = parentOf.find(process);
-        for (std::size_t step = 0; step < parentOf.size() && above != parentOf.end(); ++step)
+        before = tree.size();
+        for (const auto& [process, parent] : parents)
         {
-            if (above->second == ancestor)
+            if (tree.count(parent) > 0)
             {
-                kill(process, signal);
-                break;
+                tree.insert(process);
             }
-            above = parentOf.find(above->second);
         }
+    }
+    tree.erase(ancestor);
+    for (const pid_t process : tree)
+    {
+        kill(process, signal);
     }
 }
 
-[[noreturn]] void becomeProgram(const std::vector<std::string>& command, const fs::path& folder, const fs::path& log)
+[[noreturn]] void becomeProgram(const std::vector<std::string>& command, const fs::path& folder, const std::string& log)
 {
     std::vector<char*> arguments;
     for (const auto& argument : command)
@@ -96,7 +93,7 @@ void signalDescendants(pid_t ancestor, int signal)
 
 /// Main loop of the watching process.
 [[noreturn]] void watch(pid_t parent, const std::vector<std::string>& command, const fs::path& folder,
-    const fs::path& log, std::chrono::milliseconds grace) noexcept
+    const std::string& log, double timeLimit, std::chrono::milliseconds grace) noexcept
 {
     setpgid(0, 0);
     prctl(PR_SET_CHILD_SUBREAPER, 1);
@@ -116,6 +113,7 @@ void signalDescendants(pid_t ancestor, int signal)
     {
         _exit(statusOfNoProgram);
     }
+    const auto begin = Clock::now();
     const pid_t program = fork();
     if (program == 0)
     {
@@ -123,33 +121,40 @@ void signalDescendants(pid_t ancestor, int signal)
         becomeProgram(command, folder, log);
     }
     int status = statusOfNoProgram;
-    bool ending = false;
-    Clock::time_point since;
+    std::optional<Clock::time_point> ending; // when the processes were told to end
     while (true)
     {
         int waited = 0;
         pid_t ended = 0;
-        bool programEnded = false;
+        bool shallEnd = false;
         while ((ended = waitpid(-1, &waited, WNOHANG)) > 0)
         {
-            if (ended == program)
+            if (ended == program && status != statusOfTimeLimit)
             {
                 status = statusOf(waited);
-                programEnded = true;
+                shallEnd = true;
             }
         }
         if (ended < 0 && errno == ECHILD)
         {
             _exit(status);
         }
-        const int signal = programEnded ? 0 : sigtimedwait(&waitedFor, nullptr, &endPollInterval);
-        if (!ending && (programEnded || (signal > 0 && signal != SIGCHLD)))
+        if (!shallEnd)
         {
-            ending = true;
-            since = Clock::now();
+            const int signal = sigtimedwait(&waitedFor, nullptr, &pollPause);
+            shallEnd = signal > 0 && signal != SIGCHLD;
+        }
+        if (!shallEnd && !ending && timeLimit > 0.0 && secondsSince(begin) > timeLimit)
+        {
+            status = statusOfTimeLimit;
+            shallEnd = true;
+        }
+        if (shallEnd && !ending)
+        {
+            ending = Clock::now();
             signalDescendants(getpid(), SIGTERM);
         }
-        else if (ending && Clock::now() - since > grace)
+        else if (ending && Clock::now() - *ending > grace)
         {
             signalDescendants(getpid(), SIGKILL);
         }
@@ -158,8 +163,8 @@ void signalDescendants(pid_t ancestor, int signal)
 
 } // namespace
 
-ProcessTree::ProcessTree(const std::vector<std::string>& command, const fs::path& folder, const fs::path& log,
-    std::chrono::milliseconds grace)
+ProcessTree::ProcessTree(const std::vector<std::string>& command, const fs::path& folder, const std::string& log,
+    double timeLimit, std::chrono::milliseconds grace)
 {
     const pid_t self = getpid();
     watcher_ = fork();
@@ -169,43 +174,32 @@ ProcessTree::ProcessTree(const std::vector<std::string>& command, const fs::path
     }
     if (watcher_ == 0)
     {
-        watch(self, command, folder, log, grace);
+        watch(self, command, folder, log, timeLimit, grace);
     }
 }
 
 ProcessTree::~ProcessTree()
 {
-    end();
-    while (!status())
+    if (!status())
     {
-        nanosleep(&endPollInterval, nullptr);
+        kill(watcher_, SIGTERM);
     }
 }
 
 std::optional<int> ProcessTree::status()
 {
-    if (!status_)
+    int waited = 0;
+    const pid_t ended = status_ ? 0 : waitpid(watcher_, &waited, WNOHANG);
+    if (ended != 0)
     {
-        int waited = 0;
-        const pid_t ended = waitpid(watcher_, &waited, WNOHANG);
-        if (ended == watcher_)
-        {
-            status_ = statusOf(waited);
-        }
-        else if (ended < 0 && errno != EINTR)
-        {
-            status_ = statusOfNoProgram;
-        }
+        status_ = ended == watcher_ ? statusOf(waited) : statusOfNoProgram;
     }
     return status_;
 }
 
-void ProcessTree::end()
+double ProcessTree::seconds() const
 {
-    if (!status())
-    {
-        kill(watcher_, SIGTERM);
-    }
+    return secondsSince(since_);
 }
 
 } // namespace clepsydra::identification
