@@ -126,8 +126,8 @@ std::optional<std::vector<Present>> simulatedAs(
 std::vector<WantedRun> chooseRuns(
     const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders, int count)
 {
-    auto conditions = mapped(
-        layout.blocks, [&](const Layout::Block& block) { return Expectation(emulator, block, contenders); });
+    auto conditions =
+        mapped(layout.blocks, [&](const Layout::Block& block) { return Expectation(emulator, block, contenders); });
     auto gains = mapped(conditions, [](const Expectation& expectation) { return expectation.gains(); });
     std::vector<WantedRun> chosen;
     for (int k = 0; k < count; ++k)

@@ -178,9 +178,8 @@ void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& study
     const int atOnce = jobsAtOnce(study.executor);
     const auto wall = [&](int runs) { return clockTime(std::ceil(static_cast<double>(runs) / atOnce) * seconds); };
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
-        << "about " << wall(missing) << " of wall-clock time with " << atOnce
-        << (atOnce == 1 ? " run" : " runs") << " at a time and nothing else running (" << textOf(seconds)
-        << " s per run"
+        << "about " << wall(missing) << " of wall-clock time with " << atOnce << (atOnce == 1 ? " run" : " runs")
+        << " at a time and nothing else running (" << textOf(seconds) << " s per run"
         << (simulator.measuredSecondsPerRun() ? "" : ", an assumption: 'traceResidual plan --time' measures it")
         << ")\n"
         << "each data set: about " << usual << " further runs, " << wall(usual) << " of wall-clock time"

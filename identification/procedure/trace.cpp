@@ -91,12 +91,6 @@ private:
         return evidence;
     }
 
-    int runsPerRound() const
-    {
-        const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
-        return all / rounds_.ofSingles;
-    }
-
     /// \return whether any of the runs has succeeded
     bool add(const std::vector<Simulation>& more)
     {
@@ -180,8 +174,10 @@ private:
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
-        const auto wanted = scatters_ ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
-                                      : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
+        const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
+        const auto wanted = scatters_
+                                ? chooseRuns(*answer_.emulator, answer_.layout, contenders, all / rounds_.ofSingles)
+                                : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
@@ -382,14 +378,13 @@ private:
     }
 
     /// \param fits  of the effects; their parameters are equal
-    Explanation explanation(const std::vector<std::size_t>& effects, const std::vector<Fit>& fits, double logOdds,
-        double probability) const
+    Explanation explanation(
+        const std::vector<std::size_t>& effects, const std::vector<Fit>& fits, double logOdds, double probability) const
     {
-        Explanation found{effects,
-            settingOf(studySimulator_, fits.front().parameters, presentAt(effects, fits)), fits, logOdds, probability,
-            fits.front().chiSquare, {}};
-        std::copy_if(runs_.begin() + librarySize_, runs_.end(), std::back_inserter(found.runs),
-            [&](const Simulation& run) {
+        Explanation found{effects, settingOf(studySimulator_, fits.front().parameters, presentAt(effects, fits)), fits,
+            logOdds, probability, fits.front().chiSquare, {}};
+        std::copy_if(
+            runs_.begin() + librarySize_, runs_.end(), std::back_inserter(found.runs), [&](const Simulation& run) {
                 const auto& amplitudes = run.setting.amplitudes.array();
                 const auto isOn = [&](std::size_t effect) { return amplitudes(effect) != 0.0; };
                 return !run.failed && std::all_of(effects.begin(), effects.end(), isOn)

@@ -12,9 +12,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <deque>
 #include <fstream>
 #include <iomanip>
 #include <map>
+#include <numeric>
 #include <regex>
 #include <sstream>
 
@@ -28,7 +30,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* recordFile = "record.json";
 constexpr std::size_t keyDigits = 20;
-constexpr std::size_t linesOfLog = 12;
+constexpr std::ptrdiff_t linesOfLog = 12;
 
 /// With less free space on a disk than this, a file written there may be incomplete [bytes].
 constexpr std::uintmax_t leastRoom = 256 * 1024;
@@ -36,21 +38,13 @@ constexpr std::uintmax_t leastRoom = 256 * 1024;
 std::string endOfLog(const fs::path& file)
 {
     std::ifstream lines(file);
-    std::vector<std::string> last;
+    std::deque<std::string> last;
     for (std::string line; std::getline(lines, line);)
     {
-        last.push_back(line);
-        if (last.size() > linesOfLog)
-        {
-            last.erase(last.begin());
-        }
+        last.push_back("\n    " + line);
+        last.erase(last.begin(), last.end() - std::min<std::ptrdiff_t>(last.size(), linesOfLog));
     }
-    std::string text;
-    for (const auto& line : last)
-    {
-        text += "\n    " + line;
-    }
-    return text;
+    return std::accumulate(last.begin(), last.end(), std::string());
 }
 
 /// Whether a file of the case is a result of an earlier run. Time directories after the start count as results, because
@@ -66,16 +60,15 @@ bool isOutput(const std::string& name)
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
 {
     std::string all = study.simulator.version + '\n';
-    std::vector<fs::path> names;
+    std::set<fs::path> names;
     for (const auto& entry : fs::directory_iterator(caseFolder))
     {
         std::error_code dangles;
         if (!isOutput(entry.path().filename().string()) && !fs::equivalent(entry.path(), study.file, dangles))
         {
-            names.push_back(entry.path());
+            names.insert(entry.path());
         }
     }
-    std::sort(names.begin(), names.end());
     for (const auto& path : names)
     {
         all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';

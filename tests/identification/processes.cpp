@@ -119,6 +119,9 @@ TEST(Processes, NoneOutlivesTheProgram)
         const pid_t program = fork();
         if (program == 0)
         {
+            // Tests that nohup or a script started in the background ignore them.
+            std::signal(SIGHUP, SIG_DFL);
+            std::signal(SIGINT, SIG_DFL);
             try
             {
                 runJobs(
@@ -256,7 +259,8 @@ TEST(Slurm, IsCancelledWhenStopped)
         const pid_t program = fork();
         if (program == 0)
         {
-            runJobs(studyWith(0, 0, "slurm", folder.path()), {{folder.path(), "true"}}, [](const JobEnd&) { _exit(2); });
+            runJobs(
+                studyWith(0, 0, "slurm", folder.path()), {{folder.path(), "true"}}, [](const JobEnd&) { _exit(2); });
             _exit(1);
         }
         EXPECT_TRUE(soon([&] { return fs::exists(folder.path() / "submitted"); }));
