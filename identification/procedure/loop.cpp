@@ -168,11 +168,12 @@ void sayContents(const Study& study, const std::vector<MeasuredCondition>& train
     }
 }
 
-void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
+void sayCost(const Study& study, const CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
 {
     const auto orders = libraryOrders(studySimulator);
     const int missing = studySimulator.missing(orders);
-    const double seconds = simulator.secondsPerRun();
+    const auto measured = simulator.measuredSecondsPerRun();
+    const double seconds = measured.value_or(study.simulator.costPerRun);
     const int usual = runsPerDataSet(study, 2, 0);
     const int most = runsPerDataSet(study, 8, 4);
     const int atOnce = jobsAtOnce(study.executor);
@@ -180,8 +181,7 @@ void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& study
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
         << "about " << wall(missing) << " of wall-clock time with " << atOnce << (atOnce == 1 ? " run" : " runs")
         << " at a time and nothing else running (" << textOf(seconds) << " s per run"
-        << (simulator.measuredSecondsPerRun() ? "" : ", an assumption: 'traceResidual plan --time' measures it")
-        << ")\n"
+        << (measured ? "" : ", an assumption: 'traceResidual plan --time' measures it") << ")\n"
         << "each data set: about " << usual << " further runs, " << wall(usual) << " of wall-clock time"
         << (most > usual ? ", up to about " + std::to_string(most) + " if no single effect explains the data" : "")
         << '\n'

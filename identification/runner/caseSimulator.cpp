@@ -378,7 +378,8 @@ std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
     {
         return results;
     }
-    Progress progress(progress_, jobs.size(), jobsAtOnce(study_.executor), secondsPerRun());
+    const double secondsPerRun = measuredSecondsPerRun().value_or(study_.simulator.costPerRun);
+    Progress progress(progress_, jobs.size(), jobsAtOnce(study_.executor), secondsPerRun);
     runJobs(study_, jobs, [&](const JobEnd& end) {
         const auto& places = wanted[end.job];
         const RunOrder& order = orders[places.front()];

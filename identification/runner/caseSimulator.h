@@ -38,12 +38,6 @@ public:
     /// Mean wall-clock time of the stored runs [s]; empty if there are none.
     std::optional<double> measuredSecondsPerRun() const;
 
-    /// Mean wall-clock time of the stored runs [s]; the study's estimate if there are none.
-    double secondsPerRun() const
-    {
-        return measuredSecondsPerRun().value_or(study_.simulator.costPerRun);
-    }
-
 private:
     std::filesystem::path copyOf(const RunOrder& order) const;
     void prepare(const RunOrder& order) const;
