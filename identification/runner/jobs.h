@@ -33,7 +33,7 @@ struct JobEnd
 int jobsAtOnce(const ExecutorSpecification& executor);
 
 /// Runs jobs as the study's executor says, and returns when all have ended: as processes of this machine, each of which
-/// owns all processes that it starts (ProcessTree), or as one Slurm job array, whose work folder must be on a file
+/// owns all processes that it starts, or as one Slurm job array, whose work folder must be on a file
 /// system that the nodes share. If this program ends early, by whatever signal, all jobs end too and none is reported.
 /// \param study  its executor, its simulator's time limit and its work folder
 /// \param onEnd  is called after each job, in the caller's thread; if it throws, the other jobs are told to end
