@@ -136,7 +136,7 @@ void signalDescendants(pid_t ancestor, int signal)
         becomeProgram(command, folder, log);
     }
     int status = statusOfNoProgram;
-    std::optional<Clock::time_point> ending; // when the processes were told to end
+    std::optional<Clock::time_point> ending; // when the processes were asked to end
     while (true)
     {
         int waited = 0;
@@ -291,7 +291,7 @@ void writeScript(const fs::path& script, const std::vector<Job>& jobs, double ti
     writeWhole(script, text.str());
 }
 
-/// Submits a job array and waits for it. If this shell is told to end, it cancels the array, whose number sbatch has
+/// Submits a job array and waits for it. If this shell is asked to end, it cancels the array, whose number sbatch has
 /// printed into the log.
 constexpr const char* submission = R"(trap '
     scancel $(sed -n "s/.*Submitted batch job \([0-9]*\).*/\1/p" slurmArray.log)' TERM

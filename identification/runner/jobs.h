@@ -33,10 +33,10 @@ struct JobEnd
 int jobsAtOnce(const ExecutorSpecification& executor);
 
 /// Runs jobs as the study's executor says, and returns when all have ended: as processes of this machine, each of which
-/// owns all processes that it starts, or as one Slurm job array, whose work folder must be on a file
-/// system that the nodes share. If this program ends early, by whatever signal, all jobs end too and none is reported.
+/// owns all processes that it starts, or as one Slurm job array, whose work folder must be on a file system that the
+/// nodes share. If this program ends early, by whatever signal, all jobs end within `grace`, and none is reported.
 /// \param study  its executor, its simulator's time limit and its work folder
-/// \param onEnd  is called after each job, in the caller's thread; if it throws, the other jobs are told to end
+/// \param onEnd  is called after each job, in the caller's thread; if it throws, the other jobs are asked to end
 /// \param grace  time between SIGTERM and SIGKILL when a job of this machine is ended
 /// \throws std::runtime_error if no process can be started, or if sbatch fails and no task has reported
 void runJobs(const Study& study, const std::vector<Job>& jobs, const std::function<void(const JobEnd&)>& onEnd,
