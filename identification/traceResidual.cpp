@@ -33,46 +33,35 @@ struct Arguments
     bool time = false;
 };
 
-fs::path reportFolder(const Arguments& arguments)
-{
-    return arguments.folder.empty() ? fs::absolute(arguments.study).parent_path() / "results" : arguments.folder;
-}
-
-/// Writes the page of a report whose runs are not stored. An existing page may have curves and is not overwritten.
-void makeMissingPage(const nlohmann::ordered_json& report, const fs::path& page)
-{
-    if (fs::exists(page))
-    {
-        return;
-    }
-    try
-    {
-        clepsydra::writeWhole(page, htmlOf(report, std::nullopt));
-    }
-    catch (const nlohmann::json::exception& error)
-    {
-        throw std::runtime_error(
-            (page.parent_path() / "report.json").string()
-            + ": another version of traceResidual has written this report, and this version cannot "
-              "make a page from it ("
-            + error.what() + ")");
-    }
-}
-
-/// Prints the results of report.json.
+/// Prints the results of report.json. Writes the page of a report whose runs are not stored.
 void showReport(const fs::path& folder)
 {
-    std::ifstream file(folder / "report.json");
+    const std::string name = (folder / "report.json").string();
+    const fs::path page = folder / "report.html";
+    std::ifstream file(name);
     const auto report = nlohmann::ordered_json::parse(file, nullptr, false);
     if (!report.is_object() || !report.contains("summary"))
     {
-        throw std::runtime_error((folder / "report.json").string()
-                                 + (file.is_open() ? " is damaged" : " does not exist")
-                                 + "; 'traceResidual run' writes it");
+        throw std::runtime_error(
+            name + (file.is_open() ? " is damaged" : " does not exist") + "; 'traceResidual run' writes it");
     }
     writeText(report, std::cout);
-    makeMissingPage(report, folder / "report.html");
-    std::cout << "Curves and tables: " << (folder / "report.html").string() << '\n';
+    try
+    {
+        // An existing page may have curves and is not overwritten.
+        if (!fs::exists(page))
+        {
+            clepsydra::writeWhole(page, htmlOf(report, std::nullopt));
+        }
+    }
+    catch (const nlohmann::json::exception& error)
+    {
+        throw std::runtime_error(name
+                                 + ": another version of traceResidual has written this report, and this version "
+                                   "cannot make a page from it ("
+                                 + error.what() + ")");
+    }
+    std::cout << "Curves and tables: " << page.string() << '\n';
 }
 
 /// Writes the files of a report again if all its runs are stored.
@@ -115,23 +104,28 @@ int main(int argc, char** argv)
         ->required()
         ->check(CLI::ExistingPath);
     drafting->add_option("--output", arguments.study, "file to write; default: study.yaml in the current directory");
-    auto* planning = app.add_subcommand(
-        "plan", "before measuring: which effects can be detected and distinguished, and what the runs cost");
-    planning->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+    const auto addCommand = [&](const std::string& name, const std::string& purpose) {
+        auto* command = app.add_subcommand(name, purpose);
+        command->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
+        return command;
+    };
+    auto* planning =
+        addCommand("plan", "before measuring: which effects can be detected and distinguished, and what the runs cost");
     planning->add_flag("--execute", arguments.execute, "make the runs of the effect library");
     planning->add_flag("--time", arguments.time, "make one run to measure its time, if none has been timed yet");
-    auto* running =
-        app.add_subcommand("run", "process a study and write its report; may be interrupted and started again");
-    running->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    running->add_option("--output", arguments.folder, "folder of the reports; default: results beside the study file");
-    auto* reporting = app.add_subcommand("report", "print the report of a study again, from its stored runs");
-    reporting->add_option("study", arguments.study, "study file (YAML)")->required()->check(CLI::ExistingFile);
-    reporting->add_option(
-        "--output", arguments.folder, "folder of the reports; default: results beside the study file");
+    auto* running = addCommand("run", "process a study and write its report; may be interrupted and started again");
+    auto* reporting = addCommand("report", "print the report of a study again, from its stored runs");
+    for (auto* command : {running, reporting})
+    {
+        command->add_option(
+            "--output", arguments.folder, "folder of the reports; default: results beside the study file");
+    }
     CLI11_PARSE(app, argc, argv);
 
     try
     {
+        const fs::path beside = fs::absolute(arguments.study).parent_path() / "results";
+        const fs::path folder = arguments.folder.empty() ? beside : arguments.folder;
         if (*drafting)
         {
             draftStudy(arguments.caseFolder, arguments.measured, arguments.study, std::cout);
@@ -142,13 +136,13 @@ int main(int argc, char** argv)
         }
         else if (*running)
         {
-            runStudy(arguments.study, reportFolder(arguments), std::cerr);
-            showReport(reportFolder(arguments));
+            runStudy(arguments.study, folder, std::cerr);
+            showReport(folder);
         }
         else
         {
-            renewReport(arguments.study, reportFolder(arguments));
-            showReport(reportFolder(arguments));
+            renewReport(arguments.study, folder);
+            showReport(folder);
         }
         if (!std::cout.flush())
         {

@@ -1,6 +1,7 @@
 #include "nextRuns/chooseRuns.h"
 
 #include "emulator/settings.h"
+#include "lists.h"
 
 #include <Eigen/Cholesky>
 
@@ -35,20 +36,23 @@ public:
         differences_ = unknown_;
     }
 
-    /// Increase of the divergence from the other contenders by one run of this contender.
-    double gain(std::size_t i) const
+    /// Increase of the divergence from the other contenders by one run of each contender.
+    std::vector<double> gains() const
     {
-        const Eigen::MatrixXd after = afterRun(i);
-        double sum = 0.0;
-        for (std::size_t j = 0; j < contenders_.size(); ++j)
+        std::vector<double> gains(contenders_.size());
+        for (std::size_t i = 0; i < gains.size(); ++i)
         {
-            if (j != i)
+            const Eigen::MatrixXd after = afterRun(i);
+            for (std::size_t j = 0; j < gains.size(); ++j)
             {
-                sum += contenders_[i].weight * contenders_[j].weight
-                       * (divergence(i, j, after) - divergence(i, j, unknown_[i]));
+                if (j != i)
+                {
+                    gains[i] += contenders_[i].weight * contenders_[j].weight
+                                * (divergence(i, j, after) - divergence(i, j, unknown_[i]));
+                }
             }
         }
-        return sum;
+        return gains;
     }
 
     /// Variance of the emulator's error for a contender divided by that of the measurements, averaged over the
@@ -122,18 +126,9 @@ std::optional<std::vector<Present>> simulatedAs(
 std::vector<WantedRun> chooseRuns(
     const Emulator& emulator, const Layout& layout, const std::vector<Contender>& contenders, int count)
 {
-    std::vector<Expectation> conditions;
-    conditions.reserve(layout.blocks.size());
-    std::vector<std::vector<double>> gains;
-    for (const auto& block : layout.blocks)
-    {
-        conditions.emplace_back(emulator, block, contenders);
-        gains.emplace_back(contenders.size());
-        for (std::size_t i = 0; i < contenders.size(); ++i)
-        {
-            gains.back()[i] = conditions.back().gain(i);
-        }
-    }
+    auto conditions =
+        mapped(layout.blocks, [&](const Layout::Block& block) { return Expectation(emulator, block, contenders); });
+    auto gains = mapped(conditions, [](const Expectation& expectation) { return expectation.gains(); });
     std::vector<WantedRun> chosen;
     for (int k = 0; k < count; ++k)
     {
@@ -152,10 +147,7 @@ std::vector<WantedRun> chooseRuns(
         }
         chosen.push_back(best);
         conditions[where].run(best.contender);
-        for (std::size_t i = 0; i < contenders.size(); ++i)
-        {
-            gains[where][i] = conditions[where].gain(i);
-        }
+        gains[where] = conditions[where].gains();
     }
     return chosen;
 }

@@ -1,14 +1,14 @@
 #include "procedure/loop.h"
 
 #include "files/wholeFile.h"
-#include "nextRuns/nextExperiment.h"
+#include "emulator/settings.h"
 #include "heldOut/heldOut.h"
-#include "runner/magnitudes.h"
+#include "nextRuns/nextExperiment.h"
 #include "procedure/trace.h"
 #include "report/report.h"
 #include "report/text.h"
 #include "runner/caseSimulator.h"
-#include "runner/runProgress.h"
+#include "runner/jobs.h"
 #include "study/readStudy.h"
 
 #include <algorithm>
@@ -56,6 +56,65 @@ void requireNoise(const Study& study, const std::vector<MeasuredCondition>& trai
     {
         ownNoise(study, training, conditions);
         requireHeldOutErrors(study, training, measurementsOf(study, Role::heldOut));
+    }
+}
+
+double largestOf(const Curve& curve)
+{
+    return Eigen::Map<const Eigen::ArrayXd>(curve.value.data(), curve.value.size()).abs().maxCoeff();
+}
+
+/// Compares measured curves, and features that are logarithms, with the first run of the baseline in each training
+/// condition. A factor above study.magnitudeLimit means a wrong unit or column, which would make all other runs
+/// useless.
+/// \param data  by condition of the study; conditions without repeats are skipped
+/// \param execute  make runs that are not stored yet; otherwise their conditions are skipped
+/// \throws std::runtime_error naming the condition, both values and the remedy
+void checkMagnitudes(StudySimulator& studySimulator, const std::vector<MeasuredCondition>& data, bool execute)
+{
+    const Study& study = studySimulator.study();
+    std::vector<SimulationOrder> orders;
+    for (const auto c : study.conditionsOf(Role::training))
+    {
+        // The seed is that of the library's first run, so that the run is made once.
+        const SimulationOrder order{c, studySimulator.plainSetting(), checkOfUnits, 0, "base"};
+        if (data[c].features.rows() > 0 && (execute || studySimulator.missing({order}) == 0))
+        {
+            orders.push_back(order);
+        }
+    }
+    for (const auto& simulation : studySimulator.run(orders))
+    {
+        const auto& condition = study.conditions[simulation.condition];
+        const auto compare = [&](const std::string& what, double measured, double simulated) {
+            const double factor = measured > simulated ? measured / simulated : simulated / measured;
+            if (std::isfinite(factor) && factor > study.magnitudeLimit)
+            {
+                throw std::runtime_error(
+                    study.file.string() + ": condition '" + condition.name + "': " + what + " is " + textOf(measured)
+                    + " measured and " + textOf(simulated)
+                    + " in the first run of the baseline (SI units). Are unit and column right, in 'measured' and in "
+                      "'observable'? If so large a difference is intended, give the study a magnitudeLimit above "
+                    + textOf(study.magnitudeLimit));
+            }
+        };
+        if (simulation.failed)
+        {
+            continue;
+        }
+        for (const auto& curve : data[simulation.condition].curves)
+        {
+            compare("the largest value", largestOf(curve), largestOf(simulation.curve));
+        }
+        const Eigen::VectorXd features = meanFeatures(data[simulation.condition].features);
+        for (std::size_t f = 0; f < study.features.size(); ++f)
+        {
+            if (study.features[f].kind->isLog())
+            {
+                compare("the exponential of feature '" + study.features[f].name + "'", std::exp(features(f)),
+                    std::exp(simulation.features(f)));
+            }
+        }
     }
 }
 
@@ -109,22 +168,21 @@ void sayContents(const Study& study, const std::vector<MeasuredCondition>& train
     }
 }
 
-void sayCost(const Study& study, CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
+void sayCost(const Study& study, const CaseSimulator& simulator, StudySimulator& studySimulator, std::ostream& out)
 {
     const auto orders = libraryOrders(studySimulator);
     const int missing = studySimulator.missing(orders);
-    const double seconds = simulator.secondsPerRun();
+    const auto measured = simulator.measuredSecondsPerRun();
+    const double seconds = measured.value_or(study.simulator.costPerRun);
     const int usual = runsPerDataSet(study, 2, 0);
     const int most = runsPerDataSet(study, 8, 4);
-    const int atOnce = simulator.atOnce();
-    const auto wall = [&](int runs) { return std::ceil(static_cast<double>(runs) / std::max(1, atOnce)) * seconds; };
+    const int atOnce = jobsAtOnce(study.executor);
+    const auto wall = [&](int runs) { return clockTime(std::ceil(static_cast<double>(runs) / atOnce) * seconds); };
     out << "effect library: " << orders.size() << " runs, " << missing << " of them not made yet, "
-        << "about " << clockTime(wall(missing)) << " of wall-clock time with " << atOnce
-        << (atOnce == 1 ? " run" : " runs") << " at a time and nothing else running (" << textOf(seconds)
-        << " s per run"
-        << (simulator.measuredSecondsPerRun() ? "" : ", an assumption: 'traceResidual plan --time' measures it")
-        << ")\n"
-        << "each data set: about " << usual << " further runs, " << clockTime(wall(usual)) << " of wall-clock time"
+        << "about " << wall(missing) << " of wall-clock time with " << atOnce << (atOnce == 1 ? " run" : " runs")
+        << " at a time and nothing else running (" << textOf(seconds) << " s per run"
+        << (measured ? "" : ", an assumption: 'traceResidual plan --time' measures it") << ")\n"
+        << "each data set: about " << usual << " further runs, " << wall(usual) << " of wall-clock time"
         << (most > usual ? ", up to about " + std::to_string(most) + " if no single effect explains the data" : "")
         << '\n'
         << "budget: " << study.settings.budget << " runs" << std::endl;
@@ -136,27 +194,20 @@ std::vector<MeasuredCondition> plannedData(
     const Study& study, const Library& library, const std::vector<MeasuredCondition>& measured)
 {
     std::vector<MeasuredCondition> data(study.conditions.size());
+    std::vector<Simulation> plain;
+    std::copy_if(library.runs.begin(), library.runs.end(), std::back_inserter(plain),
+        [](const Simulation& run) { return !run.failed && run.setting.amplitudes.isZero(); });
     for (const auto c : study.conditionsOf(Role::training))
     {
-        Eigen::MatrixXd rows(0, study.featureCount());
-        for (const auto* run : goodRuns(library.runs, c))
+        const Eigen::RowVectorXd base = meanFeatures(featureRows(plain, c, study.featureCount())).transpose();
+        const Eigen::MatrixXd& repeats = measured[c].features;
+        data[c].isPlanned = repeats.rows() == 0;
+        data[c].features = base.replicate(data[c].isPlanned ? plannedRepeats : repeats.rows(), 1);
+        data[c].declaredError = Eigen::VectorXd::Zero(study.featureCount());
+        if (!data[c].isPlanned)
         {
-            if (run->setting.amplitudes.isZero())
-            {
-                rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-                rows.bottomRows<1>() = run->features.transpose();
-            }
-        }
-        const Eigen::RowVectorXd base = meanFeatures(rows).transpose();
-        const bool isMeasured = measured[c].features.rows() > 0;
-        data[c].isPlanned = !isMeasured;
-        data[c].features = base.replicate(isMeasured ? measured[c].features.rows() : plannedRepeats, 1);
-        data[c].declaredError = isMeasured ? measured[c].declaredError : Eigen::VectorXd::Zero(study.featureCount());
-        if (isMeasured)
-        {
-            // The measured scatter, with the mean of the base setting.
-            const Eigen::RowVectorXd mean = meanFeatures(measured[c].features).transpose();
-            data[c].features += measured[c].features.rowwise() - mean;
+            data[c].features += repeats.rowwise() - meanFeatures(repeats).transpose();
+            data[c].declaredError = measured[c].declaredError;
         }
     }
     return data;

@@ -91,12 +91,6 @@ private:
         return evidence;
     }
 
-    int runsPerRound() const
-    {
-        const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
-        return all / rounds_.ofSingles;
-    }
-
     /// \return whether any of the runs has succeeded
     bool add(const std::vector<Simulation>& more)
     {
@@ -133,25 +127,27 @@ private:
             {
                 break;
             }
-            const Fit fit = evidence.fit(e, answer_.measured);
-            // The square root of the odds, so that an explanation that is behind by chance gets runs too.
-            contenders.push_back({{{e, fit.amplitude}}, fit.parameters, std::exp(0.5 * (log - order.front().first))});
-            if (i == 0)
-            {
-                addNeighbours(contenders, {fit});
-            }
+            addContender(contenders, {e}, {evidence.fit(e, answer_.measured)}, log - order.front().first, i == 0);
         }
         return simulateAmong(contenders, "deciding, round " + std::to_string(round));
     }
 
+    /// \param logOdds  relative to those of the leading explanation
+    void addContender(std::vector<Contender>& contenders, const std::vector<std::size_t>& effects,
+        const std::vector<Fit>& fits, double logOdds, bool leads) const
+    {
+        // The square root of the odds, so that an explanation that is behind by chance gets runs too.
+        contenders.push_back({presentAt(effects, fits), fits.front().parameters, std::exp(0.5 * logOdds)});
+        if (leads && !scatters_)
+        {
+            addNeighbours(contenders, fits);
+        }
+    }
+
     /// Adds copies of the last contender, in each of which one fitted quantity is changed by its standard error. Runs
-    /// there give the slopes for the next fit, if they do not scatter.
+    /// there give the slopes for the next fit.
     void addNeighbours(std::vector<Contender>& contenders, const std::vector<Fit>& fits) const
     {
-        if (scatters_)
-        {
-            return;
-        }
         const Contender centre = contenders.back();
         for (Eigen::Index p = 0; p < centre.parameters.size(); ++p)
         {
@@ -162,13 +158,13 @@ private:
         }
         for (std::size_t k = 0; k < fits.size(); ++k)
         {
-            const Effect& effect = study_.effects[centre.present[k].effect];
-            const double amplitude = centre.present[k].amplitude;
-            if (!effect.isSwitch)
+            const auto& [effect, amplitude] = centre.present[k];
+            if (!study_.effects[effect].isSwitch)
             {
                 const double error = fits[k].sd;
+                const double end = study_.effects[effect].bounds.upper;
                 contenders.push_back(centre);
-                contenders.back().present[k].amplitude += amplitude + error > effect.bounds.upper ? -error : error;
+                contenders.back().present[k].amplitude += amplitude + error > end ? -error : error;
             }
         }
     }
@@ -178,13 +174,16 @@ private:
     {
         std::map<std::pair<std::size_t, std::size_t>, int> numbers;
         std::vector<SimulationOrder> orders;
-        const auto wanted = scatters_ ? chooseRuns(*answer_.emulator, answer_.layout, contenders, runsPerRound())
-                                      : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
+        const int all = study_.settings.decidingRuns * static_cast<int>(answer_.layout.blocks.size());
+        const auto wanted = scatters_
+                                ? chooseRuns(*answer_.emulator, answer_.layout, contenders, all / rounds_.ofSingles)
+                                : openRuns(study_, *answer_.emulator, answer_.layout, contenders, runs_);
         for (const auto& [contender, condition] : wanted)
         {
             const auto& [present, parameters, weight] = contenders[contender];
+            const auto effects = mapped(present, [](const Present& one) { return one.effect; });
             orders.push_back({condition, settingOf(studySimulator_, parameters, present),
-                purpose + ": " + nameOf(study_, effectsOf(present)), numbers[{contender, condition}]++});
+                purpose + ": " + nameOf(study_, effects), numbers[{contender, condition}]++});
         }
         return !orders.empty() && add(studySimulator_.run(orders));
     }
@@ -196,19 +195,15 @@ private:
         {
             Evidence evidence = evidenceNear(around);
             const auto leading = leadingPairs(study_, evidence, answer_.measured);
+            if (leading.empty())
+            {
+                return;
+            }
             std::vector<Contender> contenders;
             for (const auto& pair : leading)
             {
-                contenders.push_back({presentOf(pair), pair.fits.front().parameters,
-                    std::exp(0.5 * (pair.logOdds - leading.front().logOdds))});
-                if (&pair == &leading.front())
-                {
-                    addNeighbours(contenders, pair.fits);
-                }
-            }
-            if (contenders.empty())
-            {
-                return;
+                addContender(contenders, pair.effects, pair.fits, pair.logOdds - leading.front().logOdds,
+                    &pair == &leading.front());
             }
             if (!simulateAmong(contenders, "deciding between pairs"))
             {
@@ -226,17 +221,16 @@ private:
             {
                 continue;
             }
-            Explanation found = explanation(presentOf(pair), pair.fits, pair.logOdds, pair.probability);
-            const Contender own{presentOf(pair), pair.fits.front().parameters, 1.0};
+            const Contender own{presentAt(pair.effects, pair.fits), pair.fits.front().parameters, 1.0};
             pair.inSet = scatters_ || openRuns(study_, *answer_.emulator, answer_.layout, {own}, runs_).empty();
             if (pair.inSet)
             {
-                answer_.set.push_back(std::move(found));
+                answer_.set.push_back(explanation(pair.effects, pair.fits, pair.logOdds, pair.probability));
             }
             else
             {
                 answer_.remarks.push_back(
-                    nameOf(study_, found.effects)
+                    nameOf(study_, pair.effects)
                     + " might explain the measurements, but no run near its fit confirms it: each run that was made "
                       "has moved the fit");
             }
@@ -264,17 +258,12 @@ private:
         }
     }
 
-    static std::vector<std::size_t> effectsOf(const std::vector<Present>& present)
-    {
-        return mapped(present, [](const Present& one) { return one.effect; });
-    }
-
-    static std::vector<Present> presentOf(const PairFinding& pair)
+    static std::vector<Present> presentAt(const std::vector<std::size_t>& effects, const std::vector<Fit>& fits)
     {
         std::vector<Present> present;
-        for (std::size_t k = 0; k < pair.effects.size(); ++k)
+        for (std::size_t k = 0; k < effects.size(); ++k)
         {
-            present.push_back({pair.effects[k], pair.fits[k].amplitude});
+            present.push_back({effects[k], fits[k].amplitude});
         }
         return present;
     }
@@ -288,26 +277,23 @@ private:
         const Evidences evidences = evidence(measured);
         const Odds odds = oddsOf(study_, evidences);
         answer_.logOdds = odds.logOdds;
-        const Fit null = evidence.fitNull(measured);
         answer_.pValue = calibration.pValue(odds);
         answer_.otherProbability = std::exp(odds.other);
         answer_.otherThreshold = std::exp(calibration.otherMembership);
-        answer_.null = explanation({}, {null}, 0.0, 0.0);
+        answer_.null = explanation({}, {evidence.fitNull(measured)}, 0.0, 0.0);
         for (std::size_t e = 0; e < study_.effects.size(); ++e)
         {
-            EffectFinding finding;
+            EffectFinding& finding = answer_.effects.emplace_back();
+            finding.fit = calibration.widened(e, evidence.fit(e, measured), study_.effects[e].bounds);
+            finding.parameters = physical(study_, finding.fit.parameters);
+            finding.logOdds = odds.effects(e) + odds.logOdds;
+            finding.probability = std::exp(odds.effects(e));
+            finding.threshold = std::exp(calibration.membership(e));
             finding.known = answer_.emulator->knows(e);
-            finding.fit = evidence.fit(e, measured);
-            finding.fit = calibration.widened(e, std::move(finding.fit), study_.effects[e].bounds);
             if (study_.effects[e].measured && finding.known)
             {
                 finding.alone = evidence.fitAlone(e, measured);
             }
-            finding.parameters = physical(study_, finding.fit.parameters);
-            finding.probability = std::exp(odds.effects(e));
-            finding.logOdds = odds.effects(e) + odds.logOdds;
-            finding.threshold = std::exp(calibration.membership(e));
-            answer_.effects.push_back(std::move(finding));
         }
         if (withVisibility_)
         {
@@ -374,7 +360,7 @@ private:
     Explanation explanationBy(std::size_t effect) const
     {
         const EffectFinding& finding = answer_.effects[effect];
-        return explanation({{effect, finding.fit.amplitude}}, {finding.fit}, finding.logOdds, finding.probability);
+        return explanation({effect}, {finding.fit}, finding.logOdds, finding.probability);
     }
 
     void addRival(const Calibration& calibration, const Odds& odds)
@@ -393,26 +379,17 @@ private:
 
     /// \param fits  of the effects; their parameters are equal
     Explanation explanation(
-        const std::vector<Present>& present, const std::vector<Fit>& fits, double logOdds, double probability) const
+        const std::vector<std::size_t>& effects, const std::vector<Fit>& fits, double logOdds, double probability) const
     {
-        Explanation found;
-        found.fits = fits;
-        found.probability = probability;
-        found.effects = effectsOf(present);
-        found.setting = settingOf(studySimulator_, fits.front().parameters, present);
-        found.logOdds = logOdds;
-        found.chiSquare = fits.front().chiSquare;
-        for (const auto& run : runs_)
-        {
-            const auto on = (run.setting.amplitudes.array() != 0.0).count();
-            const bool same = on == static_cast<Eigen::Index>(present.size())
-                              && std::all_of(present.begin(), present.end(),
-                                  [&](const Present& one) { return run.setting.amplitudes(one.effect) != 0.0; });
-            if (same && !run.failed && &run >= runs_.data() + librarySize_)
-            {
-                found.runs.push_back(run);
-            }
-        }
+        Explanation found{effects, settingOf(studySimulator_, fits.front().parameters, presentAt(effects, fits)), fits,
+            logOdds, probability, fits.front().chiSquare, {}};
+        std::copy_if(
+            runs_.begin() + librarySize_, runs_.end(), std::back_inserter(found.runs), [&](const Simulation& run) {
+                const auto& amplitudes = run.setting.amplitudes.array();
+                const auto isOn = [&](std::size_t effect) { return amplitudes(effect) != 0.0; };
+                return !run.failed && std::all_of(effects.begin(), effects.end(), isOn)
+                       && (amplitudes != 0.0).count() == static_cast<Eigen::Index>(effects.size());
+            });
         return found;
     }
 
@@ -422,7 +399,7 @@ private:
     const std::vector<std::vector<Eigen::Index>> features_;
     std::vector<Simulation> runs_;
     const std::vector<Eigen::MatrixXd>& errorSlopes_;
-    const std::size_t librarySize_ = runs_.size();
+    const std::ptrdiff_t librarySize_ = runs_.size();
     const bool scatters_ = study_.simulator.scatters();
     const Rounds rounds_ = scatters_ ? rounds : roundsOfExact;
     std::mt19937_64& random_;

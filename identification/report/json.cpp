@@ -1,7 +1,7 @@
 #include "report/report.h"
 
 #include "lists.h"
-#include "runner/magnitudes.h"
+#include "runner/studySimulator.h"
 #include "report/fitted.h"
 #include "report/text.h"
 #include "report/sentences.h"

@@ -1,20 +1,24 @@
 #include "runner/caseSimulator.h"
 
 #include "curves/table.h"
-#include "runner/processPool.h"
-#include "runner/runProgress.h"
-#include "runner/slurmArray.h"
+#include "lists.h"
+#include "runner/jobs.h"
 #include "runner/storedFiles.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
 #include <cstdlib>
+#include <deque>
 #include <fstream>
+#include <iomanip>
 #include <map>
-#include <optional>
+#include <numeric>
 #include <regex>
-#include <utility>
+#include <sstream>
 
 namespace clepsydra::identification
 {
@@ -26,26 +30,21 @@ namespace fs = std::filesystem;
 
 constexpr const char* recordFile = "record.json";
 constexpr std::size_t keyDigits = 20;
-constexpr std::size_t linesOfLog = 12;
+constexpr std::ptrdiff_t linesOfLog = 12;
+
+/// With less free space on a disk than this, a file written there may be incomplete [bytes].
+constexpr std::uintmax_t leastRoom = 256 * 1024;
 
 std::string endOfLog(const fs::path& file)
 {
     std::ifstream lines(file);
-    std::vector<std::string> last;
+    std::deque<std::string> last;
     for (std::string line; std::getline(lines, line);)
     {
-        last.push_back(line);
-        if (last.size() > linesOfLog)
-        {
-            last.erase(last.begin());
-        }
+        last.push_back("\n    " + line);
+        last.erase(last.begin(), last.end() - std::min<std::ptrdiff_t>(last.size(), linesOfLog));
     }
-    std::string text;
-    for (const auto& line : last)
-    {
-        text += "\n    " + line;
-    }
-    return text;
+    return std::accumulate(last.begin(), last.end(), std::string());
 }
 
 /// Whether a file of the case is a result of an earlier run. Time directories after the start count as results, because
@@ -61,16 +60,15 @@ bool isOutput(const std::string& name)
 std::string fingerprintOf(const Study& study, const fs::path& caseFolder)
 {
     std::string all = study.simulator.version + '\n';
-    std::vector<fs::path> names;
+    std::set<fs::path> names;
     for (const auto& entry : fs::directory_iterator(caseFolder))
     {
         std::error_code dangles;
         if (!isOutput(entry.path().filename().string()) && !fs::equivalent(entry.path(), study.file, dangles))
         {
-            names.push_back(entry.path());
+            names.insert(entry.path());
         }
     }
-    std::sort(names.begin(), names.end());
     for (const auto& path : names)
     {
         all += path.filename().string() + ' ' + sha256OfPath(path, "polyMesh") + '\n';
@@ -116,65 +114,70 @@ std::string damageOf(const fs::path& stored, const nlohmann::json& record)
     return "";
 }
 
-/// A link that points elsewhere is replaced, because the store may come from another checkout.
-void link(const fs::path& target, const fs::path& place)
-{
-    std::error_code error;
-    if (fs::is_symlink(fs::symlink_status(place)) && fs::read_symlink(place, error) != target)
-    {
-        fs::remove(place, error);
-    }
-    if (!fs::exists(fs::symlink_status(place)))
-    {
-        fs::create_symlink(target, place, error);
-    }
-}
-
-/// Writes a .gitignore into the folder that excludes all of its files.
-void ignoreByGit(const fs::path& folder)
-{
-    const fs::path file = folder / ".gitignore";
-    try
-    {
-        if (!fs::exists(file))
-        {
-            writeWhole(file, "*\n");
-        }
-    }
-    catch (const FileError&)
-    {
-        // Another process may have written it meanwhile.
-        if (!fs::exists(file))
-        {
-            throw;
-        }
-    }
-}
-
-/// Links to all entries of a folder but one.
+/// Links to all entries of a folder but one. A link that points elsewhere is replaced, because the store may come from
+/// another checkout.
 void linkEntries(const fs::path& from, const fs::path& to, const fs::path& butNot)
 {
     fs::create_directories(to);
     for (const auto& entry : fs::directory_iterator(from, fs::directory_options::skip_permission_denied))
     {
-        if (entry.path().filename() != butNot)
+        const fs::path& target = entry.path();
+        const fs::path place = to / target.filename();
+        std::error_code ignored;
+        if (target.filename() == butNot)
         {
-            link(entry.path(), to / entry.path().filename());
+            continue;
         }
+        if (fs::is_symlink(place, ignored) && fs::read_symlink(place, ignored) != target)
+        {
+            fs::remove(place, ignored);
+        }
+        fs::create_symlink(target, place, ignored);
     }
 }
 
-/// Processes on this machine, or a job array of Slurm.
-std::unique_ptr<Executor> makeExecutor(const Study& study)
+/// Writes one line per finished run with the number of runs and the remaining time.
+class Progress
 {
-    const auto& [kind, processes, options] = study.executor;
-    const double limit = study.simulator.timeLimit;
-    return kind == "slurm"
-               ? std::unique_ptr<Executor>(std::make_unique<SlurmArray>(processes, options, study.work, limit))
-               : std::make_unique<ProcessPool>(processes, limit);
-}
+public:
+    /// \param secondsPerRun  first estimate of the wall-clock time of a run [s]
+    Progress(std::ostream& out, std::size_t runs, int atOnce, double secondsPerRun)
+        : out_(out),
+          runs_(runs)
+    {
+        const double rounds = std::ceil(static_cast<double>(runs) / atOnce);
+        out_ << runs << (runs == 1 ? " run" : " runs") << ", " << atOnce << " at a time, about "
+             << clockTime(rounds * secondsPerRun) << std::endl;
+    }
+
+    void ended(const std::string& purpose, const std::string& failure)
+    {
+        ++done_;
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - since_).count();
+        const double left = seconds / static_cast<double>(done_) * static_cast<double>(runs_ - done_);
+        // The lines that follow are the end of the run's log, which the report has.
+        const std::string reason = failure.substr(0, failure.find('\n'));
+        out_ << "  " << done_ << '/' << runs_ << ' ' << purpose << (reason.empty() ? "" : " FAILED: " + reason) << ", "
+             << clockTime(left) << " to go" << std::endl;
+    }
+
+private:
+    std::ostream& out_;
+    std::size_t runs_;
+    std::size_t done_ = 0;
+    std::chrono::steady_clock::time_point since_ = std::chrono::steady_clock::now();
+};
 
 } // namespace
+
+std::string clockTime(double seconds)
+{
+    const long all = std::lround(std::max(0.0, seconds));
+    std::ostringstream text;
+    text << std::setfill('0') << std::setw(2) << all / 3600 << ':' << std::setw(2) << all / 60 % 60 << ':'
+         << std::setw(2) << all % 60;
+    return text.str();
+}
 
 CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
     : study_(study),
@@ -182,34 +185,26 @@ CaseSimulator::CaseSimulator(const Study& study, std::ostream& progress)
       cache_(study.work / "cache"),
       tree_(study.work / "tree"),
       fingerprint_(fingerprintOf(study, caseFolder_)),
-      executor_(makeExecutor(study)),
       progress_(progress)
 {
     fs::create_directories(cache_);
-    ignoreByGit(study.work);
-    mirrorSurroundings();
-}
-
-void CaseSimulator::mirrorSurroundings() const
-{
+    if (!fs::exists(study.work / ".gitignore"))
+    {
+        std::ofstream(study.work / ".gitignore") << "*\n";
+    }
     const fs::path above = caseFolder_.parent_path();
     linkEntries(above.parent_path(), tree_, above.filename());
     linkEntries(above, tree_ / above.filename(), caseFolder_.filename());
 }
 
-fs::path CaseSimulator::copyOf(const std::string& key) const
+fs::path CaseSimulator::copyOf(const RunOrder& order) const
 {
-    return tree_ / caseFolder_.parent_path().filename() / (caseFolder_.filename().string() + '.' + key);
+    return tree_ / caseFolder_.parent_path().filename() / (caseFolder_.filename().string() + '.' + keyOf(order));
 }
 
 Entries CaseSimulator::defaults() const
 {
     return readEntries(caseFolder_ / study_.simulator.entriesFile);
-}
-
-int CaseSimulator::atOnce() const
-{
-    return executor_->atOnce();
 }
 
 std::string CaseSimulator::keyOf(const RunOrder& order) const
@@ -222,11 +217,12 @@ std::string CaseSimulator::keyOf(const RunOrder& order) const
     return sha256(all).substr(0, keyDigits);
 }
 
-bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResult& result) const
+std::optional<RunResult> CaseSimulator::load(const RunOrder& order)
 {
+    const fs::path stored = cache_ / keyOf(order);
     if (!fs::exists(stored))
     {
-        return false;
+        return std::nullopt;
     }
     const auto record = readRecord(stored);
     if (const std::string damage = damageOf(stored, record); !damage.empty())
@@ -236,21 +232,22 @@ bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResul
             progress_ << (stored / damage).string()
                       << " is damaged or was written by an older version; the run is repeated" << std::endl;
         }
-        return false;
+        return std::nullopt;
     }
+    RunResult result{{}, "", record.at("seconds"), true};
     const auto failures = record.value("failures", nlohmann::json::object());
     if (failures.contains(order.file))
     {
         // A failed run is repeated. With a budget of 0 nothing may run, and the stored failure is reported.
         if (study_.settings.budget > 0)
         {
-            return false;
+            return std::nullopt;
         }
         result.failure = failures.at(order.file);
     }
     else if (filesMatching(stored / order.file).empty())
     {
-        return false;
+        return std::nullopt;
     }
     else
     {
@@ -263,13 +260,12 @@ bool CaseSimulator::load(const RunOrder& order, const fs::path& stored, RunResul
             result.failure = error.what();
         }
     }
-    result.seconds = record.at("seconds");
-    result.cached = true;
-    return true;
+    return result;
 }
 
-void CaseSimulator::prepare(const RunOrder& order, const fs::path& folder) const
+void CaseSimulator::prepare(const RunOrder& order) const
 {
+    const fs::path folder = copyOf(order);
     fs::remove_all(folder);
     fs::create_directories(folder);
     for (const auto& entry : fs::directory_iterator(caseFolder_))
@@ -286,8 +282,9 @@ void CaseSimulator::prepare(const RunOrder& order, const fs::path& folder) const
 /// The record is written into a folder of another name, which is renamed when it is complete. Files that other orders
 /// have stored of the same run are kept.
 void CaseSimulator::store(const RunOrder& order, const std::map<std::string, std::string>& failures,
-    const fs::path& folder, const fs::path& stored, double seconds) const
+    const fs::path& folder, double seconds) const
 {
+    const fs::path stored = cache_ / keyOf(order);
     const fs::path unfinished = stored.string() + ".unfinished";
     fs::remove_all(unfinished);
     fs::create_directories(unfinished);
@@ -328,14 +325,12 @@ void CaseSimulator::store(const RunOrder& order, const std::map<std::string, std
 
 int CaseSimulator::missing(const std::vector<RunOrder>& orders)
 {
-    std::vector<std::string> keys;
+    std::set<std::string> keys;
     for (const auto& order : orders)
     {
-        RunResult result;
-        const std::string key = keyOf(order);
-        if (std::find(keys.begin(), keys.end(), key) == keys.end() && !load(order, cache_ / key, result))
+        if (!load(order))
         {
-            keys.push_back(key);
+            keys.insert(keyOf(order));
         }
     }
     return static_cast<int>(keys.size());
@@ -344,47 +339,57 @@ int CaseSimulator::missing(const std::vector<RunOrder>& orders)
 std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
 {
     std::vector<RunResult> results(orders.size());
-    const auto notStored = [&]() {
-        std::map<std::string, std::vector<std::size_t>> missing;
+    std::map<std::string, std::vector<std::size_t>> toDo; // places of orders, by key
+    const auto loadStored = [&] {
+        toDo.clear();
         for (std::size_t i = 0; i < orders.size(); ++i)
         {
-            const std::string key = keyOf(orders[i]);
-            if (!results[i].cached && !load(orders[i], cache_ / key, results[i]))
+            if (results[i].cached)
             {
-                missing[key].push_back(i);
+                continue;
+            }
+            if (const auto stored = load(orders[i]))
+            {
+                results[i] = *stored;
+            }
+            else
+            {
+                toDo[keyOf(orders[i])].push_back(i);
             }
         }
-        return missing;
     };
-    std::optional<StoreLock> lock;
-    auto toDo = notStored();
-    if (!toDo.empty())
+    loadStored();
+    if (toDo.empty())
     {
-        // Another process may have finished some of these runs while this one waited for the lock.
-        lock.emplace(study_.work, progress_);
-        toDo = notStored();
+        return results;
     }
-    std::vector<Job> jobs;
-    std::vector<std::pair<std::string, std::vector<std::size_t>>> wanted(toDo.begin(), toDo.end());
+    const StoreLock lock(study_.work, progress_);
+    // Another process may have finished some of these runs while this one waited for the lock.
+    loadStored();
     // In the order in which they were requested, so that the progress is easy to follow.
-    std::sort(
-        wanted.begin(), wanted.end(), [](const auto& a, const auto& b) { return a.second.front() < b.second.front(); });
-    for (const auto& [key, places] : wanted)
-    {
-        prepare(orders[places.front()], copyOf(key));
-        jobs.push_back({copyOf(key), orders[places.front()].command});
-    }
+    auto wanted = mapped(toDo, [](const auto& one) { return one.second; });
+    std::sort(wanted.begin(), wanted.end());
+    const auto jobs = mapped(wanted, [&](const std::vector<std::size_t>& places) {
+        const RunOrder& order = orders[places.front()];
+        prepare(order);
+        return Job{copyOf(order), order.command};
+    });
     if (jobs.empty())
     {
         return results;
     }
-    RunProgress progress(progress_, jobs.size(), executor_->atOnce(), secondsPerRun());
-    executor_->run(jobs, [&](const JobEnd& end) {
-        const auto& [key, places] = wanted[end.job];
+    const double secondsPerRun = measuredSecondsPerRun().value_or(study_.simulator.costPerRun);
+    Progress progress(progress_, jobs.size(), jobsAtOnce(study_.executor), secondsPerRun);
+    runJobs(study_, jobs, [&](const JobEnd& end) {
+        const auto& places = wanted[end.job];
         const RunOrder& order = orders[places.front()];
-        const fs::path folder = copyOf(key);
+        const fs::path& folder = jobs[end.job].folder;
         // Most programs do not notice that a full disk has cut their output.
-        requireRoom(tree_, "the run of " + order.purpose + " does not count");
+        if (fs::space(tree_).available < leastRoom)
+        {
+            throw FileError("The disk of " + tree_.string() + " is full; the run of " + order.purpose
+                            + " does not count. Free some space and start again");
+        }
         // By file of the observable: orders that differ in nothing else share a run.
         std::map<std::string, std::string> failures;
         for (const auto place : places)
@@ -396,12 +401,12 @@ std::vector<RunResult> CaseSimulator::run(const std::vector<RunOrder>& orders)
                                  ? "the run has not written " + (folder / file).string()
                                  : "";
         }
-        store(order, failures, folder, cache_ / key, end.seconds);
+        store(order, failures, folder, end.seconds);
         std::string failure;
         for (const auto place : places)
         {
             RunResult& result = results[place];
-            load(orders[place], cache_ / key, result);
+            result = load(orders[place]).value_or(RunResult{});
             if (const std::string& own = failures.at(orders[place].file); !own.empty())
             {
                 result.failure = failure = own;

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "runner/executor.h"
 #include "runner/simulator.h"
 #include "study/study.h"
 
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <optional>
 #include <ostream>
 #include <set>
@@ -34,38 +32,30 @@ public:
     std::vector<RunResult> run(const std::vector<RunOrder>& orders) override;
     int missing(const std::vector<RunOrder>& orders) override;
 
-    /// Number of runs at a time.
-    int atOnce() const;
-
     /// Hash of everything that a run depends on.
     std::string keyOf(const RunOrder& order) const;
 
     /// Mean wall-clock time of the stored runs [s]; empty if there are none.
     std::optional<double> measuredSecondsPerRun() const;
 
-    /// Mean wall-clock time of the stored runs [s]; the study's estimate if there are none.
-    double secondsPerRun() const
-    {
-        return measuredSecondsPerRun().value_or(study_.simulator.costPerRun);
-    }
-
 private:
-    std::filesystem::path copyOf(const std::string& key) const;
-    void prepare(const RunOrder& order, const std::filesystem::path& folder) const;
-    bool load(const RunOrder& order, const std::filesystem::path& stored, RunResult& result) const;
+    std::filesystem::path copyOf(const RunOrder& order) const;
+    void prepare(const RunOrder& order) const;
+    std::optional<RunResult> load(const RunOrder& order);
     /// \param failures  by pattern of the files to store; an empty text means that the files exist
     void store(const RunOrder& order, const std::map<std::string, std::string>& failures,
-        const std::filesystem::path& folder, const std::filesystem::path& stored, double seconds) const;
-    void mirrorSurroundings() const;
+        const std::filesystem::path& folder, double seconds) const;
 
     const Study& study_;
     std::filesystem::path caseFolder_;
     std::filesystem::path cache_;
     std::filesystem::path tree_;
     std::string fingerprint_; // hash of the case's files, of its dependencies and of its version
-    std::unique_ptr<Executor> executor_;
     std::ostream& progress_;
-    mutable std::set<std::filesystem::path> damaged_; // damaged runs that have been reported
+    std::set<std::filesystem::path> damaged_; // damaged runs that have been reported
 };
+
+/// Seconds as hours, minutes and seconds: "00:03:48".
+std::string clockTime(double seconds);
 
 } // namespace clepsydra::identification

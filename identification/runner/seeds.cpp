@@ -53,18 +53,12 @@ std::string withFormerNames(std::string purpose)
 
 bool isPrime(long number)
 {
-    if (number % 2 == 0)
+    long divisor = 2;
+    while (divisor * divisor <= number && number % divisor != 0)
     {
-        return number == 2;
+        ++divisor;
     }
-    for (long divisor = 3; divisor * divisor <= number; divisor += 2)
-    {
-        if (number % divisor == 0)
-        {
-            return false;
-        }
-    }
-    return number > 1;
+    return divisor * divisor > number;
 }
 
 } // namespace

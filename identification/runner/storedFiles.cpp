@@ -4,11 +4,10 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <set>
 #include <stdexcept>
-#include <vector>
 
 namespace clepsydra::identification
 {
@@ -21,7 +20,7 @@ std::string sha256OfPath(const fs::path& path, const std::string& leaveOut)
     {
         return contentsOf(path).sha256;
     }
-    std::vector<std::string> lines;
+    std::set<std::string> lines;
     for (auto entry = fs::recursive_directory_iterator(path); entry != fs::recursive_directory_iterator(); ++entry)
     {
         const auto name = entry->path().filename().string();
@@ -33,14 +32,13 @@ std::string sha256OfPath(const fs::path& path, const std::string& leaveOut)
         const std::string place = fs::relative(entry->path(), path).string();
         if (entry->is_symlink())
         {
-            lines.push_back(place + " -> " + fs::read_symlink(entry->path()).string());
+            lines.insert(place + " -> " + fs::read_symlink(entry->path()).string());
         }
         else if (entry->is_regular_file())
         {
-            lines.push_back(place + ' ' + contentsOf(entry->path()).sha256);
+            lines.insert(place + ' ' + contentsOf(entry->path()).sha256);
         }
     }
-    std::sort(lines.begin(), lines.end());
     std::string all;
     for (const auto& line : lines)
     {
@@ -62,36 +60,20 @@ void renameWhole(const fs::path& folder, const fs::path& name)
     flushToDisk(name.parent_path());
 }
 
-void requireRoom(const fs::path& folder, const std::string& doing)
-{
-    if (fs::space(folder).available < leastRoom)
-    {
-        throw FileError("The disk of " + folder.string() + " is full; " + doing + ". Free some space and start again");
-    }
-}
-
-StoreLock::StoreLock(const std::filesystem::path& store, std::ostream& progress)
+StoreLock::StoreLock(const fs::path& store, std::ostream& progress)
     // Closed on exec, so that the runs do not hold the lock. The processes that watch the runs hold it until these end.
     : file_(open((store / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644))
 {
-    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0)
-    {
-        return;
-    }
-    if (file_ >= 0 && errno == EWOULDBLOCK)
+    bool isLocked = file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) == 0;
+    if (!isLocked && file_ >= 0 && errno == EWOULDBLOCK)
     {
         progress << "Another process makes runs in " << store.string() << "; waiting for it" << std::endl;
-        if (flock(file_, LOCK_EX) == 0)
-        {
-            return;
-        }
+        isLocked = flock(file_, LOCK_EX) == 0;
     }
-    const std::string why = std::strerror(errno);
-    if (file_ >= 0)
+    if (!isLocked)
     {
-        close(file_);
+        throw std::runtime_error((store / "lock").string() + " cannot be locked: " + std::strerror(errno));
     }
-    throw std::runtime_error((store / "lock").string() + " cannot be locked: " + why);
 }
 
 StoreLock::~StoreLock()

@@ -2,7 +2,6 @@
 
 #include "files/wholeFile.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <ostream>
 #include <string>
@@ -21,13 +20,6 @@ using clepsydra::textOf; // of a file, beside those of numbers
 /// Gives a completely written folder its final name. An older folder of that name is replaced.
 /// \throws FileError if it cannot be renamed
 void renameWhole(const std::filesystem::path& folder, const std::filesystem::path& name);
-
-/// With less free space on a disk than this, a file written there may be incomplete [bytes].
-constexpr std::uintmax_t leastRoom = 256 * 1024;
-
-/// \param doing  main clause for the message: what becomes of the current work
-/// \throws FileError if less than `leastRoom` is left on the folder's disk
-void requireRoom(const std::filesystem::path& folder, const std::string& doing);
 
 /// During its lifetime no other process makes runs in the same store; two processes that made the same run would write
 /// into the same copy of the case. The lock is flock(2) on <store>/lock, which the system releases when the process

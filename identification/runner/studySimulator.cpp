@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -14,14 +13,6 @@ namespace clepsydra::identification
 
 namespace
 {
-
-void assign(Entries& entries, const std::map<std::string, std::string>& changes)
-{
-    for (const auto& [name, value] : changes)
-    {
-        entries[name] = value;
-    }
-}
 
 /// All formulas are evaluated with the entries as they were before the first of them was assigned.
 void assign(Entries& entries, const Entries& defaults, const std::map<std::string, Expression>& formulas,
@@ -39,6 +30,42 @@ void assign(Entries& entries, const Entries& defaults, const std::map<std::strin
         }
         entries[name] = textOf(number);
     }
+}
+
+/// An effect or a common error of a setting, with the value of the variable in its formulas.
+struct Influence
+{
+    const std::map<std::string, Expression>& entries;
+    const std::string& chainOperation;
+    const std::optional<Expression>& chainSize;
+    std::string variable;
+    double value;
+    const Effect* effect; // null for a common error
+};
+
+/// Effects come before common errors.
+std::vector<Influence> influencesOf(const Study& study, std::size_t condition, const Setting& setting)
+{
+    std::vector<Influence> influences;
+    for (std::size_t i = 0; i < study.effects.size(); ++i)
+    {
+        const Effect& effect = study.effects[i];
+        if (setting.amplitudes(i) != 0.0 && acts(effect, study.conditions[condition]))
+        {
+            influences.push_back(
+                {effect.entries, effect.chainOperation, effect.chainSize, "a", setting.amplitudes(i), &effect});
+        }
+    }
+    for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
+    {
+        const CommonError& error = study.commonErrors[i];
+        if (setting.errors(i) != 0.0 && contains(error.conditions, condition))
+        {
+            influences.push_back({error.entries, error.chainOperation, error.chainSize, error.variable,
+                error.unit * setting.errors(i), nullptr});
+        }
+    }
+    return influences;
 }
 
 std::string failureOf(const Simulation& simulation, const RunResult& result)
@@ -75,40 +102,27 @@ Setting StudySimulator::plainSetting(const Eigen::VectorXd& parameters) const
 
 Entries StudySimulator::entriesOf(std::size_t condition, const Setting& setting) const
 {
-    const Condition& c = study_.conditions[condition];
-    Entries entries = study_.simulator.entries;
-    assign(entries, c.entries);
+    Entries entries = study_.conditions[condition].entries;
+    entries.insert(study_.simulator.entries.begin(), study_.simulator.entries.end());
     for (std::size_t i = 0; i < study_.parameters.size(); ++i)
     {
-        const Parameter& parameter = study_.parameters[i];
-        const double value = setting.parameters(i);
-        assign(
-            entries, defaults_, parameter.entries, parameter.name, std::clamp(value, parameter.lower, parameter.upper));
+        const Parameter& own = study_.parameters[i];
+        assign(entries, defaults_, own.entries, own.name, std::clamp(setting.parameters(i), own.lower, own.upper));
     }
-    for (std::size_t i = 0; i < study_.effects.size(); ++i)
+    for (const auto& influence : influencesOf(study_, condition, setting))
     {
-        const Effect& effect = study_.effects[i];
-        const double amplitude = setting.amplitudes(i);
-        if (amplitude == 0.0 || effect.isOfChain() || !acts(effect, c))
-        {
-            continue;
-        }
+        const Effect* effect = influence.effect;
         try
         {
-            assign(entries, defaults_, effect.entries, "a", amplitude);
+            assign(entries, defaults_, influence.entries, influence.variable, influence.value);
         }
         catch (const std::exception& error)
         {
-            throw std::runtime_error("effect '" + effect.name + "': " + error.what());
+            throw std::runtime_error((effect ? "effect '" + effect->name + "': " : "") + error.what());
         }
-        assign(entries, effect.textEntries);
-    }
-    for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
-    {
-        if (setting.errors(i) != 0.0)
+        for (const auto& [name, value] : effect ? effect->textEntries : Entries())
         {
-            const CommonError& error = study_.commonErrors[i];
-            assign(entries, defaults_, error.entries, error.variable, error.unit * setting.errors(i));
+            entries[name] = value;
         }
     }
     return entries;
@@ -116,25 +130,12 @@ Entries StudySimulator::entriesOf(std::size_t condition, const Setting& setting)
 
 Curve StudySimulator::throughChain(Curve curve, std::size_t condition, const Setting& setting) const
 {
-    const auto operate = [&](const std::string& operation, const Expression& size, const std::string& variable,
-                             double value) {
-        curve = chainOperations().at(operation).apply(std::move(curve), size({{variable, value}}));
-    };
-    for (std::size_t i = 0; i < study_.effects.size(); ++i)
+    for (const auto& influence : influencesOf(study_, condition, setting))
     {
-        const Effect& effect = study_.effects[i];
-        const double amplitude = setting.amplitudes(i);
-        if (effect.isOfChain() && amplitude != 0.0 && acts(effect, study_.conditions[condition]))
+        if (influence.chainSize)
         {
-            operate(effect.chainOperation, *effect.chainSize, "a", amplitude);
-        }
-    }
-    for (Eigen::Index i = 0; i < setting.errors.size(); ++i)
-    {
-        const CommonError& error = study_.commonErrors[i];
-        if (error.chainSize && setting.errors(i) != 0.0)
-        {
-            operate(error.chainOperation, *error.chainSize, error.variable, error.unit * setting.errors(i));
+            const double size = (*influence.chainSize)({{influence.variable, influence.value}});
+            curve = chainOperations().at(influence.chainOperation).apply(std::move(curve), size);
         }
     }
     return curve;
@@ -142,23 +143,19 @@ Curve StudySimulator::throughChain(Curve curve, std::size_t condition, const Set
 
 Eigen::VectorXd StudySimulator::featuresOf(const Curve& curve) const
 {
-    Eigen::VectorXd features =
-        Eigen::VectorXd::Constant(study_.featureCount(), std::numeric_limits<double>::quiet_NaN());
-    for (Eigen::Index i = 0; i < features.size() && curve.time.size() >= 2; ++i)
-    {
-        const double value = study_.features[i](curve);
-        features(i) = std::isfinite(value) ? value : features(i);
-    }
-    return features;
+    return Eigen::VectorXd::NullaryExpr(study_.featureCount(), [&](Eigen::Index i) {
+        const double value = curve.time.size() >= 2 ? study_.features[i](curve) : NAN;
+        return std::isfinite(value) ? value : NAN;
+    });
 }
 
 /// The observable with the factor and the offset that its condition states.
 Curve StudySimulator::observed(Curve curve, std::size_t condition, const Entries& entries) const
 {
     const auto numbers = numbersOf(entries, defaults_);
-    const ObservableScale& scale = study_.conditions[condition].observable;
-    const double factor = scale.factor(numbers);
-    const double offset = scale.offset(numbers);
+    const auto& [factorOf, offsetOf] = study_.conditions[condition].observable;
+    const double factor = factorOf(numbers);
+    const double offset = offsetOf(numbers);
     for (double& value : curve.value)
     {
         value = value * factor + offset;
@@ -189,65 +186,60 @@ int StudySimulator::missing(const std::vector<SimulationOrder>& orders)
     return simulator_.missing(mapped(orders, [&](const SimulationOrder& order) { return runOrder(order, 0); }));
 }
 
+void StudySimulator::requireBudget(int more, const std::string& purpose) const
+{
+    const int budget = study_.settings.budget;
+    if (effort_.executed + more > budget)
+    {
+        const std::string needs = '\'' + purpose + "' needs " + std::to_string(more) + " more runs";
+        throw std::runtime_error(study_.file.string()
+                                 + (budget == 0 // a report from stored runs alone
+                                         ? ": not all runs are stored; " + needs
+                                         : ": budget.runs is " + std::to_string(budget) + "; "
+                                               + std::to_string(effort_.executed) + " have been made, and " + needs
+                                               + ". Increase budget.runs; runs that have been made are stored"));
+    }
+}
+
 std::vector<Simulation> StudySimulator::run(const std::vector<SimulationOrder>& orders)
 {
     std::vector<Simulation> done(orders.size());
-    // Indices in effort_.failures, by order: orders of different settings may share a seed.
-    std::vector<std::vector<std::size_t>> failuresOf(orders.size());
+    std::vector<std::size_t> failing; // the orders of the failures that are added here
     auto open = numbersWhere(orders.size(), [](std::size_t) { return true; });
     // Without a seed, a second attempt would fail in the same way.
     const int attempts = study_.simulator.scatters() ? study_.settings.attempts : 1;
     for (int attempt = 0; attempt < attempts && !open.empty(); ++attempt)
     {
         const auto runs = mapped(open, [&](std::size_t i) { return runOrder(orders[i], attempt); });
-        const int toExecute = simulator_.missing(runs);
-        if (effort_.executed + toExecute > study_.settings.budget)
-        {
-            const std::string needs =
-                '\'' + orders[open.front()].purpose + "' needs " + std::to_string(toExecute) + " more runs";
-            throw std::runtime_error(study_.file.string()
-                                     + (study_.settings.budget == 0 // a report from stored runs alone
-                                             ? ": not all runs are stored; " + needs
-                                             : ": budget.runs is " + std::to_string(study_.settings.budget) + "; "
-                                                   + std::to_string(effort_.executed) + " have been made, and " + needs
-                                                   + ". Increase budget.runs; runs that have been made are stored"));
-        }
+        requireBudget(simulator_.missing(runs), orders[open.front()].purpose);
         const auto results = simulator_.run(runs);
-        std::vector<std::size_t> failed;
         for (std::size_t k = 0; k < open.size(); ++k)
         {
-            const SimulationOrder& order = orders[open[k]];
+            const RunResult& result = results[k];
+            const auto& [condition, setting, purpose, number, seeds] = orders[open[k]];
             Simulation& simulation = done[open[k]];
-            simulation.condition = order.condition;
-            simulation.setting = order.setting;
-            simulation.plain = observed(results[k].curve, order.condition, runs[k].entries);
-            simulation.curve = simulation.plain;
-            if (simulation.plain.time.size() >= 2)
-            {
-                simulation.curve = throughChain(std::move(simulation.curve), order.condition, order.setting);
-            }
+            simulation = {condition, setting, {}, {}, observed(result.curve, condition, runs[k].entries)};
+            simulation.curve = simulation.plain.time.size() < 2 ? simulation.plain
+                                                                : throughChain(simulation.plain, condition, setting);
             simulation.features = featuresOf(simulation.curve);
-            ++effort_.runsByPurpose[order.purpose];
-            effort_.seedsByPurpose[order.purpose].push_back(runs[k].seed);
-            effort_.executed += results[k].cached ? 0 : 1;
-            (results[k].cached ? effort_.secondsOfStored : effort_.seconds) += results[k].seconds;
-            const std::string reason = failureOf(simulation, results[k]);
+            ++effort_.runsByPurpose[purpose];
+            effort_.seedsByPurpose[purpose].push_back(runs[k].seed);
+            effort_.executed += result.cached ? 0 : 1;
+            (result.cached ? effort_.secondsOfStored : effort_.seconds) += result.seconds;
+            const std::string reason = failureOf(simulation, result);
             simulation.failed = !reason.empty();
             if (simulation.failed)
             {
-                simulation.features.setConstant(std::numeric_limits<double>::quiet_NaN());
-                failuresOf[open[k]].push_back(effort_.failures.size());
-                effort_.failures.push_back(
-                    {order.purpose, study_.conditions[order.condition].name, runs[k].seed, reason, false});
-                failed.push_back(open[k]);
-                continue;
-            }
-            for (const std::size_t failure : failuresOf[open[k]])
-            {
-                effort_.failures[failure].repeated = true;
+                simulation.features.setConstant(NAN);
+                effort_.failures.push_back({purpose, study_.conditions[condition].name, runs[k].seed, reason, false});
+                failing.push_back(open[k]);
             }
         }
-        open = failed;
+        open = numbersWhere(orders.size(), [&](std::size_t i) { return done[i].failed; });
+    }
+    for (std::size_t k = 0; k < failing.size(); ++k)
+    {
+        effort_.failures[effort_.failures.size() - failing.size() + k].repeated = !done[failing[k]].failed;
     }
     if (!open.empty() && study_.settings.onFailure == "stop")
     {

@@ -23,6 +23,9 @@ struct Setting
 /// Seed of a run, a hash of the arguments: a prime from 11003 on; LIGGGHTS requires one above 10000.
 long seedOf(unsigned studySeed, const std::string& purpose, const std::string& condition, int number);
 
+/// Purpose of the runs that check the units of the measurements. They are the library's first runs and are counted there.
+inline constexpr const char* checkOfUnits = "check of units";
+
 /// Order for one simulation. Its seed is a hash of `seeds` (of `purpose`, if that is empty), condition and number.
 struct SimulationOrder
 {
@@ -114,6 +117,7 @@ public:
 private:
     Curve observed(Curve curve, std::size_t condition, const Entries& entries) const;
     RunOrder runOrder(const SimulationOrder& order, int attempt) const;
+    void requireBudget(int more, const std::string& purpose) const;
 
     const Study& study_;
     Simulator& simulator_;

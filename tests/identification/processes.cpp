@@ -1,6 +1,5 @@
 /// Runs as processes: how they end, and that no process is left.
-#include "runner/processPool.h"
-#include "runner/slurmArray.h"
+#include "runner/jobs.h"
 #include "temporaryFolder.h"
 
 #include <gmock/gmock.h>
@@ -32,6 +31,18 @@ const std::string stubborn = "trap '' TERM\n"
                              "echo $$ >> pids\n"
                              "while :; do sleep 1000; done";
 constexpr std::size_t stubbornProcesses = 4;
+
+/// A study whose jobs run in this way.
+Study studyWith(int processes, double timeLimit, const std::string& kind = "pool", const fs::path& work = {})
+{
+    Study study;
+    study.executor = {kind, processes, {}};
+    study.simulator.timeLimit = timeLimit;
+    study.work = work;
+    return study;
+}
+
+constexpr std::chrono::milliseconds shortGrace{100};
 
 std::vector<pid_t> processesOf(const fs::path& folder)
 {
@@ -71,10 +82,11 @@ TEST(Processes, NoneOutlivesTheTimeLimit)
     const TemporaryFolder folder;
     std::vector<int> ended;
     std::size_t left = stubbornProcesses;
-    ProcessPool(1, 1.0, std::chrono::milliseconds(100)).run({{folder.path(), stubborn}}, [&](const JobEnd& end) {
+    const auto onEnd = [&](const JobEnd& end) {
         ended.push_back(end.status);
         left = alive(processesOf(folder.path()));
-    });
+    };
+    runJobs(studyWith(1, 1.0), {{folder.path(), stubborn}}, onEnd, shortGrace);
     EXPECT_THAT(ended, ElementsAre(124));
     EXPECT_EQ(processesOf(folder.path()).size(), stubbornProcesses);
     EXPECT_EQ(left, 0U);
@@ -85,18 +97,20 @@ TEST(Processes, NoneOutlivesItsRun)
 {
     const TemporaryFolder folder;
     std::vector<int> ended;
-    ProcessPool(2, 0, std::chrono::milliseconds(100))
-        .run({{folder.path(), "setsid sh -c 'trap \"\" TERM; echo $$ >> pids; while :; do sleep 1000; done' &\n"
-                              "while [ ! -s pids ]; do sleep 0.02; done; exit 3"},
-                 {folder.path(), "kill -9 $$"}},
-            [&](const JobEnd& end) { ended.push_back(end.status); });
+    runJobs(
+        studyWith(2, 0),
+        {{folder.path(), "setsid sh -c 'trap \"\" TERM; echo $$ >> pids; while :; do sleep 1000; done' &\n"
+                         "while [ ! -s pids ]; do sleep 0.02; done; exit 3"},
+            {folder.path(), "kill -9 $$"}},
+        [&](const JobEnd& end) { ended.push_back(end.status); }, shortGrace);
     EXPECT_THAT(ended, testing::UnorderedElementsAre(3, 128 + 9));
     EXPECT_EQ(processesOf(folder.path()).size(), 1U);
     EXPECT_EQ(alive(processesOf(folder.path())), 0U);
 }
 
 /// No process of a run is left, whether the program ends by a signal that it can handle, by SIGKILL, or by an error
-/// while it processes the result of another run.
+/// while it processes the result of another run. A signal ends the program before any run is reported: a stopped run has
+/// not failed, and an interrupted study must not continue to an answer without simulations.
 TEST(Processes, NoneOutlivesTheProgram)
 {
     for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGKILL, 0})
@@ -105,11 +119,15 @@ TEST(Processes, NoneOutlivesTheProgram)
         const pid_t program = fork();
         if (program == 0)
         {
+            // Tests that nohup or a script started in the background ignore them.
+            std::signal(SIGHUP, SIG_DFL);
+            std::signal(SIGINT, SIG_DFL);
             try
             {
-                ProcessPool(2, 0, std::chrono::milliseconds(100))
-                    .run({{folder.path(), stubborn}, {folder.path(), "while [ ! -e fail ]; do sleep 0.02; done"}},
-                        [](const JobEnd&) { throw std::runtime_error("the disk is full"); });
+                runJobs(
+                    studyWith(2, 0),
+                    {{folder.path(), stubborn}, {folder.path(), "while [ ! -e fail ]; do sleep 0.02; done"}},
+                    [](const JobEnd&) { throw std::runtime_error("the disk is full"); }, shortGrace);
             }
             catch (const std::exception&)
             {
@@ -133,38 +151,16 @@ TEST(Processes, NoneOutlivesTheProgram)
     }
 }
 
-/// A signal ends the runs, which does not count as a failure: otherwise an interrupted study would continue to an
-/// answer without simulations. A signal that is ignored, as in a background job of a script, stays ignored.
-TEST(Processes, StoppedIsNotFailed)
+/// A signal that is ignored, as in a background job of a script, stays ignored.
+TEST(Processes, AnIgnoredSignalStopsNothing)
 {
     const TemporaryFolder folder;
-    ProcessPool pool(1, 0);
-    const auto runWhileSignalled = [&](int signal, void (*action)(int), const std::string& command) {
-        const auto before = std::signal(signal, action);
-        std::thread sender([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(200));
-            kill(getpid(), signal);
-        });
-        std::vector<int> ended;
-        const auto run = [&] {
-            pool.run({{folder.path(), command}}, [&](const JobEnd& end) { ended.push_back(end.status); });
-        };
-        if (action == SIG_IGN)
-        {
-            EXPECT_NO_THROW(run());
-        }
-        else
-        {
-            EXPECT_THROW(run(), std::runtime_error);
-        }
-        sender.join();
-        std::signal(signal, before);
-        return ended;
-    };
-    EXPECT_TRUE(runWhileSignalled(
-        SIGTERM, [](int) {}, "sleep 20")
-                    .empty());
-    EXPECT_EQ(runWhileSignalled(SIGINT, SIG_IGN, "sleep 0.5"), std::vector<int>{0});
+    const auto before = std::signal(SIGINT, SIG_IGN);
+    std::vector<int> ended;
+    runJobs(studyWith(1, 0), {{folder.path(), "kill -INT " + std::to_string(getpid()) + "; sleep 0.5"}},
+        [&](const JobEnd& end) { ended.push_back(end.status); });
+    std::signal(SIGINT, before);
+    EXPECT_THAT(ended, ElementsAre(0));
 }
 
 /// Scripts in place of Slurm's commands, at the beginning of the path.
@@ -199,7 +195,9 @@ TEST(Slurm, OptionsAreNoShell)
     const TemporaryFolder folder;
     const PlayedSlurm slurm(folder, R"(printf '%s\n' "$@" > )" + (folder.path() / "words").string());
     const std::string hostile = "--comment=;touch " + (folder.path() / "executed").string() + ";$(touch executed)";
-    SlurmArray(0, {hostile}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {});
+    Study study = studyWith(0, 0, "slurm", folder.path());
+    study.executor.options = {hostile};
+    runJobs(study, {{folder.path(), "true"}}, [](const JobEnd&) {});
     EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr('\n' + hostile + '\n'));
     EXPECT_FALSE(fs::exists(folder.path() / "executed"));
     EXPECT_FALSE(fs::exists("executed"));
@@ -213,14 +211,13 @@ TEST(Slurm, IsGivenTheLimits)
     const PlayedSlurm slurm(folder, R"(printf '%s\n' "$@" > )" + (folder.path() / "words").string() + "\ncp ${@: -1} "
                                         + (folder.path() / "script").string());
     const std::vector<Job> jobs = {{folder.path(), "true"}, {folder.path(), "true"}, {folder.path(), "true"}};
-    SlurmArray limited(2, {}, folder.path(), 5401);
-    limited.run(jobs, [](const JobEnd&) {});
-    EXPECT_EQ(limited.atOnce(), 2);
+    const Study limited = studyWith(2, 5401, "slurm", folder.path());
+    runJobs(limited, jobs, [](const JobEnd&) {});
+    EXPECT_EQ(jobsAtOnce(limited.executor), 2);
     EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("\n--array=0-2%2\n"));
     EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("--wait\n")) << "the answer needs the runs";
     EXPECT_THAT(contentOf(folder.path() / "script"), HasSubstr("\n#SBATCH --time=91\n"));
-    SlurmArray unlimited(0, {}, folder.path(), 0);
-    unlimited.run(jobs, [](const JobEnd&) {});
+    runJobs(studyWith(0, 0, "slurm", folder.path()), jobs, [](const JobEnd&) {});
     EXPECT_THAT(contentOf(folder.path() / "words"), HasSubstr("\n--array=0-2\n"));
     EXPECT_THAT(contentOf(folder.path() / "script"), testing::Not(HasSubstr("--time")));
 }
@@ -236,8 +233,8 @@ TEST(Slurm, ReportsFinishedTasksImmediately)
     const auto first = folder.write("first/x", "").parent_path();
     const auto second = folder.write("second/x", "").parent_path();
     std::vector<std::size_t> reported;
-    SlurmArray array(0, {}, folder.path(), 0);
-    array.run({{first, "exit 3"}, {second, "for i in $(seq 200); do [ -e reported ] && exit 4; sleep 0.1; done"}},
+    const Study study = studyWith(0, 0, "slurm", folder.path());
+    runJobs(study, {{first, "exit 3"}, {second, "for i in $(seq 200); do [ -e reported ] && exit 4; sleep 0.1; done"}},
         [&](const JobEnd& end) {
             reported.push_back(end.job);
             EXPECT_EQ(end.status, end.job == 0 ? 3 : 4);
@@ -247,23 +244,32 @@ TEST(Slurm, ReportsFinishedTasksImmediately)
     fs::remove(first / "status.run");
     fs::remove(second / "status.run");
     const auto fails = [](const JobEnd&) { throw std::runtime_error("the disk is full"); };
-    EXPECT_THROW(array.run({{first, "exit 3"}, {second, "sleep 1000"}}, fails), std::runtime_error);
-    EXPECT_EQ(contentOf(folder.path() / "cancelled"), "4711\n");
+    EXPECT_THROW(runJobs(study, {{first, "exit 3"}, {second, "sleep 1000"}}, fails), std::runtime_error);
+    EXPECT_TRUE(soon([&] { return contentOf(folder.path() / "cancelled") == "4711\n"; }));
 }
 
-/// A job array is cancelled when the program that waits for it is stopped.
+/// A job array is cancelled when the program that waits for it is stopped, even by SIGKILL.
 TEST(Slurm, IsCancelledWhenStopped)
 {
-    const TemporaryFolder folder;
-    const auto reported = folder.path() / "reported";
-    const PlayedSlurm slurm(folder,
-        "echo Submitted batch job 4711\nkill -TERM " + std::to_string(getpid()) + "\nsleep 1000",
-        "echo \"$@\" > " + reported.string());
-    const auto before = std::signal(SIGTERM, [](int) {});
-    EXPECT_THROW(
-        SlurmArray(0, {}, folder.path(), 0).run({{folder.path(), "true"}}, [](const JobEnd&) {}), std::runtime_error);
-    std::signal(SIGTERM, before);
-    EXPECT_EQ(contentOf(reported), "4711\n");
+    for (const int signal : {SIGTERM, SIGKILL})
+    {
+        const TemporaryFolder folder;
+        const PlayedSlurm slurm(folder, "echo Submitted batch job 4711\ntouch submitted\nsleep 1000",
+            "echo \"$@\" > " + (folder.path() / "cancelled").string());
+        const pid_t program = fork();
+        if (program == 0)
+        {
+            runJobs(
+                studyWith(0, 0, "slurm", folder.path()), {{folder.path(), "true"}}, [](const JobEnd&) { _exit(2); });
+            _exit(1);
+        }
+        EXPECT_TRUE(soon([&] { return fs::exists(folder.path() / "submitted"); }));
+        kill(program, signal);
+        int status = 0;
+        waitpid(program, &status, 0);
+        EXPECT_EQ(WIFSIGNALED(status) ? WTERMSIG(status) : 0, signal);
+        EXPECT_TRUE(soon([&] { return contentOf(folder.path() / "cancelled") == "4711\n"; }));
+    }
 }
 
 } // namespace
