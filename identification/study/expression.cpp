@@ -28,20 +28,6 @@ constexpr const char* allowedInFormulas =
         "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowedInFormulas);
 }
 
-/// Refuses muParser's other operators (assignment, comparison, conditional) and text.
-void refuseOtherCharacters(const std::string& formula)
-{
-    const auto isOurs = [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::isspace(c) != 0
-               || std::string("_.+-*/^(),").find(static_cast<char>(c)) != std::string::npos;
-    };
-    const auto other = std::find_if_not(formula.begin(), formula.end(), isOurs);
-    if (other != formula.end())
-    {
-        fail(formula, ", at character " + std::to_string(other - formula.begin() + 1) + ": not understood");
-    }
-}
-
 } // namespace
 
 /// The parser, and the values of the formula's names, to which the parser has pointers.
@@ -50,7 +36,13 @@ struct Expression::Parsed
     explicit Parsed(const std::string& formula)
     {
         using Function = double (*)(double);
-        refuseOtherCharacters(formula);
+        // Others belong to muParser's assignments, comparisons, conditions and texts.
+        const auto other = formula.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                     "_.+-*/^(), \t\n\v\f\r");
+        if (other != std::string::npos)
+        {
+            fail(formula, ", at character " + std::to_string(other + 1) + ": not understood");
+        }
         parser.ClearConst();
         parser.ClearFun();
         for (const auto& [name, function] : std::map<std::string, Function>{{"exp", std::exp}, {"log", std::log},

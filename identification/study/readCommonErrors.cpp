@@ -1,4 +1,4 @@
-#include "study/readParts.h"
+#include "study/readStudy.h"
 
 #include "study/readValues.h"
 #include "tokens/didYouMean.h"
@@ -22,16 +22,11 @@ std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& s
     std::vector<std::size_t> chosen;
     for (const auto& each : place.at("conditions").oneOrMore())
     {
-        chosen.push_back(indexOf(each, study.conditions));
-        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
-        {
-            each.fail("lists the condition '" + each.text() + "' twice");
-        }
+        const std::size_t condition = indexOf(each, study.conditions);
+        each.failIf(contains(chosen, condition), "lists the condition '" + each.text() + "' twice");
+        chosen.push_back(condition);
     }
-    if (chosen.empty())
-    {
-        place.at("conditions").fail("needs at least one");
-    }
+    place.at("conditions").failIf(chosen.empty(), "needs at least one");
     return chosen;
 }
 
@@ -44,15 +39,11 @@ void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
-    if (!(std::abs(there - itself) <= tolerance * std::abs(itself)))
-    {
-        place.fail("gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
-                   + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
-    }
-    if (at(1.0) == there)
-    {
-        place.fail("must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
-    }
+    place.failIf(!(std::abs(there - itself) <= tolerance * std::abs(itself)),
+        "gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
+            + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
+    place.failIf(
+        at(1.0) == there, "must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
 }
 
 void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
@@ -64,11 +55,8 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
         {
             const auto numbers = numbersOf(plainEntries(study.simulator, study.conditions[condition]));
             const auto itself = numbers.find(entry);
-            if (itself == numbers.end())
-            {
-                value.fail(
-                    "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
-            }
+            value.failIf(itself == numbers.end(),
+                "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
             checkAtZero(value, formula, numbers, itself->second);
         }
         error.entries.emplace(entry, formula);
@@ -81,10 +69,8 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
     for (const auto& [name, size] : place.map())
     {
         const auto feature = std::find(names.begin(), names.end(), name);
-        if (feature == names.end())
-        {
-            size.fail("no such feature" + didYouMean(name, names) + "; there are " + listed(names));
-        }
+        size.failIf(
+            feature == names.end(), "no such feature" + didYouMean(name, names) + "; there are " + listed(names));
         error.featureErrors(feature - names.begin()) = size.positive();
     }
 }
@@ -97,28 +83,17 @@ CommonError readError(const YamlPlace& place, const Study& study)
     place.textOr("meaning", ""); // for readers of the file
     error.conditions = chosenConditions(place, study);
     error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
-    if (place.has("set") + place.has("chain") + place.has("features") != 1)
-    {
-        place.fail("needs one of 'set' (entries of the case), 'chain' (the measuring chain) or 'features' (standard "
-                   "deviations)");
-    }
-    if (place.has("set"))
-    {
-        readEntries(place.at("set"), study, error);
-    }
-    else if (place.has("chain"))
+    place.failIf(place.has("set") + place.has("chain") + place.has("features") != 1,
+        "needs one of 'set' (entries of the case), 'chain' (the measuring chain) or 'features' (standard deviations)");
+    readEntries(place.optional("set"), study, error);
+    readFeatures(place.optional("features"), study, error);
+    if (place.has("chain"))
     {
         std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
         checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0);
     }
-    else
-    {
-        readFeatures(place.at("features"), study, error);
-    }
-    if (error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero())
-    {
-        place.fail("changes nothing; 'set' and 'features' need at least one key");
-    }
+    place.failIf(error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero(),
+        "changes nothing; 'set' and 'features' need at least one key");
     return error;
 }
 
