@@ -28,20 +28,18 @@ void checkTags(const YamlPlace& conditions, const Study& study)
     }
     for (const auto& [tag, values] : asked)
     {
-        std::vector<std::string> without;
+        const auto without = numbersWhere(study.conditions.size(),
+            [&, &tag = tag](std::size_t c) { return study.conditions[c].tags.count(tag) == 0; });
         std::vector<std::string> known;
         for (const auto& condition : study.conditions)
         {
-            if (condition.tags.count(tag) == 0)
-            {
-                without.push_back(condition.name);
-            }
             append(known, namesOf(condition.tags));
         }
         const std::string wrong = "some effects depend on the tag '" + tag + "', which ";
         const std::string near = without.empty() ? "" : didYouMean(tag, known);
         conditions.failIf(!without.empty() && without.size() < study.conditions.size(),
-            wrong + "these conditions lack: " + listed(without));
+            wrong + "these conditions lack: "
+                + listed(mapped(without, [&](std::size_t c) { return study.conditions[c].name; })));
         conditions.failIf(!near.empty(), wrong + "no condition has" + near);
     }
     for (const auto& condition : study.conditions)

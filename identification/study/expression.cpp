@@ -17,15 +17,13 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr const char* allowedInFormulas =
-    "allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, cos, min(a, b) and max(a, b)";
-
 [[noreturn]] void fail(const std::string& formula, const std::string& what)
 {
     constexpr std::size_t longest = 80;
-    const bool isLong = formula.size() > longest;
-    throw std::invalid_argument(
-        "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowedInFormulas);
+    throw std::invalid_argument("in the formula '" + formula.substr(0, longest)
+                                + (formula.size() > longest ? "...'" : "'") + what
+                                + "; allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, "
+                                  "cos, min(a, b) and max(a, b)");
 }
 
 } // namespace

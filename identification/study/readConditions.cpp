@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -16,7 +17,7 @@ namespace clepsydra::identification
 namespace
 {
 
-Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherColumns, double& modelError)
+Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherColumns)
 {
     const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
     std::vector<std::string> allowed = {"name", "kind", "value", "modelError"};
@@ -38,13 +39,13 @@ Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherCol
         }
         feature.column = std::find(furtherColumns.begin(), furtherColumns.end(), column) - furtherColumns.begin();
     }
-    modelError = place.numberOr("modelError", modelError);
     return feature;
 }
 
-double unitOf(const YamlPlace& place)
+/// A unit and its size in SI units.
+std::pair<std::string, double> readUnit(const YamlPlace& place)
 {
-    return checkedAt(place.at("unit"), [&] { return siUnitsPer(place.at("unit").text()); });
+    return {place.text(), checkedAt(place, [&] { return siUnitsPer(place.text()); })};
 }
 
 /// Values are converted to SI units first, then multiplied by `factor`, then shifted by `offset` (SI units).
@@ -53,8 +54,7 @@ ColumnSpecification readColumn(const YamlPlace& place)
     place.allow({"column", "unit", "factor", "offset", "valid"});
     ColumnSpecification column;
     column.column = place.at("column").text();
-    column.unit = place.at("unit").text();
-    column.siUnits = unitOf(place);
+    std::tie(column.unit, column.siUnits) = readUnit(place.at("unit"));
     column.factor = column.siUnits * place.numberOr("factor", 1.0);
     column.offset = place.numberOr("offset", 0.0);
     if (place.has("valid"))
@@ -69,8 +69,7 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     place.allow({"feature", "values", "unit", "relativeError", "standardError"});
     MeasuredNumber number;
     number.feature = indexOf(place.at("feature"), study.features);
-    number.unit = place.at("unit").text();
-    number.siUnits = unitOf(place);
+    std::tie(number.unit, number.siUnits) = readUnit(place.at("unit"));
     const bool isLog = study.features[number.feature].kind->isLog();
     for (const auto& value : place.at("values").oneOrMore())
     {
@@ -141,6 +140,7 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "observable", "measured", "cost"});
     Condition condition;
     condition.name = place.at("name").text();
+    // In the sequence of Role.
     condition.role = static_cast<Role>(place.at("role").indexIn({"training", "heldOut", "candidate"}));
     condition.command = place.textOr("command", "");
     condition.file = place.textOr("file", root.at("observable").at("file").text());
@@ -210,13 +210,12 @@ void readObservable(const YamlPlace& place, Study& study)
     place.allow({"file", "time", "value", "factor", "offset", "features", "modelError"});
     study.timeColumn = place.textOr("time", "time");
     study.valueColumn = place.at("value").text();
-    std::vector<double> errors;
-    study.features = readNamed(place.at("features"), "features", [&](const YamlPlace& each) {
-        errors.push_back(place.numberOr("modelError", 0.0));
-        return readFeature(each, study.furtherColumns, errors.back());
-    });
+    study.features = readNamed(place.at("features"), "features",
+        [&](const YamlPlace& each) { return readFeature(each, study.furtherColumns); });
     place.at("features").failIf(study.features.empty(), "needs at least one");
-    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), errors.size());
+    const auto features = place.at("features").list();
+    study.modelError = Eigen::VectorXd::NullaryExpr(study.featureCount(),
+        [&](Eigen::Index f) { return features[f].numberOr("modelError", place.numberOr("modelError", 0.0)); });
 }
 
 void readConditions(const YamlPlace& root, Study& study)

@@ -47,13 +47,6 @@ void readEntries(const YamlPlace& place, Effect& effect)
     }
 }
 
-Bounds readBounds(const YamlPlace& place)
-{
-    const auto [lower, upper] = place.range("[lower, upper]");
-    place.failIf(lower > 0.0 || upper <= 0.0, "must hold 0, where the effect is absent, and end above 0");
-    return {lower, upper};
-}
-
 Effect readEffect(const YamlPlace& place)
 {
     place.allow({"name", "meaning", "hint", "family", "set", "chain", "amplitude", "measured", "switch", "scatter",
@@ -68,29 +61,29 @@ Effect readEffect(const YamlPlace& place)
     effect.prior = place.positiveOr("prior", 1.0);
     place.failIf(place.has("set") == place.has("chain"),
         "needs either 'set' (entries of the case) or 'chain' (the measuring chain)");
-    if (place.has("set"))
-    {
-        readEntries(place.at("set"), effect);
-    }
-    else
+    readEntries(place.optional("set"), effect);
+    if (place.has("chain"))
     {
         std::tie(effect.chainOperation, effect.chainSize) = readChain(place.at("chain"));
     }
     place.optional("scatter").failIf(effect.raisesScatter && effect.isOfChain(),
         "the measuring chain is applied to each curve and does not scatter; allowed for an effect with 'set'");
+    auto& [lower, upper] = effect.bounds;
     if (place.has("amplitude"))
     {
-        place.at("amplitude").failIf(effect.isSwitch, "a switch has no amplitude; it is on or off");
-        effect.bounds = readBounds(place.at("amplitude"));
+        const YamlPlace amplitude = place.at("amplitude");
+        amplitude.failIf(effect.isSwitch, "a switch has no amplitude; it is on or off");
+        std::tie(lower, upper) = amplitude.range("[lower, upper]");
+        amplitude.failIf(lower > 0.0 || upper <= 0.0, "must hold 0, where the effect is absent, and end above 0");
     }
     if (place.has("measured"))
     {
         const YamlPlace measured = place.at("measured");
         measured.failIf(effect.isSwitch, "a switch has no amplitude that could be measured; it is on or off");
         measured.allow({"mean", "sd"});
-        effect.measured = Normal{measured.at("mean").number(), measured.at("sd").positive()};
-        const auto& [lower, upper] = effect.bounds;
-        measured.at("mean").failIf(effect.measured->mean < lower || effect.measured->mean > upper,
+        const double mean = measured.at("mean").number();
+        effect.measured = Normal{mean, measured.at("sd").positive()};
+        measured.at("mean").failIf(mean < lower || mean > upper,
             "is an amplitude and must lie within the effect's range, " + textOf(lower) + " to " + textOf(upper));
     }
     for (const auto& [tag, values] : place.optional("actsIn").map())
