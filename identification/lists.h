@@ -45,4 +45,11 @@ void append(std::vector<Item>& items, const std::vector<Item>& more)
     items.insert(items.end(), more.begin(), more.end());
 }
 
+/// Removes the items for which a condition is true.
+template<class Items, class Condition>
+void eraseIf(Items& items, Condition isTrue)
+{
+    items.erase(std::remove_if(items.begin(), items.end(), isTrue), items.end());
+}
+
 } // namespace clepsydra::identification

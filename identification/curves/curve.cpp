@@ -32,16 +32,11 @@ double valueAt(const Curve& curve, double time)
     {
         return std::numeric_limits<double>::quiet_NaN();
     }
-    const auto next = std::lower_bound(curve.time.begin(), curve.time.end(), time);
-    if (next == curve.time.begin())
+    const std::size_t i = std::lower_bound(curve.time.begin(), curve.time.end(), time) - curve.time.begin();
+    if (i == 0 || i == curve.time.size())
     {
-        return curve.value.front();
+        return i == 0 ? curve.value.front() : curve.value.back();
     }
-    if (next == curve.time.end())
-    {
-        return curve.value.back();
-    }
-    const std::size_t i = next - curve.time.begin();
     const double share = (time - curve.time[i - 1]) / (curve.time[i] - curve.time[i - 1]);
     return curve.value[i - 1] + share * (curve.value[i] - curve.value[i - 1]);
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -16,6 +17,8 @@ namespace clepsydra::identification
 
 namespace
 {
+
+namespace fs = std::filesystem;
 
 /// Some spreadsheets write it at the beginning of the file.
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
@@ -34,16 +37,22 @@ struct Title
     std::string unit;
 };
 
+/// Round brackets belong to vectors, unless they hold a unit.
+std::string withoutRoundBrackets(std::string text)
+{
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+    return text;
+}
+
 /// Splits "mass [kg]" or "mass (kg)" into "mass" and "kg". Other brackets belong to vectors.
-Title titleOf(std::string text)
+Title titleOf(const std::string& text)
 {
     const auto open = text.find_first_of("[(");
     const auto close = open == std::string::npos ? open : text.find(text[open] == '[' ? ']' : ')', open);
     if (open == 0 || close == std::string::npos)
     {
-        std::replace_if(
-            text.begin(), text.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
-        return {trimmed(text.substr(0, text.find('['))), ""};
+        return {trimmed(withoutRoundBrackets(text.substr(0, text.find('[')))), ""};
     }
     return {trimmed(text.substr(0, open)), trimmed(text.substr(open + 1, close - open - 1))};
 }
@@ -77,20 +86,15 @@ std::vector<std::string> split(const std::string& line, char separator)
     return parts;
 }
 
-std::vector<std::string> fields(std::string line)
+std::vector<std::string> fields(const std::string& row)
 {
-    std::replace_if(
-        line.begin(), line.end(), [](char c) { return c == '(' || c == ')'; }, ' ');
+    std::string line = withoutRoundBrackets(row);
     const char separator = separatorOf(line);
-    auto parts = split(line, separator);
     if (separator == ';')
     {
-        for (auto& part : parts)
-        {
-            std::replace(part.begin(), part.end(), ',', '.');
-        }
+        std::replace(line.begin(), line.end(), ',', '.');
     }
-    return parts;
+    return split(line, separator);
 }
 
 /// Titles of the columns. If blanks separate the titles, a field in brackets is the unit of the title before it.
@@ -98,7 +102,7 @@ std::vector<Title> titlesOf(const std::string& line)
 {
     const char separator = holds(line, "\t") ? '\t' : separatorOf(line);
     std::vector<std::string> texts;
-    for (const auto& part : line.empty() ? std::vector<std::string>() : split(line, separator))
+    for (const auto& part : split(line, separator))
     {
         const std::string ends = part.empty() ? "" : std::string{part.front(), part.back()};
         if (separator == ' ' && (ends == "[]" || ends == "()") && !texts.empty())
@@ -151,11 +155,6 @@ std::string shortened(const std::string& text)
     return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
-double numberOf(const std::filesystem::path& path)
-{
-    return numberOf(path.filename().string()).value_or(0.0);
-}
-
 /// A column of the tables of a run, one after the other. Where they overlap, the later one is used.
 Curve joined(const std::vector<Table>& tables, const std::string& timeColumn, const std::string& valueColumn)
 {
@@ -180,28 +179,25 @@ Curve joined(const std::vector<Table>& tables, const std::string& timeColumn, co
 std::size_t Table::index(const std::string& column) const
 {
     const Title title = titleOf(column);
+    std::string known;
     for (std::size_t i = 0; i < names.size(); ++i)
     {
         if (names[i] == title.name && (title.unit.empty() || units[i] == title.unit))
         {
             return i;
         }
+        known += ' ' + names[i];
     }
-    const double position = column.empty() ? 0.0 : numberOf(column).value_or(0.0);
+    const double position = numberOf(column).value_or(missing);
     if (position >= 1.0 && position <= static_cast<double>(columns.size()))
     {
         return static_cast<std::size_t>(position) - 1;
-    }
-    std::string known;
-    for (const auto& name : names)
-    {
-        known += ' ' + name;
     }
     throw std::runtime_error("no column '" + column + "'; there are " + std::to_string(columns.size())
                              + " columns, named:" + (known.empty() ? " (none has a name)" : known));
 }
 
-Table readTable(const std::filesystem::path& file)
+Table readTable(const fs::path& file)
 {
     std::ifstream lines(file);
     if (!lines)
@@ -264,36 +260,33 @@ Table readTable(const std::filesystem::path& file)
     return table;
 }
 
-std::vector<std::filesystem::path> filesMatching(const std::filesystem::path& pattern)
+std::vector<fs::path> filesMatching(const fs::path& pattern)
 {
-    std::vector<std::filesystem::path> found{std::filesystem::path()};
+    const auto numberOfTime = [](const fs::path& path) { return numberOf(path.filename().string()).value_or(0.0); };
+    std::vector<fs::path> found{fs::path()};
     for (const auto& part : pattern)
     {
-        std::vector<std::filesystem::path> next;
+        std::vector<fs::path> next;
         for (const auto& path : found)
         {
             if (part != "*")
             {
                 next.push_back(path / part);
             }
-            else if (std::filesystem::is_directory(path))
+            else if (fs::is_directory(path))
             {
-                for (const auto& entry : std::filesystem::directory_iterator(path))
-                {
-                    next.push_back(entry.path());
-                }
+                next.insert(next.end(), fs::directory_iterator(path), fs::directory_iterator());
             }
         }
-        std::sort(next.begin(), next.end(), [](const auto& a, const auto& b) { return numberOf(a) < numberOf(b); });
+        std::sort(
+            next.begin(), next.end(), [&](const auto& a, const auto& b) { return numberOfTime(a) < numberOfTime(b); });
         found = std::move(next);
     }
-    found.erase(std::remove_if(found.begin(), found.end(),
-                    [](const auto& path) { return !std::filesystem::is_regular_file(path); }),
-        found.end());
+    eraseIf(found, [](const auto& path) { return !fs::is_regular_file(path); });
     return found;
 }
 
-Curve readCurve(const std::filesystem::path& pattern, const std::string& timeColumn, const std::string& valueColumn,
+Curve readCurve(const fs::path& pattern, const std::string& timeColumn, const std::string& valueColumn,
     const std::vector<std::string>& furtherColumns)
 {
     const auto files = filesMatching(pattern);

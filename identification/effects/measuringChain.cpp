@@ -1,13 +1,21 @@
 #include "effects/measuringChain.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace clepsydra::identification
 {
 
 namespace
 {
+
+Eigen::Map<Eigen::ArrayXd> array(std::vector<double>& numbers)
+{
+    return {numbers.data(), static_cast<Eigen::Index>(numbers.size())};
+}
 
 /// Solution y of y' = (v - y)/tau, exact for a piecewise linear curve v.
 Curve lagged(Curve curve, double tau)
@@ -47,10 +55,7 @@ Curve shifted(Curve curve, double seconds)
 {
     const double begin = curve.time.front();
     const double first = valueAt(curve, begin + seconds);
-    for (double& time : curve.time)
-    {
-        time -= seconds;
-    }
+    array(curve.time) -= seconds;
     const auto kept =
         static_cast<std::ptrdiff_t>(std::upper_bound(curve.time.begin(), curve.time.end(), begin) - curve.time.begin());
     curve.time.erase(curve.time.begin(), curve.time.begin() + kept);
@@ -62,38 +67,26 @@ Curve shifted(Curve curve, double seconds)
 
 Curve gained(Curve curve, double gain)
 {
-    for (double& value : curve.value)
-    {
-        value *= 1.0 + gain;
-    }
+    array(curve.value) *= 1.0 + gain;
     return curve;
 }
 
 Curve offsetBy(Curve curve, double offset)
 {
-    for (double& value : curve.value)
-    {
-        value += offset;
-    }
+    array(curve.value) += offset;
     return curve;
 }
 
 Curve drifting(Curve curve, double perSecond)
 {
-    for (std::size_t i = 0; i < curve.time.size(); ++i)
-    {
-        curve.value[i] += perSecond * (curve.time[i] - curve.time.front());
-    }
+    array(curve.value) += perSecond * (array(curve.time) - curve.time.front());
     return curve;
 }
 
 Curve stretched(Curve curve, double factor)
 {
     const double begin = curve.time.front();
-    for (double& time : curve.time)
-    {
-        time = begin + (time - begin) * (1.0 + factor);
-    }
+    array(curve.time) = begin + (array(curve.time) - begin) * (1.0 + factor);
     return curve;
 }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace clepsydra::identification
 {
@@ -24,12 +23,12 @@ double logOfPositive(double value)
 
 //--- Discharged masses ----------------------------------------------------------------------------------------------
 
-double meanRate(const Curve& curve, double from, double to)
+double logMeanRate(const Curve& curve, const Parameters& p)
 {
     const double fill = curve.value.front();
-    const double start = timeAtLevel(curve, from * fill);
-    const double end = timeAtLevel(curve, to * fill);
-    return (from - to) * fill / (end - start);
+    const double start = timeAtLevel(curve, p.at("from") * fill);
+    const double end = timeAtLevel(curve, p.at("to") * fill);
+    return logOfPositive((p.at("from") - p.at("to")) * fill / (end - start));
 }
 
 /// Slope of the least-squares line between two times; NaN with fewer than three points.
@@ -53,11 +52,11 @@ double slopeBetween(const Curve& curve, double from, double to)
 
 //--- Positions of a particle ----------------------------------------------------------------------------------------
 
-double speedBetweenLevels(const Curve& curve, double from, double to)
+double logSpeed(const Curve& curve, const Parameters& p)
 {
-    const double start = timeAtLevel(curve, from);
-    const double end = timeAtLevel(curve, to);
-    return start < end ? std::abs(slopeBetween(curve, start, end)) : none;
+    const double start = timeAtLevel(curve, p.at("from"));
+    const double end = timeAtLevel(curve, p.at("to"));
+    return start < end ? logOfPositive(std::abs(slopeBetween(curve, start, end))) : none;
 }
 
 /// Time at which a position is reached; NaN if the two rows around it are farther apart than `gap`.
@@ -114,42 +113,27 @@ std::vector<std::size_t> contacts(const Curve& curve, double level)
     return found;
 }
 
-/// The flight between contact n and the next one, or the end of the curve.
-struct Flight
-{
-    std::size_t begin;
-    std::size_t end;
-    bool complete;
-};
-
-std::optional<Flight> flight(const Curve& curve, const Parameters& p)
+/// The largest gap between a contact and the next one, or the end of the curve.
+double logBounceHeight(const Curve& curve, const Parameters& p)
 {
     const auto hits = contacts(curve, p.at("level"));
     const auto n = static_cast<std::size_t>(p.at("bounce"));
     if (n < 1 || hits.size() < n)
     {
-        return std::nullopt;
-    }
-    return Flight{hits[n - 1], hits.size() > n ? hits[n] : curve.value.size() - 1, hits.size() > n};
-}
-
-double logBounceHeight(const Curve& curve, const Parameters& p)
-{
-    const auto f = flight(curve, p);
-    if (!f)
-    {
         return none;
     }
-    const auto begin = curve.value.begin();
-    const auto top = std::max_element(begin + f->begin, begin + f->end + 1);
+    const bool isComplete = hits.size() > n;
+    const auto& gap = curve.value;
+    const auto top = std::max_element(gap.begin() + hits[n - 1], isComplete ? gap.begin() + hits[n] + 1 : gap.end());
     // If the record ends during the rise, the height is unknown.
-    return !f->complete && top == curve.value.end() - 1 ? none : logOfPositive(*top);
+    return !isComplete && top == gap.end() - 1 ? none : logOfPositive(*top);
 }
 
 double logBounceDuration(const Curve& curve, const Parameters& p)
 {
-    const auto f = flight(curve, p);
-    return f && f->complete ? logOfPositive(curve.time[f->end] - curve.time[f->begin]) : none;
+    const auto hits = contacts(curve, p.at("level"));
+    const auto n = static_cast<std::size_t>(p.at("bounce"));
+    return n >= 1 && hits.size() > n ? logOfPositive(curve.time[hits[n]] - curve.time[hits[n - 1]]) : none;
 }
 
 /// Time of the first contact; NaN if there is none.
@@ -173,17 +157,19 @@ double logReboundSpeed(const Curve& curve, const Parameters& p)
 
 //--- Any curve ------------------------------------------------------------------------------------------------------
 
+/// The rows of a curve from one to before another.
+Curve rows(const Curve& curve, std::size_t begin, std::size_t end)
+{
+    return {{curve.time.begin() + begin, curve.time.begin() + end},
+        {curve.value.begin() + begin, curve.value.begin() + end}};
+}
+
 /// Time at which the curve passes a share of its largest value, before or after the maximum; NaN if it does not.
 double timeAtShare(const Curve& curve, double share, bool after)
 {
-    const auto top = std::max_element(curve.value.begin(), curve.value.end());
-    const double level = share * *top;
-    const auto split = top - curve.value.begin();
-    Curve part;
-    part.time.assign(after ? curve.time.begin() + split : curve.time.begin(),
-        after ? curve.time.end() : curve.time.begin() + split + 1);
-    part.value.assign(after ? top : curve.value.begin(), after ? curve.value.end() : top + 1);
-    return timeAtLevel(part, level);
+    const auto top = std::max_element(curve.value.begin(), curve.value.end()) - curve.value.begin();
+    return timeAtLevel(
+        after ? rows(curve, top, curve.value.size()) : rows(curve, 0, top + 1), share * curve.value[top]);
 }
 
 /// The part of a curve that begins some seconds after its first row.
@@ -191,7 +177,7 @@ Curve after(double seconds, const Curve& curve)
 {
     const double start = curve.time.front() + seconds;
     const auto begin = std::lower_bound(curve.time.begin(), curve.time.end(), start) - curve.time.begin();
-    return {{curve.time.begin() + begin, curve.time.end()}, {curve.value.begin() + begin, curve.value.end()}};
+    return rows(curve, begin, curve.time.size());
 }
 
 /// Mean over time of a function of the value, which is linear between the rows.
@@ -232,10 +218,7 @@ std::map<std::string, FeatureKind> makeKinds()
     const FeatureKind::Parameter upperFirst{"from", none, "larger share of the largest value"};
     const FeatureKind::Parameter lowerLast{"to", none, "smaller share of it"};
     const std::vector<FeatureKind> all = {
-        {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to},
-            [](const Curve& curve, const Parameters& p) {
-                return logOfPositive(meanRate(curve, p.at("from"), p.at("to")));
-            },
+        {"logMeanRate", "log of the mean rate of loss between two shares of the first value", {from, to}, logMeanRate,
             Dimension::rate},
         {"logTimeToDischarge", "log of the time until a share has left", {{"share", 0.95, "of the first value"}},
             [](const Curve& curve, const Parameters& p) {
@@ -246,10 +229,7 @@ std::map<std::string, FeatureKind> makeKinds()
         {"residue", "last value over first value (not a log)", {},
             [](const Curve& curve, const Parameters& /*unused*/) { return curve.value.back() / curve.value.front(); },
             Dimension::share},
-        {"logSpeed", "log of the speed between two positions, by least squares", {start, end},
-            [](const Curve& curve, const Parameters& p) {
-                return logOfPositive(speedBetweenLevels(curve, p.at("from"), p.at("to")));
-            },
+        {"logSpeed", "log of the speed between two positions, by least squares", {start, end}, logSpeed,
             Dimension::rate},
         {"logMeanSpeed", "log of the distance between two positions divided by the time between them",
             {start, end, {"gap", 1e30, "largest distance of the two rows around a position, SI units"}}, logMeanSpeed,

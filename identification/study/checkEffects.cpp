@@ -1,4 +1,4 @@
-#include "study/readParts.h"
+#include "study/readStudy.h"
 
 #include "lists.h"
 #include "study/readValues.h"
@@ -16,7 +16,7 @@ namespace
 {
 
 /// An effect whose tag is misspelt acts in no condition, which would remain unnoticed.
-void checkTags(const YamlPlace& root, const Study& study)
+void checkTags(const YamlPlace& conditions, const Study& study)
 {
     std::map<std::string, std::set<std::string>> asked;
     for (const auto& effect : study.effects)
@@ -28,25 +28,19 @@ void checkTags(const YamlPlace& root, const Study& study)
     }
     for (const auto& [tag, values] : asked)
     {
-        std::vector<std::string> without;
+        const auto without = numbersWhere(study.conditions.size(),
+            [&, &tag = tag](std::size_t c) { return study.conditions[c].tags.count(tag) == 0; });
         std::vector<std::string> known;
         for (const auto& condition : study.conditions)
         {
-            if (condition.tags.count(tag) == 0)
-            {
-                without.push_back(condition.name);
-            }
             append(known, namesOf(condition.tags));
         }
-        if (!without.empty() && without.size() < study.conditions.size())
-        {
-            root.at("conditions")
-                .fail("some effects depend on the tag '" + tag + "', which these conditions lack: " + listed(without));
-        }
-        if (const std::string near = without.empty() ? "" : didYouMean(tag, known); !near.empty())
-        {
-            root.at("conditions").fail("some effects depend on the tag '" + tag + "', which no condition has" + near);
-        }
+        const std::string wrong = "some effects depend on the tag '" + tag + "', which ";
+        const std::string near = without.empty() ? "" : didYouMean(tag, known);
+        conditions.failIf(!without.empty() && without.size() < study.conditions.size(),
+            wrong + "these conditions lack: "
+                + listed(mapped(without, [&](std::size_t c) { return study.conditions[c].name; })));
+        conditions.failIf(!near.empty(), wrong + "no condition has" + near);
     }
     for (const auto& condition : study.conditions)
     {
@@ -54,12 +48,9 @@ void checkTags(const YamlPlace& root, const Study& study)
         {
             const auto& values = asked[tag];
             const std::string near = values.count(value) == 0 ? didYouMean(value, {values.begin(), values.end()}) : "";
-            if (!near.empty())
-            {
-                root.at("conditions")
-                    .fail("condition '" + condition.name + "': no effect acts in conditions whose tag '" + tag
-                          + "' is '" + value + "'" + near);
-            }
+            conditions.failIf(!near.empty(), "condition '" + condition.name
+                                                 + "': no effect acts in conditions whose tag '" + tag + "' is '"
+                                                 + value + "'" + near);
         }
     }
 }
@@ -77,10 +68,9 @@ void checkFamilies(const YamlPlace& root, const Study& study)
     {
         auto others = namesOf(members);
         others.erase(std::find(others.begin(), others.end(), family));
-        if (const std::string near = didYouMean(family, others); effects.size() == 1 && !near.empty())
-        {
-            root.fail("effect '" + effects.front() + "' is the only one of the family '" + family + "'" + near);
-        }
+        const std::string near = didYouMean(family, others);
+        root.failIf(effects.size() == 1 && !near.empty(),
+            "effect '" + effects.front() + "' is the only one of the family '" + family + "'" + near);
     }
 }
 
@@ -114,12 +104,12 @@ void checkFormulas(const YamlPlace& root, const Study& study)
     }
     for (const auto& effect : study.effects)
     {
-        check("effect '" + effect.name + "'", effect.entries, "a", effect.bounds.upper);
+        auto formulas = effect.entries;
         if (effect.chainSize)
         {
-            check(
-                "effect '" + effect.name + "'", {{effect.chainOperation, *effect.chainSize}}, "a", effect.bounds.upper);
+            formulas.emplace(effect.chainOperation, *effect.chainSize);
         }
+        check("effect '" + effect.name + "'", formulas, "a", effect.bounds.upper);
     }
 }
 
@@ -133,16 +123,11 @@ void checkOverridden(const YamlPlace& root, const Study& study)
         {
             // If entry and parameter have the same name, the name in the formula means the parameter.
             const bool keeps = entry != parameter.name && formula.holds(entry);
+            const YamlPlace place = root.at("parameters").list()[p].at("set").at(entry);
             const auto refuse = [&, &entry = entry](const Entries& set, const std::string& whose) {
-                if (!keeps && set.count(entry) > 0)
-                {
-                    root.at("parameters")
-                        .list()[p]
-                        .at("set")
-                        .at(entry)
-                        .fail("the value that " + whose
-                              + " sets for the entry would be lost, because the formula does not contain it");
-                }
+                place.failIf(!keeps && set.count(entry) > 0,
+                    "the value that " + whose
+                        + " sets for the entry would be lost, because the formula does not contain it");
             };
             refuse(study.simulator.entries, "simulator.set");
             for (const auto& condition : study.conditions)
@@ -159,7 +144,7 @@ void checkEffects(const YamlPlace& root, const Study& study)
 {
     checkFormulas(root, study);
     checkOverridden(root, study);
-    checkTags(root, study);
+    checkTags(root.at("conditions"), study);
     checkFamilies(root, study);
 }
 

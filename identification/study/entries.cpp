@@ -28,19 +28,12 @@ struct EntryLine
 
 constexpr const char* blanks = " \t\r\f\v";
 
-std::string stripped(const std::string& text)
-{
-    const auto end = text.find_last_not_of(" \t\r");
-    return end == std::string::npos ? "" : text.substr(0, end + 1);
-}
-
 /// Parsed without std::regex, whose recursion overflows the stack on a line of about 100 kB.
 std::optional<EntryLine> entryLine(const std::string& line)
 {
     const auto isOfWord = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const auto name = std::min(line.find_first_not_of(blanks), line.size());
-    const std::size_t nameEnd =
-        std::find_if_not(line.begin() + static_cast<std::ptrdiff_t>(name), line.end(), isOfWord) - line.begin();
+    const std::size_t nameEnd = std::find_if_not(line.begin() + name, line.end(), isOfWord) - line.begin();
     const auto value = line.find_first_not_of(blanks, nameEnd);
     const auto valueEnd = line.find_first_of(";/{}", nameEnd);
     if (name == nameEnd || value == nameEnd || valueEnd == std::string::npos || line[valueEnd] != ';'
@@ -48,8 +41,9 @@ std::optional<EntryLine> entryLine(const std::string& line)
     {
         return std::nullopt;
     }
+    const std::string text = line.substr(value, valueEnd - value);
     return EntryLine{line.substr(0, value), line.substr(name, nameEnd - name),
-        stripped(line.substr(value, valueEnd - value)), line.substr(valueEnd)};
+        text.substr(0, text.find_last_not_of(" \t\r") + 1), line.substr(valueEnd)};
 }
 
 std::ifstream opened(const std::filesystem::path& file)
@@ -85,13 +79,11 @@ void replaceEntries(const std::filesystem::path& file, const Entries& changes)
     std::set<std::string> done;
     for (std::string line; std::getline(lines, line);)
     {
-        if (const auto entry = entryLine(line))
+        const auto entry = entryLine(line);
+        if (entry && changes.count(entry->name) > 0)
         {
-            if (const auto change = changes.find(entry->name); change != changes.end())
-            {
-                done.insert(change->first);
-                line = entry->before + change->second + entry->after;
-            }
+            done.insert(entry->name);
+            line = entry->before + changes.at(entry->name) + entry->after;
         }
         changed << line << '\n';
     }

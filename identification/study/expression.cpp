@@ -17,29 +17,13 @@ namespace clepsydra::identification
 namespace
 {
 
-constexpr const char* allowedInFormulas =
-    "allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, cos, min(a, b) and max(a, b)";
-
 [[noreturn]] void fail(const std::string& formula, const std::string& what)
 {
     constexpr std::size_t longest = 80;
-    const bool isLong = formula.size() > longest;
-    throw std::invalid_argument(
-        "in the formula '" + formula.substr(0, longest) + (isLong ? "...'" : "'") + what + "; " + allowedInFormulas);
-}
-
-/// Refuses muParser's other operators (assignment, comparison, conditional) and text.
-void refuseOtherCharacters(const std::string& formula)
-{
-    const auto isOurs = [](unsigned char c) {
-        return std::isalnum(c) != 0 || std::isspace(c) != 0
-               || std::string("_.+-*/^(),").find(static_cast<char>(c)) != std::string::npos;
-    };
-    const auto other = std::find_if_not(formula.begin(), formula.end(), isOurs);
-    if (other != formula.end())
-    {
-        fail(formula, ", at character " + std::to_string(other - formula.begin() + 1) + ": not understood");
-    }
+    throw std::invalid_argument("in the formula '" + formula.substr(0, longest)
+                                + (formula.size() > longest ? "...'" : "'") + what
+                                + "; allowed are + - * / ^, brackets, numbers, names, exp, log, sqrt, abs, round, sin, "
+                                  "cos, min(a, b) and max(a, b)");
 }
 
 } // namespace
@@ -50,7 +34,13 @@ struct Expression::Parsed
     explicit Parsed(const std::string& formula)
     {
         using Function = double (*)(double);
-        refuseOtherCharacters(formula);
+        // Others belong to muParser's assignments, comparisons, conditions and texts.
+        const auto other = formula.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                                     "_.+-*/^(), \t\n\v\f\r");
+        if (other != std::string::npos)
+        {
+            fail(formula, ", at character " + std::to_string(other + 1) + ": not understood");
+        }
         parser.ClearConst();
         parser.ClearFun();
         for (const auto& [name, function] : std::map<std::string, Function>{{"exp", std::exp}, {"log", std::log},

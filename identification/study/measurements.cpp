@@ -153,14 +153,10 @@ bool hasDeclaredErrors(const MeasuredCondition& measured)
 
 Eigen::VectorXd meanFeatures(const Eigen::MatrixXd& repeats)
 {
-    Eigen::VectorXd mean(repeats.cols());
-    for (Eigen::Index f = 0; f < repeats.cols(); ++f)
-    {
-        const auto finite = repeats.col(f).array().isFinite();
-        mean(f) = finite.any() ? finite.select(repeats.col(f).array(), 0.0).sum() / static_cast<double>(finite.count())
-                               : missing;
-    }
-    return mean;
+    const auto has = repeats.array().isFinite();
+    const Eigen::ArrayXd count = has.cast<double>().colwise().sum();
+    const Eigen::ArrayXd sum = has.select(repeats.array(), 0.0).colwise().sum();
+    return (count > 0.0).select(sum / count, missing).matrix();
 }
 
 Eigen::MatrixXd shareOfMean(const Eigen::MatrixXd& repeats)

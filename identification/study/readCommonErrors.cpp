@@ -1,4 +1,4 @@
-#include "study/readParts.h"
+#include "study/readStudy.h"
 
 #include "study/readValues.h"
 #include "tokens/didYouMean.h"
@@ -22,16 +22,11 @@ std::vector<std::size_t> chosenConditions(const YamlPlace& place, const Study& s
     std::vector<std::size_t> chosen;
     for (const auto& each : place.at("conditions").oneOrMore())
     {
-        chosen.push_back(indexOf(each, study.conditions));
-        if (std::count(chosen.begin(), chosen.end(), chosen.back()) > 1)
-        {
-            each.fail("lists the condition '" + each.text() + "' twice");
-        }
+        const std::size_t condition = indexOf(each, study.conditions);
+        each.failIf(contains(chosen, condition), "lists the condition '" + each.text() + "' twice");
+        chosen.push_back(condition);
     }
-    if (chosen.empty())
-    {
-        place.at("conditions").fail("needs at least one");
-    }
+    place.at("conditions").failIf(chosen.empty(), "needs at least one");
     return chosen;
 }
 
@@ -45,15 +40,11 @@ void checkAtZero(const YamlPlace& place, const Expression& formula, Expression::
         return valueOf(place, formula, variables);
     };
     const double there = at(0.0);
-    if (!(std::abs(there - itself) <= tolerance * std::abs(itself)))
-    {
-        place.fail("gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
-                   + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
-    }
-    if (at(1.0) == there)
-    {
-        place.fail("must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
-    }
+    place.failIf(!(std::abs(there - itself) <= tolerance * std::abs(itself)),
+        "gives " + textOf(there) + " at z = 0 (no error), but must give " + textOf(itself)
+            + " there, as in \"particleDiameter*(1 + 0.01*z)\"");
+    place.failIf(
+        at(1.0) == there, "must contain z, the error in standard deviations, as in \"particleDiameter*(1 + 0.01*z)\"");
 }
 
 void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
@@ -65,11 +56,8 @@ void readEntries(const YamlPlace& place, const Study& study, CommonError& error)
         {
             const auto numbers = numbersOf(plainEntries(study.simulator, study.conditions[condition]));
             const auto itself = numbers.find(entry);
-            if (itself == numbers.end())
-            {
-                value.fail(
-                    "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
-            }
+            value.failIf(itself == numbers.end(),
+                "the case has no entry '" + entry + "' that is a number" + didYouMean(entry, namesOf(numbers)));
             checkAtZero(value, formula, numbers, itself->second, error);
         }
         error.entries.emplace(entry, formula);
@@ -82,10 +70,8 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
     for (const auto& [name, size] : place.map())
     {
         const auto feature = std::find(names.begin(), names.end(), name);
-        if (feature == names.end())
-        {
-            size.fail("no such feature" + didYouMean(name, names) + "; there are " + listed(names));
-        }
+        size.failIf(
+            feature == names.end(), "no such feature" + didYouMean(name, names) + "; there are " + listed(names));
         error.featureErrors(feature - names.begin()) = size.positive();
     }
 }
@@ -94,12 +80,11 @@ void readFeatures(const YamlPlace& place, const Study& study, CommonError& error
 void readGauged(const YamlPlace& place, const Study& study, CommonError& error)
 {
     const Effect& effect = study.effects[indexOf(place.at("effect"), study.effects)];
-    if (effect.isSwitch || effect.measured)
-    {
-        place.at("effect").fail(std::string("names an effect that ")
-                                + (effect.isSwitch ? "is on or off" : "has a measured amplitude ('measured')")
-                                + "; allowed are effects with a formula in a and without 'measured'");
-    }
+    const std::string reason = effect.isSwitch ? "is on or off"
+                               : effect.measured ? "has a measured amplitude ('measured')"
+                                                 : "";
+    place.at("effect").failIf(!reason.empty(), "names an effect that " + reason
+                                                   + "; allowed are effects with a formula in a and without 'measured'");
     error.name = place.textOr("name", effect.name);
     error.variable = "a";
     error.unit = place.at("sd").positive();
@@ -120,11 +105,9 @@ CommonError readError(const YamlPlace& place, const Study& study)
     place.textOr("meaning", ""); // for readers of the file
     error.conditions = chosenConditions(place, study);
     error.featureErrors = Eigen::VectorXd::Zero(study.featureCount());
-    if (place.has("set") + place.has("chain") + place.has("features") + place.has("effect") != 1)
-    {
-        place.fail("needs one of 'set' (entries of the case), 'chain' (the measuring chain), 'features' (standard "
-                   "deviations) or 'effect' (of the library, measured with a gauge)");
-    }
+    place.failIf(place.has("set") + place.has("chain") + place.has("features") + place.has("effect") != 1,
+        "needs one of 'set' (entries of the case), 'chain' (the measuring chain), 'features' (standard deviations) or "
+        "'effect' (of the library, measured with a gauge)");
     if (place.has("effect"))
     {
         readGauged(place, study, error);
@@ -132,23 +115,15 @@ CommonError readError(const YamlPlace& place, const Study& study)
     }
     place.allow({"name", "meaning", "conditions", "each", "set", "chain", "features"});
     error.name = place.at("name").text();
-    if (place.has("set"))
-    {
-        readEntries(place.at("set"), study, error);
-    }
-    else if (place.has("chain"))
+    readEntries(place.optional("set"), study, error);
+    readFeatures(place.optional("features"), study, error);
+    if (place.has("chain"))
     {
         std::tie(error.chainOperation, error.chainSize) = readChain(place.at("chain"));
         checkAtZero(place.at("chain"), *error.chainSize, {}, 0.0, error);
     }
-    else
-    {
-        readFeatures(place.at("features"), study, error);
-    }
-    if (error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero())
-    {
-        place.fail("changes nothing; 'set' and 'features' need at least one key");
-    }
+    place.failIf(error.entries.empty() && error.chainOperation.empty() && error.featureErrors.isZero(),
+        "changes nothing; 'set' and 'features' need at least one key");
     return error;
 }
 
@@ -177,12 +152,7 @@ void readCommonErrors(const YamlPlace& list, Study& study)
     }
     for (const auto& place : list.list())
     {
-        const auto gauged = std::find_if(study.effects.begin(), study.effects.end(),
-            [&](const Effect& effect) { return effect.name == place.textOr("effect", ""); });
-        if (gauged != study.effects.end())
-        {
-            study.effects.erase(gauged);
-        }
+        eraseIf(study.effects, [&](const Effect& effect) { return effect.name == place.textOr("effect", ""); });
     }
 }
 

@@ -1,4 +1,4 @@
-#include "study/readParts.h"
+#include "study/readStudy.h"
 
 #include "study/readValues.h"
 #include "study/units.h"
@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 #include <tuple>
+#include <utility>
 
 namespace clepsydra::identification
 {
@@ -16,7 +17,7 @@ namespace clepsydra::identification
 namespace
 {
 
-Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherColumns, double& modelError)
+Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherColumns)
 {
     const FeatureKind& kind = featureKinds().at(place.at("kind").oneOf(namesOf(featureKinds())));
     std::vector<std::string> allowed = {"name", "kind", "value", "modelError"};
@@ -25,29 +26,26 @@ Feature readFeature(const YamlPlace& place, std::vector<std::string>& furtherCol
     Feature feature{place.textOr("name", kind.name), &kind, {}};
     for (const auto& parameter : kind.parameters)
     {
-        if (std::isnan(parameter.byDefault) && !place.has(parameter.name))
-        {
-            place.fail("a " + kind.name + " needs '" + parameter.name + "': " + parameter.meaning);
-        }
+        place.failIf(std::isnan(parameter.byDefault) && !place.has(parameter.name),
+            "a " + kind.name + " needs '" + parameter.name + "': " + parameter.meaning);
         feature.parameters[parameter.name] = place.numberOr(parameter.name, parameter.byDefault);
     }
     if (place.has("value"))
     {
         const std::string column = place.at("value").text();
-        const auto known = std::find(furtherColumns.begin(), furtherColumns.end(), column);
-        feature.column = known - furtherColumns.begin();
-        if (known == furtherColumns.end())
+        if (!contains(furtherColumns, column))
         {
             furtherColumns.push_back(column);
         }
+        feature.column = std::find(furtherColumns.begin(), furtherColumns.end(), column) - furtherColumns.begin();
     }
-    modelError = place.numberOr("modelError", modelError);
     return feature;
 }
 
-double unitOf(const YamlPlace& place)
+/// A unit and its size in SI units.
+std::pair<std::string, double> readUnit(const YamlPlace& place)
 {
-    return checkedAt(place.at("unit"), [&] { return siUnitsPer(place.at("unit").text()); });
+    return {place.text(), checkedAt(place, [&] { return siUnitsPer(place.text()); })};
 }
 
 /// Values are converted to SI units first, then multiplied by `factor`, then shifted by `offset` (SI units).
@@ -56,8 +54,7 @@ ColumnSpecification readColumn(const YamlPlace& place)
     place.allow({"column", "unit", "factor", "offset", "valid"});
     ColumnSpecification column;
     column.column = place.at("column").text();
-    column.unit = place.at("unit").text();
-    column.siUnits = unitOf(place);
+    std::tie(column.unit, column.siUnits) = readUnit(place.at("unit"));
     column.factor = column.siUnits * place.numberOr("factor", 1.0);
     column.offset = place.numberOr("offset", 0.0);
     if (place.has("valid"))
@@ -72,8 +69,7 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     place.allow({"feature", "values", "unit", "relativeError", "standardError"});
     MeasuredNumber number;
     number.feature = indexOf(place.at("feature"), study.features);
-    number.unit = place.at("unit").text();
-    number.siUnits = unitOf(place);
+    std::tie(number.unit, number.siUnits) = readUnit(place.at("unit"));
     const bool isLog = study.features[number.feature].kind->isLog();
     for (const auto& value : place.at("values").oneOrMore())
     {
@@ -81,11 +77,9 @@ MeasuredNumber readNumber(const YamlPlace& place, const Study& study)
     }
     number.standardError =
         isLog ? place.numberOr("relativeError", 0.0) : place.numberOr("standardError", 0.0) * number.siUnits;
-    if (place.has(isLog ? "standardError" : "relativeError"))
-    {
-        place.fail(isLog ? "the feature is a logarithm; its error must be given as relativeError"
-                         : "the feature is no logarithm; its error must be given as standardError");
-    }
+    place.failIf(place.has(isLog ? "standardError" : "relativeError"),
+        isLog ? "the feature is a logarithm; its error must be given as relativeError"
+              : "the feature is no logarithm; its error must be given as standardError");
     return number;
 }
 
@@ -98,10 +92,7 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
         for (const auto& file : place.at("files").oneOrMore())
         {
             measured.files.push_back(file.path());
-            if (!std::filesystem::is_regular_file(measured.files.back()))
-            {
-                file.fail("no such file: " + measured.files.back().string());
-            }
+            file.failIf(!std::filesystem::is_regular_file(file.path()), "no such file: " + file.path().string());
         }
         const auto column = [&](const std::string& key) {
             const auto ofAll = root.optional("measured");
@@ -114,22 +105,11 @@ Measurement readMeasurement(const YamlPlace& place, const Study& study, const Ya
     for (const auto& number : place.optional("numbers").list())
     {
         measured.numbers.push_back(readNumber(number, study));
-        if (!features.insert(measured.numbers.back().feature).second)
-        {
-            number.at("feature").fail("given twice; all values of a feature belong into one item");
-        }
+        number.at("feature").failIf(!features.insert(measured.numbers.back().feature).second,
+            "given twice; all values of a feature belong into one item");
     }
-    if (measured.empty())
-    {
-        place.fail("needs 'files' or 'numbers'");
-    }
+    place.failIf(measured.empty(), "needs 'files' or 'numbers'");
     return measured;
-}
-
-Role roleOf(const YamlPlace& place)
-{
-    const std::string role = place.oneOf({"training", "heldOut", "candidate"});
-    return role == "training" ? Role::training : role == "heldOut" ? Role::heldOut : Role::candidate;
 }
 
 /// Factor and offset of the condition itself or, without these, of the study. Both are evaluated with the condition's
@@ -145,10 +125,8 @@ ObservableScale readScale(
         if (parent.has(key))
         {
             formula = readFormula(parent.at(key));
-            if (valueOf(parent.at(key), formula, numbers) == 0.0 && key == "factor")
-            {
-                parent.at(key).fail("must not be 0");
-            }
+            const double value = valueOf(parent.at(key), formula, numbers);
+            parent.at(key).failIf(value == 0.0 && key == "factor", "must not be 0");
         }
     };
     ObservableScale scale;
@@ -162,7 +140,8 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     place.allow({"name", "role", "set", "tags", "coordinates", "command", "file", "observable", "measured", "cost"});
     Condition condition;
     condition.name = place.at("name").text();
-    condition.role = roleOf(place.at("role"));
+    // In the sequence of Role.
+    condition.role = static_cast<Role>(place.at("role").indexIn({"training", "heldOut", "candidate"}));
     condition.command = place.textOr("command", "");
     condition.file = place.textOr("file", root.at("observable").at("file").text());
     condition.cost = place.positiveOr("cost", 1.0);
@@ -178,12 +157,9 @@ Condition readCondition(const YamlPlace& place, const Study& study, const YamlPl
     }
     if (place.has("measured"))
     {
-        if (condition.role == Role::candidate)
-        {
-            place.at("measured")
-                .fail("is not allowed, because a candidate has not been measured yet; allowed with role: training or "
-                      "heldOut");
-        }
+        place.at("measured")
+            .failIf(condition.role == Role::candidate, "is not allowed, because a candidate has not been measured yet; "
+                                                       "allowed with role: training or heldOut");
         condition.measured = readMeasurement(place.at("measured"), study, root);
     }
     return condition;
@@ -201,15 +177,10 @@ void requireDifferentMeasurements(const YamlPlace& root, const Study& study)
             // Parts of one record are distinguished by the valid times.
             const auto [owner, isNew] = owners.emplace(
                 std::tuple(std::filesystem::canonical(file), measured.value.column, measured.time.lowest), name);
-            if (!isNew)
-            {
-                root.at("conditions")
-                    .list()[c]
-                    .at("measured")
-                    .at("files")
-                    .fail("condition '" + name + "' has " + file.string() + " with its column " + measured.value.column
-                          + ", which condition '" + owner->second + "' has already; a measurement may be given once");
-            }
+            const YamlPlace place = root.at("conditions").list()[c].at("measured").at("files");
+            place.failIf(!isNew, "condition '" + name + "' has " + file.string() + " with its column "
+                                     + measured.value.column + ", which condition '" + owner->second
+                                     + "' has already; a measurement may be given once");
         }
     }
 }
@@ -239,16 +210,12 @@ void readObservable(const YamlPlace& place, Study& study)
     place.allow({"file", "time", "value", "factor", "offset", "features", "modelError"});
     study.timeColumn = place.textOr("time", "time");
     study.valueColumn = place.at("value").text();
-    std::vector<double> errors;
-    study.features = readNamed(place.at("features"), "features", [&](const YamlPlace& each) {
-        errors.push_back(place.numberOr("modelError", 0.0));
-        return readFeature(each, study.furtherColumns, errors.back());
-    });
-    if (study.features.empty())
-    {
-        place.at("features").fail("needs at least one");
-    }
-    study.modelError = Eigen::Map<Eigen::VectorXd>(errors.data(), errors.size());
+    study.features = readNamed(place.at("features"), "features",
+        [&](const YamlPlace& each) { return readFeature(each, study.furtherColumns); });
+    place.at("features").failIf(study.features.empty(), "needs at least one");
+    const auto features = place.at("features").list();
+    study.modelError = Eigen::VectorXd::NullaryExpr(study.featureCount(),
+        [&](Eigen::Index f) { return features[f].numberOr("modelError", place.numberOr("modelError", 0.0)); });
 }
 
 void readConditions(const YamlPlace& root, Study& study)
@@ -256,10 +223,8 @@ void readConditions(const YamlPlace& root, Study& study)
     root.optional("measured").allow({"time", "value"});
     study.conditions = readNamed(
         root.at("conditions"), "conditions", [&](const YamlPlace& place) { return readCondition(place, study, root); });
-    if (study.conditionsOf(Role::training).empty())
-    {
-        root.at("conditions").fail("at least one condition needs 'role: training'");
-    }
+    root.at("conditions")
+        .failIf(study.conditionsOf(Role::training).empty(), "at least one condition needs 'role: training'");
     requireDifferentMeasurements(root, study);
     requireEqualCoordinates(root, study);
 }

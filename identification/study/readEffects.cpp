@@ -1,4 +1,4 @@
-#include "study/readParts.h"
+#include "study/readStudy.h"
 
 #include "study/readValues.h"
 
@@ -25,12 +25,9 @@ void refuseFormula(const YamlPlace& place)
     {
         // The text is no formula.
     }
-    if (isFormula)
-    {
-        place.fail(
-            "'" + text
+    place.failIf(isFormula,
+        "'" + text
             + "' is a formula in the amplitude a, which a switch does not have; allowed is the value of the entry");
-    }
 }
 
 void readEntries(const YamlPlace& place, Effect& effect)
@@ -50,16 +47,6 @@ void readEntries(const YamlPlace& place, Effect& effect)
     }
 }
 
-Bounds readBounds(const YamlPlace& place)
-{
-    const auto [lower, upper] = place.range("[lower, upper]");
-    if (lower > 0.0 || upper <= 0.0)
-    {
-        place.fail("must hold 0, where the effect is absent, and end above 0");
-    }
-    return {lower, upper};
-}
-
 Effect readEffect(const YamlPlace& place)
 {
     place.allow({"name", "meaning", "hint", "family", "set", "chain", "amplitude", "measured", "switch", "scatter",
@@ -72,45 +59,32 @@ Effect readEffect(const YamlPlace& place)
     effect.isSwitch = place.flagOr("switch", false);
     effect.raisesScatter = place.flagOr("scatter", false);
     effect.prior = place.positiveOr("prior", 1.0);
-    if (place.has("set") == place.has("chain"))
-    {
-        place.fail("needs either 'set' (entries of the case) or 'chain' (the measuring chain)");
-    }
-    if (place.has("set"))
-    {
-        readEntries(place.at("set"), effect);
-    }
-    else
+    place.failIf(place.has("set") == place.has("chain"),
+        "needs either 'set' (entries of the case) or 'chain' (the measuring chain)");
+    readEntries(place.optional("set"), effect);
+    if (place.has("chain"))
     {
         std::tie(effect.chainOperation, effect.chainSize) = readChain(place.at("chain"));
     }
-    if (effect.raisesScatter && effect.isOfChain())
-    {
-        place.at("scatter").fail("the measuring chain is applied to each curve and does not scatter; allowed for an "
-                                 "effect with 'set'");
-    }
+    place.optional("scatter").failIf(effect.raisesScatter && effect.isOfChain(),
+        "the measuring chain is applied to each curve and does not scatter; allowed for an effect with 'set'");
+    auto& [lower, upper] = effect.bounds;
     if (place.has("amplitude"))
     {
-        if (effect.isSwitch)
-        {
-            place.at("amplitude").fail("a switch has no amplitude; it is on or off");
-        }
-        effect.bounds = readBounds(place.at("amplitude"));
+        const YamlPlace amplitude = place.at("amplitude");
+        amplitude.failIf(effect.isSwitch, "a switch has no amplitude; it is on or off");
+        std::tie(lower, upper) = amplitude.range("[lower, upper]");
+        amplitude.failIf(lower > 0.0 || upper <= 0.0, "must hold 0, where the effect is absent, and end above 0");
     }
     if (place.has("measured"))
     {
         const YamlPlace measured = place.at("measured");
-        if (effect.isSwitch)
-        {
-            measured.fail("a switch has no amplitude that could be measured; it is on or off");
-        }
+        measured.failIf(effect.isSwitch, "a switch has no amplitude that could be measured; it is on or off");
         measured.allow({"mean", "sd"});
-        effect.measured = Normal{measured.at("mean").number(), measured.at("sd").positive()};
-        if (effect.measured->mean < effect.bounds.lower || effect.measured->mean > effect.bounds.upper)
-        {
-            measured.at("mean").fail("is an amplitude and must lie within the effect's range, "
-                                     + textOf(effect.bounds.lower) + " to " + textOf(effect.bounds.upper));
-        }
+        const double mean = measured.at("mean").number();
+        effect.measured = Normal{mean, measured.at("sd").positive()};
+        measured.at("mean").failIf(mean < lower || mean > upper,
+            "is an amplitude and must lie within the effect's range, " + textOf(lower) + " to " + textOf(upper));
     }
     for (const auto& [tag, values] : place.optional("actsIn").map())
     {

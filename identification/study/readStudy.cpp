@@ -1,7 +1,6 @@
 #include "study/readStudy.h"
 
 #include "effects/measuringChain.h"
-#include "study/readParts.h"
 #include "study/readValues.h"
 #include "tokens/didYouMean.h"
 
@@ -29,15 +28,10 @@ SimulatorSpecification readSimulator(const YamlPlace& place)
     for (const auto& file : place.optional("dependsOn").oneOrMore())
     {
         simulator.dependsOn.push_back(file.path());
-        if (!std::filesystem::exists(simulator.dependsOn.back()))
-        {
-            file.fail("no such file: " + simulator.dependsOn.back().string());
-        }
+        file.failIf(!std::filesystem::exists(file.path()), "no such file: " + file.path().string());
     }
-    if (!std::filesystem::is_regular_file(simulator.caseFolder / simulator.entriesFile))
-    {
-        place.at("case").fail("there is no file " + (simulator.caseFolder / simulator.entriesFile).string());
-    }
+    const auto entries = simulator.caseFolder / simulator.entriesFile;
+    place.at("case").failIf(!std::filesystem::is_regular_file(entries), "there is no file " + entries.string());
     if (simulator.scatters())
     {
         requireEntry(place.at("seed"), simulator.seedEntry, simulator);
@@ -61,93 +55,63 @@ Parameter readParameter(const YamlPlace& place, const SimulatorSpecification& si
     prior.allow({"mean", "sd", "from"});
     parameter.mean = prior.at("mean").number();
     parameter.sd = prior.at("sd").positive();
-    if (!prior.has("from"))
-    {
-        prior.fail("parameter '" + parameter.name
-                   + "' does not say where its prior comes from; allowed are 'from: measured' (an independent "
-                     "measurement of these particles or this fluid), 'from: handbook' (a published value) and 'from: "
-                     "guess' (also a value that was chosen after a look at the data)");
-    }
-    const auto origins = {Origin::measured, Origin::handbook, Origin::guess};
-    const std::string from = prior.at("from").oneOf(mapped(origins, [](Origin origin) { return nameOf(origin); }));
-    parameter.from =
-        *std::find_if(origins.begin(), origins.end(), [&](Origin origin) { return nameOf(origin) == from; });
+    prior.failIf(!prior.has("from"),
+        "parameter '" + parameter.name
+            + "' does not say where its prior comes from; allowed are 'from: measured' (an independent measurement of "
+              "these particles or this fluid), 'from: handbook' (a published value) and 'from: guess' (also a value "
+              "that was chosen after a look at the data)");
+    parameter.from = static_cast<Origin>(prior.at("from").indexIn(namesOfOrigins()));
     std::tie(parameter.lower, parameter.upper) = place.at("range").range("[lowest, highest]");
-    if (parameter.mean <= parameter.lower || parameter.mean >= parameter.upper)
-    {
-        place.at("prior").at("mean").fail("must lie within the range");
-    }
+    prior.at("mean").failIf(
+        parameter.mean <= parameter.lower || parameter.mean >= parameter.upper, "must lie within the range");
     return parameter;
 }
 
-/// A library serves many cases. Effects that this case has no entries for are left out, and the report lists them.
-std::vector<Effect> possible(const std::vector<Effect>& library, Study& study)
-{
-    const Entries known = ownEntries(study.simulator);
-    std::vector<Effect> kept;
-    for (const auto& effect : library)
-    {
-        const auto missing = missingEntries(effect, known);
-        if (missing.empty())
-        {
-            kept.push_back(effect);
-        }
-        else
-        {
-            study.leftOut.push_back(effect.name + " (the case has no entry " + listed(missing) + ")");
-        }
-    }
-    return kept;
-}
-
-/// Reads the effects of the libraries and of the study. The study's own effects replace those of the same name.
+/// Reads the effects of the libraries and of the study. The study's own effects replace those of the same name. A
+/// library serves many cases: effects that this case has no entries for are left out, and the report lists them.
 void readAllEffects(const YamlPlace& root, Study& study)
 {
-    std::vector<Effect> all;
-    const auto add = [&](const std::vector<Effect>& more) {
-        for (const auto& effect : more)
-        {
-            const auto same =
-                std::find_if(all.begin(), all.end(), [&](const Effect& e) { return e.name == effect.name; });
-            if (same == all.end())
-            {
-                all.push_back(effect);
-            }
-            else
-            {
-                *same = effect;
-            }
-        }
+    std::vector<Effect>& all = study.effects;
+    const auto add = [&](const Effect& effect) {
+        const auto names = namesOfItems(all);
+        const std::size_t same = std::find(names.begin(), names.end(), effect.name) - names.begin();
+        all.resize(std::max(all.size(), same + 1));
+        all[same] = effect;
     };
+    const Entries known = ownEntries(study.simulator);
     for (const auto& file : root.optional("effectsFrom").oneOrMore())
     {
         const auto library = YamlPlace::fileAt(file.path());
         library.allow({"about", "effects"});
-        add(possible(readEffects(library.at("effects")), study));
+        for (const auto& effect : readEffects(library.at("effects")))
+        {
+            if (const auto missing = missingEntries(effect, known); missing.empty())
+            {
+                add(effect);
+            }
+            else
+            {
+                study.leftOut.push_back(effect.name + " (the case has no entry " + listed(missing) + ")");
+            }
+        }
     }
     const auto own = readEffects(root.optional("effects"));
     for (std::size_t i = 0; i < own.size(); ++i)
     {
-        for (const auto& entry : missingEntries(own[i], ownEntries(study.simulator)))
+        for (const auto& entry : missingEntries(own[i], known))
         {
             requireEntry(root.at("effects").list()[i].at("set").at(entry), entry, study.simulator);
         }
     }
-    add(own);
-    const auto chosen = [&](const std::string& key, bool keepListed) {
-        if (!root.has(key))
-        {
-            return;
-        }
-        const auto names =
-            mapped(root.at(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(namesOfItems(all)); });
-        all.erase(std::remove_if(all.begin(), all.end(),
-                      [&](const Effect& effect) { return contains(names, effect.name) != keepListed; }),
-            all.end());
-    };
-    chosen("onlyEffects", true);
-    chosen("withoutEffects", false);
-    study.effects = std::move(all);
+    std::for_each(own.begin(), own.end(), add);
+    for (const std::string key : {"onlyEffects", "withoutEffects"})
+    {
+        const auto names = mapped(
+            root.optional(key).oneOrMore(), [&](const YamlPlace& name) { return name.oneOf(namesOfItems(all)); });
+        eraseIf(all, [&](const Effect& effect) {
+            return root.has(key) && contains(names, effect.name) == (key == "withoutEffects");
+        });
+    }
 }
 
 /// Leaves out effects that act in no training condition, together with their parameters. The data contain no
@@ -165,11 +129,8 @@ void leaveOutIdle(Study& study)
         }
         study.leftOut.push_back(effect.name + " (it acts in no training condition)");
         study.effects.erase(study.effects.begin() + static_cast<std::ptrdiff_t>(e));
-        auto& parameters = study.parameters;
-        parameters.erase(std::remove_if(parameters.begin(), parameters.end(),
-                             [&](const Parameter& parameter) { return parameter.effect == e; }),
-            parameters.end());
-        for (auto& parameter : parameters)
+        eraseIf(study.parameters, [&](const Parameter& parameter) { return parameter.effect == e; });
+        for (auto& parameter : study.parameters)
         {
             if (parameter.effect > e)
             {
@@ -195,15 +156,13 @@ void readSettings(const YamlPlace& root, Study& study)
     const auto failures = root.optional("failures");
     failures.allow({"attempts", "then"});
     settings.attempts = failures.countOr("attempts", settings.attempts, 1);
-    settings.onFailure = failures.has("then") ? failures.at("then").oneOf({"exclude", "stop"}) : settings.onFailure;
+    settings.onFailure = failures.wordOr("then", settings.onFailure, {"exclude", "stop"});
     const auto inference = root.optional("inference");
     inference.allow({"level", "draws", "coverage", "wrongNames", "oneMoreParameter"});
     const auto share = [&](const std::string& key, double byDefault, const std::string& example) {
         const double value = inference.positiveOr(key, byDefault);
-        if (value >= 1.0)
-        {
-            inference.at(key).fail("must be below 1, not " + inference.at(key).text() + "; for example " + example);
-        }
+        inference.optional(key).failIf(
+            value >= 1.0, "must be below 1, not " + inference.textOr(key, "") + "; for example " + example);
         return value;
     };
     settings.level = share("level", settings.level, "0.05 for 5 %");
@@ -215,26 +174,22 @@ void readSettings(const YamlPlace& root, Study& study)
         inference.at("level").fail(
             std::to_string(settings.draws) + " draws cannot resolve so small a level; raise 'level' or 'draws'");
     }
-    if (inference.has("oneMoreParameter"))
-    {
-        settings.oneMoreParameter = inference.at("oneMoreParameter").oneOf(namesOf(chainOperations()));
-    }
+    settings.oneMoreParameter =
+        inference.wordOr("oneMoreParameter", settings.oneMoreParameter, namesOf(chainOperations()));
 }
 
 ExecutorSpecification readExecutor(const YamlPlace& place)
 {
     place.allow({"kind", "processes", "options"});
     ExecutorSpecification executor;
-    executor.kind = place.has("kind") ? place.at("kind").oneOf({"pool", "slurm"}) : executor.kind;
+    executor.kind = place.wordOr("kind", executor.kind, {"pool", "slurm"});
     executor.processes = place.countOr("processes", 0, 1);
     for (const auto& option : place.optional("options").oneOrMore())
     {
         executor.options.push_back(option.text());
-        if (executor.options.back().find_first_of(" \t\n") != std::string::npos)
-        {
-            option.fail("contains blanks; allowed is a list of options without blanks, which are passed to sbatch: "
-                        "[--partition=short, --mem=4G]");
-        }
+        option.failIf(option.text().find_first_of(" \t\n") != std::string::npos,
+            "contains blanks; allowed is a list of options without blanks, which are passed to sbatch: "
+            "[--partition=short, --mem=4G]");
     }
     return executor;
 }
@@ -255,12 +210,10 @@ Study readStudy(const std::filesystem::path& file)
     readConditions(root, study);
     study.parameters = readNamed(root.optional("parameters"), "parameters",
         [&](const YamlPlace& place) { return readParameter(place, study.simulator); });
-    if (study.parameters.size() > mostParameters)
-    {
-        root.at("parameters")
-            .fail("there are " + std::to_string(study.parameters.size()) + " parameters; allowed are up to "
-                  + std::to_string(mostParameters));
-    }
+    root.optional("parameters")
+        .failIf(study.parameters.size() > mostParameters, "there are " + std::to_string(study.parameters.size())
+                                                              + " parameters; allowed are up to "
+                                                              + std::to_string(mostParameters));
     readAllEffects(root, study);
     readCommonErrors(root.optional("commonErrors"), study);
     for (std::size_t p = 0; p < study.parameters.size(); ++p)
@@ -277,10 +230,7 @@ Study readStudy(const std::filesystem::path& file)
                                   : std::filesystem::absolute(file).parent_path() / (study.name + ".work");
     study.assumptions = mapped(root.optional("assumptions").list(), std::mem_fn(&YamlPlace::text));
     study.magnitudeLimit = root.numberOr("magnitudeLimit", study.magnitudeLimit);
-    if (study.magnitudeLimit <= 1.0)
-    {
-        root.at("magnitudeLimit").fail("must be above 1");
-    }
+    root.optional("magnitudeLimit").failIf(study.magnitudeLimit <= 1.0, "must be above 1");
     checkEffects(root, study);
     leaveOutIdle(study);
     return study;

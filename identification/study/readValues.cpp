@@ -17,21 +17,16 @@ Expression readFormula(const YamlPlace& place)
 double valueOf(const YamlPlace& place, const Expression& formula, const Expression::Variables& variables)
 {
     const double value = checkedAt(place, [&] { return formula(variables); });
-    if (!std::isfinite(value))
-    {
-        place.fail("the formula '" + formula.text() + "' gives no finite number");
-    }
+    place.failIf(!std::isfinite(value), "the formula '" + formula.text() + "' gives no finite number");
     return value;
 }
 
 std::pair<std::string, Expression> readChain(const YamlPlace& place)
 {
     const auto operations = place.map();
-    if (operations.size() != 1 || chainOperations().count(operations.front().first) == 0)
-    {
-        place.fail("needs one operation, " + listed(namesOf(chainOperations()))
-                   + ", with the formula of its size, as in { gain: \"0.01*a\" }");
-    }
+    place.failIf(operations.size() != 1 || chainOperations().count(operations.front().first) == 0,
+        "needs one operation, " + listed(namesOf(chainOperations()))
+            + ", with the formula of its size, as in { gain: \"0.01*a\" }");
     return {operations.front().first, readFormula(operations.front().second)};
 }
 
@@ -51,34 +46,28 @@ Entries plainEntries(const SimulatorSpecification& simulator, const Condition& c
 std::vector<std::string> missingEntries(const Effect& effect, const Entries& known)
 {
     std::vector<std::string> missing = namesOf(effect.entries);
-    const auto texts = namesOf(effect.textEntries);
-    missing.insert(missing.end(), texts.begin(), texts.end());
-    missing.erase(std::remove_if(
-                      missing.begin(), missing.end(), [&](const std::string& entry) { return known.count(entry) > 0; }),
-        missing.end());
+    append(missing, namesOf(effect.textEntries));
+    eraseIf(missing, [&](const std::string& entry) { return known.count(entry) > 0; });
     return missing;
 }
 
 void requireEntry(const YamlPlace& place, const std::string& entry, const SimulatorSpecification& simulator)
 {
     const Entries known = ownEntries(simulator);
-    if (known.count(entry) == 0)
-    {
-        place.fail("'" + entry + "': no such entry in " + (simulator.caseFolder / simulator.entriesFile).string()
-                   + didYouMean(entry, namesOf(known)));
-    }
+    place.failIf(known.count(entry) == 0, "'" + entry + "': no such entry in "
+                                              + (simulator.caseFolder / simulator.entriesFile).string()
+                                              + didYouMean(entry, namesOf(known)));
 }
 
 void requireEntryValue(const YamlPlace& value)
 {
     const std::string text = value.text();
-    const std::string forbidden = ";{}#`\"'\\|&<>\n\r";
-    if (text.find_first_of(forbidden) != std::string::npos || text.find("$(") != std::string::npos)
-    {
-        value.fail("'" + text
-                   + "' is no value of an entry; allowed are numbers, words, or $name, without ; { } # ` | & < > "
-                     "$( quotes, backslashes or line breaks");
-    }
+    const bool isForbidden =
+        text.find_first_of(";{}#`\"'\\|&<>\n\r") != std::string::npos || text.find("$(") != std::string::npos;
+    value.failIf(isForbidden,
+        "'" + text
+            + "' is no value of an entry; allowed are numbers, words, or $name, without ; { } # ` | & < > $( quotes, "
+              "backslashes or line breaks");
 }
 
 Entries readValues(const YamlPlace& place, const SimulatorSpecification& simulator)

@@ -27,8 +27,7 @@ std::vector<std::string> namesOfItems(const std::vector<Item>& items)
 template<class Item>
 std::size_t indexOf(const YamlPlace& place, const std::vector<Item>& items)
 {
-    const auto names = namesOfItems(items);
-    return std::find(names.begin(), names.end(), place.oneOf(names)) - names.begin();
+    return place.indexIn(namesOfItems(items));
 }
 
 /// \param kind  of the items, in the plural, for the message: "effects"
@@ -36,12 +35,10 @@ std::size_t indexOf(const YamlPlace& place, const std::vector<Item>& items)
 template<class Item>
 void requireOwnName(const YamlPlace& place, const std::vector<Item>& items, const std::string& kind)
 {
-    const auto& name = items.back().name;
-    if (std::any_of(items.begin(), items.end() - 1, [&](const Item& item) { return item.name == name; }))
-    {
-        (place.has("name") ? place.at("name") : place)
-            .fail("there are two " + kind + " named '" + name + "'; give them different names");
-    }
+    const auto names = namesOfItems(items);
+    (place.has("name") ? place.at("name") : place)
+        .failIf(std::count(names.begin(), names.end(), names.back()) > 1,
+            "there are two " + kind + " named '" + names.back() + "'; give them different names");
 }
 
 /// Reads the items of a list, whose names must differ. \param read  function that reads one item from its place

@@ -2,6 +2,7 @@
 
 #include "curves/curve.h"
 #include "features/features.h"
+#include "lists.h"
 #include "study/entries.h"
 #include "study/expression.h"
 
@@ -58,8 +59,16 @@ enum class Origin
     guess     // none of these, or chosen after a look at the data
 };
 
-/// "measured", "handbook" or "guess", as study files write it.
-std::string nameOf(Origin origin);
+/// As study files write them, in the sequence of Origin.
+inline std::vector<std::string> namesOfOrigins()
+{
+    return {"measured", "handbook", "guess"};
+}
+
+inline std::string nameOf(Origin origin)
+{
+    return namesOfOrigins()[static_cast<std::size_t>(origin)];
+}
 
 /// A normal distribution.
 struct Normal
@@ -188,7 +197,13 @@ struct Condition
 };
 
 /// Whether an effect acts in a condition, according to the condition's tags.
-bool acts(const Effect& effect, const Condition& condition);
+inline bool acts(const Effect& effect, const Condition& condition)
+{
+    return std::all_of(effect.actsIn.begin(), effect.actsIn.end(), [&](const auto& rule) {
+        const auto tag = condition.tags.find(rule.first);
+        return tag != condition.tags.end() && contains(rule.second, tag->second);
+    });
+}
 
 /// A common (systematic) error, which repeats do not show: the diameter of a particle that was measured once, a scale
 /// that was calibrated once, the uncertainty of a law. It is not fitted, cannot be named as a cause, and enters the
@@ -265,7 +280,10 @@ struct Study
     std::vector<std::string> leftOut;     // effects that are left out, each with the reason
 
     /// Indices of the conditions with a role.
-    std::vector<std::size_t> conditionsOf(Role role) const;
+    std::vector<std::size_t> conditionsOf(Role role) const
+    {
+        return numbersWhere(conditions.size(), [&](std::size_t c) { return conditions[c].role == role; });
+    }
     Eigen::Index featureCount() const
     {
         return static_cast<Eigen::Index>(features.size());

@@ -63,16 +63,9 @@ std::string YamlPlace::placesToFillIn(const std::filesystem::path& file)
 /// The recursion ends, because checkKeys has checked the depth.
 std::string YamlPlace::toBeFilledIn() const
 {
-    std::string places;
-    if (node_.IsScalar() && node_.Scalar().rfind(toFillIn, 0) == 0)
-    {
-        places = where() + node_.Scalar() + '\n';
-    }
-    for (const auto& each : node_.IsSequence() ? list() : std::vector<YamlPlace>{})
-    {
-        places += each.toBeFilledIn();
-    }
-    for (const auto& [key, value] : node_.IsMap() ? map() : decltype(map()){})
+    const bool isOne = node_.IsScalar() && node_.Scalar().rfind("FILL IN", 0) == 0;
+    std::string places = isOne ? where() + node_.Scalar() + '\n' : "";
+    for (const auto& [key, value] : children())
     {
         places += value.toBeFilledIn();
     }
@@ -105,28 +98,30 @@ void YamlPlace::checkKeys(int depth, int& places) const
     // With anchors, a place can contain itself, and a few lines can expand to any size.
     constexpr int deepest = 50;
     constexpr int most = 100000;
-    if (depth > deepest || ++places > most)
-    {
-        fail("the file is nested too deeply, is too large, or holds itself by way of an anchor");
-    }
-    for (const auto& each : node_.IsSequence() ? list() : std::vector<YamlPlace>{})
-    {
-        each.checkKeys(depth + 1, places);
-    }
+    failIf(depth > deepest || ++places > most,
+        "the file is nested too deeply, is too large, or holds itself by way of an anchor");
     std::map<std::string, int> lines;
-    for (const auto& [key, value] : node_.IsMap() ? map() : decltype(map()){})
+    for (const auto& [key, value] : children())
     {
         const auto [first, isNew] = lines.emplace(key, value.node_.Mark().line + 1);
-        if (!isNew)
-        {
-            value.fail("given twice, in line " + std::to_string(first->second) + " already");
-        }
-        if (value.node_.IsNull())
-        {
-            value.fail("has no value; give one, or leave the key out");
-        }
+        value.failIf(!isNew, "given twice, in line " + std::to_string(first->second) + " already");
+        value.failIf(node_.IsMap() && value.node_.IsNull(), "has no value; give one, or leave the key out");
         value.checkKeys(depth + 1, places);
     }
+}
+
+std::vector<std::pair<std::string, YamlPlace>> YamlPlace::children() const
+{
+    std::vector<std::pair<std::string, YamlPlace>> places;
+    const bool isList = node_.IsSequence();
+    for (const auto& entry : node_)
+    {
+        failIf(!isList && !entry.first.IsScalar(), "a key must be a word");
+        const std::string key = isList ? '[' + std::to_string(places.size() + 1) + ']' : entry.first.Scalar();
+        const std::string name = name_ + (isList || name_.empty() ? "" : ".") + key;
+        places.emplace_back(key, YamlPlace(isList ? YAML::Node(entry) : entry.second, file_, name));
+    }
+    return places;
 }
 
 std::string YamlPlace::where() const
@@ -141,14 +136,20 @@ void YamlPlace::fail(const std::string& what) const
     throw StudyError(where() + what);
 }
 
+void YamlPlace::failIf(bool isWrong, const std::string& what) const
+{
+    if (isWrong)
+    {
+        fail(what);
+    }
+}
+
 void YamlPlace::allow(const std::vector<std::string>& allowed) const
 {
     for (const auto& [key, value] : map())
     {
-        if (!contains(allowed, key))
-        {
-            value.fail("unknown key" + didYouMean(key, allowed) + "; allowed here: " + listed(allowed));
-        }
+        value.failIf(
+            !contains(allowed, key), "unknown key" + didYouMean(key, allowed) + "; allowed here: " + listed(allowed));
     }
 }
 
@@ -159,10 +160,7 @@ bool YamlPlace::has(const std::string& key) const
 
 YamlPlace YamlPlace::at(const std::string& key) const
 {
-    if (!has(key))
-    {
-        fail("needs the key '" + key + "'");
-    }
+    failIf(!has(key), "needs the key '" + key + "'");
     return {node_[key], file_, name_.empty() ? key : name_ + '.' + key};
 }
 
@@ -173,20 +171,8 @@ YamlPlace YamlPlace::optional(const std::string& key) const
 
 std::vector<YamlPlace> YamlPlace::list() const
 {
-    if (!node_.IsDefined())
-    {
-        return {};
-    }
-    if (!node_.IsSequence())
-    {
-        fail("must be a list");
-    }
-    std::vector<YamlPlace> places;
-    for (std::size_t i = 0; i < node_.size(); ++i)
-    {
-        places.push_back({node_[i], file_, name_ + '[' + std::to_string(i + 1) + ']'});
-    }
-    return places;
+    failIf(node_.IsDefined() && !node_.IsSequence(), "must be a list");
+    return mapped(children(), [](const auto& child) { return child.second; });
 }
 
 std::vector<YamlPlace> YamlPlace::oneOrMore() const
@@ -196,94 +182,63 @@ std::vector<YamlPlace> YamlPlace::oneOrMore() const
 
 std::vector<std::pair<std::string, YamlPlace>> YamlPlace::map() const
 {
-    if (!node_.IsDefined())
-    {
-        return {};
-    }
-    if (!node_.IsMap())
-    {
-        fail("must be a map of 'key: value'");
-    }
-    std::vector<std::pair<std::string, YamlPlace>> places;
-    for (const auto& entry : node_)
-    {
-        if (!entry.first.IsScalar())
-        {
-            fail("a key must be a word");
-        }
-        const auto& key = entry.first.Scalar();
-        places.emplace_back(key, YamlPlace(entry.second, file_, name_.empty() ? key : name_ + '.' + key));
-    }
-    return places;
+    failIf(node_.IsDefined() && !node_.IsMap(), "must be a map of 'key: value'");
+    return children();
 }
 
 std::string YamlPlace::text() const
 {
-    if (!node_.IsScalar())
-    {
-        fail("must be a single value");
-    }
+    failIf(!node_.IsScalar(), "must be a single value");
     return node_.Scalar();
 }
 
 double YamlPlace::number() const
 {
     double value = 0.0;
-    if (!node_.IsScalar() || !YAML::convert<double>::decode(node_, value) || !std::isfinite(value))
-    {
-        fail("must be a number" + (node_.IsScalar() ? ", not '" + node_.Scalar() + "'" : ""));
-    }
+    failIf(!node_.IsScalar() || !YAML::convert<double>::decode(node_, value) || !std::isfinite(value),
+        "must be a number" + (node_.IsScalar() ? ", not '" + node_.Scalar() + "'" : ""));
     return value;
 }
 
 double YamlPlace::positive() const
 {
     const double value = number();
-    if (value <= 0.0)
-    {
-        fail("must be above 0, not " + text());
-    }
+    failIf(value <= 0.0, "must be above 0, not " + text());
     return value;
 }
 
 int YamlPlace::count(int smallest) const
 {
     const double value = number();
-    if (value != std::floor(value) || value < smallest || value > 1e9)
-    {
-        fail("must be a whole number of at least " + std::to_string(smallest) + ", not " + text());
-    }
+    failIf(value != std::floor(value) || value < smallest || value > 1e9,
+        "must be a whole number of at least " + std::to_string(smallest) + ", not " + text());
     return static_cast<int>(value);
 }
 
 bool YamlPlace::flag() const
 {
     bool value = false;
-    if (!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value))
-    {
-        fail("must be true or false");
-    }
+    failIf(!node_.IsScalar() || !YAML::convert<bool>::decode(node_, value), "must be true or false");
     return value;
+}
+
+std::size_t YamlPlace::indexIn(const std::vector<std::string>& words) const
+{
+    const std::string word = text();
+    failIf(!contains(words, word),
+        "must be " + (words.empty() ? "left out" : listed(words)) + ", not '" + word + "'" + didYouMean(word, words));
+    return std::find(words.begin(), words.end(), word) - words.begin();
 }
 
 std::string YamlPlace::oneOf(const std::vector<std::string>& words) const
 {
-    std::string word = text();
-    if (!contains(words, word))
-    {
-        fail("must be " + (words.empty() ? "left out" : listed(words)) + ", not '" + word + "'"
-             + didYouMean(word, words));
-    }
-    return word;
+    return words[indexIn(words)];
 }
 
 std::pair<double, double> YamlPlace::range(const std::string& what) const
 {
     const auto ends = list();
-    if (ends.size() != 2 || ends[0].number() >= ends[1].number())
-    {
-        fail("must be " + what);
-    }
+    failIf(ends.size() != 2 || ends[0].number() >= ends[1].number(), "must be " + what);
     return {ends[0].number(), ends[1].number()};
 }
 

@@ -23,11 +23,8 @@ public:
 class YamlPlace
 {
 public:
-    /// Beginning of a value that the user still has to fill in, as `traceResidual new` writes it.
-    static constexpr const char* toFillIn = "FILL IN";
-
     /// Reads a file. \throws StudyError if the file cannot be read or is no YAML, if a key is given twice or has no
-    /// value, or if values are still to be filled in, which the message lists
+    /// value, or if values that begin with FILL IN are still to be filled in, which the message lists
     static YamlPlace fileAt(const std::filesystem::path& file);
 
     /// One line for each value that is still to be filled in: file, line, key, and what to fill in.
@@ -54,6 +51,8 @@ public:
     bool flag() const;
     /// The text, which must be one of `words`.
     std::string oneOf(const std::vector<std::string>& words) const;
+    /// Index of the text, which must be one of `words`.
+    std::size_t indexIn(const std::vector<std::string>& words) const;
     /// Two numbers, the second above the first. \param what  description of the two numbers for the message
     std::pair<double, double> range(const std::string& what) const;
     /// A path, relative to the file's folder.
@@ -62,6 +61,12 @@ public:
     std::string textOr(const std::string& key, const std::string& byDefault) const
     {
         return has(key) ? at(key).text() : byDefault;
+    }
+    /// The text, which must be one of `words` if the key is there.
+    std::string wordOr(
+        const std::string& key, const std::string& byDefault, const std::vector<std::string>& words) const
+    {
+        return has(key) ? at(key).oneOf(words) : byDefault;
     }
     double numberOr(const std::string& key, double byDefault) const
     {
@@ -81,11 +86,14 @@ public:
     }
 
     [[noreturn]] void fail(const std::string& what) const;
+    void failIf(bool isWrong, const std::string& what) const;
 
 private:
     static YamlPlace parsed(const std::filesystem::path& file);
     void checkKeys(int depth, int& places) const;
     std::string toBeFilledIn() const;
+    /// The values of a list or a map with their keys, which are [1], [2], ... in a list; none of a single value.
+    std::vector<std::pair<std::string, YamlPlace>> children() const;
     std::string where() const;
     YamlPlace(const YAML::Node& node, std::shared_ptr<const std::filesystem::path> file, std::string name);
 

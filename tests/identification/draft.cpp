@@ -1,6 +1,5 @@
 /// `traceResidual new` drafts study files, which are accepted when their marked values have been filled in.
 #include "study/draft/draftStudy.h"
-#include "study/draft/guesses.h"
 #include "study/measurements.h"
 #include "study/readStudy.h"
 #include "study/readValues.h"

@@ -3,7 +3,6 @@
 #include "runner/studySimulator.h"
 #include "study/entries.h"
 #include "study/expression.h"
-#include "study/readParts.h"
 #include "study/readStudy.h"
 #include "study/readValues.h"
 #include "study/units.h"

@@ -4,8 +4,6 @@
 #include "features/features.h"
 #include "files/wholeFile.h"
 #include "lists.h"
-#include "study/draft/guesses.h"
-#include "study/draft/studyTemplate.h"
 #include "study/measurements.h"
 #include "study/yaml.h"
 #include "tokens/didYouMean.h"
@@ -16,7 +14,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -30,7 +27,17 @@ namespace
 
 namespace fs = std::filesystem;
 
-/// Guesses by the words of the template. A word that is only a condition has an empty guess.
+// The draft with its item of a condition. <word> stands for a guess, and <word|text> for a guess or, without one, for the
+// text. A line is left out if there is no guess for one of its other words, which may stand before it in brackets. `case.`
+// begins the entries of the case.
+constexpr const char* studyTemplate =
+#include "study/draft/study.template"
+    ;
+constexpr const char* conditionTemplate =
+#include "study/draft/condition.template"
+    ;
+
+/// Guesses by the words of the templates. A word that is only a condition has an empty guess.
 using Guesses = std::map<std::string, std::string>;
 
 /// A word as a YAML value, quoted if necessary.
@@ -67,7 +74,7 @@ struct Draft
     }
 };
 
-/// The text of a template, whose words are explained there.
+/// The text of a template.
 std::string filled(const std::string& pattern, const Guesses& guesses)
 {
     static const std::regex place(R"(^\[([\w.]+)\]|<([\w.]+)(\|([^>]*))?>)");
@@ -78,7 +85,7 @@ std::string filled(const std::string& pattern, const Guesses& guesses)
         std::string written;
         std::smatch match;
         bool isKept = true;
-        while (isKept && std::regex_search(line, match, place))
+        for (; isKept && std::regex_search(line, match, place); line = match.suffix())
         {
             const auto guess = guesses.find(match[1].matched ? match[1] : match[2]);
             isKept = guess != guesses.end() || match[3].matched;
@@ -87,7 +94,6 @@ std::string filled(const std::string& pattern, const Guesses& guesses)
             {
                 written += guess == guesses.end() ? match[4].str() : guess->second;
             }
-            line = match.suffix();
         }
         text += isKept ? written + line + '\n' : "";
     }
@@ -262,12 +268,14 @@ void guessFeatures(const std::vector<Curve>& curves, const GuessedColumns& colum
         // A bouncing particle is highest at the start.
         const bool falls = value.front() - *low > 0.5 * range;
         falling += falls ? 1 : -1;
-        std::vector<double> lowestYet(value.size());
-        std::partial_sum(
-            value.begin(), value.end(), lowestYet.begin(), [](double a, double b) { return std::min(a, b); });
-        bounces = bounces && falls
-                  && !std::equal(value.begin(), value.end(), lowestYet.begin(),
-                      [&](double here, double yet) { return here - yet <= 0.03 * range; });
+        double lowestYet = value.front();
+        double rise = 0.0; // largest, above the lowest value before
+        for (const double here : value)
+        {
+            lowestYet = std::min(lowestYet, here);
+            rise = std::max(rise, here - lowestYet);
+        }
+        bounces = bounces && falls && rise > 0.03 * range;
         lowest = std::max(lowest, *low);
         highest = std::min(highest, *high);
         rest = std::max(rest, value.back() / value.front());
@@ -286,16 +294,12 @@ void guessFeatures(const std::vector<Curve>& curves, const GuessedColumns& colum
         draft.setIf(way > 0.0 && !columns.value.unit.empty(), "position" + std::to_string(i), rounded(at));
     }
     draft.setIf(isOfHopper, "isOfHopper");
-    draft.setIf(isOfHopper && endsFlat, "endsFlat");
-    draft.setIf(isOfHopper && !falls, "isDischarged");
-    draft.setIf(quantity == "share", "share", falls ? "" : "minus ");
-    draft.setIf(quantity == "length" && !bounces, "isPosition");
-    draft.setIf(quantity == "length" && !falls, "fromRelease");
-    draft.setIf(bounces, "bounces", rounded(0.02 * way));
-    draft.setIf(quantity == "speed", "isSpeed");
-    draft.setIf(quantity == "speed" || (quantity == "length" && !falls), "countsDown");
-    draft.setIf(quantity == "mass" ? !falls : quantity == "speed" && lowest + highest < 0.0, "isReversed");
+    draft.setIf(!quantity.empty(), "of." + quantity);
     draft.setIf(quantity.empty(), "kinds", listed(namesOf(featureKinds())));
+    draft.setIf(true, falls ? "falls" : "rises");
+    draft.setIf(true, bounces ? "bounces" : "isSmooth", rounded(0.02 * way));
+    draft.setIf(endsFlat, "endsFlat");
+    draft.setIf(lowest + highest < 0.0, "isNegative");
     if (!isOfHopper && !bounces && draft.has("case.smoothingBandwidth") && draft.has("case.tankDiameter"))
     {
         draft.guesses["twiceTheTank"] = rounded(2.0 * std::atof(draft.guesses["case.tankDiameter"].c_str()));

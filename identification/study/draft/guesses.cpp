@@ -1,4 +1,4 @@
-#include "study/draft/guesses.h"
+#include "study/draft/draftStudy.h"
 
 #include "curves/table.h"
 #include "lists.h"
@@ -123,41 +123,31 @@ GuessedColumns guessColumns(const std::filesystem::path& file)
 {
     const Table table = readTable(file);
     std::vector<Meaning> meanings(table.columns.size());
-    std::vector<std::vector<double>> numbers = table.columns;
-    for (std::size_t i = 0; i < numbers.size(); ++i)
+    std::vector<int> asTime(table.columns.size());
+    std::vector<int> asValue(table.columns.size());
+    for (std::size_t i = 0; i < table.columns.size(); ++i)
     {
         meanings[i] = table.names.empty() ? Meaning{} : meaningOf(table.names[i], table.units[i]);
-        const auto isMissing = [](double number) { return !std::isfinite(number); };
-        numbers[i].erase(std::remove_if(numbers[i].begin(), numbers[i].end(), isMissing), numbers[i].end());
+        auto numbers = table.columns[i];
+        eraseIf(numbers, [](double number) { return !std::isfinite(number); });
+        const bool varies = numbers.size() > 2 && !std::equal(numbers.begin() + 1, numbers.end(), numbers.begin());
+        const bool rises = varies && std::is_sorted(numbers.begin(), numbers.end());
+        const std::string& quantity = meanings[i].quantity;
+        asTime[i] = rises && quantity == "time" ? 2 : rises && quantity.empty() ? 1 : 0;
+        asValue[i] = !varies || quantity == "time" ? 0 : quantity.empty() ? 1 : 2;
     }
-    const auto best = [&](auto scoreOf, const std::string& otherwise) {
-        const auto score = [&](std::size_t i) {
-            const auto& column = numbers[i];
-            const bool varies = column.size() > 2 && !std::equal(column.begin() + 1, column.end(), column.begin());
-            return varies ? scoreOf(i, meanings[i].quantity) : 0;
-        };
-        std::size_t chosen = 0;
-        for (std::size_t i = 1; i < numbers.size(); ++i)
-        {
-            chosen = score(i) > score(chosen) ? i : chosen;
-        }
-        if (score(chosen) == 0)
+    const auto best = [&](const std::vector<int>& scores, const std::string& otherwise) {
+        const auto chosen = std::max_element(scores.begin(), scores.end());
+        if (*chosen == 0)
         {
             throw std::runtime_error(file.string() + ": " + otherwise);
         }
-        return chosen;
+        return static_cast<std::size_t>(chosen - scores.begin());
     };
-    const std::size_t time = best(
-        [&](std::size_t i, const std::string& quantity) {
-            const bool rises = std::is_sorted(numbers[i].begin(), numbers[i].end());
-            return rises && quantity == "time" ? 2 : rises && quantity.empty() ? 1 : 0;
-        },
-        "no column can be the time, which needs three or more numbers that never decrease");
-    const std::size_t value = best(
-        [&](std::size_t i, const std::string& quantity) {
-            return i == time || quantity == "time" ? 0 : quantity.empty() ? 1 : 2;
-        },
-        "no column beside the time has three numbers that differ");
+    const std::size_t time =
+        best(asTime, "no column can be the time, which needs three or more numbers that never decrease");
+    asValue[time] = 0;
+    const std::size_t value = best(asValue, "no column beside the time has three numbers that differ");
     const auto specified = [&](std::size_t i) {
         const bool isNamed = !table.names.empty() && !table.names[i].empty() && table.index(table.names[i]) == i;
         ColumnSpecification column{isNamed ? table.names[i] : std::to_string(i + 1)};

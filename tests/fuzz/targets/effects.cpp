@@ -1,7 +1,8 @@
 // A library of effects: either refused with StudyError, or each formula in it has a value or names what it lacks.
 #include "inputFile.h"
 
-#include "study/readParts.h"
+#include "study/readStudy.h"
+#include "study/yaml.h"
 
 #include <stdexcept>
 

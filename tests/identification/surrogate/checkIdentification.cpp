@@ -6,7 +6,6 @@
 #include "emulator/settings.h"
 #include "heldOut/heldOut.h"
 #include "procedure/trace.h"
-#include "study/readParts.h"
 #include "study/readStudy.h"
 
 #include <CLI/CLI.hpp>
