@@ -1,7 +1,5 @@
 #include "heldOut/scores.h"
 
-#include "study/measurements.h"
-
 #include <Eigen/Cholesky>
 
 #include <algorithm>
@@ -42,16 +40,16 @@ std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     return noise;
 }
 
-Estimate rmsError(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
-    std::mt19937_64& random, std::vector<double>* samples)
+std::pair<Estimate, Eigen::ArrayXd> rmsError(const std::vector<HeldOutData>& data,
+    const std::vector<Prediction>& predictions, const std::vector<std::vector<Eigen::Index>>& features,
+    const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random)
 {
     double square = 0.0;
     Eigen::ArrayXd squares = Eigen::ArrayXd::Zero(noise.front().rows());
     double count = 0.0;
     for (std::size_t c = 0; c < data.size(); ++c)
     {
-        const Eigen::VectorXd error = meanFeatures(data[c].features) - predictions[c].mean;
+        const Eigen::VectorXd error = data[c].mean - predictions[c].mean;
         for (const auto f : features[c])
         {
             const Eigen::ArrayXd ofSimulation =
@@ -62,12 +60,8 @@ Estimate rmsError(const std::vector<HeldOutData>& data, const std::vector<Predic
         }
     }
     const Eigen::ArrayXd errors = (squares / count).sqrt();
-    if (samples != nullptr)
-    {
-        samples->assign(errors.begin(), errors.end());
-    }
-    return {std::sqrt(square / count),
-        std::sqrt((errors - errors.mean()).square().sum() / static_cast<double>(errors.size() - 1))};
+    const double variance = (errors - errors.mean()).square().sum() / static_cast<double>(errors.size() - 1);
+    return {{std::sqrt(square / count), std::sqrt(variance)}, errors};
 }
 
 } // namespace clepsydra::identification

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace clepsydra::identification
@@ -16,6 +17,7 @@ struct Prediction
     Eigen::VectorXd mean;           // of the features
     Eigen::VectorXd variance;       // of the mean, from the scatter of runs
     Eigen::MatrixXd dataCovariance; // of one measurement
+    Eigen::MatrixXd slopes = {};    // change of the mean by one prior standard deviation of each fitted quantity
 };
 
 /// A value with its standard error.
@@ -29,6 +31,7 @@ struct Estimate
 struct HeldOutScore
 {
     Estimate rmsLogError;   // root mean square of measured minus simulated means, over conditions and log features
+    Eigen::ArrayXd errors;  // draws of this error, to compare predictions draw by draw
     double chiSquare = 0.0; // distance of the measurements from the joint prediction
     double pValue = 1.0;    // probability that noise alone makes this distance as large
     LogRatio overNull;      // against the prediction without an effect
@@ -37,7 +40,7 @@ struct HeldOutScore
 /// Measurements of one held-out condition.
 struct HeldOutData
 {
-    Eigen::MatrixXd features;         // one repeat per row
+    Eigen::VectorXd mean;             // of the features
     Eigen::MatrixXd meanShare;        // result of shareOfMean
     Eigen::VectorXd declaredVariance; // of each value and of the mean, in addition to the scatter of repeats
     /// Change of the features by one standard deviation of each common error, then of the model error of each feature:
@@ -55,12 +58,11 @@ struct HeldOutData
 std::vector<Eigen::MatrixXd> drawDataNoise(const std::vector<HeldOutData>& data,
     const std::vector<Prediction>& predictions, int draws, std::mt19937_64& random);
 
-/// Root mean square error of a prediction. Its standard error comes from draws of the errors of measured and simulated
-/// means.
+/// Root mean square error of a prediction, and draws of it. Its standard error comes from these draws of the errors of
+/// measured and simulated means.
 /// \param features  for each condition, the features that enter the error
-/// \param samples  if given, receives the draws of the error, for comparing predictions draw by draw
-Estimate rmsError(const std::vector<HeldOutData>& data, const std::vector<Prediction>& predictions,
-    const std::vector<std::vector<Eigen::Index>>& features, const std::vector<Eigen::MatrixXd>& noise,
-    std::mt19937_64& random, std::vector<double>* samples = nullptr);
+std::pair<Estimate, Eigen::ArrayXd> rmsError(const std::vector<HeldOutData>& data,
+    const std::vector<Prediction>& predictions, const std::vector<std::vector<Eigen::Index>>& features,
+    const std::vector<Eigen::MatrixXd>& noise, std::mt19937_64& random);
 
 } // namespace clepsydra::identification

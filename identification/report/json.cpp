@@ -252,20 +252,19 @@ Json heldOutNumbers(const Study& study, const HeldOutResult& result)
     for (std::size_t i = 0; i < result.conditions.size(); ++i)
     {
         const HeldOutData& data = result.data[i];
-        const Eigen::VectorXd measured = meanFeatures(data.features);
         const Eigen::VectorXd error =
             (result.predictedBefore[i].dataCovariance.cwiseProduct(data.meanShare).diagonal() + data.declaredVariance)
                 .cwiseSqrt();
         for (std::size_t f = 0; f < study.features.size(); ++f)
         {
-            if (!std::isfinite(measured(f)))
+            if (!std::isfinite(data.mean(f)))
             {
                 continue;
             }
             const auto predicted = [&](const Prediction& prediction) {
                 return Estimate{prediction.mean(f), std::sqrt(prediction.variance(f) + data.commonVariance(f))};
             };
-            list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {measured(f), error(f)},
+            list.push_back(rowOf(study.conditions[result.conditions[i]], study.features[f], {data.mean(f), error(f)},
                 predicted(result.predictedBefore[i]),
                 result.predictedAfter.empty() ? std::nullopt : std::optional(predicted(result.predictedAfter[i]))));
         }
