@@ -559,21 +559,18 @@ private:
         const double level = study_.settings.level;
         auto& reasons = result_.notBetterBecause;
         reasons = unpredicted_;
-        if (answer_.decision != Decision::named)
+        for (const auto& [isRefuted, reason] :
+            {std::pair(answer_.decision == Decision::named, "it is not the only explanation"),
+                std::pair(result_.after->overNull.isBeyondChance(level),
+                    "it does not predict significantly better than no effect"),
+                std::pair(result_.overOneMore.isBeyondChance(level), "one more free parameter predicts as well"),
+                std::pair(!result_.gaussianProcess || result_.overGaussianProcess.isBeyondChance(level),
+                    "a Gaussian process on the residual predicts as well")})
         {
-            reasons.emplace_back("it is not the only explanation");
-        }
-        if (!result_.after->overNull.isBeyondChance(level))
-        {
-            reasons.emplace_back("it does not predict significantly better than no effect");
-        }
-        if (!result_.overOneMore.isBeyondChance(level))
-        {
-            reasons.emplace_back("one more free parameter predicts as well");
-        }
-        if (result_.gaussianProcess && !result_.overGaussianProcess.isBeyondChance(level))
-        {
-            reasons.emplace_back("a Gaussian process on the residual predicts as well");
+            if (!isRefuted)
+            {
+                reasons.emplace_back(reason);
+            }
         }
         result_.better = reasons.empty();
         result_.complete = unpredicted_.empty() && result_.after->pValue > level;

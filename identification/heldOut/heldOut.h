@@ -1,7 +1,7 @@
 #pragma once
 
 #include "emulator/library.h"
-#include "heldOut/scores.h"
+#include "heldOut/predictive.h"
 #include "decision/answer.h"
 #include "study/measurements.h"
 

@@ -1,5 +1,5 @@
 #include "emulator/distributions.h"
-#include "heldOut/scores.h"
+#include "heldOut/predictive.h"
 #include "nextRuns/nextExperiment.h"
 
 #include <gtest/gtest.h>
